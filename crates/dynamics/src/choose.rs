@@ -94,7 +94,37 @@ fn spectral_radius(a: &Matrix) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
+
+    use integrators::{Dop853, Function, InitialStep, Interval, Options, Tolerance, integrate};
+
     use super::*;
+
+    /// What one step of a second makes of 1 where y' = −z·y.
+    fn growth(z: f64) -> f64 {
+        let options = Options {
+            tolerance: Tolerance::Uniform {
+                rtol: 0.1,
+                atol: 1e9,
+            },
+            initial_step: InitialStep::Given(1.0),
+            ..Options::with_tolerance(0.1, 1e9)
+        };
+        let mut decay = Function::new(1, |_, y: &[f64], dy: &mut [f64]| dy[0] = -z * y[0]);
+        let once = Interval::new(0.0, 1.0);
+        let outcome = integrate(&Dop853, &mut decay, &once, &[1.0], &options, |_| {
+            ControlFlow::Continue(())
+        });
+        let outcome = outcome.unwrap();
+        assert_eq!(outcome.statistics.accepted, 1);
+        outcome.y[0].abs()
+    }
+
+    #[test]
+    fn explicit_steps_are_stable_up_to_the_limit_and_not_far_beyond() {
+        assert!(growth(STABLE) <= 1.0, "{}", growth(STABLE));
+        assert!(growth(1.2 * STABLE) > 1.0, "{}", growth(1.2 * STABLE));
+    }
 
     #[test]
     fn the_fastest_rate_is_found_also_of_oscillations() {

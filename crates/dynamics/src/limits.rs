@@ -91,7 +91,8 @@ pub(crate) const STALLED_ROUNDINGS: f64 = 50.0;
 
 /// Factors of an earlier configuration serve as long as a correction leaves this share: a
 /// factorisation costs about ten corrections.
-/// Unit: share. Less: more factorisations. More: more corrections. Test: none.
+/// Unit: share. Less: more factorisations. More: more corrections. Test:
+/// `factors_serve_as_long_as_a_correction_gains_a_digit`.
 pub(crate) const CONVERGENCE: f64 = 0.1;
 
 /// Dropped rows count as implied by the kept ones below this share of their own terms and of
@@ -336,17 +337,20 @@ pub(crate) const REMAINS: f64 = 0.5;
 
 /// A row may lie so far from the cubic through both ends of its step.
 /// Unit: share of the way of the step. Less: good rows are refused. More: rows on another branch
-/// are shown. Test: none.
+/// are shown. Test:
+/// `rows_lie_where_their_step_leads`.
 pub(crate) const LED: f64 = 0.25;
 
 /// The same beside, where nothing moves.
 /// Unit: share of the mechanism's size, or rad. Less: good rows are refused. More: rows on
-/// another branch are shown. Test: none.
+/// another branch are shown. Test:
+/// `rows_lie_where_their_step_leads`.
 pub(crate) const LED_AT_REST: f64 = 1e-3;
 
 /// Velocities on a way may be so many times those of going it evenly.
 /// Unit: 1. Less: rows of drives that rest at both ends of a step are refused. More: rows on
-/// another branch are shown. Test: none.
+/// another branch are shown. Test:
+/// `a_drive_that_rests_at_both_ends_of_a_step_may_be_fast_between`.
 pub(crate) const PEAK: f64 = 3.0;
 
 /// A step that is tried again and again forgets what it has seen after so many times.
@@ -412,7 +416,8 @@ pub(crate) const STIFF: f64 = 2e4;
 
 /// Explicit steps are stable up to about this many times 1/|λ|: Dormand–Prince 8(5,3), along the
 /// negative real axis.
-/// Unit: 1. Less, more: as for [`STIFF`]. Test: none.
+/// Unit: 1. Less, more: as for [`STIFF`]. Test:
+/// `explicit_steps_are_stable_up_to_the_limit_and_not_far_beyond`.
 pub(crate) const STABLE: f64 = 6.0;
 
 /// Iterations for the largest |λ|; the second half counts.
@@ -426,7 +431,8 @@ pub(crate) const POWER_ITERATIONS: usize = 64;
 pub(crate) const MOST_COMPONENTS: usize = 256;
 
 /// Bodies of a component that are named; more are counted.
-/// Unit: bodies. Less, more: names of components are too short or too long. Test: none.
+/// Unit: bodies. Less, more: names of components are too short or too long. Test:
+/// `three_bodies_are_named_and_more_are_counted`.
 pub(crate) const NAMED: usize = 3;
 
 /// Rows with a smaller share than this of the largest weight take no part in a combination that

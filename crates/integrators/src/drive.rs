@@ -6,8 +6,8 @@
 
 use crate::error::{Cause, Failure, IntegrationError};
 use crate::interval::{Interval, Leg};
-use crate::method::{End, Ends, Outcome, Start, Stepper, Trial};
-use crate::ode::{Delicate, Ode, StepEnd, StepInfo};
+use crate::method::{End, Ends, Method, Outcome, Start, Stepper, Trial};
+use crate::ode::{Delicate, Ode, StepEnd, StepInfo, evaluate, finite};
 use crate::options::{InitialStep, Options};
 use crate::start::{StartScratch, initial_step};
 use crate::statistics::Statistics;
@@ -27,10 +27,46 @@ const FACTOR_AFTER_FAILURE: f64 = 0.25;
 /// Step-size factor after a rejection by the hook.
 const FACTOR_AFTER_HOOK: f64 = 0.5;
 
-/// See [`crate::integrate`].
-pub(crate) fn drive<O, S, F>(
+/// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted
+/// step.
+///
+/// Memory is allocated before the first step only. If t0 = t_end nothing is evaluated and nobody is
+/// called.
+///
+/// # Errors
+///
+/// A [`Failure`] with the last good state, its time and the statistics; what `observe` has seen
+/// stays valid. Its `error` is one of [`DimensionMismatch`], [`NonFiniteInitialState`],
+/// [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (nothing was done), [`StartFailed`],
+/// [`StepSizeCollapsed`], [`TooManySteps`].
+///
+/// [`DimensionMismatch`]: crate::IntegrationError::DimensionMismatch
+/// [`NonFiniteInitialState`]: crate::IntegrationError::NonFiniteInitialState
+/// [`InvalidTime`]: crate::IntegrationError::InvalidTime
+/// [`InvalidOption`]: crate::IntegrationError::InvalidOption
+/// [`ToleranceLength`]: crate::IntegrationError::ToleranceLength
+/// [`StartFailed`]: crate::IntegrationError::StartFailed
+/// [`StepSizeCollapsed`]: crate::IntegrationError::StepSizeCollapsed
+/// [`TooManySteps`]: crate::IntegrationError::TooManySteps
+///
+/// # Examples
+///
+/// y' = 2t from y(0) = 0 gives y(3) = 9.
+///
+/// ```
+/// use integrators::{Dopri5, Function, Interval, Options, integrate};
+/// use std::ops::ControlFlow;
+///
+/// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);
+/// let end = integrate(&Dopri5, &mut ode, &Interval::new(0.0, 3.0), &[0.0], &Options::default(), |_step| {
+///     ControlFlow::Continue(())
+/// })?;
+/// assert!((end.y[0] - 9.0).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn integrate<O, M, F>(
+    method: &M,
     ode: &mut O,
-    stepper: &mut S,
     interval: &Interval<'_>,
     y0: &[f64],
     options: &Options,
@@ -38,9 +74,10 @@ pub(crate) fn drive<O, S, F>(
 ) -> Result<Outcome, Box<Failure<O::Error>>>
 where
     O: Ode,
-    S: Stepper<O>,
+    M: Method<O>,
     F: FnMut(&mut Step<'_, O>) -> ControlFlow<()>,
 {
+    let stepper = &mut method.stepper(ode);
     let legs = match check(ode, interval, y0, options) {
         Ok(legs) => legs,
         Err(error) => return Err(refuse(error, interval.t0, y0)),
@@ -67,25 +104,11 @@ where
                         return Ok(run.finish(End::Stopped));
                     }
                 }
-                Err(cause) => run.reject::<O, S>(stepper, &trial, cause),
+                Err(cause) => run.reject(stepper, &trial, cause),
             }
         }
     }
     Ok(run.finish(End::Reached))
-}
-
-/// Evaluates f, counts, and turns values that are not finite into a [`Cause`].
-#[inline]
-pub(crate) fn evaluate<O: Ode>(
-    ode: &mut O,
-    t: f64,
-    y: &[f64],
-    dy: &mut [f64],
-    count: &mut u64,
-) -> Result<(), Cause<O::Error>> {
-    *count += 1;
-    ode.rhs(t, y, dy).map_err(Cause::Problem)?;
-    finite(dy).map_err(|component| Cause::NonFinite { component })
 }
 
 /// Checks everything that can be known before the first evaluation.
@@ -131,12 +154,6 @@ pub(crate) fn refuse<E: std::error::Error>(
     })
 }
 
-/// `Err` with the first component that is not finite.
-#[inline]
-pub(crate) fn finite(v: &[f64]) -> Result<(), usize> {
-    v.iter().position(|x| !x.is_finite()).map_or(Ok(()), Err)
-}
-
 /// Whether error control has failed so near a delicate time that smaller steps would be no better.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Noise {
@@ -146,7 +163,17 @@ enum Noise {
     Known,
 }
 
-/// State of an integration. Index 0: start of the step, 1: its end.
+/// States of a trial with their derivatives, and weights of its error. Index 0: start of the step,
+/// 1: its end.
+struct States {
+    y0: Vec<f64>,
+    f0: Vec<f64>,
+    y1: Vec<f64>,
+    f1: Vec<f64>,
+    scale: Vec<f64>,
+}
+
+/// State of an integration.
 struct Run<'a, E: std::error::Error + 'static> {
     options: &'a Options,
     statistics: Statistics,
@@ -156,11 +183,7 @@ struct Run<'a, E: std::error::Error + 'static> {
     /// What it was before it was changed for a reason that has nothing to do with its error.
     uncut: Option<f64>,
     noise: Noise,
-    y0: Vec<f64>,
-    f0: Vec<f64>,
-    y1: Vec<f64>,
-    f1: Vec<f64>,
-    scale: Vec<f64>,
+    states: States,
     /// Error norm of the last trial that got so far.
     error_norm: Option<f64>,
     /// Rejections since the last accepted step.
@@ -179,11 +202,13 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             h: 0.0,
             uncut: None,
             noise: Noise::None,
-            y0: y0.to_vec(),
-            f0: zeros(),
-            y1: zeros(),
-            f1: zeros(),
-            scale: zeros(),
+            states: States {
+                y0: y0.to_vec(),
+                f0: zeros(),
+                y1: zeros(),
+                f1: zeros(),
+                scale: zeros(),
+            },
             error_norm: None,
             failures: 0,
             last_rejection: None,
@@ -205,8 +230,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         evaluate(
             ode,
             t,
-            &self.y0,
-            &mut self.f0,
+            &self.states.y0,
+            &mut self.states.f0,
             &mut self.statistics.evaluations,
         )
         .map_err(|cause| IntegrationError::StartFailed {
@@ -220,14 +245,20 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
                 h.min(h_max).copysign(leg.end - leg.start)
             }
             _ => {
-                self.options
-                    .tolerance
-                    .scale(&self.y0, &self.y0, &mut self.scale);
+                self.options.tolerance.scale(
+                    &self.states.y0,
+                    &self.states.y0,
+                    &mut self.states.scale,
+                );
                 let scratch = StartScratch {
-                    y: &mut self.y1,
-                    f: &mut self.f1,
+                    y: &mut self.states.y1,
+                    f: &mut self.states.f1,
                 };
-                let start = (&self.y0[..], &self.f0[..], &self.scale[..]);
+                let start = (
+                    &self.states.y0[..],
+                    &self.states.f0[..],
+                    &self.states.scale[..],
+                );
                 initial_step(
                     ode,
                     leg,
@@ -251,9 +282,9 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         t_rhs: f64,
     ) -> Result<(), IntegrationError<E>> {
         let failed = |cause| IntegrationError::StartFailed { t, cause };
-        ode.at_break(t_rhs, &mut self.y0)
+        ode.at_break(t_rhs, &mut self.states.y0)
             .map_err(|e| failed(Cause::Problem(e)))?;
-        finite(&self.y0).map_err(|component| failed(Cause::NonFinite { component }))
+        finite(&self.states.y0).map_err(|component| failed(Cause::NonFinite { component }))
     }
 
     /// Changes a step that would reach a delicate time, so that it or the next one passes it with
@@ -324,14 +355,16 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         let non_finite = |component| Cause::NonFinite { component };
         let statistics = &mut self.statistics;
         let start = Start {
-            y0: &self.y0,
-            f0: &self.f0,
+            y0: &self.states.y0,
+            f0: &self.states.f0,
             tolerance: &self.options.tolerance,
         };
-        stepper.trial(ode, trial, &start, &mut self.y1, statistics)?;
-        finite(&self.y1).map_err(non_finite)?;
-        start.tolerance.scale(&self.y0, &self.y1, &mut self.scale);
-        let norm = stepper.error_norm(ode, trial, &start, &self.scale, statistics)?;
+        stepper.trial(ode, trial, &start, &mut self.states.y1, statistics)?;
+        finite(&self.states.y1).map_err(non_finite)?;
+        start
+            .tolerance
+            .scale(&self.states.y0, &self.states.y1, &mut self.states.scale);
+        let norm = stepper.error_norm(ode, trial, &start, &self.states.scale, statistics)?;
         self.error_norm = Some(norm);
         let near = ode.delicate_time().filter(|d| is_near(d, trial));
         let is_over = |d: &Delicate| (trial.t1 - d.t) / trial.h > 0.0;
@@ -350,21 +383,23 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             t: trial.t1,
             t_rhs: trial.stage_time(1.0),
             error_norm: norm,
-            scale: &self.scale,
+            scale: &self.states.scale,
         };
         match ode
-            .end_of_step(&info, &mut self.y1, &mut self.f1)
+            .end_of_step(&info, &mut self.states.y1, &mut self.states.f1)
             .map_err(Cause::Problem)?
         {
             StepEnd::Unchanged => {
-                stepper.end_derivative(ode, trial, &self.y1, &mut self.f1, statistics)
+                stepper.end_derivative(ode, trial, &self.states.y1, &mut self.states.f1, statistics)
             }
             StepEnd::Projected {
                 correction,
                 evaluations,
             } => {
                 statistics.hook_evaluations += evaluations;
-                finite(&self.y1).and(finite(&self.f1)).map_err(non_finite)?;
+                finite(&self.states.y1)
+                    .and(finite(&self.states.f1))
+                    .map_err(non_finite)?;
                 statistics.projections += 1;
                 statistics.largest_correction = statistics.largest_correction.max(correction);
                 Ok(())
@@ -383,10 +418,10 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.statistics.accepted += 1;
         let ends = Ends {
             trial,
-            y0: &self.y0,
-            f0: &self.f0,
-            y1: &self.y1,
-            f1: &self.f1,
+            y0: &self.states.y0,
+            f0: &self.states.f0,
+            y1: &self.states.y1,
+            f1: &self.states.f1,
         };
         let error_norm = self.error_norm.unwrap_or(0.0);
         Step::new(ode, stepper, ends, error_norm, &mut self.statistics)
@@ -394,8 +429,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
 
     /// Goes on from the end of the step just accepted.
     fn advance<O: Ode<Error = E>, S: Stepper<O>>(&mut self, stepper: &mut S, trial: &Trial<'_>) {
-        std::mem::swap(&mut self.y0, &mut self.y1);
-        std::mem::swap(&mut self.f0, &mut self.f1);
+        std::mem::swap(&mut self.states.y0, &mut self.states.y1);
+        std::mem::swap(&mut self.states.f0, &mut self.states.f1);
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
@@ -447,7 +482,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
     fn finish(self, end: End) -> Outcome {
         Outcome {
             t: self.t,
-            y: self.y0,
+            y: self.states.y0,
             end,
             next_step: (self.statistics.accepted > 0).then_some(self.h.abs()),
             statistics: self.statistics,
@@ -458,7 +493,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         Box::new(Failure {
             error,
             t: self.t,
-            y: self.y0,
+            y: self.states.y0,
             statistics: self.statistics,
         })
     }

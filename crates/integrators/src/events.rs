@@ -3,9 +3,10 @@
 //!
 //! Not here: what happens at an event. A motion that jumps is integrated again from there.
 
+use crate::drive::integrate;
 use crate::error::{Failure, IntegrationError};
 use crate::interval::Interval;
-use crate::method::{Method, Outcome, integrate};
+use crate::method::{Method, Outcome};
 use crate::ode::Ode;
 use crate::options::Options;
 use crate::root::bracketed_root;

@@ -50,11 +50,12 @@ mod trees;
 
 pub use dense_implicit::{DenseError, DenseImplicit, Differences, Jacobian};
 pub use dop853::Dop853;
+pub use drive::integrate;
 pub use error::{Cause, Failure, IntegrationError};
 pub use events::{Crossing, Crossings, Direction, integrate_until};
 pub use implicit::Implicit;
 pub use interval::Interval;
-pub use method::{End, Method, Outcome, integrate};
+pub use method::{End, Method, Outcome};
 pub use ode::{Delicate, Function, Ode, StepEnd, StepInfo};
 pub use options::{InitialStep, Options, Tolerance};
 pub use radau5::Radau5;

@@ -1,14 +1,11 @@
 //! What a method is, and what it has to provide for the shared loop.
 
 use crate::control::StepControl;
-use crate::drive::drive;
-use crate::error::{Cause, Failure};
-use crate::interval::{Interval, Leg};
+use crate::error::Cause;
+use crate::interval::Leg;
 use crate::ode::Ode;
-use crate::options::{Options, Tolerance};
+use crate::options::Tolerance;
 use crate::statistics::Statistics;
-use crate::step::Step;
-use std::ops::ControlFlow;
 
 /// A method that can integrate the problem `O`: [`Dopri5`](crate::Dopri5) and its like. A method
 /// asks of the problem what it needs: explicit methods are methods of every [`Ode`].
@@ -61,60 +58,6 @@ impl Outcome {
             statistics: Statistics::default(),
         }
     }
-}
-
-/// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted
-/// step.
-///
-/// Memory is allocated before the first step only. If t0 = t_end nothing is evaluated and nobody is
-/// called.
-///
-/// # Errors
-///
-/// A [`Failure`] with the last good state, its time and the statistics; what `observe` has seen
-/// stays valid. Its `error` is one of [`DimensionMismatch`], [`NonFiniteInitialState`],
-/// [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (nothing was done), [`StartFailed`],
-/// [`StepSizeCollapsed`], [`TooManySteps`].
-///
-/// [`DimensionMismatch`]: crate::IntegrationError::DimensionMismatch
-/// [`NonFiniteInitialState`]: crate::IntegrationError::NonFiniteInitialState
-/// [`InvalidTime`]: crate::IntegrationError::InvalidTime
-/// [`InvalidOption`]: crate::IntegrationError::InvalidOption
-/// [`ToleranceLength`]: crate::IntegrationError::ToleranceLength
-/// [`StartFailed`]: crate::IntegrationError::StartFailed
-/// [`StepSizeCollapsed`]: crate::IntegrationError::StepSizeCollapsed
-/// [`TooManySteps`]: crate::IntegrationError::TooManySteps
-///
-/// # Examples
-///
-/// y' = 2t from y(0) = 0 gives y(3) = 9.
-///
-/// ```
-/// use integrators::{Dopri5, Function, Interval, Options, integrate};
-/// use std::ops::ControlFlow;
-///
-/// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);
-/// let end = integrate(&Dopri5, &mut ode, &Interval::new(0.0, 3.0), &[0.0], &Options::default(), |_step| {
-///     ControlFlow::Continue(())
-/// })?;
-/// assert!((end.y[0] - 9.0).abs() < 1e-13);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn integrate<O, M, F>(
-    method: &M,
-    ode: &mut O,
-    interval: &Interval<'_>,
-    y0: &[f64],
-    options: &Options,
-    observe: F,
-) -> Result<Outcome, Box<Failure<O::Error>>>
-where
-    O: Ode,
-    M: Method<O>,
-    F: FnMut(&mut Step<'_, O>) -> ControlFlow<()>,
-{
-    let mut stepper = method.stepper(ode);
-    drive(ode, &mut stepper, interval, y0, options, observe)
 }
 
 /// One trial: from t over h to t1 = t + h, inside a leg.

@@ -2,6 +2,7 @@
 //!
 //! Not here: tolerances and limits (`options`), the time span and its break times (`interval`).
 
+use crate::error::Cause;
 use std::convert::Infallible;
 use std::error::Error;
 
@@ -144,4 +145,24 @@ impl<F: FnMut(f64, &[f64], &mut [f64])> Ode for Function<F> {
         (self.f)(t, y, dy);
         Ok(())
     }
+}
+
+/// Evaluates f, counts, and turns values that are not finite into a [`Cause`].
+#[inline]
+pub(crate) fn evaluate<O: Ode>(
+    ode: &mut O,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    count: &mut u64,
+) -> Result<(), Cause<O::Error>> {
+    *count += 1;
+    ode.rhs(t, y, dy).map_err(Cause::Problem)?;
+    finite(dy).map_err(|component| Cause::NonFinite { component })
+}
+
+/// `Err` with the first component that is not finite.
+#[inline]
+pub(crate) fn finite(v: &[f64]) -> Result<(), usize> {
+    v.iter().position(|x| !x.is_finite()).map_or(Ok(()), Err)
 }

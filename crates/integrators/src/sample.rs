@@ -1,9 +1,9 @@
 //! The convenience that integrates and hands out rows at given output times.
 
-use crate::drive::{check, refuse};
+use crate::drive::{check, integrate, refuse};
 use crate::error::Failure;
 use crate::interval::Interval;
-use crate::method::{End, Method, Outcome, integrate};
+use crate::method::{End, Method, Outcome};
 use crate::ode::Ode;
 use crate::options::Options;
 use crate::rows::{OutputTimes, Rows};

@@ -5,9 +5,8 @@
 //! the authors' program DOPRI5.
 
 use crate::control::weighted_square_sum;
-use crate::drive::evaluate;
 use crate::interval::Leg;
-use crate::ode::Ode;
+use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
 /// Step of the exploration, or the guess, where y or f is too small to give a scale; in units of t.

@@ -29,11 +29,17 @@ impl Scales<'_> {
     /// arm of its body, because it is where the arms put it. Needs C there.
     #[must_use]
     pub fn position(self, i: usize) -> f64 {
-        let at = |j: usize| {
-            let pose = &self.s.poses[j / N_BODY];
-            [pose.x, pose.y, pose.angle][j % N_BODY]
+        let term = |(j, c): (usize, f64)| {
+            let body = j / N_BODY;
+            let pose = &self.s.poses[body];
+            let at = match j - N_BODY * body {
+                0 => pose.x,
+                1 => pose.y,
+                _ => pose.angle,
+            };
+            let (at, least) = (at.abs(), least(self.mechanism, j));
+            c.abs() * if at > least { at } else { least }
         };
-        let term = |(j, c): (usize, f64)| c.abs() * at(j).abs().max(least(self.mechanism, j));
         self.mechanism.layout().row(self.s, i).map(term).sum()
     }
 

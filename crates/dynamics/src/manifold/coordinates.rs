@@ -11,7 +11,7 @@
 use model::{Mechanism, System};
 
 use super::dropped::check_positions;
-use super::levels::{Moves, correct_position};
+use super::levels::{Moves, Storage, correct_position};
 use crate::error::MotionFault;
 use crate::limits::{FAR_AT_REST, FAR_COMPLETION, FAR_IN_A_STEP, FAR_WAY};
 use crate::solve::{Evaluation, KeptEquations};
@@ -34,7 +34,7 @@ pub(crate) struct IndependentCoordinates {
     renewal: Option<Origin>,
     /// A configuration before it was completed, n_q, and a correction, n_v.
     guess: Vec<f64>,
-    delta: Vec<f64>,
+    storage: Storage,
 }
 
 /// An accepted state.
@@ -70,7 +70,7 @@ impl IndependentCoordinates {
             accepted: origin.clone(),
             generation: before.map_or(0, |c| c.generation + 1),
             guess: origin.q.clone(),
-            delta: origin.v.clone(),
+            storage: Storage::new(origin.v.len()),
             origin,
             renewal: None,
         })
@@ -122,7 +122,7 @@ impl IndependentCoordinates {
     ) -> Result<(), MotionFault> {
         self.guess.copy_from_slice(&self.q);
         let moves = Moves::DependentCoordinates;
-        correct_position(equations, (t, &mut self.q), &mut self.delta, moves)?;
+        correct_position(equations, (t, &mut self.q), &mut self.storage, moves)?;
         let at = &equations.at;
         let moved = at
             .mechanism
@@ -169,13 +169,13 @@ impl IndependentCoordinates {
     ) -> Result<(), MotionFault> {
         let dt = t - self.accepted.t;
         let mut farthest = 0.0_f64;
-        for (j, way) in self.delta.iter_mut().enumerate() {
+        for (j, way) in self.storage.delta.iter_mut().enumerate() {
             let (from, to) = (self.accepted.v[j], v[j]);
             *way = 0.5 * dt * (from + to);
             farthest = farthest.max(dt * from.abs().max(to.abs()) / model::space::unit(j, at.size));
         }
         self.guess.copy_from_slice(&self.accepted.q);
-        at.mechanism.displace(&mut self.guess, &self.delta);
+        at.mechanism.displace(&mut self.guess, &self.storage.delta);
         let off = at
             .mechanism
             .space()

@@ -23,8 +23,26 @@ struct Positions<'a, 'm> {
     equations: &'a mut KeptEquations<'m>,
     t: f64,
     q: &'a mut [f64],
-    delta: &'a mut [f64],
+    storage: &'a mut Storage,
     moves: Moves,
+}
+
+/// Vectors of a projection.
+pub(super) struct Storage {
+    /// A correction, n_v.
+    pub(super) delta: Vec<f64>,
+    /// Sizes of the terms of the kept rows of Φ where it began: a correction changes them by
+    /// rounding or a small share.
+    scales: Vec<f64>,
+}
+
+impl Storage {
+    pub(super) fn new(n_v: usize) -> Self {
+        Self {
+            delta: vec![0.0; n_v],
+            scales: Vec::with_capacity(n_v),
+        }
+    }
 }
 
 impl Level for Positions<'_, '_> {
@@ -35,13 +53,18 @@ impl Level for Positions<'_, '_> {
         at.pose_and_phi(self.t, self.q);
         let phi = &at.s.phi;
         position.take_rhs(|i| -phi[i]);
+        let scales = &mut self.storage.scales;
+        if corrections == 0 {
+            scales.clear();
+            scales.extend(position.kept.iter().map(|&i| at.position_scale(i)));
+        }
         let mut worst = (0, 0.0_f64);
         for (k, &i) in position.kept.iter().enumerate() {
             // A row left out is as good as its dependence allows.
             if phi[i] == 0.0 || corrections > 0 && !position.uses(k) {
                 continue;
             }
-            let roundings = phi[i].abs() / (f64::EPSILON * at.position_scale(i));
+            let roundings = phi[i].abs() / (f64::EPSILON * scales[k]);
             if roundings > worst.1 || roundings.is_nan() {
                 worst = (i, roundings);
             }
@@ -51,20 +74,21 @@ impl Level for Positions<'_, '_> {
 
     fn correct(&mut self, converges: bool) -> Result<(), MotionFault> {
         let KeptEquations { at, position, .. } = &mut *self.equations;
+        let delta = &mut self.storage.delta[..];
         match self.moves {
             Moves::AllCoordinates => {
                 position.factor(at)?;
-                position.solve(at, None, self.delta)?;
+                position.solve(at, None, delta)?;
             }
             Moves::DependentCoordinates => {
                 if !converges {
                     position.factor(at)?;
                 }
-                self.delta.fill(0.0);
-                position.complete(at, self.delta)?;
+                delta.fill(0.0);
+                position.complete(at, delta)?;
             }
         }
-        at.mechanism.displace(self.q, self.delta);
+        at.mechanism.displace(self.q, delta);
         Ok(())
     }
 }
@@ -73,7 +97,7 @@ impl Level for Positions<'_, '_> {
 pub(super) fn correct_position(
     equations: &mut KeptEquations<'_>,
     (t, q): (f64, &mut [f64]),
-    delta: &mut [f64],
+    storage: &mut Storage,
     moves: Moves,
 ) -> Result<usize, MotionFault> {
     let enough = match moves {
@@ -89,7 +113,7 @@ pub(super) fn correct_position(
         equations,
         t,
         q,
-        delta,
+        storage,
         moves,
     };
     let end = correct(&mut level, &limits)?;
@@ -119,20 +143,17 @@ impl Level for Velocities<'_, '_> {
 
     fn misses(&mut self, _: usize) -> (usize, f64) {
         let KeptEquations { at, velocity, .. } = &mut *self.equations;
-        let v = &*self.v;
-        velocity.take_rhs(|i| -at.velocity_residual(i, v));
-        let scale = velocity.kept.iter().map(|&i| at.velocity_scale(i, v));
-        let scale = scale.fold(0.0, f64::max);
+        let mut fastest = 0.0_f64;
+        velocity.take_rhs(|i| {
+            let (residual, scale) = at.velocity_residual_and_scale(i, self.v);
+            fastest = fastest.max(scale);
+            -residual
+        });
         self.left = largest(&velocity.rhs);
-        let is_zero = self.left == 0.0;
-        (
-            0,
-            if is_zero {
-                0.0
-            } else {
-                self.left / (f64::EPSILON * scale)
-            },
-        )
+        match self.left == 0.0 {
+            true => (0, 0.0),
+            false => (0, self.left / (f64::EPSILON * fastest)),
+        }
     }
 
     fn correct(&mut self, _: bool) -> Result<(), MotionFault> {
@@ -150,7 +171,7 @@ impl Level for Velocities<'_, '_> {
 pub(super) fn correct_velocity(
     equations: &mut KeptEquations<'_>,
     v: &mut [f64],
-    delta: &mut [f64],
+    storage: &mut Storage,
 ) -> Result<f64, MotionFault> {
     equations.at.b();
     let limits = Limits {
@@ -161,7 +182,7 @@ pub(super) fn correct_velocity(
     let mut level = Velocities {
         equations,
         v,
-        delta,
+        delta: &mut storage.delta,
         left: 0.0,
     };
     correct(&mut level, &limits)?;

@@ -111,4 +111,45 @@ mod tests {
         assert_eq!(run(1e4, 0.1, 100.0, [0, 20]), (20, false));
         assert_eq!(run(f64::NAN, 0.1, 0.0, [0, 20]), (0, false));
     }
+    /// A row whose misfit falls by a share each time; notes whether factors may serve again.
+    struct Falling {
+        misfit: f64,
+        share: f64,
+        served: Vec<bool>,
+    }
+
+    impl Level for Falling {
+        type Fault = Infallible;
+
+        fn misses(&mut self, _: usize) -> (usize, f64) {
+            (0, self.misfit)
+        }
+
+        fn correct(&mut self, converges: bool) -> Result<(), Infallible> {
+            self.served.push(converges);
+            self.misfit *= self.share;
+            Ok(())
+        }
+    }
+
+    /// A factorisation costs about ten corrections: it pays where one more digit takes more than
+    /// one of them.
+    #[test]
+    fn factors_serve_as_long_as_a_correction_gains_a_digit() {
+        for (share, serves) in [(0.09, true), (0.11, false)] {
+            let mut level = Falling {
+                misfit: 1e6,
+                share,
+                served: Vec::new(),
+            };
+            let limits = Limits {
+                corrections: [0, 3],
+                enough: 0.0,
+                stalled: 0.0,
+            };
+            let Ok(_) = correct(&mut level, &limits);
+            // The first correction finds out whether those of the state before serve.
+            assert_eq!(level.served, [true, serves, serves], "share {share}");
+        }
+    }
 }

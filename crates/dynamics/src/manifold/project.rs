@@ -5,7 +5,7 @@ use model::System;
 
 use super::coordinates::{IndependentCoordinates, Origin};
 use super::dropped::{Correction, monitor};
-use super::levels::{Moves, correct_position, correct_velocity, largest};
+use super::levels::{Moves, Storage, correct_position, correct_velocity, largest};
 use crate::error::MotionFault;
 use crate::options::Stabilisation;
 use crate::solve::{Evaluation, KeptEquations};
@@ -18,8 +18,7 @@ pub(crate) struct Manifold {
     /// How long the run lasts (s); infinite where nobody has said, and where it takes no time:
     /// nothing may part then.
     horizon: f64,
-    /// A correction, n_v.
-    delta: Vec<f64>,
+    storage: Storage,
 }
 
 impl Manifold {
@@ -28,7 +27,7 @@ impl Manifold {
             coordinates: None,
             stabilisation,
             horizon,
-            delta: vec![0.0; at.mechanism.mass().len()],
+            storage: Storage::new(at.mechanism.mass().len()),
         }
     }
 
@@ -57,7 +56,7 @@ impl Manifold {
         q: &mut [f64],
     ) -> Result<usize, MotionFault> {
         let moves = Moves::AllCoordinates;
-        let corrections = correct_position(equations, (t, q), &mut self.delta, moves)?;
+        let corrections = correct_position(equations, (t, q), &mut self.storage, moves)?;
         equations.velocity.factor(&equations.at)?;
         Ok(corrections)
     }
@@ -85,7 +84,7 @@ impl Manifold {
         v: &mut [f64],
         iterations: usize,
     ) -> Result<Correction, MotionFault> {
-        let left = correct_velocity(equations, v, &mut self.delta)?;
+        let left = correct_velocity(equations, v, &mut self.storage)?;
         monitor(equations, v, (iterations, left), self.horizon)
     }
 
@@ -108,7 +107,7 @@ impl Manifold {
         (q, v): (&mut [f64], &mut [f64]),
     ) -> Result<(), MotionFault> {
         self.settle(equations, t, q)?;
-        correct_velocity(equations, v, &mut self.delta).map(drop)
+        correct_velocity(equations, v, &mut self.storage).map(drop)
     }
 
     /// What a projection changes in [q; v] of a state that is left as it is; allocates. Dropped

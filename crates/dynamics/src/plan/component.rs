@@ -101,3 +101,29 @@ fn name(mechanism: &Mechanism) -> String {
         n => format!("{}, … ({n} bodies)", names[..NAMED - 1].join(", ")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Body, Description};
+
+    use super::*;
+
+    #[test]
+    fn three_bodies_are_named_and_more_are_counted() {
+        let named = |bodies: &[&str]| {
+            let body = |name: &&str| Body {
+                name: (*name).into(),
+                mass: 1.0,
+                inertia: 1.0,
+                ..Body::default()
+            };
+            let description = Description {
+                bodies: bodies.iter().map(body).collect(),
+                ..Description::default()
+            };
+            name(&Mechanism::build(&description).unwrap())
+        };
+        assert_eq!(named(&["crank", "rod", "slider"]), "crank, rod, slider");
+        assert_eq!(named(&["a", "b", "c", "d"]), "a, b, … (4 bodies)");
+    }
+}

@@ -123,3 +123,57 @@ fn momentum(mass: &[f64], v: impl Iterator<Item = f64>) -> f64 {
         .sum::<f64>()
         .sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Body, Description};
+
+    use super::*;
+
+    /// A free body of one kilogram and one kg·m², measured by metres.
+    fn body() -> Mechanism {
+        let one = Body {
+            name: "one".into(),
+            mass: 1.0,
+            inertia: 1.0,
+            ..Body::default()
+        };
+        let description = Description {
+            bodies: vec![one],
+            ..Description::default()
+        };
+        Mechanism::build(&description).unwrap()
+    }
+
+    /// Whether a row at half a second with coordinate x and velocity v along x may be shown, if a
+    /// step of a second leads from x = 0 to `way` with the velocities `speed` at both ends.
+    fn is_shown([x, v]: [f64; 2], way: f64, speed: f64) -> bool {
+        let state = |x: f64, v: f64| [x, 0.0, 0.0, v, 0.0, 0.0];
+        let mut span = Span::default();
+        let rate = state(speed, 0.0);
+        span.take(
+            [0.0, 1.0],
+            [&state(0.0, speed), &rate, &state(way, speed), &rate],
+        );
+        span.check(&body(), 1.0, 0.5, &state(x, v)).is_ok()
+    }
+
+    /// The cubic leads to half the way.
+    #[test]
+    fn rows_lie_where_their_step_leads() {
+        // By a quarter of the way.
+        assert!(is_shown([0.5 + 0.2, 1.0], 1.0, 1.0));
+        assert!(!is_shown([0.5 + 0.3, 1.0], 1.0, 1.0));
+        // At rest by a thousandth of the size.
+        assert!(is_shown([0.8e-3, 0.0], 0.0, 0.0));
+        assert!(!is_shown([1.5e-3, 0.0], 0.0, 0.0));
+    }
+
+    /// A way of a metre in a second, in three coordinates evenly: √3 kg·m/s, three times this is
+    /// 5.2 kg·m/s.
+    #[test]
+    fn a_drive_that_rests_at_both_ends_of_a_step_may_be_fast_between() {
+        assert!(is_shown([0.5, 5.0], 1.0, 0.0));
+        assert!(!is_shown([0.5, 5.5], 1.0, 0.0));
+    }
+}

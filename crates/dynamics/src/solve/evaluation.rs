@@ -51,6 +51,18 @@ impl<'m> Evaluation<'m> {
         self.mechanism.layout().velocity_residual(&self.s, i, v)
     }
 
+    /// The same with the size of its terms.
+    pub(crate) fn velocity_residual_and_scale(&self, i: usize, v: &[f64]) -> (f64, f64) {
+        let (mut sum, mut size) = (0.0, 0.0);
+        for (column, c) in self.mechanism.layout().row(&self.s, i) {
+            let term = c * v[column];
+            sum += term;
+            size += term.abs();
+        }
+        let b = self.s.b[i];
+        (sum - b, size + b.abs())
+    }
+
     /// Size of the terms of row i of Φ.
     pub(crate) fn position_scale(&self, i: usize) -> f64 {
         self.mechanism.scales(&self.s).position(i)

@@ -167,7 +167,7 @@ impl KeptRows {
     }
 
     /// Takes a right-hand side: `of` row i of C for each kept row.
-    pub(crate) fn take_rhs(&mut self, of: impl Fn(usize) -> f64) {
+    pub(crate) fn take_rhs(&mut self, mut of: impl FnMut(usize) -> f64) {
         for (rhs, &i) in self.rhs.iter_mut().zip(&self.kept) {
             *rhs = of(i);
         }

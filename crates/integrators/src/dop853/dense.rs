@@ -43,10 +43,9 @@
 
 use super::Stages;
 use super::tableau::{A, C, D, FREE, STAGES, STEP_STAGES};
-use crate::drive::evaluate;
 use crate::error::Cause;
 use crate::method::{Dense, Ends};
-use crate::ode::Ode;
+use crate::ode::{Ode, evaluate};
 
 impl<O: Ode> Dense<O> for Stages {
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]) {

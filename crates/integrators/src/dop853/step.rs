@@ -4,10 +4,9 @@ use super::Stages;
 use super::tableau::{A, C, E3, E5, STEP_STAGES};
 use crate::combine::combine;
 use crate::control::StepControl;
-use crate::drive::evaluate;
 use crate::error::Cause;
 use crate::method::{Start, Stepper, Trial, widest_gap};
-use crate::ode::Ode;
+use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
 impl<O: Ode> Stepper<O> for Stages {

@@ -20,10 +20,10 @@
 use super::Stages;
 use super::newton::dot;
 use super::tableau::{C, REAL, lagrange, lagrange_derivative};
-use crate::drive::{evaluate, finite};
 use crate::error::Cause;
 use crate::implicit::Implicit;
 use crate::method::{Dense, Ends};
+use crate::ode::{evaluate, finite};
 
 /// Places of the defects.
 const PLACES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];

@@ -56,12 +56,6 @@ pub struct Stages {
     control: Control,
     /// z_i = Y_i − y0 of the last trial.
     z: [Vec<f64>; 3],
-    /// The same of the last accepted step, for starting values.
-    z_before: [Vec<f64>; 3],
-    /// w = T⁻¹·z, in which the Newton system falls apart into a real and a complex one.
-    w: [Vec<f64>; 3],
-    /// Stage derivatives, then increments of w.
-    k: [Vec<f64>; 3],
     /// `h·f0 − u'(0)` of the last trial, filtered: the estimated error times u₁.
     defect: Vec<f64>,
     /// Filtered defects of the dense output at the places of `dense`.
@@ -71,15 +65,33 @@ pub struct Stages {
     /// Weights of the norms of this method.
     scale: Vec<f64>,
     matrices: Matrices,
-    convergence: Convergence,
-    /// Size of the last accepted step since the start of the leg, for starting values.
-    h_before: Option<f64>,
-    /// Size and error of the step that the predictive controller compares with.
-    reference: Option<(f64, f64)>,
+    newton: Newton,
+    before: Before,
     /// At the start of a leg and after a rejection the estimate is filtered twice.
     filter_twice: bool,
-    /// What Newton's method proposes after its failure.
+}
+
+/// Newton's method for the stages.
+#[derive(Debug)]
+struct Newton {
+    /// w = T⁻¹·z, in which the linear system falls apart into a real and a complex one.
+    w: [Vec<f64>; 3],
+    /// Stage derivatives, then increments of w.
+    k: [Vec<f64>; 3],
+    convergence: Convergence,
+    /// Factor of the step size that it proposes after its failure.
     factor_after_failure: Option<f64>,
+}
+
+/// The last accepted step since the start of the leg.
+#[derive(Debug)]
+struct Before {
+    /// Its z, for starting values.
+    z: [Vec<f64>; 3],
+    /// Its size.
+    h: Option<f64>,
+    /// Size and error of the step that the predictive controller compares with.
+    reference: Option<(f64, f64)>,
 }
 
 /// What the problem has linearised and factored.
@@ -100,19 +112,23 @@ impl Stages {
         Self {
             control: Control::new(CONTROL),
             z: three(),
-            z_before: three(),
-            w: three(),
-            k: three(),
             defect: zeros(),
             defects: std::array::from_fn(|_| zeros()),
             y: zeros(),
             scale: zeros(),
             matrices: Matrices::default(),
-            convergence: Convergence::default(),
-            h_before: None,
-            reference: None,
+            newton: Newton {
+                w: three(),
+                k: three(),
+                convergence: Convergence::default(),
+                factor_after_failure: None,
+            },
+            before: Before {
+                z: three(),
+                h: None,
+                reference: None,
+            },
             filter_twice: true,
-            factor_after_failure: None,
         }
     }
 }

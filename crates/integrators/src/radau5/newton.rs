@@ -15,10 +15,10 @@ use super::scale::set_scale;
 use super::tableau::{C, COMPLEX, REAL, T, T_INVERSE, lagrange};
 use crate::control::weighted_square_sum;
 use crate::convergence::Verdict;
-use crate::drive::{evaluate, finite};
 use crate::error::Cause;
 use crate::implicit::Implicit;
 use crate::method::{Start, Trial};
+use crate::ode::{evaluate, finite};
 use crate::statistics::Statistics;
 
 /// Iterations stop where their increments are this many units of rounding of the state.
@@ -27,8 +27,8 @@ impl Stages {
     /// Starting values: the collocation polynomial of the last step, continued; zero where there is
     /// none.
     pub(super) fn predict(&mut self, h: f64) {
-        let Some(h_before) = self.h_before else {
-            for v in self.z.iter_mut().chain(&mut self.w) {
+        let Some(h_before) = self.before.h else {
+            for v in self.z.iter_mut().chain(&mut self.newton.w) {
                 v.fill(0.0);
             }
             return;
@@ -39,8 +39,8 @@ impl Stages {
             l[2] -= 1.0;
             l
         });
-        combine(&weights, &self.z_before, &mut self.z);
-        combine(&T_INVERSE, &self.z, &mut self.w);
+        combine(&weights, &self.before.z, &mut self.z);
+        combine(&T_INVERSE, &self.z, &mut self.newton.w);
     }
 
     /// Iterates until `z` is as accurate as the tolerance asks, or will not become so. An error of
@@ -52,18 +52,18 @@ impl Stages {
         start: &Start<'_>,
         statistics: &mut Statistics,
     ) -> Result<Verdict, Cause<O::Error>> {
-        self.convergence = self.convergence.next();
+        self.newton.convergence = self.newton.convergence.next();
         loop {
             statistics.newton_iterations += 1;
             self.increment(ode, trial, start.y0, statistics)?;
-            for (w, dw) in self.w.iter_mut().zip(&self.k) {
+            for (w, dw) in self.newton.w.iter_mut().zip(&self.newton.k) {
                 for (w, dw) in w.iter_mut().zip(dw) {
                     *w += dw;
                 }
             }
-            combine(&T, &self.w, &mut self.z);
+            combine(&T, &self.newton.w, &mut self.z);
             let (norm, permitted) = self.increment_norm(start);
-            let verdict = self.convergence.judge(norm, permitted);
+            let verdict = self.newton.convergence.judge(norm, permitted);
             if verdict != Verdict::GoOn {
                 return Ok(verdict);
             }
@@ -78,7 +78,7 @@ impl Stages {
         y0: &[f64],
         statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>> {
-        for ((z, k), c) in self.z.iter().zip(&mut self.k).zip(C) {
+        for ((z, k), c) in self.z.iter().zip(&mut self.newton.k).zip(C) {
             for ((y, y0), z) in self.y.iter_mut().zip(y0).zip(z) {
                 *y = y0 + z;
             }
@@ -91,7 +91,7 @@ impl Stages {
             )?;
         }
         let (real, [re, im]) = (REAL / trial.h, COMPLEX.map(|x| x / trial.h));
-        let ([k1, k2, k3], [w1, w2, w3]) = (self.k.each_mut(), self.w.each_ref());
+        let ([k1, k2, k3], [w1, w2, w3]) = (self.newton.k.each_mut(), self.newton.w.each_ref());
         for i in 0..y0.len() {
             let f = [k1[i], k2[i], k3[i]];
             let [f1, f2, f3] = T_INVERSE.map(|row| dot(&row, &f));
@@ -119,6 +119,7 @@ impl Stages {
             *scale = scale.max(ROUNDING / permitted * y0.abs().max(y1.abs()));
         }
         let sum: f64 = self
+            .newton
             .k
             .iter()
             .map(|dw| weighted_square_sum(dw, &self.scale))

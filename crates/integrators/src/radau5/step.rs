@@ -6,10 +6,10 @@ use super::tableau::{C, COMPLEX, E, REAL};
 use super::{Matrices, Stages};
 use crate::control::{StepControl, weighted_rms};
 use crate::convergence::{Convergence, GOOD_RATE, MAX_ITERATIONS, Verdict};
-use crate::drive::{evaluate, finite};
 use crate::error::Cause;
 use crate::implicit::Implicit;
 use crate::method::{Start, Stepper, Trial, widest_gap};
+use crate::ode::{evaluate, finite};
 use crate::statistics::Statistics;
 
 /// Factors serve a step whose size differs by less than this part: Newton's method then loses no
@@ -88,7 +88,7 @@ impl<O: Implicit> Stepper<O> for Stages {
         y1: &mut [f64],
         statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>> {
-        self.factor_after_failure = None;
+        self.newton.factor_after_failure = None;
         loop {
             self.prepare_matrices(ode, trial, start.y0, statistics)?;
             self.predict(trial.h);
@@ -98,10 +98,10 @@ impl<O: Implicit> Stepper<O> for Stages {
             };
             let Convergence {
                 rate, iterations, ..
-            } = std::mem::take(&mut self.convergence);
+            } = std::mem::take(&mut self.newton.convergence);
             self.matrices.is_worn = true;
             if self.matrices.linearised_at == Some(trial.t) {
-                self.factor_after_failure = Some(factor);
+                self.newton.factor_after_failure = Some(factor);
                 return Err(Cause::NewtonDiverges { rate, iterations });
             }
         }
@@ -160,9 +160,9 @@ impl<O: Implicit> Stepper<O> for Stages {
     fn restart(&mut self) {
         self.control.reset();
         self.matrices = Matrices::default();
-        self.convergence = Convergence::default();
-        self.h_before = None;
-        self.reference = None;
+        self.newton.convergence = Convergence::default();
+        self.before.h = None;
+        self.before.reference = None;
         self.filter_twice = true;
     }
 
@@ -172,7 +172,7 @@ impl<O: Implicit> Stepper<O> for Stages {
     fn after_acceptance(&mut self, h: f64, error_norm: f64) -> f64 {
         let effort = self.effort();
         let mut next = self.control.accept(h, error_norm * effort.powi(4));
-        if let Some((h_reference, error_reference)) = self.reference {
+        if let Some((h_reference, error_reference)) = self.before.reference {
             let trend = (error_reference / (error_norm * error_norm)).powf(0.25);
             let factor = super::CONTROL.safety * h / h_reference * trend;
             let factor = factor.clamp(super::CONTROL.min_factor, super::CONTROL.max_factor);
@@ -180,11 +180,11 @@ impl<O: Implicit> Stepper<O> for Stages {
                 next = h * factor;
             }
         }
-        self.reference = Some((h, error_norm.max(SMALLEST_REFERENCE)));
-        self.h_before = Some(h);
+        self.before.reference = Some((h, error_norm.max(SMALLEST_REFERENCE)));
+        self.before.h = Some(h);
         self.filter_twice = false;
-        std::mem::swap(&mut self.z, &mut self.z_before);
-        self.matrices.is_worn = self.convergence.rate > GOOD_RATE;
+        std::mem::swap(&mut self.z, &mut self.before.z);
+        self.matrices.is_worn = self.newton.convergence.rate > GOOD_RATE;
         if !self.matrices.is_worn && (1.0..=WORTH_GROWING).contains(&(next / h)) {
             h
         } else {
@@ -200,7 +200,7 @@ impl<O: Implicit> Stepper<O> for Stages {
 
     fn after_failure(&mut self, h: f64, factor: f64) -> f64 {
         self.filter_twice = true;
-        let factor = self.factor_after_failure.take().unwrap_or(factor);
+        let factor = self.newton.factor_after_failure.take().unwrap_or(factor);
         self.control.shorten(h, factor)
     }
 }
@@ -210,7 +210,7 @@ impl Stages {
     /// have cost.
     fn effort(&self) -> f64 {
         let (n, n_max) = (
-            f64::from(self.convergence.iterations),
+            f64::from(self.newton.convergence.iterations),
             f64::from(MAX_ITERATIONS),
         );
         (n + 2.0 * n_max) / (1.0 + 2.0 * n_max)

@@ -163,8 +163,8 @@ where
         let dense: &dyn Dense<DenseImplicit<Function<F>, J>> = stages;
         dense.interpolate(&ends, theta, &mut inside[0]);
         dense.interpolate_accurately(&ends, theta, &mut inside[1]);
-        stages.h_before = Some(h);
-        std::mem::swap(&mut stages.z, &mut stages.z_before);
+        stages.before.h = Some(h);
+        std::mem::swap(&mut stages.z, &mut stages.before.z);
         (self.y, self.f) = (y1, f1);
         stages.defect[0].hypot(stages.defect[1])
     }

@@ -22,10 +22,9 @@
 //! (both bounds asserted in `order_conditions`).
 
 use super::{Stages, Tableau};
-use crate::drive::evaluate;
 use crate::error::Cause;
 use crate::method::{Dense, Ends};
-use crate::ode::Ode;
+use crate::ode::{Ode, evaluate};
 
 /// Places of the two extra evaluations for the dense output of order 5.
 pub(super) const NODE_A: f64 = 1.0 / 5.0;

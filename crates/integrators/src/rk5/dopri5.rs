@@ -6,7 +6,7 @@
 //! practical Runge–Kutta formulas, Math. Comp. 46 (1986) 135–150, in the form of Hairer, Nørsett,
 //! Wanner I, 2nd ed., II.6.
 
-use super::Tableau;
+use super::tableau::Tableau;
 
 /// Dormand–Prince 5(4), seven stages, the last one reused; known as `ode45`. Order 5. Dense output
 /// of order 4 (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the step) with

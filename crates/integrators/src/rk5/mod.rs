@@ -4,30 +4,20 @@
 mod dense;
 mod dopri5;
 mod step;
+mod tableau;
 mod tsit5;
 
 #[cfg(test)]
 mod order_conditions;
 
 pub use dopri5::Dopri5;
+use tableau::Tableau;
 pub use tsit5::Tsit5;
 
 use crate::control::{Control, ControlConstants};
 use crate::method::Method;
 use crate::ode::Ode;
 use std::marker::PhantomData;
-
-/// The coefficients of a pair.
-pub trait Tableau {
-    /// Nodes of the stages 2 to 7; row sums of `A`.
-    const C: [f64; 6];
-    /// Rows for the arguments of stages 2 to 7. The last row is the new state, too.
-    const A: [[f64; 6]; 6];
-    /// Weights of the estimated error: order 5 minus order 4.
-    const E: [f64; 7];
-    /// Weights of the quartic term of the dense output of order 4, see `dense`.
-    const D: [f64; 7];
-}
 
 impl<O: Ode> Method<O> for Dopri5 {
     type Stepper = Stages<Self>;

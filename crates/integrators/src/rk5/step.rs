@@ -3,10 +3,9 @@
 use super::{Stages, Tableau};
 use crate::combine::combine;
 use crate::control::StepControl;
-use crate::drive::evaluate;
 use crate::error::Cause;
 use crate::method::{Start, Stepper, Trial, widest_gap};
-use crate::ode::Ode;
+use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
 impl<O: Ode, T: Tableau> Stepper<O> for Stages<T> {

@@ -7,7 +7,7 @@
 //! Source: Ch. Tsitouras, Runge–Kutta pairs of order 5(4) satisfying only the first column
 //! simplifying assumption, Comput. Math. Appl. 62 (2011) 770–775, DOI 10.1016/j.camwa.2011.06.002.
 
-use super::Tableau;
+use super::tableau::Tableau;
 
 /// Tsitouras 5(4), seven stages, the last one reused. Order 5, with smaller error coefficients than
 /// [`Dopri5`](crate::Dopri5) and a tighter error estimate. Dense output of order 4 without and of

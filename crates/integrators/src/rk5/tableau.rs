@@ -1,0 +1,13 @@
+//! What a pair of order 5(4) with seven stages is made of.
+
+/// The coefficients of a pair.
+pub trait Tableau {
+    /// Nodes of the stages 2 to 7; row sums of `A`.
+    const C: [f64; 6];
+    /// Rows for the arguments of stages 2 to 7. The last row is the new state, too.
+    const A: [[f64; 6]; 6];
+    /// Weights of the estimated error: order 5 minus order 4.
+    const E: [f64; 7];
+    /// Weights of the quartic term of the dense output of order 4, see `dense`.
+    const D: [f64; 7];
+}
