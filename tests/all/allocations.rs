@@ -1,6 +1,6 @@
 //! An evaluation of the right-hand side allocates nothing.
 
-use dynamics::{KeptRowMotion, Method, Motion, MotionOptions, RowChoice, prepare};
+use dynamics::{KeptRowMotion, Method, MotionOptions, RowChoice, prepare};
 use model::{Mechanism, StartOptions};
 use tests::robot::{robot, steering};
 

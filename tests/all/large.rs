@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use dynamics::{KeptRowMotion, Method, Motion, MotionOptions, simulate};
+use dynamics::{KeptRowMotion, Method, MotionOptions, simulate};
 use lab::comparators::equations::Equations;
 use lab::comparators::{Drift, MinimumNorm};
 use lab::generate::{Kind, Order};

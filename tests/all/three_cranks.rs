@@ -1,7 +1,7 @@
 //! Three parallel cranks under one coupler: overconstrained by one. Numbers from
 //! `reference/redundant_three_cranks.json`.
 
-use dynamics::{KeptRowMotion, Motion, RowChoice, prepare};
+use dynamics::{KeptRowMotion, RowChoice, prepare};
 use model::{BodyRef, Description, Mechanism, StartOptions, System};
 use serde_json::Value;
 use tests::cranks::cranks;

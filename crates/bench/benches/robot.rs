@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use divan::Bencher;
-use dynamics::{KeptRowMotion, Motion, MotionOptions, Prepared, RowChoice, prepare, simulate};
+use dynamics::{KeptRowMotion, MotionOptions, Prepared, RowChoice, prepare, simulate};
 use joints::{Element, Pose, Revolute, Twist};
 use model::{Mechanism, StartOptions, System};
 use tests::robot::{robot, steering};

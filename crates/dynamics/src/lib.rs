@@ -36,7 +36,7 @@ pub use code::{CodeMismatch, Facts, NoCode, SceneCode};
 pub use error::{DropError, MotionError, MotionFault};
 pub use events::{Event, EventKind};
 pub use manifold::Correction;
-pub use motion::{KeptRowMotion, Motion};
+pub use motion::KeptRowMotion;
 pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{Plan, Wanted};
 pub use prepare::{Prepared, prepare, start_velocity};

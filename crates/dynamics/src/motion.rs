@@ -18,41 +18,6 @@ use crate::prepare::Prepared;
 use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, State};
 use crate::watch::{Handover, Next, Watch, are_worn};
 
-/// Equations solved for what moves.
-pub trait Motion {
-    /// `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`.
-    ///
-    /// # Errors
-    /// If the equations have no (unique) solution here.
-    fn acceleration(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        a: &mut [f64],
-    ) -> Result<(), MotionFault>;
-
-    /// Moves q and v onto the constraints by the smallest correction in the mass metric, and checks
-    /// the dropped rows.
-    ///
-    /// # Errors
-    /// If that fails, or a dropped row is violated.
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, MotionFault>;
-
-    /// Multipliers of all rows: those of dropped rows are zero by decree, and all are NaN where the
-    /// kept rows are dependent at just this instant, so that no multipliers belong to them.
-    ///
-    /// # Errors
-    /// As [`Motion::acceleration`].
-    fn multipliers(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        lambda: &mut [f64],
-    ) -> Result<(), MotionFault>;
-}
-
 /// A mechanism on kept rows. All storage is made here; accelerations and projections allocate
 /// nothing.
 pub struct KeptRowMotion<'m> {
@@ -206,11 +171,69 @@ impl<'m> KeptRowMotion<'m> {
         self.manifold.choose_coordinates(equations, origin)
     }
 
+    /// `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`.
+    ///
+    /// # Errors
+    /// If the equations have no (unique) solution here.
+    pub fn acceleration(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        let state = State { t, q, v };
+        let code = self.code.as_mut().and_then(Handover::in_use);
+        match code.is_some_and(|code| code.accelerations(state, a).is_ok()) {
+            true => Ok(()),
+            false => self.interpret(state, a),
+        }
+    }
+
+    /// Moves q and v onto the constraints by the smallest correction in the mass metric, and checks
+    /// the dropped rows.
+    ///
+    /// # Errors
+    /// If that fails, or a dropped row is violated.
+    pub fn project(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) -> Result<Correction, MotionFault> {
+        self.manifold.project(&mut self.equations, t, (q, v))
+    }
+
+    /// Multipliers of all rows: those of dropped rows are zero by decree, and all are NaN where the
+    /// kept rows are dependent at just this instant, so that no multipliers belong to them.
+    ///
+    /// # Errors
+    /// As [`KeptRowMotion::acceleration`].
+    pub fn multipliers(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        note(Counted::Multipliers);
+        let state = State { t, q, v };
+        let code = self.code.as_mut().and_then(Handover::in_use);
+        if code.is_some_and(|code| code.multipliers(state, lambda).is_ok()) {
+            // Reactions are read from the pose.
+            self.equations.at.pose(t, q);
+            return Ok(());
+        }
+        let found = self.equations.multipliers(state, lambda);
+        self.watch.passage.see(&self.equations.velocity);
+        found
+    }
+
     /// `ẏ = f(t, y)` of `y = [q; v]`, or `[q; v; W]` with the work W of drives and applied forces.
     /// On independent coordinates the dependent entries of y do not matter.
     ///
     /// # Errors
-    /// As [`Motion::acceleration`]; [`MotionFault::OffConstraints`],
+    /// As [`KeptRowMotion::acceleration`]; [`MotionFault::OffConstraints`],
     /// [`MotionFault::IndependentCoordinates`] if a state cannot be completed.
     ///
     /// # Panics
@@ -386,7 +409,7 @@ impl<'m> KeptRowMotion<'m> {
     /// way.
     ///
     /// # Errors
-    /// As [`Motion::project`].
+    /// As [`KeptRowMotion::project`].
     pub(crate) fn end_row(
         &mut self,
         t: f64,
@@ -439,46 +462,5 @@ fn rates(
     mechanism.rate(q, v, qd);
     if let Some(power) = power {
         *power = mechanism.energy_rate(v, a);
-    }
-}
-
-impl Motion for KeptRowMotion<'_> {
-    fn acceleration(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        a: &mut [f64],
-    ) -> Result<(), MotionFault> {
-        let state = State { t, q, v };
-        let code = self.code.as_mut().and_then(Handover::in_use);
-        match code.is_some_and(|code| code.accelerations(state, a).is_ok()) {
-            true => Ok(()),
-            false => self.interpret(state, a),
-        }
-    }
-
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, MotionFault> {
-        self.manifold.project(&mut self.equations, t, (q, v))
-    }
-
-    fn multipliers(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        lambda: &mut [f64],
-    ) -> Result<(), MotionFault> {
-        note(Counted::Multipliers);
-        let state = State { t, q, v };
-        let code = self.code.as_mut().and_then(Handover::in_use);
-        if code.is_some_and(|code| code.multipliers(state, lambda).is_ok()) {
-            // Reactions are read from the pose.
-            self.equations.at.pose(t, q);
-            return Ok(());
-        }
-        let found = self.equations.multipliers(state, lambda);
-        self.watch.passage.see(&self.equations.velocity);
-        found
     }
 }

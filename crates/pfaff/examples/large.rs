@@ -7,7 +7,7 @@
 use std::error::Error;
 use std::time::Instant;
 
-use pfaff::dynamics::{KeptRowMotion, Motion, RowChoice, prepare};
+use pfaff::dynamics::{KeptRowMotion, RowChoice, prepare};
 use pfaff::model::{Mechanism, Registry, System};
 use pfaff::solvability::{Verdict, analyse};
 

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{KeptRowMotion, Motion, MotionOptions, Prepared, simulate};
+use dynamics::{KeptRowMotion, MotionOptions, Prepared, simulate};
 use model::record::Input;
 
 use crate::error::CodeError;

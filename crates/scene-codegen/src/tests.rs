@@ -1,7 +1,7 @@
 //! Code against the interpreter, which solves the same equations by another elimination in another
 //! order.
 
-use dynamics::{KeptRowMotion, Motion};
+use dynamics::KeptRowMotion;
 use linalg::KeptRowSaddle;
 use model::System;
 use pfaff::{AssembledScene, Overrides, Study};

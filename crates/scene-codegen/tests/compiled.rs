@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use dynamics::{KeptRowMotion, Motion};
+use dynamics::KeptRowMotion;
 use pfaff::model::Registry;
 use pfaff::{AssembledScene, Overrides, Study};
 use scene_codegen::{Choices, Subject, generate};

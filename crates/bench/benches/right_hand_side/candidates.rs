@@ -3,7 +3,7 @@
 
 use std::hint::black_box;
 
-use dynamics::{KeptRowMotion, Motion, SceneCode};
+use dynamics::{KeptRowMotion, SceneCode};
 use lab::comparators::equations::Equations;
 use lab::comparators::{Drift, MinimumNorm, Proximal, Solver};
 use linalg::KeptRowSaddle;

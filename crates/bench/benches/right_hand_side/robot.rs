@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{KeptRowMotion, Motion, MotionOptions, Prepared, simulate};
+use dynamics::{KeptRowMotion, MotionOptions, Prepared, simulate};
 use linalg::Matrix;
 use model::{Registry, System};
 use pfaff::{Overrides, Study};

@@ -10,7 +10,7 @@ use model::{Mechanism, System};
 use super::SceneCode;
 use crate::error::MotionFault;
 use crate::limits::{CODE_STATES, DISTANCE, LEAVE, SAME_VALUES, SPEED};
-use crate::motion::{KeptRowMotion, Motion};
+use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::prepare::Prepared;
 

@@ -21,7 +21,7 @@ pub(crate) struct Impulse {
 ///
 /// # Errors
 /// [`MotionFault::PositionJump`] if a constraint asks for another position; as
-/// [`crate::Motion::project`].
+/// [`crate::KeptRowMotion::project`].
 pub(super) fn cross_break(
     motion: &mut KeptRowMotion<'_>,
     t: f64,

@@ -3,7 +3,7 @@
 use model::{Mechanism, Reaction, System};
 
 use crate::error::MotionFault;
-use crate::motion::{KeptRowMotion, Motion};
+use crate::motion::KeptRowMotion;
 
 /// One row of output: a state on the constraints, and what follows from it on demand.
 pub struct Sample<'s, 'm> {
@@ -82,7 +82,7 @@ impl Sample<'_, '_> {
         }
     }
 
-    /// Multipliers of all rows as [`Motion::multipliers`] gives them, NaN for rows of joints and
+    /// Multipliers of all rows as [`KeptRowMotion::multipliers`] gives them, NaN for rows of joints and
     /// drives whose reactions the plan leaves out; allocates.
     ///
     /// # Errors

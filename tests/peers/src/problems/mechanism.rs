@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 
-use dynamics::{KeptRowMotion, Motion, MotionError, Prepared, RowChoice, MotionFault, prepare};
+use dynamics::{KeptRowMotion, MotionError, Prepared, RowChoice, MotionFault, prepare};
 use model::{Mechanism, Registry, System};
 use suite::{Case, Kind, Quantity};
 

@@ -7,7 +7,7 @@ mod score;
 
 use std::sync::{Arc, OnceLock};
 
-use dynamics::{FORMULATION, KeptRowMotion, Motion};
+use dynamics::{FORMULATION, KeptRowMotion};
 use model::{Description, System};
 
 use crate::stress::case::{Case, Expected, Family, Outcome};
