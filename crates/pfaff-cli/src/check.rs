@@ -38,11 +38,11 @@ pub(crate) struct Checked {
     layout: Layout,
     /// Largest change of a coordinate.
     position: f64,
-    /// Largest change of a velocity; nothing where no motion begins.
+    /// Largest change of a velocity; `None` if no motion begins.
     velocity: Option<f64>,
     /// Why it cannot be moved, where that is all that is wrong, and what is probably not meant.
     warnings: Vec<String>,
-    /// What can move; nothing where the rank is not asked for, because the mechanism is large.
+    /// What can move; `None` if the rank is not asked for, because the mechanism is large.
     freedoms: Option<Freedoms>,
 }
 

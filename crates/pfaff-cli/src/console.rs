@@ -38,7 +38,7 @@ impl<'w> Stream<'w> {
     }
 }
 
-/// What a command is given beside its arguments.
+/// What a command is given besides its arguments.
 pub struct Console<'c> {
     /// The joints and forces of scenes.
     pub registry: &'c Registry,

@@ -152,7 +152,7 @@ fn describe(
     text
 }
 
-/// Names of the files, with their directories only where they would be alike.
+/// Names of the files, with their directories only if they would be alike.
 fn names(sources: &[Source; 2]) -> [String; 2] {
     let whole = || sources.each_ref().map(|source| source.name.clone());
     let short = sources.each_ref().map(|source| {

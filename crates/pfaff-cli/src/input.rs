@@ -118,7 +118,7 @@ impl<'r> Source<'r> {
     }
 }
 
-/// A file that cannot be read, with the scene beside it that was probably meant.
+/// A file that cannot be read, with the scene in its directory that was probably meant.
 pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
     let name = if path.as_os_str() == "-" {
         "<stdin>".into()

@@ -1,4 +1,4 @@
-//! How answers and failures look; where they go is told by the console.
+//! How answers and failures look; the console says where they go.
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
 use pfaff::scene::{Diagnostic, Severity};

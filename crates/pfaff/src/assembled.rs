@@ -167,7 +167,7 @@ impl AssembledScene {
         self.analyse_watched(drop, |_| ())
     }
 
-    /// The same; `progress` is told how many joints are judged.
+    /// The same; calls `progress` with the number of joints that are judged.
     ///
     /// # Errors
     /// As [`AssembledScene::analyse`].

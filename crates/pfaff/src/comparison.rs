@@ -105,7 +105,7 @@ struct Set<'a> {
 }
 
 impl<'a> Set<'a> {
-    /// Nothing where the multipliers of the run are not known, or no rank can be read.
+    /// Returns `None` if the multipliers of the run are not known, or no rank can be read.
     fn new(part: &'a Part, recording: &Recording) -> Option<Self> {
         let first = recording.frames.first()?;
         let known = |&i: &usize| first.multipliers.get(i).is_some_and(|x| x.is_finite());
@@ -354,7 +354,7 @@ fn eliminations(decision: &RankDecision) -> Vec<Vec<usize>> {
     taken
 }
 
-/// Smallest pivot of Z_D beside its largest entry.
+/// Smallest pivot of Z_D relative to its largest entry.
 fn firmness(z: &Matrix, rows: &[usize]) -> f64 {
     let block = z.select_rows(rows);
     let qr = PivotedQr::of_columns(&block);

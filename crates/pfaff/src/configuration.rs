@@ -68,7 +68,7 @@ pub(crate) enum AskedRows<'r> {
 
 impl<'a> ConfigurationAnalysis<'a> {
     /// A state that satisfies the constraints at time t, and how well its configuration is known.
-    /// `progress` is told how many joints are judged.
+    /// `progress` gets the number of joints that are judged.
     pub(crate) fn new(
         scene: &'a Scene,
         mechanism: &'a Mechanism,
@@ -195,7 +195,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.analysis.freedoms(self.mechanism, &self.state.q)?)
     }
 
-    /// Ranks at other configurations of the same component; nothing if none could be reached.
+    /// Ranks at other configurations of the same component; `None` if none could be reached.
     #[must_use]
     pub fn generic(&self) -> Option<Generic> {
         generic(self.mechanism, self.analysis.time, &self.state.q)

@@ -168,7 +168,7 @@ pub struct MotionComparison {
     pub bodies: Vec<MotionDifference>,
 }
 
-/// Times at which motions are compared, beside the start.
+/// Times at which motions are compared, besides the start.
 const TIMES: f64 = 200.0;
 
 /// Coordinates of a planar body.

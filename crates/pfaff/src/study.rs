@@ -122,7 +122,7 @@ impl Study {
         self.analyse_watched(t, drop, |_| ())
     }
 
-    /// The same; `progress` is told how many joints are judged.
+    /// The same; calls `progress` with the number of joints that are judged.
     ///
     /// # Errors
     /// As [`Study::analyse`].
@@ -535,7 +535,7 @@ fn comparison_beside(directory: &OutputDirectory) -> Option<String> {
 /// Bytes of a figure that a page takes in.
 const FIGURE_MOST: u64 = 1 << 20;
 
-/// Which reactions a table has; nothing where no table is wanted.
+/// Which reactions a table has; `None` if no table is wanted.
 fn selection(wanted: &WantedReactions) -> Option<Selection> {
     match wanted {
         WantedReactions::All => Some(Selection::All),

@@ -31,7 +31,7 @@ pub(crate) enum Channel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rounded(pub(crate) f64);
 
-/// Differences of levels; nothing is a gap.
+/// Differences of levels; `None` is a gap.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Steps(pub(crate) Vec<Option<i64>>);
 

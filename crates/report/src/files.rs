@@ -50,7 +50,7 @@ pub struct OutputDirectory {
 }
 
 impl OutputDirectory {
-    /// Opens a directory, and makes it where there is none.
+    /// Opens a directory, and makes it if there is none.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: it cannot be made, for instance because a file has its name.

@@ -23,9 +23,9 @@ pub struct Frame {
     pub v: Vec<f64>,
     /// Work of drives and applied forces since the start (J).
     pub work: f64,
-    /// Reactions of all joints and drives; empty where none are wanted.
+    /// Reactions of all joints and drives; empty if none are wanted.
     pub reactions: Vec<Reaction>,
-    /// Multipliers of all rows; empty where nothing is compared by them.
+    /// Multipliers of all rows; empty if nothing is compared by them.
     pub multipliers: Vec<f64>,
 }
 

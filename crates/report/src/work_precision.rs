@@ -102,7 +102,7 @@ pub struct ReferenceDocument {
     /// Where the values come from.
     pub source: String,
     /// How far values of position, velocity, acceleration and reactions may be from the truth,
-    /// scaled as the errors; NaN where nothing is known.
+    /// scaled as the errors; NaN if nothing is known.
     pub limits: [f64; 4],
     /// How far the two best runs of different methods are apart, in words.
     pub agreement: String,
@@ -144,7 +144,7 @@ pub struct WorkPrecisionScene {
     pub name: String,
     /// What it is.
     pub title: String,
-    /// The method that is chosen where none is asked for.
+    /// The method that is chosen if none is asked for.
     pub automatic: &'static str,
     /// What runs are compared with.
     pub reference: ReferenceDocument,

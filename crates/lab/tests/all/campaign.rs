@@ -68,3 +68,18 @@ fn what_was_found_is_mended() {
         assert!(answer.is_ok(), "{name}: {answer:?}");
     }
 }
+
+#[test]
+fn wrong_arguments_are_named_and_have_code_2() {
+    for (arguments, named) in [
+        (["fuzz", "try", "no-such-file"].as_slice(), "no-such-file"),
+        (&["fuzz", "exact", "--scenes", "0"], "--scenes"),
+        (&["fuzz", "rounded", "--drawings", "0"], "--drawings"),
+        (&["fuzz", "run", "--inputs", "0"], "--inputs"),
+    ] {
+        let output = super::lab(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let said = super::stderr(&output);
+        assert!(said.contains(named), "{arguments:?}: {said}");
+    }
+}

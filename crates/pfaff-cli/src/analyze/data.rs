@@ -4,7 +4,7 @@ use pfaff::report::AnalysisDocument;
 
 use crate::output::wrapped;
 
-/// Nothing where nobody states a tolerance and no lower rank is near.
+/// Returns an empty text if no tolerance is stated and no lower rank is near.
 pub(super) fn describe(d: &AnalysisDocument) -> String {
     let data = &d.data;
     let near = match (data.lower_rank_from, data.lower_rank_here) {

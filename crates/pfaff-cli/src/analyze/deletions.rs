@@ -11,7 +11,7 @@ const WAYS: usize = 1;
 /// Reactions for which they are listed.
 pub(super) const HINTS: usize = 8;
 
-/// The hints where nobody asked, the answers where somebody did, and the number of admissible sets.
+/// The hints, or the answers if somebody asked, and the number of admissible sets.
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
     let mut out = String::new();
     let useful = hints.iter().any(|hint| hint.reason.is_none());

@@ -31,7 +31,7 @@ fn the_robot_has_names_rows_and_verdicts() {
         ">B 3–4</text>",
         ">W1 18</text>",
         "B (revolute): reaction not unique",
-        ">steering<",
+        ">steering 17</text>",
     ] {
         assert!(svg.contains(words), "{words}");
     }

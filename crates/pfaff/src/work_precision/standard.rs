@@ -51,7 +51,7 @@ pub struct Reference {
 #[derive(Clone, Debug)]
 pub(super) struct Standard {
     /// How far the values of each kind may be from the truth, scaled as [`Errors::scaled`]; NaN
-    /// where nothing is known.
+    /// if nothing is known.
     pub(super) limits: [f64; 4],
     instants: Vec<Expected>,
     units: [Vec<f64>; 4],

@@ -14,7 +14,7 @@ pub struct FreedomsDocument {
     pub without_drives: Option<WithoutDrivesDocument>,
     /// What moves while the drives stand still.
     pub free_motions: Vec<FreeMotionDocument>,
-    /// Freedoms of which no motion is told.
+    /// Freedoms without a described motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_motions_left_out: Option<LeftOutDocument>,
     /// Whether nothing moves whatever the drives do.
@@ -35,7 +35,7 @@ pub struct WithoutDrivesDocument {
     pub mobility: usize,
     /// What moves.
     pub free_motions: Vec<FreeMotionDocument>,
-    /// Freedoms of which no motion is told.
+    /// Freedoms without a described motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_motions_left_out: Option<LeftOutDocument>,
 }
@@ -112,7 +112,7 @@ impl FreedomsDocument {
     }
 
     /// The free motions in sentences: those with the drives, then those that the drives prescribe,
-    /// each once, with a lead that tells them apart.
+    /// each once, with a lead that distinguishes them.
     #[must_use]
     pub fn sentences(&self) -> Vec<(String, String)> {
         let mut told: Vec<(String, String)> = Vec::new();

@@ -135,7 +135,7 @@ impl From<Saving> for SavingDocument {
     }
 }
 
-/// The decisions about the whole, and about its only component where there is one.
+/// The decisions about the whole, and about its only component if there is one.
 pub(super) fn short(plan: &Plan<'_>) -> Named<String> {
     let lines = plan.lines().into_iter();
     named(lines.filter(|line| line.component.is_none()))

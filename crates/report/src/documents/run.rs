@@ -157,7 +157,7 @@ pub struct RunReactionDocument {
     /// How much it hangs on the data at the start.
     #[serde(flatten)]
     pub data: SensitivityDocument,
-    /// What its numbers depend on where they are not unique.
+    /// What its numbers depend on if they are not unique.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<ChoiceDocument>,
 }

@@ -9,7 +9,7 @@ pub(super) enum Unit {
     Number,
     /// Times (s).
     Seconds,
-    /// The neighbour tells.
+    /// The neighbour shows them.
     Untold,
 }
 

@@ -211,7 +211,7 @@ impl Force {
     }
 }
 
-/// The other end of a rod, if its definition tells its points.
+/// The other end of a rod, if its definition has points.
 fn other_end(mechanism: &Mechanism, id: ConstraintId, place: [f64; 2], s: &Scratch) -> [f64; 2] {
     let points = mechanism.points(id);
     let end = points.get(1).map(|&(body, point)| match body {

@@ -57,9 +57,9 @@ struct Joint<'a> {
     /// Names, units and verdicts of the components that are not identically zero.
     components: Vec<Component>,
     explanation: Option<&'a str>,
-    /// What its numbers depend on where they are not unique.
+    /// What its numbers depend on if they are not unique.
     choice: Option<String>,
-    /// Fx, Fy, T, and the named component; nothing where they were not wanted.
+    /// Fx, Fy, T, and the named component; `None` if they were not wanted.
     reaction: Option<Reaction>,
 }
 
@@ -277,7 +277,7 @@ fn reaction(frames: &[Frame], k: usize, noise: f64) -> Option<Reaction> {
     })
 }
 
-/// Nothing where a joint of it is not drawn.
+/// A comparison as data; `None` if a joint of it is not drawn.
 fn comparison<'a>(c: &'a Comparison, cast: &Cast, noise: f64) -> Option<ComparisonData<'a>> {
     let places = c
         .reactions

@@ -330,8 +330,12 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
     out.push_str(
         "</aside>\n</div>\n\
          <p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
-         are unknown. Drag to move, Ctrl and wheel to zoom, click a joint for its reaction, a body for its trace.</p>\n</section>\n",
+         are unknown. Drag to move, Ctrl and wheel to zoom",
     );
+    if page.run.is_some() {
+        out.push_str(", click a joint for its reaction, a body for its trace");
+    }
+    out.push_str(".</p>\n</section>\n");
 }
 
 /// What marks and arrows mean, as far as they occur.

@@ -10,7 +10,7 @@ use crate::recording::Recording;
 pub struct RunPage<'a> {
     /// The mechanism that was run.
     pub mechanism: &'a Mechanism,
-    /// Verdicts at the start, with their explanation; nothing where none could be made.
+    /// Verdicts at the start, with their explanation; `None` if none could be made.
     pub analysis: Option<&'a AnalysisDocument>,
     /// For reactions that are not unique, what would make them so.
     pub hints: &'a [MakeUniqueDocument],
@@ -24,13 +24,13 @@ pub struct RunPage<'a> {
     pub drives: &'a [DriveCurve],
     /// How to get the same run again.
     pub origin: &'a Origin,
-    /// The text of the scene, where there is one.
+    /// The text of the scene, if there is one.
     pub scene: Option<&'a str>,
     /// Options of the run, in words.
     pub options: &'a [(String, String)],
     /// What was left out, in sentences.
     pub left_out: &'a [String],
-    /// Error against run time, as an SVG figure, where there is one.
+    /// Error against run time, as an SVG figure, if there is one.
     pub work_precision: Option<&'a str>,
 }
 

@@ -16,7 +16,7 @@ pub struct Column {
 pub enum Kind {
     /// Whole numbers, some of them unknown.
     Count,
-    /// Numbers; NaN where there is none.
+    /// Numbers; NaN if there is none.
     Number,
     /// Texts of one line.
     Text,
@@ -25,7 +25,7 @@ pub enum Kind {
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Of a column of whole numbers; nothing where it is unknown.
+    /// Of a column of whole numbers; `None` if it is unknown.
     Count(Option<u64>),
     /// Of a column of numbers.
     Number(f64),

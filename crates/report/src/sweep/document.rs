@@ -28,7 +28,7 @@ pub struct SweepDocument {
     pub refused: u64,
     /// The first ones that are not done.
     pub failures: Vec<SweepFailure>,
-    /// The largest energy balance of all runs; nothing where no run has one.
+    /// The largest energy balance of all runs; `None` if no run has one.
     pub max_energy_balance: Option<f64>,
     /// The run that has it.
     pub max_energy_balance_run: Option<u64>,

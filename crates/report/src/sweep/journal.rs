@@ -264,7 +264,7 @@ impl<'b> Content<'b> {
         content
     }
 
-    /// What its first line says; nothing if there is none yet.
+    /// What its first line says; `None` if there is none yet.
     fn plan(&self, path: &Path) -> Result<Option<SweepPlan>, JournalError> {
         let plan = match self.lines.first() {
             None if !self.has_damage => return Ok(None),

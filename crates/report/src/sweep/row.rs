@@ -122,25 +122,28 @@ pub struct SweepRow {
     pub motion: Option<SweepMotion>,
 }
 
-const COUNTS: [&str; 9] = [
-    "steps",
-    "rejected",
-    "evaluations",
-    "projections",
-    "events",
-    "rank",
-    "redundancy",
-    "not_unique",
-    "fragile",
+/// Columns of a run that began, with their values.
+type Columns<T, const N: usize> = [(&'static str, fn(&SweepMotion) -> T); N];
+
+const COUNTS: Columns<u64, 9> = [
+    ("steps", |m| m.steps),
+    ("rejected", |m| m.rejected),
+    ("evaluations", |m| m.evaluations),
+    ("projections", |m| m.projections),
+    ("events", |m| m.events),
+    ("rank", |m| m.rank),
+    ("redundancy", |m| m.redundancy),
+    ("not_unique", |m| m.not_unique),
+    ("fragile", |m| m.fragile),
 ];
-const NUMBERS: [&str; 7] = [
-    "seconds",
-    "max_position_residual",
-    "max_velocity_residual",
-    "energy_balance",
-    "start_correction",
-    "start_velocity_correction",
-    "t_state",
+const NUMBERS: Columns<f64, 7> = [
+    ("seconds", |m| m.seconds),
+    ("max_position_residual", |m| m.max_position_residual),
+    ("max_velocity_residual", |m| m.max_velocity_residual),
+    ("energy_balance", |m| m.energy_balance),
+    ("start_correction", |m| m.start_correction),
+    ("start_velocity_correction", |m| m.start_velocity_correction),
+    ("t_state", |m| m.t_state),
 ];
 const STATE: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
 const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
@@ -167,8 +170,8 @@ impl SweepPlan {
             .chain(self.keys.iter().cloned().map(column(Kind::Number)))
             .chain(own(&["status", "error", "method"], Kind::Text))
             .chain(own(&["t"], Kind::Number))
-            .chain(own(&COUNTS, Kind::Count))
-            .chain(own(&NUMBERS, Kind::Number))
+            .chain(COUNTS.map(|(name, _)| column(Kind::Count)(name.to_owned())))
+            .chain(NUMBERS.map(|(name, _)| column(Kind::Number)(name.to_owned())))
             .chain(of(&self.bodies, &STATE))
             .chain(of(&self.reactions, &EXTREME))
             .collect()
@@ -178,31 +181,14 @@ impl SweepPlan {
     pub(super) fn cells(&self, row: &SweepRow) -> Vec<Cell> {
         let motion = row.motion.as_ref();
         let number = |x: fn(&SweepMotion) -> f64| Cell::Number(motion.map_or(f64::NAN, x));
-        let count = |n: fn(&SweepMotion) -> u64| Cell::Count(motion.map(n));
         let mut cells = vec![Cell::Count(Some(row.run))];
         cells.extend(row.varied.iter().copied().map(Cell::Number));
         cells.push(Cell::Text(row.status.name().to_owned()));
         cells.push(Cell::line(&row.error));
         cells.push(Cell::line(motion.map_or("", |m| m.method)));
         cells.push(number(|m| m.t));
-        cells.extend([
-            count(|m| m.steps),
-            count(|m| m.rejected),
-            count(|m| m.evaluations),
-            count(|m| m.projections),
-            count(|m| m.events),
-            count(|m| m.rank),
-            count(|m| m.redundancy),
-            count(|m| m.not_unique),
-            count(|m| m.fragile),
-            number(|m| m.seconds),
-            number(|m| m.max_position_residual),
-            number(|m| m.max_velocity_residual),
-            number(|m| m.energy_balance),
-            number(|m| m.start_correction),
-            number(|m| m.start_velocity_correction),
-            number(|m| m.t_state),
-        ]);
+        cells.extend(COUNTS.map(|(_, of)| Cell::Count(motion.map(of))));
+        cells.extend(NUMBERS.map(|(_, of)| number(of)));
         match motion {
             Some(m) => {
                 cells.extend(m.state.iter().copied().map(Cell::Number));

@@ -56,7 +56,7 @@ pub struct NearlyRedundantDocument {
     pub direction: Vec<f64>,
 }
 
-/// The misalignment of which the effect is told (m).
+/// The misalignment whose effect is given (m).
 const MICROMETRE: f64 = 1e-6;
 
 /// Ranks at other configurations of the same component.
