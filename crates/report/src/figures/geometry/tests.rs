@@ -33,7 +33,7 @@ fn site(element: impl PlaneConstraint + 'static, drives: bool) -> super::Site {
         ],
         ..Description::default()
     };
-    let slots = element.element().spec().common.slots.len();
+    let slots = element.spec().common.slots.len();
     let bodies = [BodyRef::Body(0), BodyRef::Body(1), BodyRef::Ground][..slots].to_vec();
     if drives {
         description.drives.push(Drive {
