@@ -362,7 +362,7 @@ fn edge_frames_come_from_the_definitions() {
         ),
     ];
     for (joint, expected) in cases {
-        let name = joint.element.element().spec().common.name;
+        let name = joint.element.spec().common.name;
         let m = described(
             vec![body("a", 0.0, 0.0, angle), body("b", 1.0, 2.0, 0.0)],
             vec![joint],

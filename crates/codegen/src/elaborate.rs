@@ -7,85 +7,42 @@ mod condition;
 mod expression;
 mod function;
 mod inputs;
+mod model;
+mod scope;
 #[cfg(test)]
 mod tests;
+mod value;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::{Ident, TokenStream};
-use symbolic::{Derivation, Expr, Graph};
+use proc_macro2::Ident;
+use symbolic::{Expr, Graph};
 
 use crate::parse::{Definition, Kept, Param, ParamKind};
-use crate::vector::{Frame, Turn, Vector};
 pub(crate) use check::not_polynomial;
-pub(crate) use condition::{Comparison, Condition};
-use expression::Value;
 pub(crate) use inputs::{Inputs, Source};
-
-/// A definition as mathematics.
-pub(crate) struct Model {
-    pub(crate) g: Graph,
-    pub(crate) inputs: Inputs,
-    /// Total time derivative with the accelerations left out.
-    pub(crate) time: Derivation,
-    pub(crate) turns: Vec<Turn>,
-    /// Sub-expressions that have a name.
-    pub(crate) names: Vec<(Expr, String)>,
-    /// What is kept from the assembled start, in order.
-    pub(crate) kept: Vec<KeptValue>,
-    pub(crate) requirements: Vec<Condition>,
-    pub(crate) body: Body,
-}
-
-/// A value kept from the assembled start.
-pub(crate) struct KeptValue {
-    /// Name of its field.
-    pub(crate) field: String,
-    pub(crate) kind: Kept,
-    /// The inputs of kernels that stand for it.
-    pub(crate) symbols: Vec<Expr>,
-    /// Its value at the start.
-    pub(crate) values: Vec<Expr>,
-    /// The optional parameter that overrides it.
-    pub(crate) overridden_by: Option<Ident>,
-    /// Whether the value depends on the configuration.
-    pub(crate) of_start: bool,
-}
-
-/// What the definition defines.
-pub(crate) enum Body {
-    Constraint(ConstraintBody),
-    /// Laws and their coordinates.
-    Force(Vec<(Expr, Expr)>),
-}
-
-/// A constraint as mathematics.
-pub(crate) struct ConstraintBody {
-    /// Whether `rows` are Φ; otherwise they are Ψ·q̇ + ψ.
-    pub(crate) holonomic: bool,
-    pub(crate) rows: Vec<Expr>,
-    /// The text of each row, where errors point.
-    pub(crate) at: Vec<TokenStream>,
-    pub(crate) place: Vector,
-    pub(crate) component: Option<(Ident, Vector)>,
-    pub(crate) measures: Vec<(Ident, Expr)>,
-}
+pub(crate) use model::{Body, Comparison, Condition, ConstraintBody, KeptValue, Model};
+use scope::Scope;
+use value::Value;
 
 /// Names of fields, locals and patterns of the generated type: no parameter can have them.
 const RESERVED: [&str; 5] = ["motion", "measure_0", "reader", "arguments", "None"];
 
 /// Names of types and traits in the generated module: no definition can have them.
-const RESERVED_TYPES: [&str; 33] = [
+const RESERVED_TYPES: [&str; 36] = [
     "Argument",
     "ArgumentError",
     "Constraint",
     "ConstraintSpec",
     "Datum",
     "DatumShape",
+    "Definition",
     "Direction",
+    "Element",
     "Entry",
     "Err",
     "Force",
+    "ForceElement",
     "ForceSpec",
     "Level",
     "Line",
@@ -110,14 +67,6 @@ const RESERVED_TYPES: [&str; 33] = [
     "Variant",
     "Visitor",
 ];
-
-/// Names in scope, and which of them were used.
-struct Scope<'a> {
-    definition: &'a Definition,
-    model: Model,
-    values: BTreeMap<String, Value>,
-    used: BTreeSet<String>,
-}
 
 /// Elaborates a definition.
 ///
@@ -160,7 +109,7 @@ pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
         true => Body::Constraint(scope.constraint()?),
         false => Body::Force(scope.forces()?),
     };
-    scope.check_use()?;
+    check_use(&scope)?;
     Ok(scope.model)
 }
 
@@ -195,13 +144,14 @@ impl<'a> Scope<'a> {
             ParamKind::Point(slot) => {
                 let slot = self.slot(slot)?;
                 let pair = self.model.inputs.pair(&name);
-                self.name_rotated(slot, pair, &self.arm_name(p, slot));
+                self.model
+                    .name_rotated(slot, pair, &arm_name(self.definition, p, slot));
                 Value::Point { slot, pair }
             }
             ParamKind::Direction(slot) => {
                 let slot = self.slot(slot)?;
                 let pair = self.model.inputs.pair(&name);
-                self.name_rotated(slot, pair, &name);
+                self.model.name_rotated(slot, pair, &name);
                 Value::Direction { slot, pair }
             }
             ParamKind::GroundLine => {
@@ -231,29 +181,6 @@ impl<'a> Scope<'a> {
         })
     }
 
-    /// `arm_i` for the only point in slot i, `arm_s` for one of several.
-    fn arm_name(&self, p: &Param, slot: usize) -> String {
-        let here = |q: &&Param| match &q.kind {
-            ParamKind::Point(s) => *s == self.definition.slots[slot],
-            _ => false,
-        };
-        match self.definition.params.iter().filter(here).count() {
-            1 => format!("arm_{}", self.definition.slots[slot]),
-            _ => format!("arm_{}", p.name),
-        }
-    }
-
-    fn name_rotated(&mut self, slot: usize, pair: [Expr; 2], name: &str) {
-        let Model {
-            g, turns, names, ..
-        } = &mut self.model;
-        let vector = Vector::new(Frame::Body(slot), pair);
-        for (_, [x, y]) in vector.rotated_parts(g, turns) {
-            names.push((x, format!("{name}_x")));
-            names.push((y, format!("{name}_y")));
-        }
-    }
-
     fn declare(&mut self, name: &Ident, value: Value) -> syn::Result<()> {
         if self.definition.slots.contains(name) {
             return Err(syn::Error::new_spanned(
@@ -275,7 +202,7 @@ impl<'a> Scope<'a> {
         for b in &definition.bindings {
             let value = self.value(&b.value)?;
             let Some(kept) = &b.kept else {
-                self.name_value(&b.name.to_string(), &value);
+                self.model.name_value(&b.name.to_string(), &value);
                 self.declare(&b.name, value)?;
                 continue;
             };
@@ -291,25 +218,6 @@ impl<'a> Scope<'a> {
             self.declare(&b.name, value)?;
         }
         Ok(())
-    }
-
-    fn name_value(&mut self, name: &str, value: &Value) {
-        let pieces: Vec<(Expr, String)> = match value {
-            Value::Scalar(e) => vec![(*e, name.to_owned())],
-            Value::Pair { pair: [a, b], .. } => {
-                vec![(*a, format!("{name}_0")), (*b, format!("{name}_1"))]
-            }
-            Value::Vector(v) => {
-                let [x, y] = v.to_ground(&mut self.model.g, &self.model.turns);
-                vec![(x, format!("{name}_x")), (y, format!("{name}_y"))]
-            }
-            _ => Vec::new(),
-        };
-        // A local of this name would hide an argument.
-        let free = |name: &String| !inputs::ARGUMENTS.contains(&name.as_str()) && name != "None";
-        self.model
-            .names
-            .extend(pieces.into_iter().filter(|(_, name)| free(name)));
     }
 
     fn keep(
@@ -353,44 +261,32 @@ impl<'a> Scope<'a> {
         });
         Ok(value)
     }
+}
 
-    fn check_use(&self) -> syn::Result<()> {
-        let params = self.definition.params.iter().map(|p| &p.name);
-        let bindings = self.definition.bindings.iter().map(|b| &b.name);
-        match params
-            .chain(bindings)
-            .find(|name| !self.used.contains(&name.to_string()))
-        {
-            Some(name) => Err(syn::Error::new_spanned(
-                name,
-                format!("`{name}` is never used: use it or leave it out"),
-            )),
-            None => Ok(()),
-        }
+/// `arm_i` for the only point in slot i, `arm_s` for one of several.
+fn arm_name(definition: &Definition, p: &Param, slot: usize) -> String {
+    let here = |q: &&Param| match &q.kind {
+        ParamKind::Point(s) => *s == definition.slots[slot],
+        _ => false,
+    };
+    match definition.params.iter().filter(here).count() {
+        1 => format!("arm_{}", definition.slots[slot]),
+        _ => format!("arm_{}", p.name),
     }
 }
 
-impl Model {
-    /// Whether an expression depends on inputs of some origin.
-    pub(crate) fn depends_on(&self, e: Expr, origin: impl Fn(&Source) -> bool) -> bool {
-        self.g
-            .inputs(e)
-            .into_iter()
-            .any(|s| origin(self.inputs.source(s)))
-    }
-
-    /// Whether a kept value is computed from other numbers alone, so that it changes with them.
-    pub(crate) fn is_computed(&self, kept: &KeptValue) -> bool {
-        let reads_poses = |&e: &Expr| self.depends_on(e, |s| matches!(s, Source::Pose { .. }));
-        kept.overridden_by.is_none() && !kept.values.iter().any(reads_poses)
-    }
-
-    /// Whether a value depends on the configuration, directly or through kept values.
-    pub(crate) fn depends_on_start(&self, e: Expr) -> bool {
-        self.depends_on(e, |s| match s {
-            Source::Pose { .. } => true,
-            Source::Kept { field, .. } => self.kept.iter().any(|k| k.field == *field && k.of_start),
-            _ => false,
-        })
+/// Every name must be used.
+fn check_use(scope: &Scope<'_>) -> syn::Result<()> {
+    let params = scope.definition.params.iter().map(|p| &p.name);
+    let bindings = scope.definition.bindings.iter().map(|b| &b.name);
+    match params
+        .chain(bindings)
+        .find(|name| !scope.used.contains(&name.to_string()))
+    {
+        Some(name) => Err(syn::Error::new_spanned(
+            name,
+            format!("`{name}` is never used: use it or leave it out"),
+        )),
+        None => Ok(()),
     }
 }

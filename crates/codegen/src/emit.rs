@@ -8,11 +8,12 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use symbolic::{Counts, Derivation, Expr, Scalar};
 
-use crate::data::{Datum, derivations, of_measure, stored};
+use crate::data::{derivations, of_measure, stored};
 use crate::derive::{self, Component, ConstraintKernels, Sparse};
 use crate::elaborate::{Body, ConstraintBody, Model};
 use crate::kernel::kernel;
 use crate::parse::Definition;
+use parts::Type;
 
 /// The module of a constraint: its type and one type for the drive of each measure.
 pub(crate) fn constraint(
@@ -103,19 +104,6 @@ pub(crate) fn constraint(
     Ok(quote!(#uses #(#items)*))
 }
 
-/// What differs between a constraint and the drives of its measures.
-struct Type {
-    name: Ident,
-    rows: Vec<String>,
-    doc: Vec<String>,
-    component: Option<String>,
-    /// Measure and type of its drive.
-    drives: Vec<(Ident, Ident)>,
-    driven: bool,
-    scene_type: String,
-    data: Vec<Datum>,
-}
-
 fn constraint_type(
     d: &Definition,
     model: &Model,
@@ -139,16 +127,13 @@ fn constraint_type(
         .iter()
         .map(|(_, driver)| quote!(visitor.drive::<#driver>();));
 
-    let phi = method("phi", "Φ", model, &k.phi, POSITION);
+    let kernel_of = |name, what, outputs: &[Expr], s| method(name, what, model, outputs, s);
+    let sparse = |name, what, block: &Sparse, s| method(name, what, model, &values(block), s);
+    let phi = kernel_of("phi", "Φ", &k.phi, Signature::Position);
     let (constants, varying): (Vec<_>, Vec<_>) =
         k.c.iter().enumerate().partition(|(_, e)| e.constant);
-    let c_constant = indexed(
-        "c_constant",
-        "Constant entries of C",
-        model,
-        &constants,
-        Scalar::F64,
-    );
+    let what = "Constant entries of C";
+    let c_constant = indexed("c_constant", what, model, &constants, Scalar::F64);
     let c = indexed(
         "c",
         "Varying entries of C",
@@ -156,85 +141,58 @@ fn constraint_type(
         &varying,
         Scalar::Generic,
     );
-    let b = method("b", "b", model, &k.b, POSITION);
-    let gamma = method("gamma", "Γ", model, &k.gamma, VELOCITY);
-    let wrench = method(
-        "wrench",
-        "Entries of the wrench map",
-        model,
-        &values(&k.wrench),
-        POSITION,
-    );
-    let component = method(
-        "component",
-        "Coefficients of the named component",
-        model,
-        &k.component,
-        POSITION,
-    );
+    let b = kernel_of("b", "b", &k.b, Signature::Position);
+    let gamma = kernel_of("gamma", "Γ", &k.gamma, Signature::Velocity);
+    let what = "Entries of the wrench map";
+    let wrench = sparse("wrench", what, &k.wrench, Signature::Position);
+    let what = "Coefficients of the named component";
+    let component = kernel_of("component", what, &k.component, Signature::Position);
     let place = {
         let kernel = kernel(model, &k.place, Scalar::Generic);
         let doc = counted("The place of the reaction", kernel.counts);
         let (statements, [x, y]) = (&kernel.statements, [&kernel.outputs[0], &kernel.outputs[1]]);
         quote! {
             #[doc = #doc]
-            fn place<T: Ring>(&self, x: &[Pose<T>]) -> [T; 2] {
+            fn place(&self, x: &[Pose<T>]) -> [T; 2] {
                 #(#statements)*
                 [#x, #y]
             }
         }
     };
-    let d_force_dx = method(
-        "d_force_dx",
-        "∂(Cᵀλ)/∂x",
-        model,
-        &values(&k.d_force_dx),
-        FORCE,
-    );
-    let d_residual_dx = method(
-        "d_residual_dx",
-        "∂(C·a − Γ)/∂x",
-        model,
-        &values(&k.d_residual_dx),
-        RESIDUAL,
-    );
-    let d_gamma_dv = method(
-        "d_gamma_dv",
-        "∂Γ/∂v",
-        model,
-        &values(&k.d_gamma_dv),
-        VELOCITY,
-    );
-    let d_velocity_dx = method(
-        "d_velocity_dx",
-        "∂(C·v − b)/∂x",
-        model,
-        &values(&k.d_velocity_dx),
-        VELOCITY,
-    );
-    let d_phi_dp = method("d_phi_dp", "∂(λᵀΦ)/∂p", model, &k.d_phi_dp, FORCE);
-    let d_residual_dp = method(
-        "d_residual_dp",
-        "∂(λᵀ(C·a − Γ))/∂p",
-        model,
-        &k.d_residual_dp,
-        WORK,
-    );
+    let d_force_dx = sparse("d_force_dx", "∂(Cᵀλ)/∂x", &k.d_force_dx, Signature::Force);
+    let what = "∂(C·a − Γ)/∂x";
+    let d_residual_dx = sparse("d_residual_dx", what, &k.d_residual_dx, Signature::Residual);
+    let d_gamma_dv = sparse("d_gamma_dv", "∂Γ/∂v", &k.d_gamma_dv, Signature::Velocity);
+    let what = "∂(C·v − b)/∂x";
+    let d_velocity_dx = sparse("d_velocity_dx", what, &k.d_velocity_dx, Signature::Velocity);
+    let d_phi_dp = kernel_of("d_phi_dp", "∂(λᵀΦ)/∂p", &k.d_phi_dp, Signature::Force);
+    let what = "∂(λᵀ(C·a − Γ))/∂p";
+    let d_residual_dp = kernel_of("d_residual_dp", what, &k.d_residual_dp, Signature::Work);
     quote! {
         #structure
         #drives
 
-        // Kernels have one signature; not every definition uses every argument of it.
+        // Methods have one signature; not every definition uses every argument of it.
         #[allow(unused_variables)]
-        #[allow(clippy::too_many_arguments)]
         impl Constraint for #name {
             #spec
             #from_arguments
             fn visit_drives<V: Visitor>(visitor: &mut V) { #(#visit)* }
+            fn element<T: Ring>(&self) -> &dyn Element<T> { self }
+        }
+
+        #[allow(unused_variables)]
+        impl Definition for #name {
             #initialise
             #requirement
             #points
             #data
+        }
+
+        #[allow(unused_variables)]
+        #[allow(clippy::too_many_arguments)]
+        impl<T: Ring> Element<T> for #name {
+            fn spec(&self) -> &'static ConstraintSpec { &Self::SPEC }
             #phi
             #c_constant
             #c
@@ -272,21 +230,42 @@ pub(crate) fn force(
     let requirement = parts::requirement(&model);
     let points = parts::points(d);
     let q: Vec<Expr> = k.q.iter().map(|(_, e)| *e).collect();
-    let q = real_method("q", "Entries of Q", &model, &q);
-    let dq_dx = real_method("dq_dx", "∂Q/∂x", &model, &values(&k.dq_dx));
-    let dq_dv = real_method("dq_dv", "∂Q/∂v", &model, &values(&k.dq_dv));
+    let q = method("q", "Entries of Q", &model, &q, Signature::Velocity);
+    let dq_dx = method(
+        "dq_dx",
+        "∂Q/∂x",
+        &model,
+        &values(&k.dq_dx),
+        Signature::Velocity,
+    );
+    let dq_dv = method(
+        "dq_dv",
+        "∂Q/∂v",
+        &model,
+        &values(&k.dq_dv),
+        Signature::Velocity,
+    );
     let uses = parts::uses(runtime, false);
     Ok(quote! {
         #uses
         #structure
 
-        #[allow(unused_variables)]
         impl Force for #name {
             #spec
             #from_arguments
+            fn element<T: Real>(&self) -> &dyn ForceElement<T> { self }
+        }
+
+        #[allow(unused_variables)]
+        impl Definition for #name {
             #initialise
             #requirement
             #points
+        }
+
+        #[allow(unused_variables)]
+        impl<T: Real> ForceElement<T> for #name {
+            fn spec(&self) -> &'static ForceSpec { &Self::SPEC }
             #q
             #dq_dx
             #dq_dv
@@ -294,63 +273,33 @@ pub(crate) fn force(
     })
 }
 
-/// Arguments of a method beside `&self` and `out`.
+/// What a method takes besides `x`, `f` and `out`.
 #[derive(Clone, Copy)]
-struct Signature {
-    v: bool,
-    a: bool,
-    lambda: bool,
+enum Signature {
+    /// Nothing.
+    Position,
+    /// `v`
+    Velocity,
+    /// `lambda`
+    Force,
+    /// `v` and `a`
+    Residual,
+    /// `v`, `a` and `lambda`
+    Work,
 }
-
-const POSITION: Signature = Signature {
-    v: false,
-    a: false,
-    lambda: false,
-};
-const VELOCITY: Signature = Signature {
-    v: true,
-    a: false,
-    lambda: false,
-};
-const FORCE: Signature = Signature {
-    v: false,
-    a: false,
-    lambda: true,
-};
-const RESIDUAL: Signature = Signature {
-    v: true,
-    a: true,
-    lambda: false,
-};
-
-const WORK: Signature = Signature {
-    v: true,
-    a: true,
-    lambda: true,
-};
 
 fn method(name: &str, what: &str, model: &Model, outputs: &[Expr], s: Signature) -> TokenStream {
     let name = format_ident!("{name}");
     let kernel = kernel(model, outputs, Scalar::Generic);
     let doc = counted(what, kernel.counts);
-    let v = s.v.then(|| quote!(v: &[Twist<T>],));
-    let a = s.a.then(|| quote!(a: &[Twist<T>],));
-    let lambda = s.lambda.then(|| quote!(lambda: &[T],));
+    use Signature::{Force, Residual, Velocity, Work};
+    let v = matches!(s, Velocity | Residual | Work).then(|| quote!(v: &[Twist<T>],));
+    let a = matches!(s, Residual | Work).then(|| quote!(a: &[Twist<T>],));
+    let lambda = matches!(s, Force | Work).then(|| quote!(lambda: &[T],));
     let body = kernel.into_out();
     quote! {
         #[doc = #doc]
-        fn #name<T: Ring>(&self, x: &[Pose<T>], #v #a f: &[[T; 3]], #lambda out: &mut [T]) { #body }
-    }
-}
-
-fn real_method(name: &str, what: &str, model: &Model, outputs: &[Expr]) -> TokenStream {
-    let name = format_ident!("{name}");
-    let kernel = kernel(model, outputs, Scalar::Generic);
-    let doc = counted(what, kernel.counts);
-    let body = kernel.into_out();
-    quote! {
-        #[doc = #doc]
-        fn #name<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) { #body }
+        fn #name(&self, x: &[Pose<T>], #v #a f: &[[T; 3]], #lambda out: &mut [T]) { #body }
     }
 }
 
@@ -374,7 +323,7 @@ fn indexed(
     let signature = match scalar {
         Scalar::F64 => quote!(fn #name(&self, out: &mut [f64])),
         Scalar::Generic => {
-            quote!(fn #name<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]))
+            quote!(fn #name(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]))
         }
     };
     quote! {

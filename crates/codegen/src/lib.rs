@@ -13,6 +13,7 @@
 //! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods and by the data; laws → Q and its derivatives |
 //! | `kernel` | a list of expressions → one function with its operation count |
 //! | `emit` | kernels and facts → the text of a module |
+//! | `names` | names of types as names of modules and of scene types |
 //! | `nearest` | hints for misspelt names |
 
 mod data;
@@ -22,6 +23,7 @@ mod emit;
 mod identity;
 mod invocation;
 mod kernel;
+mod names;
 mod nearest;
 pub mod parse;
 #[cfg(test)]
@@ -32,6 +34,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 pub use invocation::Invocation;
+pub use names::{kebab_case, snake_case};
 pub use parse::{Definition, Kind};
 
 /// A definition with its generated module.
@@ -105,27 +108,4 @@ pub fn in_module(expansion: &Expansion) -> TokenStream {
         mod #module { #items }
         pub use #module::*;
     }
-}
-
-/// `PinInSlot` → `pin_in_slot`
-#[must_use]
-pub fn snake_case(name: &str) -> String {
-    separated(name, '_')
-}
-
-/// `PinInSlot` → `pin-in-slot`
-#[must_use]
-pub fn kebab_case(name: &str) -> String {
-    separated(name, '-')
-}
-
-fn separated(name: &str, separator: char) -> String {
-    let mut out = String::new();
-    for (k, c) in name.chars().enumerate() {
-        if c.is_uppercase() && k > 0 {
-            out.push(separator);
-        }
-        out.extend(c.to_lowercase());
-    }
-    out
 }

@@ -17,7 +17,7 @@ mod pfaff {
 }
 
 use joint_macro::{force, joint};
-use joints::{Constraint, Element, Force, Pose, Twist};
+use joints::{Constraint, Definition, Element, Force, ForceElement, Pose, Twist};
 
 joint! { plane EqualDistance(i, j, k) {
     /// The origin of body k is as far from the origin of body i as from the origin of body j:
@@ -69,8 +69,8 @@ fn equal_distance_by_hand() {
         .collect();
     assert_eq!(pattern, [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)]);
     let mut c = [f64::NAN; 6];
-    Constraint::c_constant(&joint, &mut c);
-    Constraint::c(&joint, &x, &[], &mut c);
+    Element::<f64>::c_constant(&joint, &mut c);
+    Element::c(&joint, &x, &[], &mut c);
     assert_eq!(c, [-2.0, -4.0, -6.0, 4.0, 8.0, 0.0]);
 
     // Γ = −2(ȧ·ȧ − ḃ·ḃ), ȧ = (2, 0), ḃ = (1, −1): −2(4 − 2).
@@ -188,7 +188,7 @@ fn names_of_arguments_hide_nothing() {
         x: 0.0,
         v: 0.0,
     };
-    Element::<f64>::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
+    Definition::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
     let mut phi = [0.0];
     Element::phi(&joint, &[Pose::new(3.0, 0.0, 0.5)], &[], &mut phi);
     // out = 1, None = 2: 4 + 2 + 0.5 − 3·2
@@ -204,7 +204,7 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
         x: 0.0,
         v: 0.0,
     };
-    Element::<f64>::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
+    Definition::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
     let named: Vec<&str> = Shadows::SPEC.data.iter().map(|d| d.name).collect();
     assert_eq!(named, ["lambda", "x"]);
     assert_eq!(Shadows::SPEC.n_data(), 2);
@@ -231,9 +231,9 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     assert_eq!(gradient, [0.0, -280.0]);
 
     // Other numbers are told again, and v = 5·4 follows them: 0 + 0 + 0.5 − 20.
-    Element::<f64>::set_data(&mut joint, &[5.0, 4.0]);
+    Definition::set_data(&mut joint, &[5.0, 4.0]);
     let mut numbers = [0.0; 2];
-    Element::<f64>::data(&joint, &mut numbers);
+    Definition::data(&joint, &mut numbers);
     assert_eq!(numbers, [5.0, 4.0]);
     let mut phi = [0.0];
     Element::phi(&joint, &[Pose::new(4.0, 0.0, 0.5)], &[], &mut phi);
@@ -270,7 +270,7 @@ fn quotients_of_data_have_their_derivatives() {
     ];
     let mut joint = Scaled::from_arguments(&arguments).expect("the arguments are right");
     let start = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
-    Element::<f64>::initialise(&mut joint, &start);
+    Definition::initialise(&mut joint, &start);
     let data: Vec<_> = Scaled::SPEC
         .data
         .iter()
@@ -285,7 +285,7 @@ fn quotients_of_data_have_their_derivatives() {
     ];
     assert_eq!(data, expected);
     let mut numbers = [0.0; 8];
-    Element::<f64>::data(&joint, &mut numbers);
+    Definition::data(&joint, &mut numbers);
     assert_eq!(numbers, [1.0, 2.0, 0.0, 1.0, 4.0, 3.0, 2.0, 0.2]);
 
     let x = [Pose::GROUND, Pose::new(6.0, 8.0, -0.5)];
@@ -310,8 +310,8 @@ fn quotients_of_data_have_their_derivatives() {
 
     // A rest that was given stays so where initial values are taken again.
     numbers[6] = 8.0;
-    Element::<f64>::set_data(&mut joint, &numbers);
-    Element::<f64>::initialise(&mut joint, &start);
+    Definition::set_data(&mut joint, &numbers);
+    Definition::initialise(&mut joint, &start);
     assert_eq!((joint.rest, joint.rest_0), (Some(8.0), 8.0));
 }
 
@@ -333,7 +333,7 @@ fn magnet_by_hand() {
     let x = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
     let mut q = [0.0; 4];
     assert_eq!(Magnet::SPEC.q, [0, 1, 3, 4]);
-    Force::q(&magnet, &x, &[Twist::zero(); 2], &[], &mut q);
+    ForceElement::q(&magnet, &x, &[Twist::zero(); 2], &[], &mut q);
     for (found, expected) in q.into_iter().zip([2.4, 3.2, -2.4, -3.2]) {
         // A handful of roundings of numbers of order 1 to 100.
         assert!((found - expected).abs() < 1e-13, "{found} {expected}");
@@ -353,11 +353,11 @@ fn conditions_keep_their_parentheses() {
         strength: 1.0,
         off: 1.0,
     };
-    assert!(!Force::requirement(&on, 0, &far));
-    assert!(Force::requirement(&on, 0, &near));
-    assert!(Force::requirement(&off, 0, &far));
-    assert!(!Force::requirement(&on, 0, &[Pose::GROUND; 2]));
-    assert!(Force::requirement(&off, 0, &[Pose::GROUND; 2]));
+    assert!(!Definition::requirement(&on, 0, &far));
+    assert!(Definition::requirement(&on, 0, &near));
+    assert!(Definition::requirement(&off, 0, &far));
+    assert!(!Definition::requirement(&on, 0, &[Pose::GROUND; 2]));
+    assert!(Definition::requirement(&off, 0, &[Pose::GROUND; 2]));
 }
 
 #[test]

@@ -44,51 +44,19 @@ mod failure;
 mod force;
 mod kernels;
 mod number;
+mod oracle;
 mod pattern;
 mod state;
 
 pub use block::Block;
 pub use case::{AWKWARD_CASES, Case, Kind, ORDINARY_CASES};
 pub use failure::{Failure, Property, Reference};
+pub use oracle::{DIFFERENCE_TOLERANCE, DUAL_TOLERANCE};
 
 use crate::constraint::Constraint;
 use crate::force::Force;
 use crate::generated::{plane_constraints, plane_forces};
-use crate::plane::{N_DOF, Pose};
-use crate::spec::{Shape, Spec};
 use crate::visitor::Visitor;
-use failure::fact;
-
-/// Against dual numbers and identities: both sides carry the round-off of some ten operations,
-/// about 1e-15, times up to 1e3 where coordinates or angles are that large.
-pub const DUAL_TOLERANCE: f64 = 1e-12;
-
-/// Against differences: the best step loses about a third of the digits of a first derivative, and
-/// extrapolation gives most of them back; second derivatives are the measure.
-pub const DIFFERENCE_TOLERANCE: f64 = 1e-9;
-
-/// A way to a reference, and how far it is trusted.
-#[derive(Clone, Copy)]
-struct Oracle {
-    reference: Reference,
-    tolerance: f64,
-    /// Magnitude of the numbers that go in, which round-off refers to where the result vanishes.
-    floor: f64,
-}
-
-/// A block that vanishes does so in every dual part, too.
-const DUAL_NUMBERS: Oracle = Oracle {
-    reference: Reference::DualNumbers,
-    tolerance: DUAL_TOLERANCE,
-    floor: 0.0,
-};
-
-/// Ordinary cases have coordinates, speeds and parameters of about 1.
-const DIFFERENCES: Oracle = Oracle {
-    reference: Reference::Differences,
-    tolerance: DIFFERENCE_TOLERANCE,
-    floor: 1.0,
-};
 
 /// Checks a constraint definition and the drives of its measures.
 ///
@@ -150,82 +118,4 @@ impl Visitor for Checks {
             self.result = check_force::<F>(self.seed);
         }
     }
-}
-
-/// Whether a definition relates bodies to each other, by what its spec says.
-fn is_internal(spec: &Spec) -> bool {
-    spec.slots.len() > 1 && !spec.parameters.iter().any(|p| p.shape == Shape::GroundLine)
-}
-
-/// `x`, `y` and rotation of a slot, by its name.
-fn column_name(slots: &[&str], column: usize) -> String {
-    format!(
-        "{}.{}",
-        slots[column / N_DOF],
-        ["x", "y", "rotation"][column % N_DOF]
-    )
-}
-
-/// Force and moment about the global origin of a generalised force on all slots.
-fn resultant(x: &[Pose], q: &[f64]) -> Block {
-    let mut sum = [0.0; N_DOF];
-    for (x, q) in x.iter().zip(q.chunks(N_DOF)) {
-        sum[0] += q[0];
-        sum[1] += q[1];
-        sum[2] += q[2] + x.x * q[1] - x.y * q[0];
-    }
-    Block::column(sum.to_vec())
-}
-
-/// Starts tried for one case before its requirements count as never met.
-const STARTS: u64 = 20;
-
-/// The constraint of a case, with a start where its requirements hold.
-fn assembled<K: Constraint>(case: &Case) -> Result<(K, Case), Failure> {
-    assemble(case, &K::SPEC.common, K::from_arguments, |k, count, x| {
-        Constraint::initialise(k, x);
-        (0..count).all(|r| Constraint::requirement(k, r, x))
-    })
-}
-
-/// The force of a case, with a start where its requirements hold.
-fn assembled_force<F: Force>(case: &Case) -> Result<(F, Case), Failure> {
-    assemble(case, &F::SPEC.common, F::from_arguments, |k, count, x| {
-        Force::initialise(k, x);
-        (0..count).all(|r| Force::requirement(k, r, x))
-    })
-}
-
-fn assemble<K>(
-    case: &Case,
-    spec: &Spec,
-    from_arguments: impl Fn(&[crate::Argument]) -> Result<K, crate::ArgumentError>,
-    initialise: impl Fn(&mut K, usize, &[Pose]) -> bool,
-) -> Result<(K, Case), Failure> {
-    let mut element = from_arguments(&case.arguments).map_err(|e| {
-        fact(
-            spec.name,
-            Property::Arguments,
-            e.to_string(),
-            [0.0, 1.0],
-            Some(case),
-        )
-    })?;
-    // One number beyond the requirements: it must hold too.
-    let count = spec.requirements.len() + 1;
-    let mut case = case.clone();
-    for attempt in 0..STARTS {
-        if initialise(&mut element, count, &case.start) {
-            return Ok((element, case));
-        }
-        case = case.with_another_start(attempt);
-    }
-    let entry = format!("none of {STARTS} starts meets {:?}", spec.requirements);
-    Err(fact(
-        spec.name,
-        Property::Requirements,
-        entry,
-        [0.0, 1.0],
-        Some(&case),
-    ))
 }

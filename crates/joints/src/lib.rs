@@ -9,7 +9,8 @@
 //! | [`plane`] | poses and twists of planar bodies |
 //! | [`spec`] | what a definition says of itself: rows, parameters, patterns, counts |
 //! | [`arguments`] | values for the parameters of a definition |
-//! | [`constraint`] | the traits of constraints, static and as objects |
+//! | [`definition`] | what constraints and forces store, as objects |
+//! | [`constraint`] | the traits of constraints: a definition as a type, and its kernels |
 //! | [`force`] | the same for forces |
 //! | [`visitor`] | all definitions, one after the other, with their types |
 //! | [`generated`] | one module for each file in `definitions/` |
@@ -19,6 +20,7 @@ pub mod arguments;
 #[cfg(feature = "conformance")]
 pub mod conformance;
 pub mod constraint;
+pub mod definition;
 pub mod force;
 pub mod generated;
 pub mod plane;
@@ -29,6 +31,7 @@ pub mod visitor;
 
 pub use arguments::{Argument, ArgumentError};
 pub use constraint::{Constraint, Element};
+pub use definition::Definition;
 pub use force::{Force, ForceElement};
 pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};

@@ -124,7 +124,7 @@ impl Direction {
         Some(Self([v[0] / length, v[1] / length]))
     }
 
-    /// Components as `Constraint::data` tells them, or changed a little, put back as they are: a
+    /// Components as `Definition::data` returns them, or changed a little, put back as they are: a
     /// derivative by one of them leaves the unit circle. For generated code.
     #[doc(hidden)]
     #[must_use]
@@ -154,7 +154,7 @@ impl Line {
         Some(Self { start, along })
     }
 
-    /// Start and direction as `Constraint::data` tells them, put back as they are; see
+    /// Start and direction as `Definition::data` returns them, put back as they are; see
     /// [`Direction::from_data`].
     #[doc(hidden)]
     #[must_use]

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use joints::conformance::Block;
 use joints::spec::Level;
-use joints::{Constraint, Force, Visitor};
+use joints::{Constraint, Definition, Force, ForceElement, Visitor};
 use table::{Golden, read};
 
 /// Least number of poses that pin Φ, a velocity row or a force.

@@ -100,10 +100,7 @@ impl<'m> Data<'m> {
     /// How many numbers all constraints store.
     #[must_use]
     pub fn count(self) -> usize {
-        let counts = self
-            .constraints()
-            .iter()
-            .map(|c| c.element.element().spec().n_data());
+        let counts = self.constraints().iter().map(|c| c.element.spec().n_data());
         counts.sum()
     }
 
@@ -116,7 +113,7 @@ impl<'m> Data<'m> {
         let mut numbers = Vec::new();
         let stated = has_tolerances(self.0).then(|| size_of(self.0, s));
         for (group, c) in self.constraints().iter().enumerate() {
-            let element = c.element.element();
+            let element = &c.element;
             numbers.clear();
             numbers.resize(element.spec().n_data(), 0.0);
             element.data(&mut numbers);
@@ -174,7 +171,7 @@ impl<'m> Data<'m> {
         let (mut still, mut slots, mut f) = (Vec::new(), Vec::new(), Vec::new());
         let mut own = Vec::new();
         for c in self.constraints() {
-            let element = c.element.element();
+            let element = &c.element;
             let count = element.spec().n_data();
             let lambda = &lambda[c.rows.clone()];
             if count > 0 && lambda.iter().any(|l| *l != 0.0) {
@@ -202,7 +199,7 @@ impl<'m> Data<'m> {
         let mut first = 0;
         let mut own = Vec::new();
         for c in self.constraints() {
-            let element = c.element.element();
+            let element = &c.element;
             let count = element.spec().n_data();
             if count > 0 && c.rows.start < m {
                 let lambda = &lambda[c.rows.clone()];
@@ -240,7 +237,7 @@ impl<'m> Data<'m> {
     pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
         let mut own = Vec::new();
         for c in self.constraints() {
-            let element = c.element.element();
+            let element = &c.element;
             let pattern = element.spec().d_force_dx;
             let lambda = &lambda[c.rows.clone()];
             if pattern.is_empty() || lambda.iter().all(|l| *l == 0.0) {
@@ -261,7 +258,7 @@ impl<'m> Data<'m> {
     /// The largest length that the points of a constraint are combined with (m): their own, the
     /// arms of its bodies, and where these stand.
     fn length_scale(self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
-        let points = c.element.element().spec().data.iter().filter_map(|datum| {
+        let points = c.element.spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];
             match datum.shape {
                 DatumShape::Point { .. } | DatumShape::KeptVector { .. } | DatumShape::Line => {

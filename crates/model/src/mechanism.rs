@@ -131,7 +131,7 @@ impl PlacedConstraint {
 
     /// Whether b and Φt of its rows may differ from zero.
     pub(crate) fn depends_on_time(&self) -> bool {
-        self.element.element().spec().rheonomic
+        self.element.spec().rheonomic
     }
 
     /// Whether Γ of its rows may differ from zero: C of the others is constant, so that `C·v̇ = 0`.

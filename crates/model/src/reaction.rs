@@ -93,14 +93,14 @@ impl<'a> Reactions<'a> {
     #[must_use]
     pub fn place(self, id: ConstraintId) -> [f64; 2] {
         let c = self.constraint(id);
-        c.element.element().place(c.site.x(&self.s.slots))
+        c.element.place(c.site.x(&self.s.slots))
     }
 
     /// The map `W` (3 × rows) with `[Fx, Fy, T] = W·λ`; allocates.
     #[must_use]
     pub fn wrench_map(self, id: ConstraintId) -> Matrix {
         let c = self.constraint(id);
-        let element = c.element.element();
+        let element = &c.element;
         let pattern = element.spec().wrench;
         let mut values = vec![0.0; pattern.len()];
         element.wrench(
@@ -123,7 +123,7 @@ impl<'a> Reactions<'a> {
             return;
         }
         let c = self.constraint(id);
-        let element = c.element.element();
+        let element = &c.element;
         let (x, f) = (c.site.x(&self.s.slots), c.site.f(&self.s.slots));
         let mut block = vec![0.0; group.spec.c.len()];
         element.c_constant(&mut block);
@@ -210,7 +210,7 @@ impl<'a> Reactions<'a> {
             return Some(self.wrench_map(id).row(k).to_vec());
         }
         let c = self.constraint(id);
-        let element = c.element.element();
+        let element = &c.element;
         (element.spec().component == Some(name)).then(|| {
             let mut coefficients = vec![0.0; c.rows.len()];
             let slots = &self.s.slots;

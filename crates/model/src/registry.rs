@@ -7,13 +7,8 @@ use joints::{
 };
 use linalg::Dd;
 
-/// A planar constraint as an object: kernels in `f64`, in double-double, on magnitudes and on
-/// recorded numbers.
-pub trait PlaneConstraint: Send + Sync {
-    /// Kernels for motion.
-    fn element(&self) -> &dyn Element<f64>;
-    /// The same, to set initial values.
-    fn element_mut(&mut self) -> &mut dyn Element<f64>;
+/// A planar constraint as an object: kernels in `f64` for motion, and in other numbers.
+pub trait PlaneConstraint: Element {
     /// Kernels for certificates.
     fn extended(&self) -> &dyn Element<Dd>;
     /// Kernels for bounds of the rounding of data.
@@ -25,20 +20,14 @@ pub trait PlaneConstraint: Send + Sync {
 }
 
 impl<K: Constraint> PlaneConstraint for K {
-    fn element(&self) -> &dyn Element<f64> {
-        self
-    }
-    fn element_mut(&mut self) -> &mut dyn Element<f64> {
-        self
-    }
     fn extended(&self) -> &dyn Element<Dd> {
-        self
+        self.element()
     }
     fn magnitude(&self) -> &dyn Element<Magnitude> {
-        self
+        self.element()
     }
     fn recorded(&self) -> &dyn Element<Recorded> {
-        self
+        self.element()
     }
     fn boxed(&self) -> Box<dyn PlaneConstraint> {
         Box::new(self.clone())
@@ -52,11 +41,7 @@ impl Clone for Box<dyn PlaneConstraint> {
 }
 
 /// A planar force as an object.
-pub trait PlaneForce: Send + Sync {
-    /// Its kernels.
-    fn element(&self) -> &dyn ForceElement<f64>;
-    /// The same, to set initial values.
-    fn element_mut(&mut self) -> &mut dyn ForceElement<f64>;
+pub trait PlaneForce: ForceElement {
     /// Kernels that write down their operations.
     fn recorded(&self) -> &dyn ForceElement<Recorded>;
     /// A copy.
@@ -64,14 +49,8 @@ pub trait PlaneForce: Send + Sync {
 }
 
 impl<K: Force> PlaneForce for K {
-    fn element(&self) -> &dyn ForceElement<f64> {
-        self
-    }
-    fn element_mut(&mut self) -> &mut dyn ForceElement<f64> {
-        self
-    }
     fn recorded(&self) -> &dyn ForceElement<Recorded> {
-        self
+        self.element()
     }
     fn boxed(&self) -> Box<dyn PlaneForce> {
         Box::new(self.clone())

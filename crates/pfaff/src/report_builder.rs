@@ -161,7 +161,7 @@ impl<'a> ReportBuilder<'a> {
         let drives = self.scene.description.drives.iter();
         drives
             .map(|drive| {
-                let spec = drive.element.element().spec();
+                let spec = drive.element.spec();
                 let start = drive.motion.jet(0.0)[0];
                 let pushes = spec.wrench.iter().any(|[component, _]| *component < 2);
                 DriveCurve {

@@ -10,13 +10,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use pfaff::model::Registry;
+use pfaff::Overrides;
 use pfaff::report::OutputDirectory;
 use pfaff::solvability::analyse;
-use pfaff::{Overrides, Study, StudyError};
-
-/// The scene that is built in.
-const SCENE: &str = include_str!("../robot-trolley.toml");
 
 /// The published results for the robot with its trolley: ranks, verdicts, three elimination
 /// variants, figures
@@ -39,7 +35,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
-    let study = read(&Overrides::default())?;
+    let study = variants::read(&Overrides::default())?;
     let mechanism = &study.prepared.mechanism;
     let start = analyse(mechanism, 0.0, &study.prepared.q)?;
     println!("{}", text::structure(&start));
@@ -60,9 +56,4 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
         println!("written: {}", path.display());
     }
     Ok(())
-}
-
-/// The scene with some rows chosen to be dropped.
-fn read(overrides: &Overrides) -> Result<Study, StudyError> {
-    Study::read("robot-trolley.toml", SCENE, &Registry::planar(), overrides)
 }

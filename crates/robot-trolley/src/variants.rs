@@ -5,9 +5,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use pfaff::dynamics::{MotionOptions, RowChoice, SceneCode, Summary};
-use pfaff::model::Reaction;
-use pfaff::{Overrides, Study};
+use pfaff::model::{Reaction, Registry};
+use pfaff::{Overrides, Study, StudyError};
 use robot_trolley::generated::automatic;
+
+/// The scene that is built in.
+const SCENE: &str = include_str!("../robot-trolley.toml");
 
 /// The published variants: rows to delete, counted from 1.
 pub(crate) const DELETED: [[usize; 2]; 3] = [[6, 21], [18, 21], [19, 21]];
@@ -35,6 +38,11 @@ pub(crate) struct Instant {
     pub(crate) reactions: Vec<Reaction>,
 }
 
+/// Reads the scene, with some rows chosen to be dropped.
+pub(crate) fn read(overrides: &Overrides) -> Result<Study, StudyError> {
+    Study::read("robot-trolley.toml", SCENE, &Registry::planar(), overrides)
+}
+
 /// Runs all variants.
 pub(crate) fn run() -> Result<Vec<Variant>, Box<dyn std::error::Error>> {
     DELETED.iter().map(|&deleted| run_one(deleted)).collect()
@@ -42,7 +50,7 @@ pub(crate) fn run() -> Result<Vec<Variant>, Box<dyn std::error::Error>> {
 
 fn run_one(deleted: [usize; 2]) -> Result<Variant, Box<dyn std::error::Error>> {
     let drop = deleted.map(|row| row - 1).to_vec();
-    let study = crate::read(&Overrides {
+    let study = read(&Overrides {
         drop: Some(drop.clone()),
         ..Overrides::default()
     })?;
@@ -51,7 +59,7 @@ fn run_one(deleted: [usize; 2]) -> Result<Variant, Box<dyn std::error::Error>> {
 
 /// The motion on generated code, with the rows (from 1) that it drops.
 pub(crate) fn generated() -> Result<Variant, Box<dyn std::error::Error>> {
-    let mut study = crate::read(&Overrides::default())?;
+    let mut study = read(&Overrides::default())?;
     let code: Arc<dyn SceneCode> = Arc::new(automatic::Code);
     study.prepared = study.prepared.with_code(code)?;
     let deleted = match study.prepared.decision.dropped[..] {

@@ -11,12 +11,10 @@ use crate::body::Bodies;
 use crate::connection;
 use crate::findings::Findings;
 use crate::function::Domain;
+use crate::key::TYPE;
 use crate::nearest::{list, nearest};
 use crate::place;
 use crate::table::Table;
-
-/// The key that names a definition.
-pub(crate) const TYPE: &str = "type";
 
 /// A definition of the registry.
 pub(crate) trait Definition {

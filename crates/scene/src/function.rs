@@ -5,10 +5,9 @@ use std::rc::Rc;
 
 use model::{Function, FunctionError};
 
-use crate::element::TYPE;
 use crate::field::{Field, all, as_number};
 use crate::findings::Findings;
-use crate::key::{Interval, Key, Takes};
+use crate::key::{Interval, Key, TYPE, Takes};
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 

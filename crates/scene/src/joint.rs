@@ -13,7 +13,7 @@ use crate::element::{self, Types};
 use crate::field::{Field, as_number};
 use crate::findings::Findings;
 use crate::function::{self, Domain};
-use crate::key::{Key, Takes};
+use crate::key::{Key, TYPE, Takes};
 use crate::nearest::{all, list, nearest};
 use crate::source_map::Entry;
 use crate::table::Table;
@@ -36,7 +36,7 @@ pub(crate) struct Known<'r> {
     pub(crate) name: String,
     /// Where its name stands.
     pub(crate) span: Range<usize>,
-    /// Its definition, if its type could be told.
+    /// Its definition, if its type is known.
     pub(crate) definition: Option<&'r ConstraintDefinition>,
     /// Its bodies and arguments, if all could be read.
     complete: Option<(Vec<BodyRef>, Vec<Argument>)>,
@@ -138,7 +138,7 @@ impl Drives {
         findings: &mut Findings,
     ) {
         let joint = joint(&mut table, joints, findings);
-        let measure = table.needed(element::TYPE, MEASURE, findings);
+        let measure = table.needed(TYPE, MEASURE, findings);
         let motion = table.required(&MOTION, findings);
         let motion = motion.and_then(|field| {
             let function = function::read(&field, domains, findings)?;

@@ -3,6 +3,9 @@
 
 use serde_json::Value;
 
+/// The key that names a definition.
+pub(crate) const TYPE: &str = "type";
+
 /// A key of a table.
 #[derive(Clone, Copy)]
 pub(crate) struct Key {

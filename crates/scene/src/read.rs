@@ -237,7 +237,7 @@ impl<'r> Parts<'r> {
         });
         let complete = self.drives.list.iter();
         let complete: HashMap<&str, _> = complete
-            .map(|drive| (drive.name.as_str(), drive.element.element().spec()))
+            .map(|drive| (drive.name.as_str(), drive.element.spec()))
             .collect();
         let drives = self.drive_names.iter().map(|name| ReactionNames {
             name,
@@ -252,7 +252,7 @@ impl<'r> Parts<'r> {
             && self.drives.list.len() == self.drive_names.len();
         let joints = self.joints.list.iter().map(|joint| &joint.element);
         let elements = joints.chain(self.drives.list.iter().map(|drive| &drive.element));
-        complete.then(|| elements.map(|e| e.element().spec().rows.len()).sum())
+        complete.then(|| elements.map(|e| e.spec().rows.len()).sum())
     }
 }
 

@@ -104,9 +104,9 @@ impl Scene {
     /// have.
     pub fn combination(&self, text: &str) -> Result<Combination, CombinationError> {
         let joints = self.description.joints.iter();
-        let joints = joints.map(|j| (&j.name, j.element.element().spec()));
+        let joints = joints.map(|j| (&j.name, j.element.spec()));
         let drives = self.description.drives.iter();
-        let drives = drives.map(|x| (&x.name, x.element.element().spec()));
+        let drives = drives.map(|x| (&x.name, x.element.spec()));
         let names = joints.chain(drives).map(|(name, spec)| ReactionNames {
             name,
             components: Some(components(spec)),

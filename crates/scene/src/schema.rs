@@ -10,17 +10,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::Registry;
 use serde_json::{Map, Value, json};
 
-use crate::element::TYPE;
 use crate::function::{KINDS, STEP_KEYS};
 use crate::joint::{DRIVE_KEYS, MEASURE};
-use crate::key::Key;
+use crate::key::{Key, TYPE};
 use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
 use crate::{body, simulate, start, tolerance};
 use element::{Kind, elements};
-use value::described;
+use value::{described, reference};
 
 /// The JSON schema (draft 2020-12) of scene files that name joints and forces of this registry.
 ///
@@ -88,10 +87,6 @@ pub fn schema(registry: &Registry) -> Value {
 enum Times {
     Once,
     Many,
-}
-
-fn reference(name: &str) -> Value {
-    json!({ "$ref": format!("#/$defs/{name}") })
 }
 
 /// A table with these keys and no others.

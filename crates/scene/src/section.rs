@@ -14,42 +14,41 @@ pub(crate) struct Section {
     pub(crate) doc: &'static str,
 }
 
-pub(crate) const SCENE: Section = Section {
-    name: "scene",
-    doc: "What the scene is called, and what holds for all of it",
-};
-pub(crate) const BODY: Section = Section {
-    name: "body",
-    doc: "Rigid bodies; the body `ground` is always there",
-};
-pub(crate) const JOINT: Section = Section {
-    name: "joint",
-    doc: "Joints between bodies, wheels and blades included; their rows stand in the order of this list",
-};
-pub(crate) const DRIVE: Section = Section {
-    name: "drive",
-    doc: "Joints whose measure is prescribed as a function of time",
-};
-pub(crate) const FORCE: Section = Section {
-    name: "force",
-    doc: "Springs, dampers, forces and torques",
-};
-pub(crate) const GROUP: Section = Section {
-    name: "group",
-    doc: "Reactions together, or sums of their components, whose verdict is wanted",
-};
-pub(crate) const START: Section = Section {
-    name: "start",
-    doc: "What assembling the start may and may not change",
-};
-pub(crate) const SIMULATE: Section = Section {
-    name: "simulate",
-    doc: "What a run does: how long, how exactly, by which method",
-};
-pub(crate) const OUTPUT: Section = Section {
-    name: "output",
-    doc: "What is written; what is not wanted is not computed",
-};
+impl Section {
+    const fn new(name: &'static str, doc: &'static str) -> Self {
+        Self { name, doc }
+    }
+}
+
+pub(crate) const SCENE: Section = Section::new(
+    "scene",
+    "What the scene is called, and what holds for all of it",
+);
+pub(crate) const BODY: Section =
+    Section::new("body", "Rigid bodies; the body `ground` is always there");
+pub(crate) const JOINT: Section = Section::new(
+    "joint",
+    "Joints between bodies, wheels and blades included; their rows stand in the order of this list",
+);
+pub(crate) const DRIVE: Section = Section::new(
+    "drive",
+    "Joints whose measure is prescribed as a function of time",
+);
+pub(crate) const FORCE: Section = Section::new("force", "Springs, dampers, forces and torques");
+pub(crate) const GROUP: Section = Section::new(
+    "group",
+    "Reactions together, or sums of their components, whose verdict is wanted",
+);
+pub(crate) const START: Section =
+    Section::new("start", "What assembling the start may and may not change");
+pub(crate) const SIMULATE: Section = Section::new(
+    "simulate",
+    "What a run does: how long, how exactly, by which method",
+);
+pub(crate) const OUTPUT: Section = Section::new(
+    "output",
+    "What is written; what is not wanted is not computed",
+);
 
 /// The name of what a table of a list describes.
 pub(crate) const NAME: Key = Key::required("name", "a text", Takes::Name)

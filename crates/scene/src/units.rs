@@ -1,4 +1,4 @@
-//! Numbers with units, as people write them. The format has none: what is meant is told in its
+//! Numbers with units, as people write them. The format has none: what is meant is said in its
 //! units, so that advice can be followed as it is.
 
 use std::f64::consts::PI;

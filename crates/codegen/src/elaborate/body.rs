@@ -4,7 +4,9 @@ use proc_macro2::TokenStream;
 use quote::ToTokens;
 use symbolic::Expr;
 
-use super::{ConstraintBody, Scope, check};
+use super::check;
+use super::model::ConstraintBody;
+use super::scope::Scope;
 use crate::parse::Definition;
 
 /// A scalar row with the text that states it.

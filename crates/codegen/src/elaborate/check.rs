@@ -3,13 +3,13 @@
 
 use symbolic::{Derivation, Expr, Node};
 
-use super::expression::Value;
-use super::{Model, Scope, Source};
+use super::inputs::Source;
+use super::model::Model;
 
 /// What is refused, and why.
 pub(super) struct Refusal {
-    bad: fn(&mut Model, Expr) -> bool,
-    why: &'static str,
+    pub(super) bad: fn(&mut Model, Expr) -> bool,
+    pub(super) why: &'static str,
 }
 
 /// Values kept from the start, and conditions on it.
@@ -157,81 +157,4 @@ pub(crate) fn not_polynomial(model: &mut Model, e: Expr) -> bool {
         stack.extend(model.g.children(e));
     }
     false
-}
-
-impl<'a> Scope<'a> {
-    /// Applies refusals to the value of `e`.
-    pub(super) fn refuse_all(&mut self, e: &'a syn::Expr, refusals: &[Refusal]) -> syn::Result<()> {
-        let value = self.value(e)?;
-        self.refuse(e, &value, refusals)
-    }
-
-    /// Applies refusals to `value`, which is that of `e`.
-    pub(super) fn refuse(
-        &mut self,
-        e: &'a syn::Expr,
-        value: &Value,
-        refusals: &[Refusal],
-    ) -> syn::Result<()> {
-        for r in refusals {
-            let mut scalars = value.scalars().into_iter();
-            if scalars.any(|s| (r.bad)(&mut self.model, s)) {
-                let at = self.culprit(e, r);
-                return Err(syn::Error::new_spanned(at, r.why));
-            }
-        }
-        Ok(())
-    }
-
-    fn is_bad(&mut self, e: &'a syn::Expr, r: &Refusal) -> bool {
-        match self.value(e) {
-            Ok(value) => value
-                .scalars()
-                .into_iter()
-                .any(|s| (r.bad)(&mut self.model, s)),
-            Err(_) => false,
-        }
-    }
-
-    /// The smallest part of `e` that is bad.
-    fn culprit(&mut self, e: &'a syn::Expr, r: &Refusal) -> &'a syn::Expr {
-        match self.parts(e).into_iter().find(|part| self.is_bad(part, r)) {
-            Some(part) => self.culprit(part, r),
-            None => e,
-        }
-    }
-
-    /// What an expression is made of; for the name of a `let`, what the name stands for.
-    fn parts(&self, e: &'a syn::Expr) -> Vec<&'a syn::Expr> {
-        match e {
-            syn::Expr::Paren(inner) => vec![&inner.expr],
-            syn::Expr::Group(inner) => vec![&inner.expr],
-            syn::Expr::Unary(unary) => vec![&unary.expr],
-            syn::Expr::Binary(binary) => vec![&binary.left, &binary.right],
-            syn::Expr::Call(call) => call.args.iter().collect(),
-            syn::Expr::Index(index) => vec![&index.expr],
-            syn::Expr::Array(array) => array.elems.iter().collect(),
-            syn::Expr::Path(path) => {
-                let lets = self.definition.bindings.iter();
-                lets.filter(|b| b.kept.is_none() && path.path.is_ident(&b.name))
-                    .map(|b| &b.value)
-                    .collect()
-            }
-            _ => Vec::new(),
-        }
-    }
-}
-
-impl Value {
-    fn scalars(&self) -> Vec<Expr> {
-        match self {
-            Self::Scalar(e) => vec![*e],
-            Self::Vector(v) => v.components().collect(),
-            Self::Pair { pair, .. } | Self::Point { pair, .. } | Self::Direction { pair, .. } => {
-                pair.to_vec()
-            }
-            Self::Line { start, along } => start.iter().chain(along).copied().collect(),
-            Self::List(values) => values.iter().flat_map(Self::scalars).collect(),
-        }
-    }
 }

@@ -1,25 +1,10 @@
 //! Conditions on the assembled start.
 
-use symbolic::Expr;
 use syn::BinOp;
 
-use super::{Scope, check};
-
-/// A condition on the start.
-pub(crate) enum Condition {
-    Compare(Comparison, Expr, Expr),
-    And(Box<Condition>, Box<Condition>),
-    Or(Box<Condition>, Box<Condition>),
-}
-
-/// How two scalars are compared.
-#[derive(Clone, Copy)]
-pub(crate) enum Comparison {
-    Equal,
-    NotEqual,
-    Greater,
-    Less,
-}
+use super::check;
+use super::model::{Comparison, Condition};
+use super::scope::Scope;
 
 impl<'a> Scope<'a> {
     pub(super) fn condition(&mut self, e: &'a syn::Expr) -> syn::Result<Condition> {

@@ -4,8 +4,11 @@ use proc_macro2::Ident;
 use symbolic::{Expr, Node};
 use syn::{BinOp, Lit, UnOp};
 
-use super::Scope;
+use super::check::Refusal;
+use super::scope::Scope;
+use super::value::Value;
 use crate::nearest::hint;
+use crate::parse::Definition;
 use crate::vector::Vector;
 
 /// Magnitudes of numbers: products of a few of them, and of their derivatives, are far from
@@ -14,48 +17,6 @@ const NUMBERS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// Highest power; what needs more is no joint.
 const POWER: u32 = 32;
-
-/// The value of an expression, with its shape.
-#[derive(Clone, Debug)]
-pub(crate) enum Value {
-    Scalar(Expr),
-    Vector(Vector),
-    /// Two components in the frame of a body.
-    Pair {
-        slot: usize,
-        pair: [Expr; 2],
-    },
-    /// A point parameter.
-    Point {
-        slot: usize,
-        pair: [Expr; 2],
-    },
-    /// A direction parameter.
-    Direction {
-        slot: usize,
-        pair: [Expr; 2],
-    },
-    /// A line of the ground.
-    Line {
-        start: [Expr; 2],
-        along: [Expr; 2],
-    },
-    List(Vec<Value>),
-}
-
-impl Value {
-    pub(crate) fn shape(&self) -> &'static str {
-        match self {
-            Self::Scalar(_) => "a scalar",
-            Self::Vector(_) => "a vector",
-            Self::Pair { .. } => "a pair of components in a frame",
-            Self::Point { .. } => "a point parameter",
-            Self::Direction { .. } => "a direction parameter",
-            Self::Line { .. } => "a line",
-            Self::List(_) => "a list",
-        }
-    }
-}
 
 impl<'a> Scope<'a> {
     /// The value of an expression.
@@ -287,6 +248,70 @@ impl<'a> Scope<'a> {
         list.into_iter().nth(at).ok_or_else(|| {
             syn::Error::new_spanned(&e.index, format!("there are {n} entries, counted from 0"))
         })
+    }
+
+    /// Applies refusals to the value of `e`.
+    pub(super) fn refuse_all(&mut self, e: &'a syn::Expr, refusals: &[Refusal]) -> syn::Result<()> {
+        let value = self.value(e)?;
+        self.refuse(e, &value, refusals)
+    }
+
+    /// Applies refusals to `value`, which is that of `e`.
+    pub(super) fn refuse(
+        &mut self,
+        e: &'a syn::Expr,
+        value: &Value,
+        refusals: &[Refusal],
+    ) -> syn::Result<()> {
+        for r in refusals {
+            let mut scalars = value.scalars().into_iter();
+            if scalars.any(|s| (r.bad)(&mut self.model, s)) {
+                let at = self.culprit(e, r);
+                return Err(syn::Error::new_spanned(at, r.why));
+            }
+        }
+        Ok(())
+    }
+
+    fn is_bad(&mut self, e: &'a syn::Expr, r: &Refusal) -> bool {
+        match self.value(e) {
+            Ok(value) => value
+                .scalars()
+                .into_iter()
+                .any(|s| (r.bad)(&mut self.model, s)),
+            Err(_) => false,
+        }
+    }
+
+    /// The smallest part of `e` that is bad.
+    fn culprit(&mut self, e: &'a syn::Expr, r: &Refusal) -> &'a syn::Expr {
+        match parts(self.definition, e)
+            .into_iter()
+            .find(|part| self.is_bad(part, r))
+        {
+            Some(part) => self.culprit(part, r),
+            None => e,
+        }
+    }
+}
+
+/// What an expression is made of; for the name of a `let`, what the name stands for.
+fn parts<'a>(definition: &'a Definition, e: &'a syn::Expr) -> Vec<&'a syn::Expr> {
+    match e {
+        syn::Expr::Paren(inner) => vec![&inner.expr],
+        syn::Expr::Group(inner) => vec![&inner.expr],
+        syn::Expr::Unary(unary) => vec![&unary.expr],
+        syn::Expr::Binary(binary) => vec![&binary.left, &binary.right],
+        syn::Expr::Call(call) => call.args.iter().collect(),
+        syn::Expr::Index(index) => vec![&index.expr],
+        syn::Expr::Array(array) => array.elems.iter().collect(),
+        syn::Expr::Path(path) => {
+            let lets = definition.bindings.iter();
+            lets.filter(|b| b.kept.is_none() && path.path.is_ident(&b.name))
+                .map(|b| &b.value)
+                .collect()
+        }
+        _ => Vec::new(),
     }
 }
 

@@ -3,8 +3,10 @@
 use proc_macro2::Ident;
 use symbolic::Function;
 
-use super::expression::{Value, wrong};
-use super::{Scope, check};
+use super::check;
+use super::expression::wrong;
+use super::scope::Scope;
+use super::value::Value;
 use crate::nearest::{hint, list};
 use crate::vector::{Frame, Vector};
 

@@ -225,7 +225,7 @@ impl Inputs {
     }
 
     /// A new input. Different inputs have different names, whatever the author called them: the
-    /// point `s_i` and a length `s_i_x` are told apart by an underscore.
+    /// point `s_i` and a length `s_i_x` are distinguished by an underscore.
     fn add(&mut self, g: &mut Graph, name: &str, source: Source) -> Expr {
         let mut name = name.to_owned();
         while !self.taken.insert(name.clone()) {

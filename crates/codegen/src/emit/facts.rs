@@ -3,11 +3,11 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::{Type, data, parts};
+use super::{data, parts};
 use crate::derive::{ConstraintKernels, ForceKernels, N_DOF, Sparse};
 use crate::elaborate::{ConstraintBody, Model, Source};
 use crate::parse::{Definition, Param, ParamKind};
-use parts::index;
+use parts::{Type, index};
 
 pub(super) fn constraint_spec(
     d: &Definition,

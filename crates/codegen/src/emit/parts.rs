@@ -4,10 +4,24 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 use symbolic::{Expr, Scalar};
 
+use crate::data::Datum;
 use crate::elaborate::{Comparison, Condition, KeptValue, Model};
-use crate::kebab_case;
 use crate::kernel::kernel;
+use crate::names::kebab_case;
 use crate::parse::{Definition, Kept, Param, ParamKind};
+
+/// What differs between a constraint and the drives of its measures.
+pub(super) struct Type {
+    pub(super) name: Ident,
+    pub(super) rows: Vec<String>,
+    pub(super) doc: Vec<String>,
+    pub(super) component: Option<String>,
+    /// Measure and type of its drive.
+    pub(super) drives: Vec<(Ident, Ident)>,
+    pub(super) driven: bool,
+    pub(super) scene_type: String,
+    pub(super) data: Vec<Datum>,
+}
 
 /// `displacement` → `Displacement`
 pub(super) fn camel(name: &Ident) -> String {
@@ -32,7 +46,7 @@ pub(super) fn scene_type(d: &Definition) -> String {
 pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
     let (traits, specs) = match constraint {
         true => (
-            quote!(Constraint, Ring, Visitor),
+            quote!(Constraint, Definition, Element, Ring, Visitor),
             quote!(
                 ConstraintSpec,
                 Datum,
@@ -50,7 +64,7 @@ pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
             ),
         ),
         false => (
-            quote!(Force, Real),
+            quote!(Definition, Force, ForceElement, Real),
             quote!(ForceSpec, Parameter, Shape, Spec, Unit, Variant),
         ),
     };

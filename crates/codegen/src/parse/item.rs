@@ -6,7 +6,7 @@ use syn::punctuated::Punctuated;
 use syn::{Attribute, Ident, LitStr, Token, braced, bracketed, parenthesized};
 
 use super::kind::{Initial, doc_lines};
-use super::{Binding, Definition, Kind, Param, name};
+use super::tree::{Binding, Definition, Kind, Param, name};
 use crate::nearest::hint;
 
 mod kw {

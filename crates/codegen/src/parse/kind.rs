@@ -4,7 +4,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Expr, Ident, Token, bracketed};
 
-use super::{Binding, Kept, Param, ParamKind, name};
+use super::tree::{Binding, Kept, Param, ParamKind, name};
 use crate::nearest::hint;
 
 /// Units that a parameter may have: the variants of `joints::spec::Unit`, `PerLength` left out.

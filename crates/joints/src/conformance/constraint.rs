@@ -1,5 +1,6 @@
 //! The properties of one constraint definition.
 
+mod check;
 mod data;
 mod derivatives;
 mod identities;
@@ -7,13 +8,14 @@ mod identities;
 use super::block::Block;
 use super::case::{Case, Kind};
 use super::derivative::{Differences, DualNumbers};
-use super::failure::{Claim, Failure, Judge, Property, Reference, fact};
+use super::failure::{Failure, Property, fact};
 use super::kernels;
+use super::oracle::{DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, assembled};
 use super::pattern::Pattern;
-use super::{DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, assembled, column_name};
 use crate::constraint::Constraint;
 use crate::plane::N_DOF;
 use crate::spec::{Level, Row};
+use check::Check;
 
 /// All cases of one definition.
 pub(super) fn check<K: Constraint>(seed: u64) -> Result<(), Failure> {
@@ -62,12 +64,6 @@ pub(super) fn check<K: Constraint>(seed: u64) -> Result<(), Failure> {
     }
 }
 
-/// One case of one definition.
-struct Check<'a, K> {
-    constraint: &'a K,
-    case: &'a Case,
-}
-
 impl<K: Constraint> Check<'_, K> {
     fn all(&self) -> Result<(), Failure> {
         self.writes()?;
@@ -87,48 +83,6 @@ impl<K: Constraint> Check<'_, K> {
             self.rigid_motion()?;
         }
         Ok(())
-    }
-
-    fn judge(&self) -> Judge<'_> {
-        Judge {
-            definition: K::SPEC.common.name,
-            case: self.case,
-        }
-    }
-
-    /// The entry in words.
-    fn entry(&self, property: Property, row: usize, column: usize) -> String {
-        let n = kernels::shape::<K>()[1];
-        let row_name = |row: usize| format!("row `{}`", K::SPEC.rows[row].name);
-        let dof = |column: usize| column_name(K::SPEC.common.slots, column % n);
-        match property {
-            Property::C => format!("{}, column {}", row_name(row), dof(column)),
-            Property::DForceDx => {
-                format!(
-                    "row {}, column {}, multipliers {}",
-                    dof(row),
-                    dof(column),
-                    column / n
-                )
-            }
-            Property::DResidualDx | Property::DGammaDv | Property::DVelocityDx => {
-                format!(
-                    "{}, column {}, motion {}",
-                    row_name(row),
-                    dof(column),
-                    column / n
-                )
-            }
-            Property::Velocity | Property::Gamma | Property::GammaFromPhi => {
-                format!("{}, motion {column}", row_name(row))
-            }
-            Property::Wrench => format!("{}, {}", ["Fx", "Fy", "T"][row], row_name(column)),
-            Property::Balance => {
-                format!("sum of {}, {}", ["Fx", "Fy", "T"][row], row_name(column))
-            }
-            Property::Place => format!("{}, column {}", ["x", "y"][row], dof(column)),
-            _ => row_name(row),
-        }
     }
 
     fn writes(&self) -> Result<(), Failure> {
@@ -166,37 +120,6 @@ impl<K: Constraint> Check<'_, K> {
                 ))
             }
             None => Ok(()),
-        }
-    }
-
-    /// Equality up to what an error of the coordinates can do.
-    fn identity(&self, property: Property, found: &Block, expected: &Block) -> Result<(), Failure> {
-        let claim = Claim {
-            property,
-            reference: Reference::Identity,
-            found,
-            expected,
-            tolerance: DUAL_TOLERANCE,
-            floor: self.scale(),
-        };
-        self.judge()
-            .decide(&claim, |row, column| self.entry(property, row, column))
-    }
-
-    /// What a relative error of 1 in the coordinates does to Φ and, the rows of C having a size of
-    /// about one length, to C.
-    fn scale(&self) -> f64 {
-        let c = kernels::c(self.constraint, &self.case.x, &self.case.f);
-        c.largest().max(1.0) * self.case.size()
-    }
-
-    fn phi_at_start(&self) -> Block {
-        match K::SPEC.level {
-            Level::Holonomic => {
-                let f = vec![[0.0; 3]; self.case.f.len()];
-                kernels::phi(self.constraint, &self.case.start, &f)
-            }
-            Level::Nonholonomic => Block::filled(K::SPEC.rows.len(), 1, 0.0),
         }
     }
 

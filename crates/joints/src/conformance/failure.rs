@@ -191,7 +191,7 @@ pub(super) struct Claim<'a> {
 }
 
 impl Judge<'_> {
-    /// Nothing if the claim holds, else the worst entry, named by `entry`.
+    /// Returns the worst entry if the claim does not hold, named by `entry`.
     pub(super) fn decide(
         &self,
         claim: &Claim<'_>,

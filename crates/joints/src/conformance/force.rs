@@ -6,12 +6,12 @@ use super::derivative::{Curve, Differences, Differentiate, DualNumbers};
 use super::failure::{Claim, Failure, Judge, Property, Reference, fact};
 use super::kernels;
 use super::number::Number;
-use super::pattern::Pattern;
-use super::state::{Along, State};
-use super::{
+use super::oracle::{
     DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, Oracle, assembled_force, column_name, is_internal,
     resultant,
 };
+use super::pattern::Pattern;
+use super::state::{Along, State};
 use crate::force::Force;
 use crate::plane::{N_DOF, Twist};
 

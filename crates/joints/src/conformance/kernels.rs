@@ -37,7 +37,7 @@ pub(super) fn c_pattern<K: Constraint>() -> Vec<[usize; 2]> {
 
 pub(super) fn phi<T: Ring>(k: &impl Constraint, x: &[Pose<T>], f: &[[T; 3]]) -> Block<T> {
     let mut out = unwritten(rows(k));
-    k.phi(x, f, &mut out);
+    k.element::<T>().phi(x, f, &mut out);
     Block::column(out)
 }
 
@@ -50,7 +50,7 @@ pub(super) fn c_entries<T: Ring, K: Constraint>(k: &K, x: &[Pose<T>], f: &[[T; 3
     let mut constant = unwritten::<f64>(K::SPEC.c.len());
     k.c_constant(&mut constant);
     let mut varying = unwritten(K::SPEC.c.len());
-    k.c(x, f, &mut varying);
+    k.element::<T>().c(x, f, &mut varying);
     let both = K::SPEC.c.iter().zip(constant.iter().zip(&varying));
     both.map(|(e, (&c, &v))| if e.constant { T::from(c) } else { v })
         .collect()
@@ -65,7 +65,7 @@ pub(super) fn b<T: Ring, K: Constraint>(k: &K, x: &[Pose<T>], f: &[[T; 3]]) -> B
         true => unwritten(rows(k)),
         false => vec![T::from(0.0); rows(k)],
     };
-    k.b(x, f, &mut out);
+    k.element::<T>().b(x, f, &mut out);
     Block::column(out)
 }
 
@@ -76,7 +76,7 @@ pub(super) fn gamma<T: Ring>(
     f: &[[T; 3]],
 ) -> Block<T> {
     let mut out = unwritten(rows(k));
-    k.gamma(x, v, f, &mut out);
+    k.element::<T>().gamma(x, v, f, &mut out);
     Block::column(out)
 }
 
@@ -151,7 +151,7 @@ pub(super) fn d_phi_dp<T: Ring, K: Constraint>(
     lambda: &[T],
 ) -> Block<T> {
     let mut out = unwritten(K::SPEC.n_data());
-    k.d_phi_dp(x, f, lambda, &mut out);
+    k.element::<T>().d_phi_dp(x, f, lambda, &mut out);
     Block::column(out)
 }
 
@@ -169,7 +169,7 @@ pub(super) fn d_residual_dp<K: Constraint>(
 /// The generalised force, all degrees of freedom of all slots.
 pub(super) fn q<T: Real, K: Force>(k: &K, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]]) -> Block<T> {
     let mut out = unwritten(K::SPEC.q.len());
-    k.q(x, v, f, &mut out);
+    k.element::<T>().q(x, v, f, &mut out);
     let pattern: Vec<[usize; 2]> = K::SPEC.q.iter().map(|&row| [row, 0]).collect();
     scatter([N_DOF * K::SPEC.common.slots.len(), 1], &pattern, &out)
 }

@@ -4,7 +4,10 @@
 use joints::conformance::{Failure, Property, check_constraint, check_force};
 use joints::generated::{Fixed, PinInSlotDisplacementDrive, SpringDamper, Velocity};
 use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
-use joints::{Argument, ArgumentError, Constraint, Force, Pose, Real, Ring, Twist, Visitor};
+use joints::{
+    Argument, ArgumentError, Constraint, Definition, Element, Force, ForceElement, Pose, Real,
+    Ring, Twist, Visitor,
+};
 
 use crate::SEED;
 
@@ -70,6 +73,12 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
         K::from_arguments(arguments).map(Self)
     }
     fn visit_drives<V: Visitor>(_: &mut V) {}
+    fn element<T: Ring>(&self) -> &dyn Element<T> {
+        self
+    }
+}
+
+impl<K: Constraint, const WRONG: u8> Definition for Mutant<K, WRONG> {
     fn initialise(&mut self, x: &[Pose]) {
         if WRONG != wrong::INITIALISE {
             self.0.initialise(x);
@@ -103,51 +112,57 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
             self.0.set_data(&numbers);
         }
     }
-    fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.phi(x, f, out);
+}
+
+impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
+    fn spec(&self) -> &'static ConstraintSpec {
+        &<Self as Constraint>::SPEC
+    }
+    fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().phi(x, f, out);
         change(out, WRONG == wrong::PHI);
     }
     fn c_constant(&self, out: &mut [f64]) {
-        self.0.c_constant(out);
+        self.0.element::<T>().c_constant(out);
         change(out, WRONG == wrong::C_CONSTANT);
     }
-    fn c<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+    fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         if WRONG != wrong::C_UNWRITTEN {
-            self.0.c(x, f, out);
+            self.0.element::<T>().c(x, f, out);
         }
         change(out, WRONG == wrong::C);
     }
-    fn b<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.b(x, f, out);
+    fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().b(x, f, out);
         change(out, WRONG == wrong::B);
     }
-    fn gamma<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.gamma(x, v, f, out);
+    fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().gamma(x, v, f, out);
         change(out, WRONG == wrong::GAMMA);
     }
-    fn wrench<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.wrench(x, f, out);
+    fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().wrench(x, f, out);
         change(out, WRONG == wrong::WRENCH);
     }
-    fn component<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.component(x, f, out);
+    fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().component(x, f, out);
         if WRONG == wrong::COMPONENT {
             out.iter_mut().for_each(|e| *e = *e + *e);
         }
     }
-    fn place<T: Ring>(&self, x: &[Pose<T>]) -> [T; 2] {
-        let [x_p, y_p] = self.0.place(x);
+    fn place(&self, x: &[Pose<T>]) -> [T; 2] {
+        let [x_p, y_p] = self.0.element::<T>().place(x);
         if WRONG == wrong::PLACE {
             [y_p, x_p]
         } else {
             [x_p, y_p]
         }
     }
-    fn d_force_dx<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        self.0.d_force_dx(x, f, lambda, out);
+    fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        self.0.element::<T>().d_force_dx(x, f, lambda, out);
         change(out, WRONG == wrong::D_FORCE_DX);
     }
-    fn d_residual_dx<T: Ring>(
+    fn d_residual_dx(
         &self,
         x: &[Pose<T>],
         v: &[Twist<T>],
@@ -156,23 +171,23 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
         out: &mut [T],
     ) {
         let mut all = vec![T::from(0.0); K::SPEC.d_residual_dx.len()];
-        self.0.d_residual_dx(x, v, a, f, &mut all);
+        self.0.element::<T>().d_residual_dx(x, v, a, f, &mut all);
         out.copy_from_slice(&all[all.len() - out.len()..]);
         change(out, WRONG == wrong::D_RESIDUAL_DX);
     }
-    fn d_gamma_dv<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.d_gamma_dv(x, v, f, out);
+    fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().d_gamma_dv(x, v, f, out);
         change(out, WRONG == wrong::D_GAMMA_DV);
     }
-    fn d_velocity_dx<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.d_velocity_dx(x, v, f, out);
+    fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().d_velocity_dx(x, v, f, out);
         change(out, WRONG == wrong::D_VELOCITY_DX);
     }
-    fn d_phi_dp<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        self.0.d_phi_dp(x, f, lambda, out);
+    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        self.0.element::<T>().d_phi_dp(x, f, lambda, out);
         change(out, WRONG == wrong::D_PHI_DP);
     }
-    fn d_residual_dp<T: Ring>(
+    fn d_residual_dp(
         &self,
         x: &[Pose<T>],
         v: &[Twist<T>],
@@ -181,7 +196,7 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
         lambda: &[T],
         out: &mut [T],
     ) {
-        self.0.d_residual_dp(x, v, a, f, lambda, out);
+        self.0.element::<T>().d_residual_dp(x, v, a, f, lambda, out);
         change(out, WRONG == wrong::D_RESIDUAL_DP);
     }
 }
@@ -221,6 +236,12 @@ impl<K: Force, const WRONG: u8> Force for ForceMutant<K, WRONG> {
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         K::from_arguments(arguments).map(Self)
     }
+    fn element<T: Real>(&self) -> &dyn ForceElement<T> {
+        self
+    }
+}
+
+impl<K: Force, const WRONG: u8> Definition for ForceMutant<K, WRONG> {
     fn initialise(&mut self, x: &[Pose]) {
         self.0.initialise(x);
     }
@@ -230,20 +251,26 @@ impl<K: Force, const WRONG: u8> Force for ForceMutant<K, WRONG> {
     fn points(&self) -> Vec<[f64; 2]> {
         self.0.points()
     }
-    fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.q(x, v, f, out);
+}
+
+impl<T: Real, K: Force, const WRONG: u8> ForceElement<T> for ForceMutant<K, WRONG> {
+    fn spec(&self) -> &'static ForceSpec {
+        &<Self as Force>::SPEC
+    }
+    fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().q(x, v, f, out);
         if WRONG == wrong_force::Q {
             // A constant load that nothing balances: no derivative sees it.
             out[0] = out[0] + T::from(1.0);
         }
         Self::turn_round(out);
     }
-    fn dq_dx<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.dq_dx(x, v, f, out);
+    fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().dq_dx(x, v, f, out);
         Self::change(out, wrong_force::DQ_DX);
     }
-    fn dq_dv<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.dq_dv(x, v, f, out);
+    fn dq_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.element::<T>().dq_dv(x, v, f, out);
         Self::change(out, wrong_force::DQ_DV);
     }
 }

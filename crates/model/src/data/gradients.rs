@@ -62,7 +62,7 @@ impl Data<'_> {
         let (mut each, mut values) = (Vec::new(), Vec::new());
         let mut first = 0;
         for c in &self.0.elements.constraints {
-            let element = c.element.element();
+            let element = &c.element;
             let numbers = first..first + element.spec().n_data();
             first = numbers.end;
             if numbers.is_empty() {

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use joints::spec::{Level, Role, Spec};
+use joints::spec::{ConstraintSpec, Level, Role, Spec};
 
 use super::work::held_bodies;
 use super::{Elements, Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction, initialise};
@@ -154,43 +154,19 @@ impl Mechanism {
             return Err(errors);
         }
         let mut b = Builder::default();
-        let of_level = |level| {
-            d.joints
-                .iter()
-                .filter(move |j| j.element.element().spec().level == level)
-        };
-        for j in of_level(Level::Holonomic) {
-            b.constraint(
-                &j.name,
-                ConstraintKind::Joint,
-                &j.bodies,
-                j.element.as_ref(),
-                &j.functions,
-                j.tolerance,
-            );
-        }
+        b.joints(d, Level::Holonomic);
         for drive in &d.drives {
-            let motion = std::slice::from_ref(&drive.motion);
             b.constraint(
                 &drive.name,
                 ConstraintKind::Drive,
                 &drive.bodies,
                 drive.element.as_ref(),
-                motion,
+                std::slice::from_ref(&drive.motion),
                 drive.tolerance,
             );
         }
         b.layout.m = b.layout.labels.len();
-        for j in of_level(Level::Nonholonomic) {
-            b.constraint(
-                &j.name,
-                ConstraintKind::Joint,
-                &j.bodies,
-                j.element.as_ref(),
-                &j.functions,
-                j.tolerance,
-            );
-        }
+        b.joints(d, Level::Nonholonomic);
         b.layout.h = b.layout.labels.len() - b.layout.m;
         for f in &d.forces {
             b.force(&f.name, &f.bodies, f.element.as_ref(), &f.functions);
@@ -308,68 +284,53 @@ fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
 }
 
 fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
-    let joints = d
-        .joints
-        .iter()
-        .map(|j| (&j.name, j.element.element().spec(), Role::Joint, "joints"));
-    let drives = d
-        .drives
-        .iter()
-        .map(|x| (&x.name, x.element.element().spec(), Role::Drive, "drives"));
-    for (name, spec, role, list) in joints.chain(drives) {
-        if spec.role != role {
-            let (name, definition) = (name.clone(), spec.common.name);
-            errors.push(BuildError::Role {
-                name,
-                definition,
-                list,
-            });
-        }
-    }
+    let constraint = |element: &dyn PlaneConstraint| (element.spec(), element.points());
     for j in &d.joints {
+        let (spec, points) = constraint(j.element.as_ref());
+        check_role(&j.name, spec, Role::Joint, "joints", errors);
         // A named component is that of the force on the first slot alone.
         let on_ground = j.bodies.split_first().is_some_and(|(first, others)| {
             *first == BodyRef::Ground && others.contains(&BodyRef::Ground)
         });
-        if on_ground && j.element.element().spec().component.is_some() {
+        if on_ground && spec.component.is_some() {
             let (name, body) = (j.name.clone(), "ground".to_owned());
             errors.push(BuildError::SameBody { name, body });
         }
-        check_points(&j.name, &j.element.element().points(), errors);
-        let spec = &j.element.element().spec().common;
-        check_place(
-            &d.bodies,
-            &j.name,
-            spec,
-            &j.bodies,
-            j.functions.len(),
-            errors,
-        );
+        let takes = (&points[..], j.functions.len());
+        check_place(&d.bodies, &j.name, &spec.common, &j.bodies, takes, errors);
     }
     for x in &d.drives {
-        check_points(&x.name, &x.element.element().points(), errors);
-        let spec = &x.element.element().spec().common;
-        check_place(&d.bodies, &x.name, spec, &x.bodies, 1, errors);
-    }
-    for f in &d.forces {
-        check_points(&f.name, &f.element.element().points(), errors);
-        let spec = &f.element.element().spec().common;
+        let (spec, points) = constraint(x.element.as_ref());
+        check_role(&x.name, spec, Role::Drive, "drives", errors);
         check_place(
             &d.bodies,
-            &f.name,
-            spec,
-            &f.bodies,
-            f.functions.len(),
+            &x.name,
+            &spec.common,
+            &x.bodies,
+            (&points, 1),
             errors,
         );
+    }
+    for f in &d.forces {
+        let (spec, points) = (&f.element.spec().common, f.element.points());
+        let takes = (&points[..], f.functions.len());
+        check_place(&d.bodies, &f.name, spec, &f.bodies, takes, errors);
     }
 }
 
-fn check_points(name: &str, points: &[[f64; 2]], errors: &mut Vec<BuildError>) {
-    let is_none = |p: &&[f64; 2]| !p.iter().all(|x| x.is_finite());
-    if let Some(&[x, y]) = points.iter().find(is_none) {
-        let name = name.to_owned();
-        errors.push(BuildError::Point { name, x, y });
+fn check_role(
+    name: &str,
+    spec: &ConstraintSpec,
+    role: Role,
+    list: &'static str,
+    errors: &mut Vec<BuildError>,
+) {
+    if spec.role != role {
+        errors.push(BuildError::Role {
+            name: name.to_owned(),
+            definition: spec.common.name,
+            list,
+        });
     }
 }
 
@@ -378,10 +339,14 @@ fn check_place(
     name: &str,
     spec: &'static Spec,
     bodies: &[BodyRef],
-    functions: usize,
+    (points, functions): (&[[f64; 2]], usize),
     errors: &mut Vec<BuildError>,
 ) {
     let name = || name.to_owned();
+    let is_none = |p: &&[f64; 2]| !p.iter().all(|x| x.is_finite());
+    if let Some(&[x, y]) = points.iter().find(is_none) {
+        errors.push(BuildError::Point { name: name(), x, y });
+    }
     if bodies.len() != spec.slots.len() {
         let (expected, found) = (spec.slots.len(), bodies.len());
         errors.push(BuildError::BodyCount {
@@ -432,6 +397,15 @@ pub(super) struct Builder {
 }
 
 impl Builder {
+    /// Adds the joints of one level.
+    fn joints(&mut self, d: &Description, level: Level) {
+        for j in d.joints.iter().filter(|j| j.element.spec().level == level) {
+            let (name, element) = (&j.name, j.element.as_ref());
+            let kind = ConstraintKind::Joint;
+            self.constraint(name, kind, &j.bodies, element, &j.functions, j.tolerance);
+        }
+    }
+
     pub(super) fn constraint(
         &mut self,
         name: &str,
@@ -441,15 +415,13 @@ impl Builder {
         functions: &[Function],
         tolerance: Option<f64>,
     ) {
-        let spec = element.element().spec();
+        let spec = element.spec();
         let first_row = self.layout.labels.len();
         let rows = first_row..first_row + spec.rows.len();
         let first_entry = self.elements.entries.len();
         let entries = first_entry..first_entry + spec.c.len();
         self.elements.entries.resize(entries.end, 0.0);
-        element
-            .element()
-            .c_constant(&mut self.elements.entries[entries.clone()]);
+        element.c_constant(&mut self.elements.entries[entries.clone()]);
         for (k, row) in spec.rows.iter().enumerate() {
             self.layout.labels.push(RowLabel {
                 number: first_row + k + 1,
@@ -501,7 +473,7 @@ impl Builder {
         element: &dyn PlaneForce,
         functions: &[Function],
     ) {
-        let spec = element.element().spec();
+        let spec = element.spec();
         let site = self.site(bodies, functions, |_| 0.0);
         let placed = PlacedForce {
             name: name.to_owned(),

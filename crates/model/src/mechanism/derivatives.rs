@@ -109,7 +109,7 @@ impl Derivatives {
             slots: vec![Twist::zero(); mechanism.elements.n_slots],
         };
         for c in &mechanism.elements.constraints {
-            let spec = c.element.element().spec();
+            let spec = c.element.spec();
             let column = |k: usize| c.site.column(k);
             let row = |i: usize| Some(c.rows.start + i);
             d.reaction_dq.push_block(spec.d_force_dx, column, column);
@@ -153,7 +153,7 @@ impl Derivatives {
         let mut gamma_dv = self.gamma_dv.blocks();
         let mut velocity_dq = self.velocity_dq.blocks();
         for c in &mechanism.elements.constraints {
-            let element = c.element.element();
+            let element = &c.element;
             let spec = element.spec();
             let (x, v, f) = c.site.xvf(&s.slots);
             let (a, lambda) = (&self.slots[c.site.slots.clone()], &lambda[c.rows.clone()]);
@@ -178,7 +178,7 @@ impl Derivatives {
 fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
     let mut patterns = [Sparse::default(), Sparse::default()];
     for f in &mechanism.elements.forces {
-        let spec = f.element.element().spec();
+        let spec = f.element.spec();
         let column = |k: usize| f.site.column(k);
         patterns[0].push_block(spec.dq_dx, column, column);
         patterns[1].push_block(spec.dq_dv, column, column);
@@ -189,7 +189,7 @@ fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
 fn differentiate_forces(mechanism: &Mechanism, s: &Scratch, [by_q, by_v]: [&mut Sparse; 2]) {
     let (mut force_dq, mut force_dv) = (by_q.blocks(), by_v.blocks());
     for force in &mechanism.elements.forces {
-        let element = force.element.element();
+        let element = &force.element;
         let spec = element.spec();
         let (x, v, f) = force.site.xvf(&s.slots);
         element.dq_dx(x, v, f, force_dq(spec.dq_dx.len()));

@@ -45,7 +45,7 @@ impl Mechanism {
     #[must_use]
     pub fn points(&self, id: ConstraintId) -> Vec<(BodyRef, [f64; 2])> {
         let c = &self.elements.constraints[id.0];
-        let element = c.element.element();
+        let element = &c.element;
         placed(&element.spec().common, &c.site.bodies, element.points())
     }
 
@@ -100,7 +100,7 @@ impl Mechanism {
     /// Its applied forces; the weight is none.
     pub fn applied_forces(&self) -> impl Iterator<Item = AppliedForce<'_>> {
         self.elements.forces.iter().map(|f| {
-            let element = f.element.element();
+            let element = &f.element;
             let spec = element.spec();
             AppliedForce {
                 name: &f.name,

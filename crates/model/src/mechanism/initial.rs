@@ -15,10 +15,10 @@ use crate::system::{Scratch, Site, System};
 pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
     let poses = mechanism.space.poses(q);
     for c in &mut mechanism.elements.constraints {
-        c.element.element_mut().initialise(&slots(&c.site, &poses));
+        c.element.initialise(&slots(&c.site, &poses));
     }
     for f in &mut mechanism.elements.forces {
-        f.element.element_mut().initialise(&slots(&f.site, &poses));
+        f.element.initialise(&slots(&f.site, &poses));
     }
     mechanism.reach = longest_arms(mechanism, q);
 }
@@ -33,13 +33,13 @@ pub(crate) fn unmet_requirement(
     let groups = mechanism.layout.groups.iter();
     let constraints = mechanism.elements.constraints.iter().zip(groups);
     let mut of_constraints = constraints.filter_map(|(c, group)| {
-        let (element, x) = (c.element.element(), slots(&c.site, &poses));
+        let (element, x) = (&*c.element, slots(&c.site, &poses));
         let words = element.spec().common.requirements;
         let unmet = (0..words.len()).find(|&k| !element.requirement(k, &x))?;
         Some((group.name.clone(), words[unmet]))
     });
     let mut of_forces = mechanism.elements.forces.iter().filter_map(|f| {
-        let (element, x) = (f.element.element(), slots(&f.site, &poses));
+        let (element, x) = (&*f.element, slots(&f.site, &poses));
         let words = element.spec().common.requirements;
         let unmet = (0..words.len()).find(|&k| !element.requirement(k, &x))?;
         Some((f.name.clone(), words[unmet]))

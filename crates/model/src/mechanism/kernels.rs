@@ -47,7 +47,7 @@ impl System for Mechanism {
         in_space!(self.space, S => {
             for (k, (pose, q)) in s.poses.iter_mut().zip(q.chunks_exact(S::N_Q)).enumerate() {
                 (pose.x, pose.y, pose.angle) = (q[0], q[1], S::angle(q));
-                if !self.stays(k, s.turned_to[k], pose.angle) {
+                if !stays(self.held[k], s.turned_to[k], pose.angle) {
                     s.turned_to[k] = pose.angle;
                     (pose.sin, pose.cos) = S::sin_cos(q);
                     note(Counted::Trigonometry);
@@ -73,7 +73,7 @@ impl System for Mechanism {
         for c in &self.elements.constraints {
             if c.rows.start < self.layout.m {
                 let (x, f) = (c.site.x(&s.slots), c.site.f(&s.slots));
-                c.element.element().phi(x, f, &mut s.phi[c.rows.clone()]);
+                c.element.phi(x, f, &mut s.phi[c.rows.clone()]);
             }
         }
     }
@@ -82,16 +82,14 @@ impl System for Mechanism {
         for c in &self.elements.constraints {
             if c.has_varying_entries() {
                 let (x, f) = (c.site.x(&s.slots), c.site.f(&s.slots));
-                c.element
-                    .element()
-                    .c(x, f, &mut s.entries[c.entries.clone()]);
+                c.element.c(x, f, &mut s.entries[c.entries.clone()]);
             }
         }
     }
 
     fn b(&self, s: &mut Scratch) {
         for c in &self.elements.constraints {
-            let element = c.element.element();
+            let element = &c.element;
             if c.depends_on_time() {
                 let (x, f) = (c.site.x(&s.slots), c.site.f(&s.slots));
                 element.b(x, f, &mut s.b[c.rows.clone()]);
@@ -110,9 +108,7 @@ impl System for Mechanism {
                 continue;
             }
             let (x, v, f) = c.site.xvf(&s.slots);
-            c.element
-                .element()
-                .gamma(x, v, f, &mut s.gamma[c.rows.clone()]);
+            c.element.gamma(x, v, f, &mut s.gamma[c.rows.clone()]);
         }
     }
 
@@ -120,7 +116,7 @@ impl System for Mechanism {
         s.force.copy_from_slice(&self.weight);
         for force in &self.elements.forces {
             let (x, v, f) = force.site.xvf(&s.slots);
-            force.element.element().q(x, v, f, &mut s.block);
+            force.element.q(x, v, f, &mut s.block);
             for (column, value) in force.columns.iter().zip(&s.block) {
                 if let Some(column) = column {
                     s.force[*column] += value;
@@ -153,21 +149,22 @@ impl Mechanism {
     pub fn undefined_force(&self, s: &mut Scratch) -> Option<&str> {
         let undefined = self.elements.forces.iter().find(|force| {
             let (x, v, f) = force.site.xvf(&s.slots);
-            force.element.element().q(x, v, f, &mut s.block);
+            force.element.q(x, v, f, &mut s.block);
             let mut values = s.block[..force.columns.len()].iter();
             values.any(|value| !value.is_finite())
         });
         undefined.map(|force| force.name.as_str())
     }
+}
 
-    /// Whether a body has the sine and cosine at an angle that it had at another one. Where rows of
-    /// angles hold it, rounding may move the angle, but does not turn it; elsewhere bits count: the
-    /// sine of −0 is not that of 0.
-    fn stays(&self, body: usize, from: f64, to: f64) -> bool {
-        match self.held[body] {
-            true => (to - from).abs() <= HELD * from.abs().max(1.0),
-            false => to.to_bits() == from.to_bits(),
-        }
+/// Whether a body has the sine and cosine at an angle that it had at another one. If rows of angles
+/// hold it, rounding may move the angle, but does not turn it; elsewhere bits count: the sine of −0
+/// is not that of 0.
+fn stays(is_held: bool, from: f64, to: f64) -> bool {
+    if is_held {
+        (to - from).abs() <= HELD * from.abs().max(1.0)
+    } else {
+        to.to_bits() == from.to_bits()
     }
 }
 

@@ -109,7 +109,8 @@ impl Mechanism {
             .map(|(k, _)| k)
             .collect();
         let forces = self.elements.forces.iter();
-        self.assembled(
+        assembled(
+            self,
             bodies,
             &groups,
             forces.filter(|f| f.site.bodies.iter().any(is_here)),
@@ -134,74 +135,76 @@ impl Mechanism {
         let mut bodies: Vec<usize> = joined.collect();
         bodies.sort_unstable();
         bodies.dedup();
-        self.assembled(&bodies, groups, std::iter::empty())
+        assembled(self, &bodies, groups, std::iter::empty())
     }
+}
 
-    fn assembled<'a>(
-        &'a self,
-        bodies: &[usize],
-        groups: &[usize],
-        forces: impl Iterator<Item = &'a PlacedForce>,
-    ) -> Part {
-        let here = |body: &BodyRef| match *body {
-            BodyRef::Ground => Some(BodyRef::Ground),
-            BodyRef::Body(k) => bodies.binary_search(&k).ok().map(BodyRef::Body),
-        };
-        let translated = |name: &str, of: &[BodyRef]| -> Vec<BodyRef> {
-            let here: Option<Vec<BodyRef>> = of.iter().map(here).collect();
-            assert!(here.is_some(), "`{name}` reaches beyond bodies {bodies:?}");
-            here.unwrap_or_default()
-        };
-        let mut b = Builder::default();
-        let mut rows = Vec::new();
-        for &k in groups {
-            let (c, group) = (&self.elements.constraints[k], &self.layout.groups[k]);
-            b.constraint(
-                &group.name,
-                group.kind,
-                &translated(&group.name, &c.site.bodies),
-                c.element.as_ref(),
-                &self.laws(&c.site),
-                c.tolerance,
-            );
-            rows.extend(c.rows.clone());
-            match group.spec.level {
-                Level::Holonomic => b.layout.m = rows.len(),
-                Level::Nonholonomic => b.layout.h = rows.len() - b.layout.m,
-            }
+/// The mechanism of some bodies, groups and forces of `whole`.
+fn assembled<'a>(
+    whole: &Mechanism,
+    bodies: &[usize],
+    groups: &[usize],
+    forces: impl Iterator<Item = &'a PlacedForce>,
+) -> Part {
+    let here = |body: &BodyRef| match *body {
+        BodyRef::Ground => Some(BodyRef::Ground),
+        BodyRef::Body(k) => bodies.binary_search(&k).ok().map(BodyRef::Body),
+    };
+    let translated = |name: &str, of: &[BodyRef]| -> Vec<BodyRef> {
+        let here: Option<Vec<BodyRef>> = of.iter().map(here).collect();
+        assert!(here.is_some(), "`{name}` reaches beyond bodies {bodies:?}");
+        here.unwrap_or_default()
+    };
+    let mut b = Builder::default();
+    let mut rows = Vec::new();
+    for &k in groups {
+        let (c, group) = (&whole.elements.constraints[k], &whole.layout.groups[k]);
+        b.constraint(
+            &group.name,
+            group.kind,
+            &translated(&group.name, &c.site.bodies),
+            c.element.as_ref(),
+            &laws(whole, &c.site),
+            c.tolerance,
+        );
+        rows.extend(c.rows.clone());
+        match group.spec.level {
+            Level::Holonomic => b.layout.m = rows.len(),
+            Level::Nonholonomic => b.layout.h = rows.len() - b.layout.m,
         }
-        for (label, &row) in b.layout.labels.iter_mut().zip(&rows) {
-            label.clone_from(&self.layout.labels[row]);
-        }
-        for f in forces {
-            let functions = self.laws(&f.site);
-            let to = translated(&f.name, &f.site.bodies);
-            b.force(&f.name, &to, f.element.as_ref(), &functions);
-        }
-        let places = |n: usize| -> Vec<usize> {
-            let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));
-            each.collect()
-        };
-        let velocities = places(N_BODY);
-        let own = bodies.iter().map(|&k| self.bodies[k].clone()).collect();
-        let weight = velocities.iter().map(|&j| self.weight[j]).collect();
-        let mut mechanism = b.finish(&self.name, self.space, own, weight);
-        mechanism.tolerance = self.tolerance;
-        mechanism.reach = bodies.iter().map(|&k| self.reach[k]).collect();
-        let places = Places {
-            bodies: bodies.to_vec(),
-            coordinates: places(self.space.n_q()),
-            velocities,
-            rows,
-            groups: groups.to_vec(),
-        };
-        Part { mechanism, places }
     }
+    for (label, &row) in b.layout.labels.iter_mut().zip(&rows) {
+        label.clone_from(&whole.layout.labels[row]);
+    }
+    for f in forces {
+        let functions = laws(whole, &f.site);
+        let to = translated(&f.name, &f.site.bodies);
+        b.force(&f.name, &to, f.element.as_ref(), &functions);
+    }
+    let places = |n: usize| -> Vec<usize> {
+        let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));
+        each.collect()
+    };
+    let velocities = places(N_BODY);
+    let own = bodies.iter().map(|&k| whole.bodies[k].clone()).collect();
+    let weight = velocities.iter().map(|&j| whole.weight[j]).collect();
+    let mut mechanism = b.finish(&whole.name, whole.space, own, weight);
+    mechanism.tolerance = whole.tolerance;
+    mechanism.reach = bodies.iter().map(|&k| whole.reach[k]).collect();
+    let places = Places {
+        bodies: bodies.to_vec(),
+        coordinates: places(whole.space.n_q()),
+        velocities,
+        rows,
+        groups: groups.to_vec(),
+    };
+    Part { mechanism, places }
+}
 
-    fn laws(&self, site: &Site) -> Vec<Function> {
-        let functions = self.elements.functions[site.functions.clone()].iter();
-        functions.map(|f| f.function.clone()).collect()
-    }
+/// Functions of time that an element takes.
+fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
+    let functions = whole.elements.functions[site.functions.clone()].iter();
+    functions.map(|f| f.function.clone()).collect()
 }
 
 /// Sets of bodies, each ascending, ordered by their first bodies: those of each site belong

@@ -1,4 +1,4 @@
-//! What the kernels of a mechanism compute at each evaluation, and what they leave out, told from
+//! What the kernels of a mechanism compute at each evaluation, and what they leave out, by
 //! its structure. The kernels ask the same questions of the same elements.
 
 use super::{Elements, Mechanism, N_BODY, PlacedConstraint};

@@ -77,7 +77,7 @@ const NAMED: usize = 6;
 pub(super) const CANCELLED: f64 = 1e-10;
 
 impl VelocityConflict {
-    /// One for all: the worst is told, and what to leave out of all.
+    /// One for all: the worst one, and what to leave out of all.
     pub(super) fn merged(conflicts: Vec<Self>) -> Option<Self> {
         let off = |c: &Self| (c.nearest - c.given).abs() / c.limit;
         conflicts.into_iter().reduce(|mut a, mut b| {

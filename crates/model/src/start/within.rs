@@ -16,7 +16,7 @@ use crate::uncertainty::{ROUNDING, has_tolerances};
 
 /// Data that move a body by more than so many tolerances do not say where it is: what misses there
 /// is left as it is. Levers are known to two points, which this must not exceed by much: at ten,
-/// arms of 0.7 mm that polishing had made were told as some within 0.1 mm.
+/// arms of 0.7 mm that polishing had made were reported as some within 0.1 mm.
 const AMPLIFIED: f64 = 3.0;
 
 /// Rows up to which such directions are looked for: the work grows with their cube.

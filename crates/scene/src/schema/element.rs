@@ -5,12 +5,10 @@ use joints::spec::{Parameter, Shape, Spec, Unit};
 use model::Registry;
 use serde_json::{Map, Value, json};
 
-use super::reference;
-use super::value::{described, number, tuple};
+use super::value::{described, number, reference, tuple};
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
-use crate::element::TYPE;
-use crate::key::Interval;
+use crate::key::{Interval, TYPE};
 use crate::place::{AT, local_key, owners};
 use crate::section::NAME;
 use crate::tolerance;

@@ -2,7 +2,6 @@
 
 use serde_json::{Value, json};
 
-use super::reference;
 use crate::key::{Interval, Key, Takes};
 use crate::section::LONGEST_NAME;
 
@@ -86,4 +85,9 @@ pub(super) fn point() -> Value {
 /// Texts, each once.
 fn texts(least: usize) -> Value {
     json!({ "type": "array", "items": { "type": "string" }, "minItems": least, "uniqueItems": true })
+}
+
+/// A reference to a definition of the schema.
+pub(super) fn reference(name: &str) -> Value {
+    json!({ "$ref": format!("#/$defs/{name}") })
 }

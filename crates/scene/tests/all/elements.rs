@@ -24,7 +24,7 @@ fn joint(text: &str) -> (Description, Joint) {
     let d = read_more(&format!("[[joint]]\nname = \"X\"\n{text}")).description;
     let mut joint = d.joints[0].clone();
     let x: Vec<Pose> = joint.bodies.iter().map(|&body| pose(&d, body)).collect();
-    joint.element.element_mut().initialise(&x);
+    joint.element.initialise(&x);
     (d, joint)
 }
 
@@ -33,7 +33,7 @@ fn phi(text: &str, angles: &[f64]) -> Vec<f64> {
     let (_, joint) = joint(text);
     let x: Vec<Pose> = angles.iter().map(|&a| Pose::new(0.0, 0.0, a)).collect();
     assert_eq!(joint.bodies.len(), x.len());
-    let element = joint.element.element();
+    let element = &joint.element;
     let mut out = vec![f64::NAN; element.spec().rows.len()];
     element.phi(&x, &[], &mut out);
     out
@@ -133,7 +133,7 @@ fn knife_edge() {
     // n = (0.6, 0.8), point (2, 0): [n, n·(0, 2)].
     let (_, joint) =
         joint("type = \"knife-edge\"\nbody = \"a\"\nat = [1.0, 4.0]\nnormal = [3.0, 4.0]");
-    assert_close(&c(joint.element.element()), &[0.6, 0.8, 1.6]);
+    assert_close(&c(&*joint.element), &[0.6, 0.8, 1.6]);
     assert_eq!(joint.bodies, [BodyRef::Body(0)]);
 }
 
@@ -143,13 +143,10 @@ fn velocity() {
         "type = \"velocity\"\nbody = \"a\"\nat = [1.0, 4.0]\ndirection = [0.0, 2.0]\n\
          rate = { type = \"polynomial\", coefficients = [0.5, 3] }",
     );
-    assert_close(&c(joint.element.element()), &[0.0, 1.0, 2.0]);
+    assert_close(&c(&*joint.element), &[0.0, 1.0, 2.0]);
     assert_eq!(joint.functions[0].jet(2.0), [6.5, 3.0, 0.0]);
     let mut b = [f64::NAN];
-    joint
-        .element
-        .element()
-        .b(&[Pose::GROUND], &[[0.5, 0.0, 0.0]], &mut b);
+    joint.element.b(&[Pose::GROUND], &[[0.5, 0.0, 0.0]], &mut b);
     assert_close(&b, &[0.5]);
 }
 
@@ -161,10 +158,7 @@ fn rolling() {
         let (_, joint) = joint(&format!(
             "{text}{place}\ndirection = [0.0, 1.0]\nradius = 0.25"
         ));
-        assert_close(
-            &c(joint.element.element()),
-            &[0.0, 1.0, 2.0, 0.0, 0.0, -0.25],
-        );
+        assert_close(&c(&*joint.element), &[0.0, 1.0, 2.0, 0.0, 0.0, -0.25]);
     }
 }
 
@@ -214,11 +208,10 @@ axis = [1.0, 0.0]
     let value = |k: usize| {
         let mut drive = d.drives[k].clone();
         let described: Vec<Pose> = drive.bodies.iter().map(|&b| pose(&d, b)).collect();
-        drive.element.element_mut().initialise(&described);
+        drive.element.initialise(&described);
         let mut out = [f64::NAN];
         drive
             .element
-            .element()
             .phi(&[Pose::GROUND; 2], &[[0.125, 0.0, 0.0]], &mut out);
         out[0]
     };
@@ -257,12 +250,12 @@ fn q(text: &str, v: &[Twist]) -> Vec<f64> {
     let d = read_more(&format!("[[force]]\nname = \"X\"\n{text}")).description;
     let mut force = d.forces[0].clone();
     let described: Vec<Pose> = force.bodies.iter().map(|&b| pose(&d, b)).collect();
-    force.element.element_mut().initialise(&described);
+    force.element.initialise(&described);
     let f: Vec<_> = force.functions.iter().map(|f| f.jet(0.0)).collect();
-    let spec = force.element.element().spec();
+    let spec = force.element.spec();
     let x = vec![Pose::GROUND; described.len()];
     let mut entries = vec![f64::NAN; spec.q.len()];
-    force.element.element().q(&x, v, &f, &mut entries);
+    force.element.q(&x, v, &f, &mut entries);
     let mut out = vec![0.0; 3 * x.len()];
     for (&k, value) in spec.q.iter().zip(entries) {
         out[k] = value;
@@ -352,7 +345,7 @@ fn point_force() {
         ("frame = \"body\"", "BodyPointForce"),
     ] {
         let d = read_more(&format!("[[force]]\nname = \"X\"\n{text}{frame}")).description;
-        assert_eq!(d.forces[0].element.element().spec().common.name, name);
+        assert_eq!(d.forces[0].element.spec().common.name, name);
     }
 }
 

@@ -31,9 +31,9 @@ fn a_registered_joint_has_its_keys_and_measures() {
         .description;
     let mut element = d.joints[0].element.clone();
     let x = [Pose::GROUND; 2];
-    element.element_mut().initialise(&x);
+    element.initialise(&x);
     let mut phi = [f64::NAN];
-    element.element().phi(&x, &[], &mut phi);
+    element.phi(&x, &[], &mut phi);
     // 5 − 1²/(2·0.25)
     assert_close(&phi, &[3.0]);
     assert_eq!(d.drives.len(), 1);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
 use joints::spec::ConstraintSpec;
-use joints::{Element, Magnitude, Pose, Recorded, Twist};
+use joints::{Definition, Element, Magnitude, Pose, Recorded, Twist};
 use linalg::Dd;
 use model::{Joint, PlaneConstraint};
 
@@ -55,12 +55,6 @@ impl Watched {
 }
 
 impl PlaneConstraint for Watched {
-    fn element(&self) -> &dyn Element<f64> {
-        self
-    }
-    fn element_mut(&mut self) -> &mut dyn Element<f64> {
-        self
-    }
     fn extended(&self) -> &dyn Element<Dd> {
         self.inner.extended()
     }
@@ -75,69 +69,72 @@ impl PlaneConstraint for Watched {
     }
 }
 
-impl Element for Watched {
-    fn spec(&self) -> &'static ConstraintSpec {
-        self.inner.element().spec()
-    }
+impl Definition for Watched {
     fn initialise(&mut self, x: &[Pose]) {
-        self.inner.element_mut().initialise(x);
+        self.inner.initialise(x);
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        self.inner.element().requirement(k, x)
+        self.inner.requirement(k, x)
     }
     fn points(&self) -> Vec<[f64; 2]> {
-        self.inner.element().points()
+        self.inner.points()
     }
     fn data(&self, out: &mut [f64]) {
-        self.inner.element().data(out);
+        self.inner.data(out);
     }
     fn set_data(&mut self, numbers: &[f64]) {
-        self.inner.element_mut().set_data(numbers);
+        self.inner.set_data(numbers);
+    }
+}
+
+impl Element for Watched {
+    fn spec(&self) -> &'static ConstraintSpec {
+        self.inner.spec()
     }
     fn phi(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.phi);
-        self.inner.element().phi(x, f, out);
+        self.inner.phi(x, f, out);
     }
     fn c_constant(&self, out: &mut [f64]) {
-        self.inner.element().c_constant(out);
+        self.inner.c_constant(out);
     }
     fn c(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.c);
-        self.inner.element().c(x, f, out);
+        self.inner.c(x, f, out);
     }
     fn b(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.b);
-        self.inner.element().b(x, f, out);
+        self.inner.b(x, f, out);
     }
     fn gamma(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.gamma);
-        self.inner.element().gamma(x, v, f, out);
+        self.inner.gamma(x, v, f, out);
     }
     fn wrench(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.wrench);
-        self.inner.element().wrench(x, f, out);
+        self.inner.wrench(x, f, out);
     }
     fn component(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
-        self.inner.element().component(x, f, out);
+        self.inner.component(x, f, out);
     }
     fn place(&self, x: &[Pose]) -> [f64; 2] {
-        self.inner.element().place(x)
+        self.inner.place(x)
     }
     fn d_force_dx(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.derivatives);
-        self.inner.element().d_force_dx(x, f, lambda, out);
+        self.inner.d_force_dx(x, f, lambda, out);
     }
     fn d_residual_dx(&self, x: &[Pose], v: &[Twist], a: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
-        self.inner.element().d_residual_dx(x, v, a, f, out);
+        self.inner.d_residual_dx(x, v, a, f, out);
     }
     fn d_gamma_dv(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
-        self.inner.element().d_gamma_dv(x, v, f, out);
+        self.inner.d_gamma_dv(x, v, f, out);
     }
     fn d_velocity_dx(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
-        self.inner.element().d_velocity_dx(x, v, f, out);
+        self.inner.d_velocity_dx(x, v, f, out);
     }
     fn d_phi_dp(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
-        self.inner.element().d_phi_dp(x, f, lambda, out);
+        self.inner.d_phi_dp(x, f, lambda, out);
     }
     fn d_residual_dp(
         &self,
@@ -148,7 +145,6 @@ impl Element for Watched {
         lambda: &[f64],
         out: &mut [f64],
     ) {
-        let element = self.inner.element();
-        element.d_residual_dp(x, v, a, f, lambda, out);
+        self.inner.d_residual_dp(x, v, a, f, lambda, out);
     }
 }

@@ -1,4 +1,4 @@
-//! The numbers that a constraint stores: told and put back, and the derivatives by them. Fields are
+//! The numbers that a constraint stores: read and put back, and the derivatives by them. Fields are
 //! plain numbers, so that no dual number goes through them: the references are differences through
 //! `set_data`, and, for the second kernel, dual numbers through the poses of the first.
 
@@ -7,9 +7,9 @@ use super::super::case::Motion;
 use super::super::derivative::{Differentiate, DualNumbers, by_differences};
 use super::super::failure::{Claim, Failure, Property, fact};
 use super::super::kernels;
+use super::super::oracle::{DIFFERENCES, DUAL_NUMBERS, Oracle};
 use super::super::state::Along;
-use super::super::{DIFFERENCES, DUAL_NUMBERS, Oracle};
-use super::Check;
+use super::check::Check;
 use super::derivatives::Quantity;
 use crate::constraint::Constraint;
 use crate::spec::{DatumShape, Level};
@@ -44,7 +44,7 @@ impl<K: Constraint> Check<'_, K> {
         Ok(())
     }
 
-    /// Each number belongs to one datum, all of them are told, and directions are unit vectors.
+    /// Each number belongs to one datum, all of them are listed, and directions are unit vectors.
     fn data_facts(&self, numbers: &[f64]) -> Result<(), Failure> {
         let mut next = 0;
         for datum in K::SPEC.data {

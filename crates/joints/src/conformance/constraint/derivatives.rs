@@ -1,15 +1,15 @@
 //! Kernels against derivatives of the kernels that come before them: C and b of Φ, Γ of both, and
 //! so on.
 
-use super::super::Oracle;
 use super::super::block::Block;
 use super::super::case::Motion;
 use super::super::derivative::{Curve, Differentiate};
 use super::super::failure::{Claim, Failure, Property};
 use super::super::kernels;
 use super::super::number::Number;
+use super::super::oracle::Oracle;
 use super::super::state::{Along, State};
-use super::Check;
+use super::check::Check;
 use crate::constraint::Constraint;
 use crate::plane::Twist;
 use crate::spec::Level;
@@ -63,7 +63,7 @@ impl<K: Constraint> Curve for Path<'_, K> {
                 let inertia = times(&kernels::c(k, &x, &f), &a);
                 inertia.zip(&kernels::gamma(k, &x, &v, &f), |e, g| e - g)
             }
-            Quantity::Place => Block::column(k.place(&x).to_vec()),
+            Quantity::Place => Block::column(k.element::<D>().place(&x).to_vec()),
             Quantity::PhiByData => {
                 let lambda: Vec<D> = self.motion.lambda.iter().map(|&l| D::from(l)).collect();
                 kernels::d_phi_dp(k, &x, &f, &lambda)

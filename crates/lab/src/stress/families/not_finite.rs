@@ -3,7 +3,9 @@
 
 use dynamics::{MotionOptions, RowChoice, prepare, simulate};
 use joints::spec::Spec;
-use joints::{Argument, ArgumentError, Force as Law, ForceSpec, Pose, Real, Twist};
+use joints::{
+    Argument, ArgumentError, Definition, Force as Law, ForceElement, ForceSpec, Pose, Real, Twist,
+};
 use model::{Body, BodyRef, Description, Force, Mechanism, StartOptions};
 
 use crate::stress::case::{Case, Expected, Family, Outcome};
@@ -62,21 +64,33 @@ impl Law for Root {
         Ok(Self)
     }
 
+    fn element<T: Real>(&self) -> &dyn ForceElement<T> {
+        self
+    }
+}
+
+impl Definition for Root {
     fn initialise(&mut self, _: &[Pose]) {}
 
     fn requirement(&self, _: usize, _: &[Pose]) -> bool {
         true
     }
+}
 
-    fn q<T: Real>(&self, x: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], out: &mut [T]) {
+impl<T: Real> ForceElement<T> for Root {
+    fn spec(&self) -> &'static ForceSpec {
+        &<Self as Law>::SPEC
+    }
+
+    fn q(&self, x: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], out: &mut [T]) {
         out[0] = (T::from(1.0) - x[0].x).sqrt();
     }
 
-    fn dq_dx<T: Real>(&self, x: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], out: &mut [T]) {
+    fn dq_dx(&self, x: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], out: &mut [T]) {
         out[0] = T::from(-0.5) * (T::from(1.0) - x[0].x).sqrt().recip_or_zero();
     }
 
-    fn dq_dv<T: Real>(&self, _: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], _: &mut [T]) {}
+    fn dq_dv(&self, _: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], _: &mut [T]) {}
 }
 
 /// A run that cannot get beyond x = 1: what it says, if its rows are finite and end there.

@@ -1,4 +1,4 @@
-//! Faults of descriptions, told together.
+//! Faults of descriptions, found together.
 
 use joints::{Revolute, RevoluteAngleDrive};
 

@@ -35,7 +35,7 @@ fn two_bodies(element: impl PlaneConstraint + 'static, drives: bool) -> Mechanis
         ],
         ..Description::default()
     };
-    let slots = element.element().spec().common.slots.len();
+    let slots = element.spec().common.slots.len();
     let bodies = [BodyRef::Body(0), BodyRef::Body(1), BodyRef::Ground][..slots].to_vec();
     if drives {
         description.drives.push(Drive {
