@@ -71,9 +71,10 @@ fn stays_on(mechanism: &Mechanism, q: &[f64], v: &[f64], drives: bool, name: &st
     mechanism.pose(0.0, q, &mut s);
     mechanism.c(&mut s);
     for row in rows {
-        let (rate, allowed) = match row < layout.m {
-            true => ((ahead[row] - behind[row]) / (2.0 * STEP), DIFFERENCE),
-            false => (layout.row(&s, row).map(|(j, c)| c * v[j]).sum(), ROUNDING),
+        let (rate, allowed) = if row < layout.m {
+            ((ahead[row] - behind[row]) / (2.0 * STEP), DIFFERENCE)
+        } else {
+            (layout.row(&s, row).map(|(j, c)| c * v[j]).sum(), ROUNDING)
         };
         let label = &layout.labels[row];
         assert!(rate.abs() < allowed, "{name}, row {label}: {rate:e}");

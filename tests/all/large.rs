@@ -47,9 +47,10 @@ fn check(order: &Order) {
     let free = generator.free_reactions();
     let free: BTreeSet<&str> = free.iter().map(|f| f.name.as_str()).collect();
     for reaction in &found.reactions {
-        let expected = match free.contains(reaction.name.as_str()) {
-            true => Verdict::NotUnique,
-            false => Verdict::Unique,
+        let expected = if free.contains(reaction.name.as_str()) {
+            Verdict::NotUnique
+        } else {
+            Verdict::Unique
         };
         assert_eq!(reaction.wrench.verdict, expected, "{}", reaction.name);
     }

@@ -68,9 +68,10 @@ pub(crate) fn check(program: Program) -> Result<String, String> {
 /// The browser's program, where Node is there, too.
 fn tools() -> Result<String, &'static str> {
     let chromium = chromium().ok_or(NO_CHROMIUM)?;
-    match answers("node") {
-        true => Ok(chromium),
-        false => Err(NO_NODE),
+    if answers("node") {
+        Ok(chromium)
+    } else {
+        Err(NO_NODE)
     }
 }
 

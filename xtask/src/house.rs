@@ -51,24 +51,27 @@ pub(crate) fn tell(is_json: bool, check: bool) -> Result<String, String> {
     let counted: Vec<Counted> = crates.iter().map(count).collect();
     let limits = limits(&counted);
     let exceeded = limits.rows.iter().any(|row| row[3] == "exceeded");
-    let tables = match check {
-        true => vec![faults(&counted), limits],
-        false => vec![
+    let tables = if check {
+        vec![faults(&counted), limits]
+    } else {
+        vec![
             lines_table(&counted),
             types_table("stateful types", &counted, true),
             types_table("plain data", &counted, false),
             circles_table(&counted),
             constants_table(&crates),
             limits,
-        ],
+        ]
     };
-    let text = match is_json {
-        true => table::json(&tables),
-        false => table::plain(&tables),
+    let text = if is_json {
+        table::json(&tables)
+    } else {
+        table::plain(&tables)
     };
-    match check && exceeded {
-        true => Err(text),
-        false => Ok(text),
+    if check && exceeded {
+        Err(text)
+    } else {
+        Ok(text)
     }
 }
 

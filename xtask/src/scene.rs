@@ -19,8 +19,9 @@ pub(crate) fn generate(scene: &str, rest: &[&str]) -> Result<String, String> {
         .args(rest)
         .status()
         .map_err(|e| format!("{cargo}: {e}"))?;
-    match status.success() {
-        true => Ok(String::new()),
-        false => Err("`scene-codegen` stopped".to_owned()),
+    if status.success() {
+        Ok(String::new())
+    } else {
+        Err("`scene-codegen` stopped".to_owned())
     }
 }

@@ -47,9 +47,10 @@ pub(crate) struct ConstraintKernels {
 impl ConstraintKernels {
     /// The unit of the measure that a driven row prescribes: what moves no origin is an angle.
     pub(crate) fn unit_of_measure(&self) -> Ident {
-        match self.c.iter().all(|e| e.column % N_DOF == N_DOF - 1) {
-            true => format_ident!("Angle"),
-            false => format_ident!("Length"),
+        if self.c.iter().all(|e| e.column % N_DOF == N_DOF - 1) {
+            format_ident!("Angle")
+        } else {
+            format_ident!("Length")
         }
     }
 }
@@ -80,13 +81,13 @@ pub(crate) fn constraint(
     data: &[Derivation],
 ) -> Result<ConstraintKernels, usize> {
     let columns = columns(model);
-    let velocity: Vec<Expr> = match body.holonomic {
-        true => body
-            .rows
+    let velocity: Vec<Expr> = if body.holonomic {
+        body.rows
             .iter()
             .map(|&r| model.time.apply(&mut model.g, r))
-            .collect(),
-        false => body.rows.clone(),
+            .collect()
+    } else {
+        body.rows.clone()
     };
     let c = c_block(model, &velocity, columns.len());
     if let Some(row) = (0..velocity.len()).find(|row| c.iter().all(|e| e.row != *row)) {
@@ -222,9 +223,10 @@ fn b_rows(model: &mut Model, velocity: &[Expr]) -> Vec<Expr> {
             model.g.neg(drift)
         })
         .collect();
-    match b.iter().all(|&e| model.g.is_zero(e)) {
-        true => Vec::new(),
-        false => b,
+    if b.iter().all(|&e| model.g.is_zero(e)) {
+        Vec::new()
+    } else {
+        b
     }
 }
 
@@ -326,9 +328,10 @@ fn gradient(model: &mut Model, rows: &[Expr], data: &[Derivation]) -> Vec<Expr> 
     data.iter()
         .map(|along| {
             let slope = along.apply(&mut model.g, sum);
-            match identity::is_zero(&model.g, &model.inputs, slope) {
-                true => model.g.number(0.0),
-                false => slope,
+            if identity::is_zero(&model.g, &model.inputs, slope) {
+                model.g.number(0.0)
+            } else {
+                slope
             }
         })
         .collect()

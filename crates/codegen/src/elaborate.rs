@@ -105,9 +105,10 @@ pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
     scope.declare_params()?;
     scope.bind()?;
     scope.require()?;
-    scope.model.body = match d.forces.is_empty() {
-        true => Body::Constraint(scope.constraint()?),
-        false => Body::Force(scope.forces()?),
+    scope.model.body = if d.forces.is_empty() {
+        Body::Constraint(scope.constraint()?)
+    } else {
+        Body::Force(scope.forces()?)
     };
     check_use(&scope)?;
     Ok(scope.model)

@@ -26,9 +26,10 @@ pub(crate) fn kernel(model: &Model, outputs: &[Expr], scalar: Scalar) -> Kernel 
     let inputs = used.into_iter().map(|s| {
         let name = Ident::new(model.g.name(s), Span::call_site());
         let (access, is_f64) = model.inputs.source(s).access();
-        match is_f64 && scalar == Scalar::Generic {
-            true => quote!(let #name = T::from(#access);),
-            false => quote!(let #name = #access;),
+        if is_f64 && scalar == Scalar::Generic {
+            quote!(let #name = T::from(#access);)
+        } else {
+            quote!(let #name = #access;)
         }
     });
     Kernel {

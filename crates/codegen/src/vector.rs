@@ -86,9 +86,10 @@ impl Vector {
             let (a, b) = (self.to_ground(g, turns), other.to_ground(g, turns));
             return dot(g, a, b);
         }
-        let (one, many) = match self.parts.len() == 1 {
-            true => (self, other),
-            false => (other, self),
+        let (one, many) = if self.parts.len() == 1 {
+            (self, other)
+        } else {
+            (other, self)
         };
         let Some((frame, &a)) = one.parts.first_key_value() else {
             return g.number(0.0);

@@ -49,9 +49,10 @@ pub(crate) fn method(
         return explicit("implicit methods need projection");
     }
     let steps = fastest_rate(prepared)? * options.t_end / STABLE;
-    let (method, is) = match steps > STIFF {
-        true => (Method::Radau5, "more"),
-        false => (Method::Dop853, "not more"),
+    let (method, is) = if steps > STIFF {
+        (Method::Radau5, "more")
+    } else {
+        (Method::Dop853, "not more")
     };
     let why = format!(
         "measured at the start: for stability alone an explicit method needs {steps:.1e} steps, {is} than {STIFF:.0e}"

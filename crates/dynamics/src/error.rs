@@ -306,13 +306,10 @@ fn undecided(doubt: &Doubt) -> String {
             tolerance,
             required,
         } => {
-            let advice = match required > rank::NEARLY_SINGULAR {
-                true => {
-                    "Places are known too badly for this: lengths differ too much, or lie too far from the origin"
-                }
-                false => {
-                    "Some rows depend on each other nearly but not quite: correct the misalignment of their joints, or delete one of them"
-                }
+            let advice = if required > rank::NEARLY_SINGULAR {
+                "Places are known too badly for this: lengths differ too much, or lie too far from the origin"
+            } else {
+                "Some rows depend on each other nearly but not quite: correct the misalignment of their joints, or delete one of them"
             };
             format!(
                 "singular value {sigma:.3e} lies between the tolerance {tolerance:.3e} and {required:.3e}: rank {lower} or {upper}. {advice}"
@@ -333,9 +330,10 @@ fn undecided(doubt: &Doubt) -> String {
 /// may look the same.
 fn above(residual: f64, tolerance: f64) -> String {
     let [found, allowed] = [residual, tolerance].map(|x| format!("{x:.3e}"));
-    match found == allowed {
-        true => format!("just above the allowed {allowed}"),
-        false => format!("more than {allowed}"),
+    if found == allowed {
+        format!("just above the allowed {allowed}")
+    } else {
+        format!("more than {allowed}")
     }
 }
 

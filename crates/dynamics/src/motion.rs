@@ -63,9 +63,10 @@ impl<'m> KeptRowMotion<'m> {
         let at = Evaluation::new(&prepared.mechanism, prepared.assembly.size);
         let velocity = KeptRows::new(&at, &prepared.decision)?;
         let position = KeptRows::new(&at, &prepared.position_decision)?;
-        let horizon = match options.t_end > 0.0 {
-            true => options.t_end,
-            false => f64::INFINITY,
+        let horizon = if options.t_end > 0.0 {
+            options.t_end
+        } else {
+            f64::INFINITY
         };
         Ok(Self {
             manifold: Manifold::new(&at, options.stabilisation, horizon),
@@ -184,9 +185,10 @@ impl<'m> KeptRowMotion<'m> {
     ) -> Result<(), MotionFault> {
         let state = State { t, q, v };
         let code = self.code.as_mut().and_then(Handover::in_use);
-        match code.is_some_and(|code| code.accelerations(state, a).is_ok()) {
-            true => Ok(()),
-            false => self.interpret(state, a),
+        if code.is_some_and(|code| code.accelerations(state, a).is_ok()) {
+            Ok(())
+        } else {
+            self.interpret(state, a)
         }
     }
 

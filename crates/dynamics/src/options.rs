@@ -225,13 +225,14 @@ impl MotionOptions {
     /// Whether method and stabilisation go together.
     fn check_combination(&self) -> Result<(), MotionError> {
         let projects = self.stabilisation == Stabilisation::Projection;
-        match self.method.needs_independent_coordinates() && !projects {
-            true => Err(MotionError::Combination {
+        if self.method.needs_independent_coordinates() && !projects {
+            Err(MotionError::Combination {
                 chosen: self.method.name(),
                 with: self.stabilisation.name(),
                 why: "the method relies on projection",
-            }),
-            false => Ok(()),
+            })
+        } else {
+            Ok(())
         }
     }
 }

@@ -128,9 +128,10 @@ impl<'a> Plan<'a> {
         options.check()?;
         let groups = wanted_groups(prepared, &wanted.reactions)?;
         let code = code(prepared, options)?;
-        let (apart, parts) = match code.value {
-            true => split::stays("the generated code has all bodies".to_owned()),
-            false => split::split(prepared)?,
+        let (apart, parts) = if code.value {
+            split::stays("the generated code has all bodies".to_owned())
+        } else {
+            split::split(prepared)?
         };
         let components = match parts.is_empty() {
             true => vec![ComponentPlan::whole(prepared, options, &groups)?],
@@ -236,8 +237,9 @@ fn rows(options: &MotionOptions, rows: Rows) -> Decided<Rows> {
 }
 
 fn accelerations(wanted: bool) -> Decided<bool> {
-    match wanted {
-        true => Decided::new(true, "at rows of output", "wanted"),
-        false => Decided::new(false, "within steps only", "not wanted at rows of output"),
+    if wanted {
+        Decided::new(true, "at rows of output", "wanted")
+    } else {
+        Decided::new(false, "within steps only", "not wanted at rows of output")
     }
 }

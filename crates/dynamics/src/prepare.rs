@@ -101,12 +101,13 @@ pub fn prepare(
     let found = rows_of(&mechanism, 0.0, &assembly.q)?;
     if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
         // What no motion has is said first: it is wrong also where the mechanism is only judged.
-        return Err(match found.are_certified() {
-            true => start_velocity(&mechanism, start, &found, &assembly.q, &found.all.kept)
+        return Err(if found.are_certified() {
+            start_velocity(&mechanism, start, &found, &assembly.q, &found.all.kept)
                 .err()
                 .filter(|e| !matches!(e, MotionError::Start(StartError::NoVelocity { .. })))
-                .unwrap_or(error),
-            false => error,
+                .unwrap_or(error)
+        } else {
+            error
         });
     }
     let decision = match rows {

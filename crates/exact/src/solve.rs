@@ -82,9 +82,10 @@ pub fn solve<R: AsRef<[f64]>>(
     let whole = equations.iter().map(|row| whole(row)).collect();
     let (rank, reduced) = eliminate(whole, n + r);
     if rank < n + r {
-        return Err(match Exact::of(rows).rank() < r {
-            true => Singular::Rows,
-            false => Singular::Massless,
+        return Err(if Exact::of(rows).rank() < r {
+            Singular::Rows
+        } else {
+            Singular::Massless
         });
     }
     let mut a = back_substituted(&reduced);

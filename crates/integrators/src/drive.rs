@@ -302,9 +302,10 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         }
         // In units of h: this step passes if it may be so long, else it leaves the next one a
         // little less than its reach.
-        let share = match distance <= reach {
-            true => distance / gap,
-            false => (distance - LEFT_TO_PASS * reach).min(1.0),
+        let share = if distance <= reach {
+            distance / gap
+        } else {
+            (distance - LEFT_TO_PASS * reach).min(1.0)
         };
         self.uncut = Some(self.h);
         self.h *= share;

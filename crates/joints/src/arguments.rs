@@ -129,16 +129,17 @@ impl<'a> Reader<'a> {
         parameters: &'static [Parameter],
         arguments: &'a [Argument],
     ) -> Result<Self, ArgumentError> {
-        match parameters.len() == arguments.len() {
-            true => Ok(Self {
+        if parameters.len() == arguments.len() {
+            Ok(Self {
                 parameters,
                 arguments,
                 next: 0,
-            }),
-            false => Err(ArgumentError::Count {
+            })
+        } else {
+            Err(ArgumentError::Count {
                 expected: parameters.len(),
                 found: arguments.len(),
-            }),
+            })
         }
     }
 

@@ -117,9 +117,10 @@ impl fmt::Display for Shape {
             Self::Direction { .. } => f.write_str("a direction [x, y]"),
             Self::GroundLine => f.write_str("two points [[x, y], [x, y]]"),
             Self::Numbers(units) => {
-                let range = match units.iter().any(|unit| unit.may_be_negative()) {
-                    true => "",
-                    false => " ≥ 0",
+                let range = if units.iter().any(|unit| unit.may_be_negative()) {
+                    ""
+                } else {
+                    " ≥ 0"
                 };
                 match units {
                     [unit] => write!(f, "a number{range} ({unit})"),

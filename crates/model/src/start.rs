@@ -74,9 +74,10 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         &weights,
         &described,
     );
-    let q = match within {
-        true => within::meant(mechanism, &mut s, (&rows, &weights), &described, size, q),
-        false => q,
+    let q = if within {
+        within::meant(mechanism, &mut s, (&rows, &weights), &described, size, q)
+    } else {
+        q
     };
     // What a definition asks of its numbers explains more than rows that miss because of them.
     let q = q.map_err(|error| match unmet_requirement(mechanism, &described) {

@@ -87,9 +87,10 @@ impl Scales<'_> {
         let has_tolerances = has_tolerances(self.mechanism);
         let opening = |i: usize| {
             let missed = self.s.phi.get(i).map_or(0.0, |phi| phi.abs());
-            match has_tolerances {
-                true => missed.min(CLOSED * ROUNDING * self.position(i)),
-                false => missed,
+            if has_tolerances {
+                missed.min(CLOSED * ROUNDING * self.position(i))
+            } else {
+                missed
             }
         };
         let of_row = |i: usize| self.relative_to_reach(i, size, opening(i));

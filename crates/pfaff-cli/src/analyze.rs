@@ -45,9 +45,10 @@ pub(crate) fn run(arguments: &Analyze, console: &Console<'_>) -> Outcome {
     let Some(warning) = error.only_motion() else {
         return Err(source.failure(error));
     };
-    match arguments.at_time == 0.0 && arguments.along.is_none() {
-        true => of_start(arguments, &source, drop.as_deref(), warning, console),
-        false => Err(source.failure(error)),
+    if arguments.at_time == 0.0 && arguments.along.is_none() {
+        of_start(arguments, &source, drop.as_deref(), warning, console)
+    } else {
+        Err(source.failure(error))
     }
 }
 

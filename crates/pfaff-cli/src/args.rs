@@ -99,10 +99,7 @@ impl Command {
             | Self::Stress(_)
             | Self::Generate(_) => false,
         };
-        match json {
-            true => Answer::Json,
-            false => Answer::Words,
-        }
+        if json { Answer::Json } else { Answer::Words }
     }
 }
 

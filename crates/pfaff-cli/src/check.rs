@@ -22,9 +22,10 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     arguments.resources.apply()?;
     let source = Source::read(&arguments.scene, console)?.known(arguments.known);
     let checked = Checked::of(&source, arguments.resources)?;
-    match arguments.json {
-        true => console.print(&format!("{:#}\n", checked.facts())),
-        false => console.print(&checked.describe()),
+    if arguments.json {
+        console.print(&format!("{:#}\n", checked.facts()))
+    } else {
+        console.print(&checked.describe())
     }
 }
 

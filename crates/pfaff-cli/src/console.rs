@@ -121,14 +121,12 @@ impl<'c> Console<'c> {
     /// Help that was asked for, or what is wrong with the words of the command line.
     pub fn usage(&self, message: &clap::Error) -> ExitCode {
         let is_fault = message.use_stderr();
-        let stream = match is_fault {
-            true => &self.err,
-            false => &self.out,
-        };
+        let stream = if is_fault { &self.err } else { &self.out };
         let mut stream = stream.borrow_mut();
-        let text = match is_coloured(&stream) {
-            true => message.render().ansi().to_string(),
-            false => message.render().to_string(),
+        let text = if is_coloured(&stream) {
+            message.render().ansi().to_string()
+        } else {
+            message.render().to_string()
         };
         let written = stream.write(text.as_bytes());
         drop(stream);

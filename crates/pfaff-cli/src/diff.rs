@@ -39,9 +39,10 @@ pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
     let [x, y] = [&starts[0].document, &starts[1].document];
     let comparison = Comparison::of(x, y);
     let motion = motion(&sources, &starts, arguments)?;
-    match arguments.json {
-        true => console.print(&format!("{:#}\n", document([x, y], &comparison, &motion))),
-        false => console.print(&describe(&names(&sources), [x, y], &comparison, &motion)),
+    if arguments.json {
+        console.print(&format!("{:#}\n", document([x, y], &comparison, &motion)))
+    } else {
+        console.print(&describe(&names(&sources), [x, y], &comparison, &motion))
     }
 }
 
@@ -162,10 +163,7 @@ fn names(sources: &[Source; 2]) -> [String; 2] {
             |name| name.to_string_lossy().into_owned(),
         )
     });
-    match short[0] == short[1] {
-        true => whole(),
-        false => short,
-    }
+    if short[0] == short[1] { whole() } else { short }
 }
 
 /// Counts of both scenes and their difference.
@@ -245,13 +243,15 @@ fn words(r: &ReactionDocument, with_type: bool) -> String {
         .iter()
         .filter(|c| c.verdict.verdict == "not_unique");
     let free: Vec<&str> = free.map(|c| c.name).collect();
-    let verdict = match free.is_empty() {
-        true => verdict,
-        false => format!("{verdict} ({})", free.join(", ")),
+    let verdict = if free.is_empty() {
+        verdict
+    } else {
+        format!("{verdict} ({})", free.join(", "))
     };
-    match with_type {
-        true => format!("{}, {verdict}", r.kind),
-        false => verdict,
+    if with_type {
+        format!("{}, {verdict}", r.kind)
+    } else {
+        verdict
     }
 }
 

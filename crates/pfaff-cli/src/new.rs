@@ -20,26 +20,29 @@ pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
         None => PathBuf::from(format!("{}.toml", template.name())),
     };
     let standard_output = path.as_os_str() == "-";
-    let file = match standard_output {
-        true => format!("{}.toml", template.name()),
-        false => path.display().to_string(),
+    let file = if standard_output {
+        format!("{}.toml", template.name())
+    } else {
+        path.display().to_string()
     };
     let text = template.scene(&file);
     if standard_output {
-        return match arguments.json {
-            true => Err(Failure::input(
+        return if arguments.json {
+            Err(Failure::input(
                 "--json and --out - both want standard output".to_owned(),
-            )),
-            false => console.print(&text),
+            ))
+        } else {
+            console.print(&text)
         };
     }
     write(&path, &text, arguments.force)?;
-    match arguments.json {
-        true => console.print(&format!(
+    if arguments.json {
+        console.print(&format!(
             "{:#}\n",
             json!({ "ok": true, "template": template.name(), "file": file })
-        )),
-        false => console.print(&format!("written to {file}\nnext: pfaff analyze {file}\n")),
+        ))
+    } else {
+        console.print(&format!("written to {file}\nnext: pfaff analyze {file}\n"))
     }
 }
 
@@ -59,9 +62,10 @@ fn write(path: &Path, text: &str, force: bool) -> Outcome {
     };
     let mut options = File::options();
     options.write(true);
-    match force {
-        true => options.create(true).truncate(true),
-        false => options.create_new(true),
+    if force {
+        options.create(true).truncate(true)
+    } else {
+        options.create_new(true)
     };
     let mut file = options.open(path).map_err(refused)?;
     let written = file.write_all(text.as_bytes());

@@ -58,15 +58,16 @@ impl Resources {
             (None, Some(left)) => (left, "the machine has left"),
             (None, None) => return Ok(()),
         };
-        match needed.0 <= allowed.0 {
-            true => Ok(()),
-            false => Err(Failure::stopped(format!(
+        if needed.0 <= allowed.0 {
+            Ok(())
+        } else {
+            Err(Failure::stopped(format!(
                 "{what} takes about {needed} of memory, {by} {allowed}; nothing was computed{}",
                 match self.max_memory {
                     Some(_) => "",
                     None => " (--max-memory overrides this)",
                 }
-            ))),
+            )))
         }
     }
 }
@@ -103,9 +104,10 @@ impl FromStr for Bytes {
             .ok_or_else(said)?;
         let number: f64 = number.trim().parse().map_err(|_| said())?;
         let bytes = number * unit as f64;
-        match number > 0.0 && bytes < u64::MAX as f64 {
-            true => Ok(Self(bytes as u64)),
-            false => Err(said()),
+        if number > 0.0 && bytes < u64::MAX as f64 {
+            Ok(Self(bytes as u64))
+        } else {
+            Err(said())
         }
     }
 }

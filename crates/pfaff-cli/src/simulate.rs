@@ -44,9 +44,10 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
         bar.set_position((t / t_end * TICKS as f64) as u64);
         let rate = t / bar.elapsed().as_secs_f64();
         bar.set_message(format!("{t:.3} s, {rate:.2} s of motion each second"));
-        match interrupt.is_asked() {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
+        if interrupt.is_asked() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
     });
     bar.finish_and_clear();
@@ -63,9 +64,10 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
         ));
         text
     };
-    match document.partial {
-        true => Err(console.incomplete(&text)),
-        false => console.print(&text),
+    if document.partial {
+        Err(console.incomplete(&text))
+    } else {
+        console.print(&text)
     }
 }
 
@@ -160,9 +162,10 @@ fn describe(name: &str, d: &RunDocument) -> String {
 
 /// Where the results are, and what to open first.
 fn written(out: &str, report: bool) -> String {
-    match report {
-        true => format!("written to {out}; report.html there opens in any browser\n"),
-        false => format!("written to {out}\n"),
+    if report {
+        format!("written to {out}; report.html there opens in any browser\n")
+    } else {
+        format!("written to {out}\n")
     }
 }
 

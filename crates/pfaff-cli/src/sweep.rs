@@ -19,20 +19,20 @@ pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
         Some(scene) => make(arguments, &Source::read(scene, console)?)?,
         None => {
             let document = merge(&arguments.merge, &arguments.out).map_err(|e| failure(&e))?;
-            let ending = match document.partial {
-                true => Ending::Missing,
-                false => Ending::Whole,
+            let ending = if document.partial {
+                Ending::Missing
+            } else {
+                Ending::Whole
             };
             (document, ending)
         }
     };
-    let text = match arguments.json {
-        true => {
-            let mut out = Vec::new();
-            write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
-            String::from_utf8_lossy(&out).into_owned()
-        }
-        false => describe(&document, ending, &arguments.out.display().to_string()),
+    let text = if arguments.json {
+        let mut out = Vec::new();
+        write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
+        String::from_utf8_lossy(&out).into_owned()
+    } else {
+        describe(&document, ending, &arguments.out.display().to_string())
     };
     match ending {
         Ending::Whole if document.done == document.finished => console.print(&text),
@@ -99,17 +99,19 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
         },
     );
     bar.finish_and_clear();
-    let ending = match interrupted() {
-        true => Ending::Interrupted,
-        false => Ending::Whole,
+    let ending = if interrupted() {
+        Ending::Interrupted
+    } else {
+        Ending::Whole
     };
     Ok((outcome.map_err(|e| failure(&e))?, ending))
 }
 
 fn failure(error: &SweepError) -> Failure {
-    match error.is_input() {
-        true => Failure::input(error.to_string()),
-        false => Failure::stopped(error.to_string()),
+    if error.is_input() {
+        Failure::input(error.to_string())
+    } else {
+        Failure::stopped(error.to_string())
     }
 }
 

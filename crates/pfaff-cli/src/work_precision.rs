@@ -81,9 +81,10 @@ impl Request<'_> {
         let table = WorkPrecisionTable::new(file).map_err(|e| stopped(&e))?;
         let (document, table) = self.compare(table)?;
         let file = table.finish().map_err(|e| stopped(&e))?;
-        let finished = match document.partial {
-            false => file.finish(),
-            true => file.finish_partial(),
+        let finished = if document.partial {
+            file.finish_partial()
+        } else {
+            file.finish()
         };
         finished.map_err(|e| stopped(&e))?;
         let figure = figures::work_precision(&document.scenes);
@@ -93,17 +94,17 @@ impl Request<'_> {
                 .write(name, text.as_bytes())
                 .map_err(|e| stopped(&e))?;
         }
-        let text = match self.json {
-            true => {
-                let mut out = Vec::new();
-                write_json(&mut out, &document).map_err(|e| stopped(&e))?;
-                String::from_utf8_lossy(&out).into_owned()
-            }
-            false => describe(&document, &self.out.display().to_string()),
+        let text = if self.json {
+            let mut out = Vec::new();
+            write_json(&mut out, &document).map_err(|e| stopped(&e))?;
+            String::from_utf8_lossy(&out).into_owned()
+        } else {
+            describe(&document, &self.out.display().to_string())
         };
-        match document.partial {
-            true => Err(console.incomplete(&text)),
-            false => console.print(&text),
+        if document.partial {
+            Err(console.incomplete(&text))
+        } else {
+            console.print(&text)
         }
     }
 

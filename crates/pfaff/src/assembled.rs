@@ -112,9 +112,10 @@ impl AssembledScene {
             (None, None) => RowChoice::Automatic,
         };
         if let Some(Err(e)) = options.as_ref().map(MotionOptions::check) {
-            return Err(match *overrides == Overrides::default() {
-                true => refused(&scene, e),
-                false => e.into(),
+            return Err(if *overrides == Overrides::default() {
+                refused(&scene, e)
+            } else {
+                e.into()
             });
         }
         let prepared = match prepare(mechanism, &scene.start, &rows) {

@@ -305,9 +305,10 @@ fn freedom(free: &[Matrix], turns: &[[f64; 2]], size: f64) -> Vec<Freedom> {
         let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
         let minor = (0.5 * (xx + yy) - half).max(0.0);
         Freedom {
-            angle: match is_free {
-                true => 0.5 * (2.0 * xy).atan2(xx - yy),
-                false => f64::NAN,
+            angle: if is_free {
+                0.5 * (2.0 * xy).atan2(xx - yy)
+            } else {
+                f64::NAN
             },
             plane: is_free && minor > PLANE * (xx + yy),
             components: [

@@ -63,9 +63,10 @@ impl<'a> ReportBuilder<'a> {
         if !self.recording.wants(sample.t) {
             return Ok(());
         }
-        let multipliers = match self.compares && !reactions.is_empty() {
-            true => sample.multipliers()?,
-            false => Vec::new(),
+        let multipliers = if self.compares && !reactions.is_empty() {
+            sample.multipliers()?
+        } else {
+            Vec::new()
         };
         self.recording.frames.push(Frame {
             t: sample.t,

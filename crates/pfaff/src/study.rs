@@ -147,9 +147,10 @@ impl Study {
         let configuration =
             ConfigurationAnalysis::new(&self.scene, mechanism, t, state, known, rows, progress)?;
         // Those of the start have been looked for when it was prepared.
-        let found = match t == 0.0 {
-            true => Vec::new(),
-            false => configuration.contradictions()?,
+        let found = if t == 0.0 {
+            Vec::new()
+        } else {
+            configuration.contradictions()?
         };
         match found.into_iter().next() {
             Some(worst) => Err(worst.into()),
@@ -378,12 +379,13 @@ impl Study {
         let start = self.analyse(0.0, None)?;
         let freedoms = start.freedoms()?;
         let sensitivities = start.sensitivities()?;
-        let mut trajectory = match output.trajectory {
-            true => Some(TrajectoryTable::new(
+        let mut trajectory = if output.trajectory {
+            Some(TrajectoryTable::new(
                 directory.file("trajectory.csv")?,
                 mechanism,
-            )?),
-            false => None,
+            )?)
+        } else {
+            None
         };
         let mut reactions = match selection(&output.reactions) {
             Some(selection) => Some(ReactionTable::new(
@@ -422,9 +424,10 @@ impl Study {
             )?;
             let flow = go_on(sample.t);
             unwritten = written.err();
-            Ok(match unwritten.is_some() {
-                true => ControlFlow::Break(()),
-                false => flow,
+            Ok(if unwritten.is_some() {
+                ControlFlow::Break(())
+            } else {
+                flow
             })
         });
         let (summary, error) = match outcome {

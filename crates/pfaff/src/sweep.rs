@@ -271,9 +271,10 @@ impl<'r> Sweep<'r> {
             if let Some(table) = &mut table {
                 unwritten = table.row(sample.t, sample.q, sample.v).err();
             }
-            match is_interrupted || unwritten.is_some() {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
+            if is_interrupted || unwritten.is_some() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
             }
         });
         if let Some(error) = unwritten {

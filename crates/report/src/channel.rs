@@ -89,9 +89,10 @@ impl Channel {
 impl Rounded {
     /// The number that is written.
     pub(crate) fn value(self) -> f64 {
-        match self.0.is_finite() && self.0 != 0.0 {
-            true => format!("{:.*e}", DIGITS, self.0).parse().unwrap_or(self.0),
-            false => self.0,
+        if self.0.is_finite() && self.0 != 0.0 {
+            format!("{:.*e}", DIGITS, self.0).parse().unwrap_or(self.0)
+        } else {
+            self.0
         }
     }
 }
@@ -100,9 +101,10 @@ impl Serialize for Rounded {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let value = self.value();
         // −0 and 3.0 take room.
-        match value == value.trunc() && value.abs() < 1e9 {
-            true => serializer.serialize_i64(value as i64),
-            false => serializer.serialize_f64(value),
+        if value == value.trunc() && value.abs() < 1e9 {
+            serializer.serialize_i64(value as i64)
+        } else {
+            serializer.serialize_f64(value)
         }
     }
 }

@@ -78,11 +78,12 @@ fn run(arguments: &Arguments) -> Result<String, CodeError> {
             path: out.display().to_string(),
             source,
         })?;
-        return match found == text {
-            true => Ok(format!("{} agrees with its scene", out.display())),
-            false => Err(CodeError::Stale {
+        return if found == text {
+            Ok(format!("{} agrees with its scene", out.display()))
+        } else {
+            Err(CodeError::Stale {
                 path: out.display().to_string(),
-            }),
+            })
         };
     }
     std::fs::write(out, text).map_err(|e| file(out, e))?;

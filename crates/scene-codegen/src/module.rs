@@ -118,9 +118,10 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
     let mut text = print(items)?;
     for (name, snippet) in SUPPORT {
         if support.contains(&name) {
-            let snippet = match choices.libm {
-                false => snippet.to_owned(),
-                true => snippet.replace("x.sin_cos()", "libm::sincos(x)"),
+            let snippet = if choices.libm {
+                snippet.replace("x.sin_cos()", "libm::sincos(x)")
+            } else {
+                snippet.to_owned()
             };
             text.push('\n');
             text.push_str(&snippet);
@@ -146,9 +147,10 @@ fn one_line(text: &str) -> String {
 /// A name as Rust has it.
 fn identifier(name: &str) -> String {
     let name = name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
-    match name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        true => name.to_lowercase(),
-        false => format!("scene_{}", name.to_lowercase()),
+    if name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        name.to_lowercase()
+    } else {
+        format!("scene_{}", name.to_lowercase())
     }
 }
 
@@ -474,9 +476,10 @@ fn face(functions: &Functions, path: &syn::Path) -> TokenStream {
             .map(|a| format_ident!("{}", a.0))
             .collect();
         let lengths = signature.arguments.iter().map(|a| format_ident!("{}", a.1));
-        let (result, otherwise) = match signature.divides {
-            true => (quote!(-> f64), quote!(return f64::NAN)),
-            false => (quote!(), quote!(return)),
+        let (result, otherwise) = if signature.divides {
+            (quote!(-> f64), quote!(return f64::NAN))
+        } else {
+            (quote!(), quote!(return))
         };
         quote! {
             fn #name(&self, t: f64, #(#names: &[f64],)* #out: &mut [f64]) #result {

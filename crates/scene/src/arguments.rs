@@ -44,9 +44,10 @@ impl Arguments {
                 continue;
             }
             let key = parameter.name;
-            let field = match parameter.optional {
-                true => table.optional(key),
-                false => table.needed(key, parameter.shape, findings),
+            let field = if parameter.optional {
+                table.optional(key)
+            } else {
+                table.needed(key, parameter.shape, findings)
             };
             let Some(field) = field else {
                 let absent = parameter.optional.then_some(Argument::Absent);

@@ -106,9 +106,10 @@ fn suggestion(nearest: Option<&str>) -> String {
 }
 
 fn mixed(whole: &bool) -> &'static str {
-    match whole {
-        true => "a whole reaction, but the first term is a component",
-        false => "a component, but the first term is a whole reaction",
+    if *whole {
+        "a whole reaction, but the first term is a component"
+    } else {
+        "a component, but the first term is a whole reaction"
     }
 }
 

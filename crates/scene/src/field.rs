@@ -32,11 +32,14 @@ impl<'t> Field<'t> {
         let text = self.value.get_ref().as_str();
         let help = text
             .filter(|_| expected.contains("number"))
-            .and_then(|text| match units::is_number(text) {
-                true => Some(format!(
-                    "numbers stand without quotes: write `{text}` instead of `\"{text}\"`"
-                )),
-                false => units::advice(text),
+            .and_then(|text| {
+                if units::is_number(text) {
+                    Some(format!(
+                        "numbers stand without quotes: write `{text}` instead of `\"{text}\"`"
+                    ))
+                } else {
+                    units::advice(text)
+                }
             });
         findings.error_with_help(
             self.span(),

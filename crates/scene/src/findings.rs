@@ -46,9 +46,10 @@ impl<'s> Findings<'s> {
 
     /// Reports a problem.
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
-        match self.is_full() {
-            true => self.more += 1,
-            false => self.list.push(diagnostic),
+        if self.is_full() {
+            self.more += 1
+        } else {
+            self.list.push(diagnostic)
         }
     }
 

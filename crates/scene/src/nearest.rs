@@ -64,9 +64,10 @@ pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 /// Letters that are compared: case does not count.
 fn lower(text: &str, out: &mut Vec<char>) {
     out.clear();
-    match text.is_ascii() {
-        true => out.extend(text.bytes().map(|b| char::from(b.to_ascii_lowercase()))),
-        false => out.extend(text.chars().flat_map(char::to_lowercase)),
+    if text.is_ascii() {
+        out.extend(text.bytes().map(|b| char::from(b.to_ascii_lowercase())))
+    } else {
+        out.extend(text.chars().flat_map(char::to_lowercase))
     }
 }
 

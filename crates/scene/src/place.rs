@@ -83,9 +83,10 @@ pub(crate) fn read(
             span: local.span(),
         },
         (None, None) => {
-            let form = match spec.points_apart {
-                true => "[[x, y], …]",
-                false => "[x, y]",
+            let form = if spec.points_apart {
+                "[[x, y], …]"
+            } else {
+                "[x, y]"
             };
             findings.error(
                 table.header.clone(),
@@ -109,14 +110,12 @@ fn global(
     bodies: &Bodies,
     findings: &mut Findings,
 ) -> Vec<Option<[f64; 2]>> {
-    let points = match spec.points_apart {
-        true => {
-            let expected = format!("{} global points [[x, y], …]", of.len());
-            at.pairs(of.len(), &expected, findings)
-        }
-        false => at
-            .pair("a global point [x, y]", findings)
-            .map(|point| vec![point; of.len()]),
+    let points = if spec.points_apart {
+        let expected = format!("{} global points [[x, y], …]", of.len());
+        at.pairs(of.len(), &expected, findings)
+    } else {
+        at.pair("a global point [x, y]", findings)
+            .map(|point| vec![point; of.len()])
     };
     let Some(points) = points else {
         return vec![None; of.len()];

@@ -176,9 +176,10 @@ pub(crate) fn output(mut table: Table, names: &Reactions, findings: &mut Finding
 
 /// A list of joints and drives, each once.
 fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<Vec<String>> {
-    let expected = match field.key == REACTIONS.name {
-        true => REACTIONS.expected,
-        false => MEMBERS.expected,
+    let expected = if field.key == REACTIONS.name {
+        REACTIONS.expected
+    } else {
+        MEMBERS.expected
     };
     let mut members: Vec<String> = Vec::new();
     let mut first: HashMap<&str, Range<usize>> = HashMap::new();

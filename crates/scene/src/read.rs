@@ -72,9 +72,10 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
         check(&scene.description, source, &mut findings);
     }
     let problems = findings.sorted();
-    match problems.is_empty() {
-        true => Ok(scene),
-        false => Err(problems),
+    if problems.is_empty() {
+        Ok(scene)
+    } else {
+        Err(problems)
     }
 }
 

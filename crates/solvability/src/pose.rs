@@ -17,14 +17,16 @@ pub(crate) const COLUMNS: usize = 3;
 /// C without dimensions, for a mechanism of this size.
 pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism
-        .layout().dimension_scaling(size)
+        .layout()
+        .dimension_scaling(size)
         .apply(&mechanism.layout().dense(s))
 }
 
 /// What the entries of [`dimensionless`] C are known to in `f64`.
 pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism
-        .layout().dimension_scaling(size)
+        .layout()
+        .dimension_scaling(size)
         .apply(&mechanism.scales(s).uncertainty(size, Known::AsStored))
 }
 

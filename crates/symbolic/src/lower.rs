@@ -83,9 +83,10 @@ impl Program {
             }
             (None, None) => unreachable!("a product in canonical form has factors"),
         };
-        match c < 0.0 {
-            true => self.push(Op::Neg(magnitude)),
-            false => magnitude,
+        if c < 0.0 {
+            self.push(Op::Neg(magnitude))
+        } else {
+            magnitude
         }
     }
 

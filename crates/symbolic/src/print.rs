@@ -140,15 +140,12 @@ impl<'a> Printer<'a> {
                 // A bare literal has no definite type, hence no methods.
                 let bare =
                     self.scalar == Scalar::F64 && matches!(self.program.op(a), Op::Number(_));
-                let tokens = match bare {
-                    true => {
-                        let a = self.operand(a, bound, Strength::Sum);
-                        quote!(f64::#name(#a))
-                    }
-                    false => {
-                        let a = self.operand(a, bound, Strength::Atom);
-                        quote!(#a.#name())
-                    }
+                let tokens = if bare {
+                    let a = self.operand(a, bound, Strength::Sum);
+                    quote!(f64::#name(#a))
+                } else {
+                    let a = self.operand(a, bound, Strength::Atom);
+                    quote!(#a.#name())
                 };
                 (tokens, Strength::Atom)
             }
@@ -175,9 +172,10 @@ impl<'a> Printer<'a> {
 
     fn operand(&self, v: Value, bound: &HashMap<Value, Ident>, needed: Strength) -> TokenStream {
         let (tokens, strength) = self.expression(v, bound, false);
-        match strength >= needed {
-            true => tokens,
-            false => quote!((#tokens)),
+        if strength >= needed {
+            tokens
+        } else {
+            quote!((#tokens))
         }
     }
 
@@ -191,9 +189,10 @@ impl<'a> Printer<'a> {
             let literal = Literal::f64_unsuffixed(x.abs());
             quote!(#literal)
         };
-        let (signed, strength) = match x < 0.0 {
-            true => (quote!(-#magnitude), Strength::Sign),
-            false => (magnitude, Strength::Atom),
+        let (signed, strength) = if x < 0.0 {
+            (quote!(-#magnitude), Strength::Sign)
+        } else {
+            (magnitude, Strength::Atom)
         };
         match self.scalar {
             Scalar::Generic => (quote!(T::from(#signed)), Strength::Atom),

@@ -166,9 +166,10 @@ fn chebyshev() {
     let (mut low, mut high) = (0.4, 1.0);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        match slope(middle) > 0.0 {
-            true => low = middle,
-            false => high = middle,
+        if slope(middle) > 0.0 {
+            low = middle
+        } else {
+            high = middle
         }
     }
     let largest = height(low.acos()) - 0.4;

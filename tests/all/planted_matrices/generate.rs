@@ -147,9 +147,12 @@ fn small(numbers: &mut Numbers) -> f64 {
 
 /// −2 to 2, mostly 0.
 fn sparse(m: usize, n: usize, numbers: &mut Numbers) -> Rows {
-    let mut entry = || match numbers.once_in(3) {
-        true => f64::from(numbers.between(-2, 2)),
-        false => 0.0,
+    let mut entry = || {
+        if numbers.once_in(3) {
+            f64::from(numbers.between(-2, 2))
+        } else {
+            0.0
+        }
     };
     (0..m).map(|_| (0..n).map(|_| entry()).collect()).collect()
 }

@@ -161,9 +161,10 @@ impl Pen<'_> {
             6 => Tie::Angle,
             _ => {
                 let from = self.point();
-                match from == at {
-                    true => Tie::Revolute { at },
-                    false => Tie::Distance { from, at },
+                if from == at {
+                    Tie::Revolute { at }
+                } else {
+                    Tie::Distance { from, at }
                 }
             }
         }
@@ -271,13 +272,12 @@ impl Pen<'_> {
     /// Wheels on a carrier; two trains with the same ratio between the first and the last wheel:
     /// one mesh is redundant.
     fn gears(&mut self) -> usize {
-        let carrier = match self.numbers.once_in(2) {
-            true => GROUND,
-            false => {
-                let (carrier, at) = (self.body(), self.point());
-                self.sketch.link(&[GROUND, carrier], Tie::Revolute { at });
-                carrier
-            }
+        let carrier = if self.numbers.once_in(2) {
+            GROUND
+        } else {
+            let (carrier, at) = (self.body(), self.point());
+            self.sketch.link(&[GROUND, carrier], Tie::Revolute { at });
+            carrier
         };
         let wheel = |pen: &mut Self| {
             let (body, at) = (pen.body(), pen.point());

@@ -204,12 +204,10 @@ fn done<const N: usize>(
     error: impl Fn(&[f64; N]) -> f64,
 ) -> Result<Outcome, String> {
     let error = error(&end.y);
-    match error.is_finite() {
-        true => Ok(Outcome {
+    if error.is_finite() { Ok(Outcome {
             error,
             evaluations: end.evaluations,
             steps: end.steps,
-        }),
-        false => Err("the end is no number, and no error was reported".to_owned()),
-    }
+        })
+} else { Err("the end is no number, and no error was reported".to_owned()) }
 }

@@ -47,9 +47,12 @@ fn plain_one(table: &Table) -> String {
             .iter()
             .zip(&widths)
             .enumerate()
-            .map(|(column, (cell, &width))| match is_number(column) {
-                true => format!("{cell:>width$}"),
-                false => format!("{cell:<width$}"),
+            .map(|(column, (cell, &width))| {
+                if is_number(column) {
+                    format!("{cell:>width$}")
+                } else {
+                    format!("{cell:<width$}")
+                }
             });
         let line = cells.collect::<Vec<_>>().join("  ");
         text += &format!("  {}\n", line.trim_end());

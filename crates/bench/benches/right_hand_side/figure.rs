@@ -45,9 +45,10 @@ pub(crate) fn bars(lines: &[&Line]) -> String {
     for (k, line) in sorted.iter().enumerate() {
         let y = TOP + PITCH * k as f64 + 0.5 * (PITCH - BAR);
         let end = x(line.time.least.log10());
-        let (fill, weight) = match line.is_ours() {
-            true => ("#0072b2", "bold"),
-            false => ("#9fb3c2", "normal"),
+        let (fill, weight) = if line.is_ours() {
+            ("#0072b2", "bold")
+        } else {
+            ("#9fb3c2", "normal")
         };
         let text = y + 0.5 * BAR + 4.0;
         let _ = writeln!(

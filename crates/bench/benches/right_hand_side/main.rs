@@ -69,9 +69,12 @@ fn tell(instructions: bool) -> Outcome<Vec<Line>> {
     all.extend(runs::all(&robot)?);
     let times = timing::take_turns(&mut all);
     // The cost of a run that no machine changes is its number of evaluations, which is told anyway.
-    let count = |work: &Work<'_>| match instructions && work.group != Group::Run {
-        true => instructions::per_lap(work.key).map(Some),
-        false => Ok(None),
+    let count = |work: &Work<'_>| {
+        if instructions && work.group != Group::Run {
+            instructions::per_lap(work.key).map(Some)
+        } else {
+            Ok(None)
+        }
     };
     let mut lines = Vec::new();
     for (work, time) in all.iter().zip(times) {

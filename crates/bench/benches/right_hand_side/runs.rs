@@ -132,8 +132,9 @@ fn end(robot: &Robot) -> Outcome<Vec<f64>> {
             end[offset + 3 * body + place] = fact.value;
         }
     }
-    match end.iter().all(|x| x.is_finite()) {
-        true => Ok(end),
-        false => Err("the reference does not know all of q and v at the end".into()),
+    if end.iter().all(|x| x.is_finite()) {
+        Ok(end)
+    } else {
+        Err("the reference does not know all of q and v at the end".into())
     }
 }

@@ -32,9 +32,10 @@ impl<'a> Scope<'a> {
         let rows = self.rows(expr)?;
         check_row_count(d, expr, rows.len())?;
         for &(row, at) in &rows {
-            match holonomic {
-                true => self.refuse_all(at, check::PHI)?,
-                false => self.refuse_all(at, check::PSI)?,
+            if holonomic {
+                self.refuse_all(at, check::PHI)?
+            } else {
+                self.refuse_all(at, check::PSI)?
             }
             if !holonomic && !check::moves(&mut self.model, row) {
                 return Err(syn::Error::new_spanned(

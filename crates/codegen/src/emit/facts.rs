@@ -18,27 +18,33 @@ pub(super) fn constraint_spec(
 ) -> TokenStream {
     let motion = t.driven.then(|| k.unit_of_measure());
     let common = common(d, &t.name.to_string(), &t.scene_type, &t.doc, motion, text);
-    let role = match t.driven {
-        true => quote!(Role::Drive),
-        false => quote!(Role::Joint),
+    let role = if t.driven {
+        quote!(Role::Drive)
+    } else {
+        quote!(Role::Joint)
     };
-    let level = match body.holonomic {
-        true => quote!(Level::Holonomic),
-        false => quote!(Level::Nonholonomic),
+    let level = if body.holonomic {
+        quote!(Level::Holonomic)
+    } else {
+        quote!(Level::Nonholonomic)
     };
     let rows = t
         .rows
         .iter()
         .zip(&k.restricts_start)
-        .map(|(name, restricts)| match restricts {
-            true => quote!(Row::restricting_start(#name)),
-            false => quote!(Row::keeping_start(#name)),
+        .map(|(name, restricts)| {
+            if *restricts {
+                quote!(Row::restricting_start(#name))
+            } else {
+                quote!(Row::keeping_start(#name))
+            }
         });
     let c = k.c.iter().map(|e| {
         let [row, slot, dof] = [e.row, e.column / N_DOF, e.column % N_DOF].map(index);
-        match e.constant {
-            true => quote!(Entry::constant(#row, #slot, #dof)),
-            false => quote!(Entry::varying(#row, #slot, #dof)),
+        if e.constant {
+            quote!(Entry::constant(#row, #slot, #dof))
+        } else {
+            quote!(Entry::varying(#row, #slot, #dof))
         }
     });
     let rheonomic = !k.b.is_empty();

@@ -44,8 +44,8 @@ pub(super) fn scene_type(d: &Definition) -> String {
 
 /// What the generated items name.
 pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
-    let (traits, specs) = match constraint {
-        true => (
+    let (traits, specs) = if constraint {
+        (
             quote!(Constraint, Definition, Element, Ring, Visitor),
             quote!(
                 ConstraintSpec,
@@ -62,11 +62,12 @@ pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
                 Unit,
                 Variant
             ),
-        ),
-        false => (
+        )
+    } else {
+        (
             quote!(Definition, Force, ForceElement, Real),
             quote!(ForceSpec, Parameter, Shape, Spec, Unit, Variant),
-        ),
+        )
     };
     quote! {
         #[allow(unused_imports)]
@@ -168,9 +169,10 @@ fn param_doc(p: &Param, d: &Definition) -> String {
             format!("Units: {}.", units.join(", "))
         }
     };
-    match p.doc.is_empty() {
-        true => format!(" {takes}"),
-        false => format!(" {} {takes}", p.doc.join(" ")),
+    if p.doc.is_empty() {
+        format!(" {takes}")
+    } else {
+        format!(" {} {takes}", p.doc.join(" "))
     }
 }
 
@@ -238,9 +240,10 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> Tok
     });
     let measure = driven.then(|| quote!(measure_0: 0.0,));
     // Without parameters nothing is read, and only the count is checked.
-    let reader = match reads.is_empty() {
-        true => quote!(Reader::new(Self::SPEC.common.parameters, arguments)?;),
-        false => quote!(let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;),
+    let reader = if reads.is_empty() {
+        quote!(Reader::new(Self::SPEC.common.parameters, arguments)?;)
+    } else {
+        quote!(let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;)
     };
     quote! {
         fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
@@ -296,9 +299,10 @@ pub(super) fn requirement(model: &Model) -> TokenStream {
         let (k, statements) = (index(k), &printed.statements);
         quote!(#k => { #(#statements)* #test })
     });
-    let body = match model.requirements.is_empty() {
-        true => quote!(true),
-        false => quote!(match k { #(#arms)* _ => true }),
+    let body = if model.requirements.is_empty() {
+        quote!(true)
+    } else {
+        quote!(match k { #(#arms)* _ => true })
     };
     quote! {
         fn requirement(&self, k: usize, x: &[Pose]) -> bool { #body }

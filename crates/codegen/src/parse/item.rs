@@ -223,12 +223,11 @@ fn unknown_item(kind: Kind, word: &Ident, text: &str) -> syn::Error {
         Kind::Constraint => (&CONSTRAINT[..], "joint!", &FORCE[..], "force!"),
         Kind::Force => (&FORCE[..], "force!", &CONSTRAINT[..], "joint!"),
     };
-    let message = match other_words.contains(&text) {
-        true => format!("`{text}` belongs into a `{other}`, this is a `{what}`"),
-        false => {
-            let known: Vec<&str> = COMMON.iter().chain(own).copied().collect();
-            format!("unknown item `{text}`{}", hint(text, &known))
-        }
+    let message = if other_words.contains(&text) {
+        format!("`{text}` belongs into a `{other}`, this is a `{what}`")
+    } else {
+        let known: Vec<&str> = COMMON.iter().chain(own).copied().collect();
+        format!("unknown item `{text}`{}", hint(text, &known))
     };
     syn::Error::new_spanned(word, message)
 }
@@ -262,11 +261,12 @@ fn once<T>(at: &Ident, previous: Option<T>) -> syn::Result<()> {
 }
 
 fn one_level(at: &Ident, d: &Definition) -> syn::Result<()> {
-    match d.phi.is_some() && d.psi.is_some() {
-        true => Err(syn::Error::new_spanned(
+    if d.phi.is_some() && d.psi.is_some() {
+        Err(syn::Error::new_spanned(
             at,
             "a definition is either holonomic (`phi`) or nonholonomic (`psi`), not both: make it two definitions",
-        )),
-        false => Ok(()),
+        ))
+    } else {
+        Ok(())
     }
 }

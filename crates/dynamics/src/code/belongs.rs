@@ -197,13 +197,14 @@ fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMism
             });
         }
     }
-    match *facts.break_times == *layout.break_times {
-        true => Ok(()),
-        false => Err(CodeMismatch::BreakTimes {
+    if *facts.break_times == *layout.break_times {
+        Ok(())
+    } else {
+        Err(CodeMismatch::BreakTimes {
             name: name(),
             found: facts.break_times.to_vec(),
             expected: layout.break_times.clone(),
-        }),
+        })
     }
 }
 

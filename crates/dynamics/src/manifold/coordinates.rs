@@ -180,9 +180,10 @@ impl IndependentCoordinates {
             .mechanism
             .space()
             .largest_difference(q, &self.guess, at.size);
-        match off.1 <= FAR_IN_A_STEP * farthest + FAR_AT_REST {
-            true => Ok(()),
-            false => Err(at.far_completion(t, off)),
+        if off.1 <= FAR_IN_A_STEP * farthest + FAR_AT_REST {
+            Ok(())
+        } else {
+            Err(at.far_completion(t, off))
         }
     }
 

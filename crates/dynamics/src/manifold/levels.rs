@@ -118,15 +118,16 @@ pub(super) fn correct_position(
     };
     let end = correct(&mut level, &limits)?;
     let (at, row) = (&equations.at, end.worst);
-    match end.is_reached {
-        true => Ok(end.corrections),
-        false => Err(MotionFault::OffConstraints {
+    if end.is_reached {
+        Ok(end.corrections)
+    } else {
+        Err(MotionFault::OffConstraints {
             time: t,
             row: at.label(row),
             residual: at.s.phi[row].abs(),
             tolerance: ROUNDINGS * f64::EPSILON * at.position_scale(row),
             iterations: end.corrections,
-        }),
+        })
     }
 }
 
@@ -150,9 +151,10 @@ impl Level for Velocities<'_, '_> {
             -residual
         });
         self.left = largest(&velocity.rhs);
-        match self.left == 0.0 {
-            true => (0, 0.0),
-            false => (0, self.left / (f64::EPSILON * fastest)),
+        if self.left == 0.0 {
+            (0, 0.0)
+        } else {
+            (0, self.left / (f64::EPSILON * fastest))
         }
     }
 
@@ -196,8 +198,9 @@ pub(super) fn largest(x: &[f64]) -> f64 {
 
 /// Roundings below which rows count as satisfied.
 fn enough(rows: &KeptRows) -> f64 {
-    match rows.relative_pivot() < WEAK {
-        true => FEW_ROUNDINGS,
-        false => ROUNDINGS,
+    if rows.relative_pivot() < WEAK {
+        FEW_ROUNDINGS
+    } else {
+        ROUNDINGS
     }
 }

@@ -152,9 +152,10 @@ fn refinement(prepared: &Prepared) -> Result<Decided<bool>, MotionError> {
     let mut equations = KeptRowMotion::new(prepared)?.equations;
     equations.factor_at(0.0, &prepared.q)?;
     let value = equations.velocity.are_refined();
-    let why = match value {
-        true => "but at the start digits cancel in the reduced mass",
-        false => "and no digits cancel in the reduced mass at the start; watched at every solution",
+    let why = if value {
+        "but at the start digits cancel in the reduced mass"
+    } else {
+        "and no digits cancel in the reduced mass at the start; watched at every solution"
     };
     decided(value, format!("{factor}, {why}"))
 }

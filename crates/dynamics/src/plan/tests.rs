@@ -215,9 +215,12 @@ fn rows_that_nobody_wants_are_not_computed() {
     let mut rows = 0;
     let stopped = plan
         .simulate_watched(
-            &|t| match t < 0.5 {
-                true => ControlFlow::Continue(()),
-                false => ControlFlow::Break(()),
+            &|t| {
+                if t < 0.5 {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
             },
             |_| {
                 rows += 1;

@@ -44,17 +44,15 @@ impl EnergyBalance {
 /// The larger of two numbers; NaN, an energy that has left the range of numbers, is larger than
 /// all.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
-    match b > a || b.is_nan() {
-        true => b,
-        false => a,
-    }
+    if b > a || b.is_nan() { b } else { a }
 }
 
 /// A gap relative to a kinetic energy; none is none.
 pub(super) fn relative(gap: f64, kinetic: f64) -> f64 {
-    match gap > 0.0 || gap.is_nan() {
-        true => gap / kinetic,
-        false => 0.0,
+    if gap > 0.0 || gap.is_nan() {
+        gap / kinetic
+    } else {
+        0.0
     }
 }
 

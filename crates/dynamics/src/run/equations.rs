@@ -115,16 +115,18 @@ impl<'m> RunEquations<'m> {
         y: &mut [f64],
         row: &mut (dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + '_),
     ) -> Result<ControlFlow<()>, MotionFault> {
-        let t_before = match t > 0.0 && self.is_break(t) {
-            true => t.next_down(),
-            false => t,
+        let t_before = if t > 0.0 && self.is_break(t) {
+            t.next_down()
+        } else {
+            t
         };
         let (q, v, _) = self.motion.parts_mut(y);
         // On independent coordinates only these are interpolated, and code knows its own.
         let is_whole = self.motion.independent().is_none() && !self.motion.is_on_code();
-        let found = match self.wanted.on_constraints || !is_whole {
-            true => Some(self.motion.end_row(t_before, (q, v))?),
-            false => None,
+        let found = if self.wanted.on_constraints || !is_whole {
+            Some(self.motion.end_row(t_before, (q, v))?)
+        } else {
+            None
         };
         let at = &self.motion.equations.at;
         if GUARDED {
@@ -138,9 +140,10 @@ impl<'m> RunEquations<'m> {
         }
         let is_settled = self.motion.manifold.projects() && !self.motion.is_on_code();
         let source = OfMotion {
-            known: match found.is_some() && is_settled {
-                true => Known::Factored,
-                false => Known::Nothing,
+            known: if found.is_some() && is_settled {
+                Known::Factored
+            } else {
+                Known::Nothing
             },
             t_before,
             wanted: &self.wanted,
@@ -334,9 +337,10 @@ fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), MotionFault> {
     let Some(k) = y.iter().position(|x| !x.is_finite()) else {
         return Ok(());
     };
-    let (what, (body, coordinate)) = match k < n_q {
-        true => ("", mechanism.coordinate_name(k)),
-        false => ("rate of the ", mechanism.coordinate(k - n_q)),
+    let (what, (body, coordinate)) = if k < n_q {
+        ("", mechanism.coordinate_name(k))
+    } else {
+        ("rate of the ", mechanism.coordinate(k - n_q))
     };
     Err(MotionFault::NotFinite {
         time: t,

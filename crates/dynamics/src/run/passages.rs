@@ -28,9 +28,10 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
             let layout = motion.mechanism().layout();
             let mobility = layout.n_v - motion.equations.velocity.kept.len();
             let (kernel, rows) = (mobility + singular.dependent, layout.rows());
-            let words = match kernel <= KERNEL_MAX && rows <= JUDGED_MOST {
-                true => judge(step),
-                false => None,
+            let words = if kernel <= KERNEL_MAX && rows <= JUDGED_MOST {
+                judge(step)
+            } else {
+                None
             };
             let words = words.unwrap_or_else(|| "whether it is unique there is not decided".into());
             step.ode()

@@ -110,9 +110,10 @@ impl Sample<'_, '_> {
 
 impl OfMotion<'_, '_> {
     fn acceleration(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
-        match self.wanted.accelerations {
-            true => self.solve(q, v),
-            false => Ok(vec![f64::NAN; v.len()]),
+        if self.wanted.accelerations {
+            self.solve(q, v)
+        } else {
+            Ok(vec![f64::NAN; v.len()])
         }
     }
 
@@ -159,9 +160,12 @@ impl OfMotion<'_, '_> {
     fn reactions_of(&self, lambda: &[f64]) -> Vec<Reaction> {
         let mechanism = self.motion.mechanism();
         let s = self.motion.scratch();
-        let reaction = |(k, id)| match self.wants(k) {
-            true => mechanism.reactions(s).reaction(id, lambda),
-            false => left_out(mechanism, k),
+        let reaction = |(k, id)| {
+            if self.wants(k) {
+                mechanism.reactions(s).reaction(id, lambda)
+            } else {
+                left_out(mechanism, k)
+            }
         };
         let ids = mechanism.layout().constraint_ids().enumerate();
         ids.map(reaction).collect()

@@ -259,15 +259,17 @@ impl KeptRows {
         note(Counted::Coefficients);
         // Large mechanisms have thousands of dropped rows, each implied by a few rows of its own:
         // two sums of all of them with random signs stand for them.
-        let samples = match self.solver.brings_multipliers() {
-            true => 2,
-            false => self.dropped.len(),
+        let samples = if self.solver.brings_multipliers() {
+            2
+        } else {
+            self.dropped.len()
         };
         let mut largest = 0.0_f64;
         for k in 0..samples {
-            let implied = match self.solver.brings_multipliers() {
-                true => self.imply_sum(at, 1 + k as u64),
-                false => self.imply(at, self.dropped[k]),
+            let implied = if self.solver.brings_multipliers() {
+                self.imply_sum(at, 1 + k as u64)
+            } else {
+                self.imply(at, self.dropped[k])
             };
             largest = match implied {
                 Ok(()) => self.lambda.iter().fold(largest, |a, l| a.max(l.abs())),
@@ -396,9 +398,12 @@ impl KeptRows {
                 scale,
             },
             SaddleError::MasslessMotion { motion, .. } => {
-                let further = |a: usize, b: usize| match motion[b].abs() > motion[a].abs() {
-                    true => b,
-                    false => a,
+                let further = |a: usize, b: usize| {
+                    if motion[b].abs() > motion[a].abs() {
+                        b
+                    } else {
+                        a
+                    }
                 };
                 let (body, coordinate) =
                     at.mechanism.coordinate((0..motion.len()).fold(0, further));

@@ -47,9 +47,12 @@ fn is_sparse_in(mechanism: &Mechanism, units: &[f64], rows: usize) -> bool {
 /// of output.
 pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) -> usize {
     let layout = mechanism.layout();
-    let of_level = |kept: &[usize]| match is_sparse(mechanism, size, kept.len()) {
-        true => sparse::memory(mechanism, kept),
-        false => DENSE_MATRICES * size_of::<f64>() * (layout.n_v + kept.len()).pow(2),
+    let of_level = |kept: &[usize]| {
+        if is_sparse(mechanism, size, kept.len()) {
+            sparse::memory(mechanism, kept)
+        } else {
+            DENSE_MATRICES * size_of::<f64>() * (layout.n_v + kept.len()).pow(2)
+        }
     };
     let vectors = VECTORS * size_of::<f64>() * (layout.n_q + layout.n_v + layout.rows());
     levels.into_iter().map(of_level).sum::<usize>() + vectors

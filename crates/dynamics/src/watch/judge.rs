@@ -106,9 +106,10 @@ impl Watch {
         has_to_end: bool,
     ) -> Next {
         let is_near = equations.velocity.relative_pivot() < self.nearest();
-        match is_near && !has_to_end {
-            true => Next::Stop(self.no_way_over(t)),
-            false => Next::Accept,
+        if is_near && !has_to_end {
+            Next::Stop(self.no_way_over(t))
+        } else {
+            Next::Accept
         }
     }
 
@@ -173,9 +174,10 @@ impl Watch {
         correction: f64,
     ) -> Next {
         let distance = equations.velocity.relative_pivot().max(NEAREST);
-        match correction * self.rtol > SMOOTH * distance {
-            true => Next::Stop(self.no_way_over(t)),
-            false => Next::Accept,
+        if correction * self.rtol > SMOOTH * distance {
+            Next::Stop(self.no_way_over(t))
+        } else {
+            Next::Accept
         }
     }
 

@@ -40,9 +40,10 @@ pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64
     };
     let interval = [now.t, now.t + BEYOND * (expected - now.t)];
     let mut search = Search::new(equations);
-    match search.is_promising(interval, &mut state) {
-        true => search.find(interval, noise, state).map(|found| found.t),
-        false => None,
+    if search.is_promising(interval, &mut state) {
+        search.find(interval, noise, state).map(|found| found.t)
+    } else {
+        None
     }
 }
 

@@ -185,9 +185,8 @@ impl Block {
     }
 
     fn difference(&self, other: &Self) -> f64 {
-        match (self.rows, self.columns) == (other.rows, other.columns) {
-            true => self
-                .zip(other, |a, b| a - b)
+        if (self.rows, self.columns) == (other.rows, other.columns) {
+            self.zip(other, |a, b| a - b)
                 .entries
                 .iter()
                 .fold(0.0, |m: f64, e| {
@@ -196,8 +195,9 @@ impl Block {
                     } else {
                         m.max(e.abs())
                     }
-                }),
-            false => f64::NAN,
+                })
+        } else {
+            f64::NAN
         }
     }
 }

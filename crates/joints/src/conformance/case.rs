@@ -232,9 +232,10 @@ fn argument(parameter: &Parameter, kind: Kind, random: &mut Random) -> Argument 
 }
 
 fn number(unit: Unit, random: &mut Random) -> f64 {
-    match unit.may_be_negative() {
-        true => random.within(3.0),
-        false => random.within(5.0).abs(),
+    if unit.may_be_negative() {
+        random.within(3.0)
+    } else {
+        random.within(5.0).abs()
     }
 }
 

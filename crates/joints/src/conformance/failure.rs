@@ -203,9 +203,10 @@ impl Judge<'_> {
             epsilon = claim.tolerance * claim.floor,
             max_relative = claim.tolerance
         );
-        match equal {
-            true => Ok(()),
-            false => Err(self.failure(claim, entry)),
+        if equal {
+            Ok(())
+        } else {
+            Err(self.failure(claim, entry))
         }
     }
 

@@ -61,9 +61,10 @@ pub(super) fn c<T: Ring, K: Constraint>(k: &K, x: &[Pose<T>], f: &[[T; 3]]) -> B
 }
 
 pub(super) fn b<T: Ring, K: Constraint>(k: &K, x: &[Pose<T>], f: &[[T; 3]]) -> Block<T> {
-    let mut out = match K::SPEC.rheonomic {
-        true => unwritten(rows(k)),
-        false => vec![T::from(0.0); rows(k)],
+    let mut out = if K::SPEC.rheonomic {
+        unwritten(rows(k))
+    } else {
+        vec![T::from(0.0); rows(k)]
     };
     k.element::<T>().b(x, f, &mut out);
     Block::column(out)

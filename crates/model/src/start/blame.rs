@@ -209,11 +209,12 @@ impl Start<'_> {
             let is_other = |&(j, was): &(usize, Hold)| {
                 was == Hold::Kept && hold[j] == Hold::No && self.is_written[j]
             };
-            match before.iter().any(is_other)
+            if before.iter().any(is_other)
                 || self.solve(rows, &tried, self.limit, &mut v)?.is_some()
             {
-                false => hold = tried,
-                true => needed.push(what),
+                needed.push(what)
+            } else {
+                hold = tried
             }
         }
         needed.extend(last.map(|(what, _)| what));
@@ -233,9 +234,10 @@ impl Start<'_> {
         };
         // An entry of `keep` goes before what it holds: without the latter it would hold zero.
         if let Some(kept) = own.clone().find(|&j| hold[j] == Hold::Kept) {
-            let to = match self.is_written[kept] {
-                true => Hold::Given,
-                false => Hold::No,
+            let to = if self.is_written[kept] {
+                Hold::Given
+            } else {
+                Hold::No
             };
             let coordinate = NAMES[kept % N_BODY];
             let before = std::mem::replace(&mut hold[kept], to);

@@ -101,15 +101,17 @@ impl VelocityConflict {
             nearest,
             ..
         } = self;
-        let held = match self.is_kept {
-            true => "held by `keep` at",
-            false => "given as",
+        let held = if self.is_kept {
+            "held by `keep` at"
+        } else {
+            "given as"
         };
         let rows: Vec<String> = self.rows.iter().map(RowLabel::to_string).collect();
         let word = if rows.len() == 1 { "row" } else { "rows" };
-        let off = match self.is_kept {
-            true => String::new(),
-            false => format!(", more than {:.1e} off", self.limit),
+        let off = if self.is_kept {
+            String::new()
+        } else {
+            format!(", more than {:.1e} off", self.limit)
         };
         // As it is written.
         let given_as = match (format!("{given}"), format!("{given:?}")) {

@@ -66,9 +66,12 @@ pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
         .enumerate()
         .map(|(k, m)| m / unit(k));
     let heaviest = comparable.filter(|m| m.is_finite()).fold(0.0, f64::max);
-    let least = |(k, &m): (usize, &f64)| match m > 0.0 {
-        true => m.max(LIGHTEST * heaviest * unit(k)),
-        false => m,
+    let least = |(k, &m): (usize, &f64)| {
+        if m > 0.0 {
+            m.max(LIGHTEST * heaviest * unit(k))
+        } else {
+            m
+        }
     };
     let mass: Vec<f64> = mechanism.mass().iter().enumerate().map(least).collect();
     let smallest = |angles: bool| {
@@ -80,9 +83,12 @@ pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
         positive.fold(f64::INFINITY, f64::min)
     };
     let fallback = [smallest(false), smallest(true)].map(|m| if m.is_finite() { m } else { 1.0 });
-    let weight = |(k, &m): (usize, &f64)| match m > 0.0 {
-        true => 1.0 / m,
-        false => 1.0 / fallback[usize::from(k % N_BODY == 2)],
+    let weight = |(k, &m): (usize, &f64)| {
+        if m > 0.0 {
+            1.0 / m
+        } else {
+            1.0 / fallback[usize::from(k % N_BODY == 2)]
+        }
     };
     mass.iter().enumerate().map(weight).collect()
 }

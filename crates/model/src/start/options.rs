@@ -53,11 +53,12 @@ pub(super) fn kept_columns(
 ) -> Result<Vec<usize>, StartError> {
     let bodies = mechanism.bodies().len();
     let kept = options.keep.iter().filter(|c| c.level == level);
-    kept.map(
-        |&Coordinate { body, dof, .. }| match body < bodies && dof < N_BODY {
-            true => Ok(N_BODY * body + dof),
-            false => Err(StartError::NoCoordinate { body, dof, bodies }),
-        },
-    )
+    kept.map(|&Coordinate { body, dof, .. }| {
+        if body < bodies && dof < N_BODY {
+            Ok(N_BODY * body + dof)
+        } else {
+            Err(StartError::NoCoordinate { body, dof, bodies })
+        }
+    })
     .collect()
 }

@@ -359,9 +359,12 @@ impl Part {
         let mut best = f64::INFINITY;
         for _ in 0..REPETITIONS {
             let residual: Vec<f64> = self.rows.iter().map(|&i| of.residual(i, v)).collect();
-            let ratio = |(&i, r): (&usize, &f64)| match *r == 0.0 {
-                true => 0.0,
-                false => r.abs() / of.rounding(i, v),
+            let ratio = |(&i, r): (&usize, &f64)| {
+                if *r == 0.0 {
+                    0.0
+                } else {
+                    r.abs() / of.rounding(i, v)
+                }
             };
             let used = |k: usize| match &self.solver {
                 Solver::Dense(_) => true,

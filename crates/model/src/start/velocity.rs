@@ -195,9 +195,10 @@ impl<'m> Start<'m> {
             if given.is_empty() || !is_open {
                 break;
             }
-            match rows.len() > DENSE_ROWS {
-                true => self.correct_many(rows, hold, v)?,
-                false => self.correct(&tier, &given, v)?,
+            if rows.len() > DENSE_ROWS {
+                self.correct_many(rows, hold, v)?
+            } else {
+                self.correct(&tier, &given, v)?
             }
             tier.follow(of, v)?;
         }

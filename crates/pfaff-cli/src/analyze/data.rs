@@ -56,9 +56,10 @@ fn length(metres: f64) -> String {
     let said = UNITS.into_iter().find(|(_, from, _)| metres >= *from);
     let (one, _, unit) = said.unwrap_or(UNITS[0]);
     let number: f64 = two_digits(metres / one);
-    match (0.01..1e4).contains(&number) {
-        true => format!("{number} {unit}"),
-        false => format!("{metres:.1e} m"),
+    if (0.01..1e4).contains(&number) {
+        format!("{number} {unit}")
+    } else {
+        format!("{metres:.1e} m")
     }
 }
 

@@ -25,13 +25,12 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
             let mut cells = vec![reaction.name.clone(), name.to_owned()];
             let number = |v: &ValueDocument| format!("{:>12}", number(v.value));
             let is_fact = component.choice.is_none();
-            match is_fact {
-                true => cells.push(number(component)),
-                false => {
-                    cells.push(String::new());
-                    let all = columns_of.iter();
-                    cells.extend(all.map(|column| number(&column[i].components[j])));
-                }
+            if is_fact {
+                cells.push(number(component))
+            } else {
+                cells.push(String::new());
+                let all = columns_of.iter();
+                cells.extend(all.map(|column| number(&column[i].components[j])));
             }
             if component.nature == Some(if is_fact { "choice" } else { "fact" }) {
                 suspicious.push(format!("{name} of {}", reaction.name));

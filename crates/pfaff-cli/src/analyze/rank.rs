@@ -191,9 +191,9 @@ fn elsewhere(d: &AnalysisDocument) -> String {
                 cannot_move(d)
             )
         }
-        (_, None) if d.rows > ONE_PART => format!(
-            "not compared with other configurations: that takes long above {ONE_PART} rows"
-        ),
+        (_, None) if d.rows > ONE_PART => {
+            format!("not compared with other configurations: that takes long above {ONE_PART} rows")
+        }
         (_, None) => "not compared with other configurations: none could be reached".to_owned(),
     }
 }

@@ -25,9 +25,10 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
     let mut out = heading(d);
     out.push_str(&rank::describe(d));
     out.push_str(&data::describe(d));
-    out.push_str(&match d.reactions.len() > LINES {
-        true => counts::verdicts(d),
-        false => verdicts(d),
+    out.push_str(&if d.reactions.len() > LINES {
+        counts::verdicts(d)
+    } else {
+        verdicts(d)
     });
     out.push_str(&fragile(d));
     out.push_str(&groups(d));
@@ -159,9 +160,10 @@ fn margin(v: &VerdictDocument) -> String {
 
 /// What is unique within a tolerance only says so with its margin.
 fn within(v: &VerdictDocument) -> String {
-    match v.within_tolerance {
-        true => format!(" within the tolerance ({:.1e})", v.margin),
-        false => String::new(),
+    if v.within_tolerance {
+        format!(" within the tolerance ({:.1e})", v.margin)
+    } else {
+        String::new()
     }
 }
 
@@ -203,9 +205,10 @@ fn groups(d: &AnalysisDocument) -> String {
         text.push_str(&numbers_of(g));
         out.push_str(&wrapped(&format!("{}: ", g.name), &text));
     }
-    match out.is_empty() {
-        true => out,
-        false => format!("\nSums and groups:\n{out}"),
+    if out.is_empty() {
+        out
+    } else {
+        format!("\nSums and groups:\n{out}")
     }
 }
 

@@ -201,9 +201,10 @@ fn run(command: &str, folder: &Path) -> String {
 fn lab_in(folder: &Path, arguments: &[&str]) -> String {
     let mut words = vec!["lab".to_owned()];
     for (k, word) in arguments.iter().enumerate() {
-        words.push(match k > 0 && arguments[k - 1] == "--out" {
-            true => folder.join(word).display().to_string(),
-            false => (*word).to_owned(),
+        words.push(if k > 0 && arguments[k - 1] == "--out" {
+            folder.join(word).display().to_string()
+        } else {
+            (*word).to_owned()
         });
     }
     let (mut out, mut err) = (Vec::new(), Vec::new());

@@ -41,9 +41,10 @@ impl Times {
 
     /// Time between the rows of a run that can be given up (s).
     fn step(&self, t_end: f64, budget: f64) -> f64 {
-        match budget.is_finite() {
-            true => self.step / (ROWS * self.step / t_end).ceil().max(1.0),
-            false => self.step,
+        if budget.is_finite() {
+            self.step / (ROWS * self.step / t_end).ceil().max(1.0)
+        } else {
+            self.step
         }
     }
 }

@@ -126,17 +126,16 @@ fn range(levels: &[f64], places: &[&Place], factors: &[f64]) -> String {
     let Some(next) = places.get(1).map(|place| place.curve.method) else {
         return format!("{span}: {winner}, at the tight end alone.");
     };
-    match high < EQUAL {
-        true => format!("{span}: {winner}, and {next} as fast."),
-        false => {
-            let factor = span_of(low, high);
-            let which = if levels.len() > 1 {
-                ", at the tight end"
-            } else {
-                ","
-            };
-            format!("{span}: {winner}; the next{which} {next}, takes {factor} times as long.")
-        }
+    if high < EQUAL {
+        format!("{span}: {winner}, and {next} as fast.")
+    } else {
+        let factor = span_of(low, high);
+        let which = if levels.len() > 1 {
+            ", at the tight end"
+        } else {
+            ","
+        };
+        format!("{span}: {winner}; the next{which} {next}, takes {factor} times as long.")
     }
 }
 
@@ -172,9 +171,10 @@ fn treatments(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Option<String
                 Some((line.error, of(curve)?.seconds / of(&base)?.seconds))
             };
             let ratios: Vec<(f64, f64)> = lines.iter().filter_map(ratio).collect();
-            let name = match curve.stabilisation == usual.stabilisation {
-                true => curve.formulation.to_owned(),
-                false => curve.stabilisation.to_owned(),
+            let name = if curve.stabilisation == usual.stabilisation {
+                curve.formulation.to_owned()
+            } else {
+                curve.stabilisation.to_owned()
             };
             match ratios.last() {
                 None => format!("{name} reaches no error of the table"),

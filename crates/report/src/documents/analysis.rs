@@ -286,9 +286,10 @@ impl AnalysisDocument {
 
 /// A dependency in words, with what of it holds within the tolerance only.
 fn said_within(text: &str, left_out: f64) -> String {
-    match left_out > 0.0 {
-        true => format!("{text}; within the tolerance (margin {left_out:.1e})"),
-        false => text.to_owned(),
+    if left_out > 0.0 {
+        format!("{text}; within the tolerance (margin {left_out:.1e})")
+    } else {
+        text.to_owned()
     }
 }
 

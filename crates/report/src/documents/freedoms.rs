@@ -99,9 +99,10 @@ impl FreedomsDocument {
     /// The same, and whether the mechanism cannot move.
     #[must_use]
     pub fn summary(&self, mobility: usize) -> String {
-        match self.cannot_move {
-            true => self.sentence(mobility) + ": it cannot move",
-            false => self.sentence(mobility),
+        if self.cannot_move {
+            self.sentence(mobility) + ": it cannot move"
+        } else {
+            self.sentence(mobility)
         }
     }
 
@@ -136,9 +137,10 @@ impl FreedomsDocument {
                     ));
                 }
             };
-        let lead = match self.cannot_move {
-            true => "free at first order",
-            false => "free",
+        let lead = if self.cannot_move {
+            "free at first order"
+        } else {
+            "free"
         };
         add(lead, &self.free_motions, &self.free_motions_left_out);
         if let Some(without) = &self.without_drives {

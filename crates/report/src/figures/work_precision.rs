@@ -166,9 +166,10 @@ fn title(svg: &mut Svg, [x, y]: [f64; 2], scene: &WorkPrecisionScene) {
         .text(&scene.title);
     let failed = scene.rows.iter().filter(|row| row.status != "done").count();
     let limit = scene.reference.motion_limit();
-    let mut words = match limit.is_finite() {
-        true => format!("reference known to {limit:.0e}"),
-        false => "no reference".to_owned(),
+    let mut words = if limit.is_finite() {
+        format!("reference known to {limit:.0e}")
+    } else {
+        "no reference".to_owned()
     };
     if failed > 0 {
         words.push_str(&format!(

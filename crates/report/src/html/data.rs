@@ -252,9 +252,10 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
         bodies: bodies.collect(),
         verdict: if later { "not_unique" } else { verdict },
         components,
-        explanation: match later {
-            true => Some("it is unique, but not at other times of this run"),
-            false => of_analysis.and_then(|r| r.explanation.as_deref()),
+        explanation: if later {
+            Some("it is unique, but not at other times of this run")
+        } else {
+            of_analysis.and_then(|r| r.explanation.as_deref())
         },
         choice,
         reaction: reaction(&page.recording.frames, k, noise),
@@ -364,9 +365,10 @@ impl Measured {
             let breaks = layout
                 .break_times
                 .binary_search_by(|t| t.total_cmp(&frame.t));
-            let t = match breaks.is_ok() && frame.t > 0.0 {
-                true => frame.t.next_down(),
-                false => frame.t,
+            let t = if breaks.is_ok() && frame.t > 0.0 {
+                frame.t.next_down()
+            } else {
+                frame.t
             };
             mechanism.pose(t, &frame.q, &mut s);
             mechanism.phi(&mut s);
@@ -408,9 +410,10 @@ fn largest_force(frames: &[Frame]) -> f64 {
 }
 
 fn unit(component: &str) -> &'static str {
-    match component == COMPONENTS[2] {
-        true => "N·m",
-        false => "N",
+    if component == COMPONENTS[2] {
+        "N·m"
+    } else {
+        "N"
     }
 }
 

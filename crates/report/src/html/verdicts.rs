@@ -55,13 +55,15 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
             "unique" => "~0".to_owned(),
             _ => margin(r.wrench.margin),
         };
-        let said = match r.data.fragile {
-            true => "unique, fragile".to_owned(),
-            false => r.wrench.verdict.replace('_', " "),
+        let said = if r.data.fragile {
+            "unique, fragile".to_owned()
+        } else {
+            r.wrench.verdict.replace('_', " ")
         };
-        let badge = match r.data.fragile {
-            true => "fragile",
-            false => r.wrench.verdict,
+        let badge = if r.data.fragile {
+            "fragile"
+        } else {
+            r.wrench.verdict
         };
         add(
             out,
@@ -166,9 +168,10 @@ fn some(out: &mut String, sentences: &[String]) {
 
 /// Two digits for people.
 fn margin(x: f64) -> String {
-    match x >= 0.01 {
-        true => format!("{x:.2}"),
-        false => short(x),
+    if x >= 0.01 {
+        format!("{x:.2}")
+    } else {
+        short(x)
     }
 }
 

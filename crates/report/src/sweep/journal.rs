@@ -320,9 +320,12 @@ fn read_record(line: &[u8], columns: &[Column]) -> Option<(u64, Vec<Cell>)> {
 
 /// Refuses what is another sweep, and says in what.
 fn same(path: &Path, was: &SweepPlan, now: &SweepPlan) -> Result<(), JournalError> {
-    let keeps = |plan: &SweepPlan| match plan.keep_rows {
-        true => "with trajectories".to_owned(),
-        false => "without trajectories".to_owned(),
+    let keeps = |plan: &SweepPlan| {
+        if plan.keep_rows {
+            "with trajectories".to_owned()
+        } else {
+            "without trajectories".to_owned()
+        }
     };
     let differing = [
         (

@@ -94,9 +94,10 @@ fn meant(line: &str, at: usize) -> Option<(&'static str, String)> {
         ));
     }
     // Inside of a list, what stands at the place.
-    let value = match value.starts_with(['[', '{']) {
-        true => line.get(at..).unwrap_or_default(),
-        false => value,
+    let value = if value.starts_with(['[', '{']) {
+        line.get(at..).unwrap_or_default()
+    } else {
+        value
     };
     number(key, value).or_else(|| word(key, value))
 }
@@ -158,9 +159,10 @@ fn word(key: &str, value: &str) -> Option<(&'static str, String)> {
         return Some((COMPUTED.0, COMPUTED.1.to_owned()));
     }
     // Of a list, only the word itself.
-    let help = match value.len() == word.len() && !key.is_empty() {
-        true => format!("texts stand in quotes: `{key} = \"{word}\"`"),
-        false => format!("texts stand in quotes: `\"{word}\"`"),
+    let help = if value.len() == word.len() && !key.is_empty() {
+        format!("texts stand in quotes: `{key} = \"{word}\"`")
+    } else {
+        format!("texts stand in quotes: `\"{word}\"`")
     };
     Some(("a text without quotes", help))
 }

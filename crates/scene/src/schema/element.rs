@@ -60,9 +60,10 @@ fn table(spec: &Spec, of: Kind, title: &str) -> Value {
     }
     if let Some(variant) = spec.variant {
         let mut value = json!({ "const": variant.value });
-        match variant.default {
-            true => value["default"] = variant.value.into(),
-            false => required.push(variant.key),
+        if variant.default {
+            value["default"] = variant.value.into()
+        } else {
+            required.push(variant.key)
         }
         properties.insert(variant.key.to_owned(), value);
     }
@@ -111,13 +112,15 @@ fn connection(spec: &Spec) -> Value {
 
 /// `at`
 fn global(spec: &Spec, n: usize) -> Value {
-    let mut place = match spec.points_apart {
-        true => tuple(vec![reference("point"); n]),
-        false => reference("point"),
+    let mut place = if spec.points_apart {
+        tuple(vec![reference("point"); n])
+    } else {
+        reference("point")
     };
-    let words = match spec.points_apart {
-        true => format!("{n} points [x, y] in global coordinates, at the described start (m)"),
-        false => "The place [x, y] in global coordinates, at the described start (m)".to_owned(),
+    let words = if spec.points_apart {
+        format!("{n} points [x, y] in global coordinates, at the described start (m)")
+    } else {
+        "The place [x, y] in global coordinates, at the described start (m)".to_owned()
     };
     place["description"] = with_points(words, spec).into();
     place
@@ -186,9 +189,10 @@ fn value(parameter: &Parameter, spec: &Spec) -> Value {
         Shape::GroundLine => " in global coordinates (m)".to_owned(),
         _ => String::new(),
     };
-    let default = match parameter.optional {
-        true => "; its value at the start where it is not given",
-        false => "",
+    let default = if parameter.optional {
+        "; its value at the start where it is not given"
+    } else {
+        ""
     };
     schema["description"] = format!("{meaning}: {}{frame}{default}", parameter.shape).into();
     schema
@@ -205,9 +209,10 @@ fn owner(spec: &Spec, slot: usize) -> String {
 }
 
 fn range(unit: Unit) -> Interval {
-    match unit.may_be_negative() {
-        true => Interval::Any,
-        false => Interval::NotNegative,
+    if unit.may_be_negative() {
+        Interval::Any
+    } else {
+        Interval::NotNegative
     }
 }
 

@@ -196,9 +196,10 @@ impl<'k> Walk<'k> {
             Some((name.get_ref().as_str()?, item))
         };
         let named: Vec<_> = items.iter().filter_map(name).collect();
-        match named.is_empty() {
-            true => Err(not_a_number(self.within(), items)),
-            false => self.named(&named),
+        if named.is_empty() {
+            Err(not_a_number(self.within(), items))
+        } else {
+            self.named(&named)
         }
     }
 

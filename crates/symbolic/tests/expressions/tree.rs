@@ -88,9 +88,10 @@ impl Tree {
             Tree::Product(factors) => factors.iter().fold(T::from(1.0), |product, (f, n)| {
                 let base = f.evaluate(inputs);
                 let power = (0..n.unsigned_abs()).fold(T::from(1.0), |p, _| p * base);
-                match *n < 0 {
-                    true => product / power,
-                    false => product * power,
+                if *n < 0 {
+                    product / power
+                } else {
+                    product * power
                 }
             }),
             Tree::Root(u) => {

@@ -66,15 +66,16 @@ impl<K: Constraint> Check<'_, K> {
     }
 
     fn data_fact(&self, entry: &str, wrong: bool) -> Result<(), Failure> {
-        match wrong {
-            false => Ok(()),
-            true => Err(fact(
+        if wrong {
+            Err(fact(
                 K::SPEC.common.name,
                 Property::Data,
                 entry.to_owned(),
                 [0.0, 1.0],
                 Some(self.case),
-            )),
+            ))
+        } else {
+            Ok(())
         }
     }
 

@@ -128,9 +128,10 @@ impl ReactionDocument {
     #[must_use]
     pub fn said(&self) -> String {
         let verdict = self.wrench.verdict.replace('_', " ");
-        let within = match self.wrench.within_tolerance {
-            true => " within the tolerance",
-            false => "",
+        let within = if self.wrench.within_tolerance {
+            " within the tolerance"
+        } else {
+            ""
         };
         let fragile = if self.data.fragile { ", FRAGILE" } else { "" };
         format!("{verdict}{within}{fragile}")
