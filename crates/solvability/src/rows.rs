@@ -13,9 +13,9 @@ use rank::{
 
 use crate::certificate::{self, inseparable};
 use crate::existence::{Contradiction, Ranks, contradictions};
-use crate::large::decide_range;
 use crate::parts::{Extent, ListedRows, Partition};
 use crate::row_decision::RowDecision;
+use crate::sparse::decide_range;
 use crate::state::{StateError, check, check_configuration};
 
 /// Rows of C, and of Φq alone, at one configuration, as they were decided there, part by part. The

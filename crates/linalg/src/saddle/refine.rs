@@ -8,7 +8,8 @@
 //! iterate after J. Demmel et al., Error bounds from extra-precise iterative refinement, ACM TOMS
 //! 32 (2006) 325–351.
 
-use super::{KeptRowSaddle, SaddleError, check_length};
+use super::KeptRowSaddle;
+use super::error::{SaddleError, check_length};
 use crate::Dd;
 use crate::kernels::max_abs;
 use crate::limits::{REFINEMENT_NOISE, REFINEMENT_ROUNDS, SETTLED};
