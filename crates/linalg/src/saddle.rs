@@ -187,8 +187,9 @@ pub fn mass_spread(mass: &[f64]) -> f64 {
         lightest = if m > 0.0 && m < lightest { m } else { lightest };
         heaviest = if m > heaviest { m } else { heaviest };
     }
-    match heaviest > 0.0 {
-        true => heaviest / lightest,
-        false => 1.0,
+    if heaviest > 0.0 {
+        heaviest / lightest
+    } else {
+        1.0
     }
 }
