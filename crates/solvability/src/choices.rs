@@ -259,9 +259,10 @@ impl Configuration<'_> {
         let equal = |(i, l): (usize, &f64)| (l / scaling.row_factor(i)).abs();
         let largest = lambda.iter().enumerate().map(equal).fold(0.0, f64::max);
         let size = form.size(|i| scaling.row_factor(i));
-        match value.abs() <= VALUE_ROUNDINGS * f64::EPSILON * size * largest {
-            true => 0.0,
-            false => value,
+        if value.abs() <= VALUE_ROUNDINGS * f64::EPSILON * size * largest {
+            0.0
+        } else {
+            value
         }
     }
 

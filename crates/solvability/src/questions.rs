@@ -276,7 +276,7 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// Sums over parts; nothing where a share is missing.
+    /// Sums over parts; `None` if a share is missing.
     fn numbers(
         &self,
         group: &Group,
@@ -426,12 +426,11 @@ impl<'a> Questions<'a> {
         let of_part = |k: usize| {
             let extent = &self.parts()[k].extent;
             let configuration = self.configuration(k)?;
-            let equations = match extent.is_whole() {
-                true => Equations::of(self.mechanism, time, &self.q, v)?,
-                false => {
-                    let state = (time, &self.q[..], v);
-                    Equations::of_part(&configuration.reactions.mechanism, extent, state, solution)?
-                }
+            let equations = if extent.is_whole() {
+                Equations::of(self.mechanism, time, &self.q, v)?
+            } else {
+                let state = (time, &self.q[..], v);
+                Equations::of_part(&configuration.reactions.mechanism, extent, state, solution)?
             };
             let mut checks = check_equations(configuration, &equations)?;
             for check in &mut checks {

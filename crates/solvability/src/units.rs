@@ -140,9 +140,10 @@ pub(crate) fn check_equations(
         }
     }
     for check in &mut checks {
-        check.nature = match check.change <= UNIT_ROUNDING {
-            true => Nature::Fact,
-            false => Nature::Choice,
+        check.nature = if check.change <= UNIT_ROUNDING {
+            Nature::Fact
+        } else {
+            Nature::Choice
         };
     }
     Ok(checks)

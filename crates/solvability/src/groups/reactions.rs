@@ -168,12 +168,13 @@ impl ReactionForms<'_> {
 
     pub(crate) fn check_id(&self, id: ConstraintId) -> Result<(), RequestError> {
         let reactions = self.mechanism.layout().groups.len();
-        match id.0 < reactions {
-            true => Ok(()),
-            false => Err(RequestError::UnknownReaction {
+        if id.0 < reactions {
+            Ok(())
+        } else {
+            Err(RequestError::UnknownReaction {
                 id: id.0,
                 reactions,
-            }),
+            })
         }
     }
 
