@@ -271,7 +271,10 @@ fn three_cranks_with_least_norm() {
         for k in 0..3 {
             let id = ConstraintId(2 * k + offset);
             let along = |direction| {
-                let form = configuration.force(id, direction).expect("exists");
+                let form = configuration
+                    .reactions()
+                    .force(id, direction)
+                    .expect("exists");
                 number(&d.value(&configuration, &form).expect("fits"))
             };
             // Reported on the first body, the reference has the second.

@@ -106,9 +106,11 @@ fn frames_of_the_robot() {
     assert_eq!(b.len(), 2);
     let configuration = Configuration::new(&m, 1.0, &q, &decision).expect("fits");
     let along = configuration
+        .reactions()
         .force(id(&m, "B"), w1[2].axes[1])
         .expect("exists");
     let across = configuration
+        .reactions()
         .force(id(&m, "B"), w1[2].axes[0])
         .expect("exists");
     let judged = |form: &LinearForm| configuration.judge(form).expect("fits");
@@ -193,7 +195,8 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
         (0..7).collect(),
     ] {
         let forms = c
-            .resultant(&set, c.origin(set[0]).expect("exists"))
+            .reactions()
+            .resultant(&set, c.reactions().origin(set[0]).expect("exists"))
             .expect("exists");
         for form in &forms {
             let judgement = c.judge(form).expect("fits");

@@ -34,7 +34,7 @@ const FACTS: [(&str, &[&str]); 14] = [
     ("rank/src/sparse/symbolic.rs", &["NUMBER", "ENTRY"]),
     ("rank/src/structure/graph.rs", &["NEW"]),
     ("solvability/src/generic.rs", &["GOLDEN"]),
-    ("solvability/src/mechanism.rs", &["TRANSLATIONS", "COLUMNS"]),
+    ("solvability/src/pose.rs", &["TRANSLATIONS", "COLUMNS"]),
     ("solvability/src/sensitivity/instant.rs", &["GOLDEN_ANGLE"]),
 ];
 

@@ -162,9 +162,10 @@ impl Scaling {
         let mut scaled = c.clone();
         for (i, row) in self.rows.iter().enumerate() {
             let entries = scaled.row_mut(i).iter_mut().zip(&self.cols);
-            match has_factors {
-                true => entries.for_each(|(c, col)| *c *= power(sign * (row + col))),
-                false => entries.for_each(|(c, col)| *c = scale(*c, sign * (row + col))),
+            if has_factors {
+                entries.for_each(|(c, col)| *c *= power(sign * (row + col)))
+            } else {
+                entries.for_each(|(c, col)| *c = scale(*c, sign * (row + col)))
             }
         }
         scaled

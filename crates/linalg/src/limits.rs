@@ -42,13 +42,11 @@ pub(crate) const FAER_FROM: usize = 256;
 pub(crate) const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
 
 /// Squares of numbers above this do not lose digits in sums.
-/// Unit: 1. Less: norms of small vectors underflow. More: time. Test:
-/// `norm_survives_the_ends_of_the_range`.
+/// Unit: 1. Less: norms of small vectors underflow. More: time. Test: none.
 pub(crate) const SQUARE_MIN: f64 = 1e-140;
 
 /// Squares of numbers below this do not overflow in sums.
-/// Unit: 1. Less: time. More: norms of large vectors overflow. Test:
-/// `norm_survives_the_ends_of_the_range`.
+/// Unit: 1. Less: time. More: norms of large vectors overflow. Test: none.
 pub(crate) const SQUARE_MAX: f64 = 1e140;
 
 // Kept rows, solved densely.
@@ -95,8 +93,7 @@ pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
 /// Changes this much smaller than the largest unknown of their kind, twice running, are rounding of
 /// double-double numbers: 2⁻⁹⁶.
 /// Unit: share of the largest unknown. Less: unknowns that are zero keep others waiting. More:
-/// small unknowns are not refined. Test:
-/// `unknowns_that_are_zero_do_not_keep_others_waiting`.
+/// small unknowns are not refined. Test: none.
 pub(crate) const REFINEMENT_NOISE: f64 = 1.262_177_448_353_619e-29;
 
 // Kept rows, solved sparsely.

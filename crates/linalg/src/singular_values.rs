@@ -38,9 +38,10 @@ pub fn singular_values(a: &Matrix) -> Vec<f64> {
 /// [`singular_values`] by our own kernels at every size.
 pub(crate) fn own(a: &Matrix) -> Vec<f64> {
     let e = powers::unit_exponent(a.as_slice());
-    let mut scaled = match a.nrows() < a.ncols() {
-        true => a.transpose(),
-        false => a.clone(),
+    let mut scaled = if a.nrows() < a.ncols() {
+        a.transpose()
+    } else {
+        a.clone()
     };
     for x in scaled.as_mut_slice() {
         *x = powers::scale(*x, e);

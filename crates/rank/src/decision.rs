@@ -75,9 +75,10 @@ pub fn decide<'a>(
     uncertainty: impl Into<Uncertainty<'a>>,
 ) -> Result<RankDecision, RankError> {
     let (scaling, scaled, reading) = read(c, uncertainty.into())?;
-    let kept = match reading.rank == c.nrows() {
-        true => (0..reading.rank).collect(),
-        false => PivotedQr::of_rows(scaled.clone()).permutation()[..reading.rank].to_vec(),
+    let kept = if reading.rank == c.nrows() {
+        (0..reading.rank).collect()
+    } else {
+        PivotedQr::of_rows(scaled.clone()).permutation()[..reading.rank].to_vec()
     };
     let basis = strong_basis::bounded(&scaled, kept);
     Ok(reading.with_basis(scaling, basis))
@@ -169,12 +170,13 @@ fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
 /// The status of a rank with a clear gap: decided, unless the tolerance hides singular values that
 /// are no rounding.
 pub(crate) fn shown(sigma_next: f64, tolerance: f64) -> RankStatus {
-    match tolerance > HIDDEN && sigma_next > NOT_ROUNDING {
-        true => RankStatus::Undecided(Doubt::Hidden {
+    if tolerance > HIDDEN && sigma_next > NOT_ROUNDING {
+        RankStatus::Undecided(Doubt::Hidden {
             sigma: sigma_next,
             tolerance,
-        }),
-        false => RankStatus::Decided,
+        })
+    } else {
+        RankStatus::Decided
     }
 }
 

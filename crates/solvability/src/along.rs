@@ -78,12 +78,13 @@ pub fn along_motion(
             // By a panic elsewhere, which goes on there.
             Err(poisoned) => poisoned.into_inner()(t),
         };
-        match extent.is_whole() {
-            true => whole,
-            false => State {
+        if extent.is_whole() {
+            whole
+        } else {
+            State {
                 q: extent.coordinates(&whole.q).into_owned(),
                 v: extent.velocities(&whole.v).into_owned(),
-            },
+            }
         }
     };
     along_motion_of_parts(mechanism, of_part, times)

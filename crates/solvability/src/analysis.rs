@@ -319,12 +319,13 @@ pub fn analyse_dropping(
         if part.layout().rows() > ROWS_MAX {
             let found = judged_alone(part, t, q, Known::AsStored)?;
             // The same rows are dropped, or none can be chosen among so many.
-            return match found.part.decision.rows().dropped == own {
-                true => Ok(found),
-                false => Err(AnalysisError::Chosen {
+            return if found.part.decision.rows().dropped == own {
+                Ok(found)
+            } else {
+                Err(AnalysisError::Chosen {
                     time: t,
                     rows: part.layout().rows(),
-                }),
+                })
             };
         }
         let s = evaluated(part, t, q);
@@ -373,12 +374,11 @@ fn judged_alone(
     q: &[f64],
     known: Known,
 ) -> Result<Judged, AnalysisError> {
-    match part.layout().rows() <= ROWS_MAX {
-        true => {
-            let rows = Rows::new(part, t, q, known)?;
-            let decision = rows.decide()?;
-            judge(part, &evaluated(part, t, q), &rows, decision)
-        }
-        false => judge_sparse(part, &evaluated(part, t, q), q),
+    if part.layout().rows() <= ROWS_MAX {
+        let rows = Rows::new(part, t, q, known)?;
+        let decision = rows.decide()?;
+        judge(part, &evaluated(part, t, q), &rows, decision)
+    } else {
+        judge_sparse(part, &evaluated(part, t, q), q)
     }
 }

@@ -31,7 +31,7 @@ pub(crate) struct Rows<'a> {
     /// Rows of the mechanism that are judged, ascending.
     places: Vec<usize>,
     meant: MeantMatrix,
-    /// At a configuration polished in double-double; nothing where that is no help: too many rows,
+    /// At a configuration polished in double-double; `None` if that is no help: too many rows,
     /// or kept rows dependent to the last digit of `f64`.
     extended: Option<DdMatrix>,
 }

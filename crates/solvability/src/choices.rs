@@ -197,7 +197,7 @@ impl Configuration<'_> {
         self.distribute_as(
             lambda_0,
             choice,
-            Label::of(self.mechanism.layout(), choice, &rigid),
+            Label::of(self.reactions.mechanism.layout(), choice, &rigid),
         )
     }
 
@@ -208,7 +208,7 @@ impl Configuration<'_> {
         choice: &Choice,
         label: Label,
     ) -> Result<Distribution, ChoiceError> {
-        let layout = self.mechanism.layout();
+        let layout = self.reactions.mechanism.layout();
         check("multipliers", lambda_0, layout.rows())?;
         if let RankStatus::Undecided(doubt) = self.solvability.decision().status {
             return Err(ChoiceError::Undecided(doubt));
@@ -229,7 +229,7 @@ impl Configuration<'_> {
             let id = ConstraintId(k);
             let mut components = Vec::new();
             for c in group.components() {
-                let form = self.component(id, COMPONENTS[c])?;
+                let form = self.reactions.component(id, COMPONENTS[c])?;
                 components.push((COMPONENTS[c], distribution.value(self, &form)?));
             }
             distribution.reactions.push(ReactionValues {
@@ -259,9 +259,10 @@ impl Configuration<'_> {
         let equal = |(i, l): (usize, &f64)| (l / scaling.row_factor(i)).abs();
         let largest = lambda.iter().enumerate().map(equal).fold(0.0, f64::max);
         let size = form.size(|i| scaling.row_factor(i));
-        match value.abs() <= VALUE_ROUNDINGS * f64::EPSILON * size * largest {
-            true => 0.0,
-            false => value,
+        if value.abs() <= VALUE_ROUNDINGS * f64::EPSILON * size * largest {
+            0.0
+        } else {
+            value
         }
     }
 
@@ -280,9 +281,9 @@ impl Configuration<'_> {
     }
 
     fn elastic(&self, lambda_0: &[f64], joints: &[Compliance]) -> Result<Vec<f64>, ChoiceError> {
-        let mut of_joint = vec![[0.0; 3]; self.mechanism.layout().groups.len()];
+        let mut of_joint = vec![[0.0; 3]; self.reactions.mechanism.layout().groups.len()];
         for joint in joints {
-            self.check_id(joint.reaction)?;
+            self.reactions.check_id(joint.reaction)?;
             let total = &mut of_joint[joint.reaction.0];
             for (total, compliance) in total.iter_mut().zip([joint.x, joint.y, joint.rotation]) {
                 if !(compliance.is_finite() && compliance >= 0.0) {
@@ -301,12 +302,12 @@ impl Configuration<'_> {
         lambda_0: &[f64],
         weights: impl Fn(ConstraintId) -> [f64; 3],
     ) -> Result<Vec<f64>, ChoiceError> {
-        let groups = &self.mechanism.layout().groups;
+        let groups = &self.reactions.mechanism.layout().groups;
         let mut terms = Vec::new();
         for (k, group) in groups.iter().enumerate() {
             let id = ConstraintId(k);
             for c in group.components() {
-                terms.push((self.component(id, COMPONENTS[c])?, weights(id)[c]));
+                terms.push((self.reactions.component(id, COMPONENTS[c])?, weights(id)[c]));
             }
         }
         self.check_visible(&terms)?;
@@ -326,7 +327,7 @@ impl Configuration<'_> {
         if visible == p {
             return Ok(());
         }
-        for group in &self.mechanism.layout().groups {
+        for group in &self.reactions.mechanism.layout().groups {
             let b_x = self
                 .solvability
                 .b_x(group.rows.clone())
@@ -345,7 +346,11 @@ impl Configuration<'_> {
     /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D` with Z from the dependence of the rows D on the others, for which Z_D
     /// = I: exactly zero on D.
     fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
-        let c = dimensionless(&self.mechanism, &self.s, self.size);
+        let c = dimensionless(
+            &self.reactions.mechanism,
+            &self.reactions.s,
+            self.reactions.size,
+        );
         let decision = rank::decide_dropping(&c, &self.uncertainty, rows)
             .map_err(|source| self.refused(rows, source))?;
         let z = rank::dependencies(&decision);
@@ -359,7 +364,7 @@ impl Configuration<'_> {
     }
 
     fn refused(&self, rows: &[usize], source: KeptRowsError) -> ChoiceError {
-        let labels = &self.mechanism.layout().labels;
+        let labels = &self.reactions.mechanism.layout().labels;
         let known: Vec<usize> = rows.iter().copied().filter(|&i| i < labels.len()).collect();
         let is_unique =
             |i: &&usize| matches!(self.solvability.row(**i), Ok(row) if row.verdict.is_unique());
@@ -376,12 +381,12 @@ impl Configuration<'_> {
 
     /// Joints and drives that share loads with others and are not listed: they do not give way.
     pub(crate) fn rigid(&self, listed: &[Compliance]) -> Vec<ConstraintId> {
-        let groups = &self.mechanism.layout().groups;
+        let groups = &self.reactions.mechanism.layout().groups;
         let shares = |id: &ConstraintId| {
             let judged = self.solvability.group(groups[id.0].rows.clone());
             matches!(judged, Ok(judged) if judged.verdict == Verdict::NotUnique)
         };
-        let ids = self.mechanism.layout().constraint_ids();
+        let ids = self.reactions.mechanism.layout().constraint_ids();
         ids.filter(|id| listed.iter().all(|j| j.reaction != *id) && shares(id))
             .collect()
     }

@@ -351,9 +351,10 @@ fn normalise(directions: &mut [FreeDirection], size: f64) {
         .iter()
         .map(|d| d.torque.abs())
         .fold(0.0, f64::max);
-    let unit = match force > VISIBLE * torque / size {
-        true => force,
-        false => torque,
+    let unit = if force > VISIBLE * torque / size {
+        force
+    } else {
+        torque
     };
     if unit == 0.0 {
         return;

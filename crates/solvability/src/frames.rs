@@ -5,7 +5,7 @@
 use model::{ConstraintId, Frame, Mechanism};
 use rank::RankDecision;
 
-use crate::groups::{Configuration, LinearForm, RequestError};
+use crate::groups::{Configuration, LinearForm, ReactionForms, RequestError};
 use crate::verdict::Judgement;
 
 /// A reaction in one frame.
@@ -77,7 +77,7 @@ impl Configuration<'_> {
     pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, RequestError> {
         let mut verdicts = Vec::new();
         for frame in Frame::ALL {
-            let Some(FrameForms { axes, components }) = self.in_frame(id, frame)? else {
+            let Some(FrameForms { axes, components }) = self.reactions.in_frame(id, frame)? else {
                 continue;
             };
             let [along, across, torque] = &components;
@@ -89,8 +89,10 @@ impl Configuration<'_> {
         }
         Ok(verdicts)
     }
+}
 
-    /// The components of a reaction in a frame; nothing if the reaction has no such frame.
+impl ReactionForms<'_> {
+    /// The components of a reaction in a frame; `None` if the reaction has no such frame.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`]

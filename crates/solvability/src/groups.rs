@@ -5,16 +5,17 @@
 mod configuration;
 mod error;
 mod form;
+mod reactions;
 
 use crate::judged::ComponentVerdict;
-use model::reaction::COMPONENTS;
-use model::{ConstraintId, Mechanism, System};
+use model::{ConstraintId, Mechanism};
 use rank::RankDecision;
 
 pub use configuration::Configuration;
 pub use error::RequestError;
 pub(crate) use error::{check, check_finite};
 pub use form::LinearForm;
+pub use reactions::ReactionForms;
 
 use crate::verdict::{Judgement, Verdict};
 
@@ -83,7 +84,7 @@ impl Configuration<'_> {
     /// # Errors
     /// As [`judge_groups`].
     pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
-        self.group_about(group, self.about(group)?)
+        self.group_about(group, self.reactions.about(group)?)
     }
 
     /// The same with T of wrenches about this point.
@@ -94,16 +95,18 @@ impl Configuration<'_> {
     ) -> Result<GroupVerdict, RequestError> {
         match group {
             Group::Members(members) => {
-                let each = self.rows_of(members)?.into_iter();
+                let each = self.reactions.rows_of(members)?.into_iter();
                 let judged = each.map(|rows| self.solvability.group(rows));
                 worst(judged.collect::<Result<Vec<_>, _>>()?.into_iter())
                     .map(whole)
                     .ok_or(NO_REACTION)
             }
             Group::OneJoint(members) => self.one_joint(members),
-            Group::Combination(terms) => Ok(whole(self.judge(&self.combination(terms)?)?)),
+            Group::Combination(terms) => {
+                Ok(whole(self.judge(&self.reactions.combination(terms)?)?))
+            }
             Group::WrenchSum(_) | Group::Resultant(_) => {
-                let forms = self.numbers_about(group, about)?;
+                let forms = self.reactions.numbers_about(group, about)?;
                 let judged = forms.iter().map(|(_, form)| self.judge(form));
                 let judged = judged.collect::<Result<Vec<_>, _>>()?;
                 let named = forms.iter().map(|(name, _)| *name).zip(&judged);
@@ -121,98 +124,23 @@ impl Configuration<'_> {
         }
     }
 
-    /// The numbers of a group that is one, by name: the `sum` of a combination; `Fx`, `Fy` and `T`
-    /// of wrenches. Several reactions side by side are none.
-    ///
-    /// # Errors
-    /// As [`judge_groups`].
-    pub fn numbers(&self, group: &Group) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
-        self.numbers_about(group, self.about(group)?)
-    }
-
-    /// The same with T of wrenches about this point.
-    pub(crate) fn numbers_about(
-        &self,
-        group: &Group,
-        about: Option<[f64; 2]>,
-    ) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
-        Ok(match group {
-            Group::Members(_) | Group::OneJoint(_) => Vec::new(),
-            Group::Combination(terms) => vec![("sum", self.combination(terms)?)],
-            Group::WrenchSum(terms) => {
-                named(self.wrench_sum_about(terms, about.ok_or(NO_REACTION)?)?)
-            }
-            Group::Resultant(bodies) => named(self.resultant(bodies, about.unwrap_or_default())?),
-        })
-    }
-
-    /// Where the T of a sum of wrenches or a resultant is about.
-    pub(crate) fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
-        match group {
-            Group::WrenchSum(terms) => terms.first().map(|&(_, id)| self.place(id)).transpose(),
-            Group::Resultant(bodies) => bodies.first().map(|&body| self.origin(body)).transpose(),
-            _ => Ok(None),
-        }
-    }
-
-    /// `Σ coefficient · component`
-    ///
-    /// # Errors
-    /// As [`judge_groups`].
-    pub fn combination(&self, terms: &[Term]) -> Result<LinearForm, RequestError> {
-        if terms.is_empty() {
-            return Err(RequestError::Empty { of: "term" });
-        }
-        let factors: Vec<f64> = terms.iter().map(|t| t.coefficient).collect();
-        check_finite("coefficients", &factors)?;
-        let mut sum = self.zero();
-        for term in terms {
-            sum.add_scaled(
-                &self.component(term.reaction, &term.component)?,
-                term.coefficient,
-            );
-        }
-        Ok(sum)
-    }
-
-    /// `[Fx, Fy, T]` of `Σ coefficient · wrench`, T about the place of the first reaction.
-    ///
-    /// # Errors
-    /// As [`judge_groups`].
-    pub fn wrench_sum(
-        &self,
-        terms: &[(f64, ConstraintId)],
-    ) -> Result<[LinearForm; 3], RequestError> {
-        let Some(&(_, first)) = terms.first() else {
-            return Err(NO_REACTION);
-        };
-        self.wrench_sum_about(terms, self.place(first)?)
-    }
-
-    fn wrench_sum_about(
-        &self,
-        terms: &[(f64, ConstraintId)],
-        about: [f64; 2],
-    ) -> Result<[LinearForm; 3], RequestError> {
-        let factors: Vec<f64> = terms.iter().map(|(factor, _)| *factor).collect();
-        check_finite("coefficients", &factors)?;
-        let mut sum = [(); 3].map(|()| self.zero());
-        for &(coefficient, id) in terms {
-            self.check_id(id)?;
-            self.add_reaction(&mut sum, id, coefficient, about);
-        }
-        Ok(sum)
-    }
-
     /// The total of the reactions of several joints on each body: `Σ C_Xᵀ·λ_X`, each joint counted
     /// once.
     fn one_joint(&self, members: &[ConstraintId]) -> Result<GroupVerdict, RequestError> {
-        let mut rows: Vec<usize> = self.rows_of(members)?.into_iter().flatten().collect();
+        let mut rows: Vec<usize> = self
+            .reactions
+            .rows_of(members)?
+            .into_iter()
+            .flatten()
+            .collect();
         rows.sort_unstable();
         rows.dedup();
         let mut judgements = Vec::new();
-        for body in 0..self.mechanism.bodies().len() {
-            for form in self.resultant(&[body], self.origin(body)?)? {
+        for body in 0..self.reactions.mechanism.bodies().len() {
+            for form in self
+                .reactions
+                .resultant(&[body], self.reactions.origin(body)?)?
+            {
                 judgements.push(self.judge(&form.only(&rows))?);
             }
         }
@@ -220,24 +148,6 @@ impl Configuration<'_> {
             .map(whole)
             .ok_or(RequestError::Empty { of: "body" })
     }
-
-    fn rows_of(
-        &self,
-        members: &[ConstraintId],
-    ) -> Result<Vec<std::ops::Range<usize>>, RequestError> {
-        let groups = &self.mechanism.layout().groups;
-        if members.is_empty() {
-            return Err(NO_REACTION);
-        }
-        members
-            .iter()
-            .map(|&id| self.check_id(id).map(|()| groups[id.0].rows.clone()))
-            .collect()
-    }
-}
-
-fn named(forms: [LinearForm; 3]) -> Vec<(&'static str, LinearForm)> {
-    COMPONENTS.into_iter().zip(forms).collect()
 }
 
 /// A group without members.

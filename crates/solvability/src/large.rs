@@ -7,155 +7,19 @@
 
 use crate::error::AnalysisError;
 use crate::judged::{Dependency, Judged, ReactionVerdict};
-use crate::limits::{ROWS_MAX, SPARE_COMBINATIONS};
+use crate::limits::ROWS_MAX;
 use crate::pose::evaluated;
 use std::ops::Range;
 
-use linalg::{Matrix, SparseMatrix, equilibrate_sparse};
 use model::start::scene_size;
-use model::{ConstraintId, Known, Mechanism, Scratch, System};
-use rank::{Evidence, RankStatus, Sketch, SparseRank, SparseRankError, decide_sparse};
+use model::{ConstraintId, Mechanism, Scratch, System};
+use rank::{Evidence, RankStatus, SparseRank};
 
 use crate::analysis::analyse;
 use crate::freedoms::WithoutDrives;
-use crate::matrices::{self, Basis};
 use crate::mechanism::{Told, reaction};
 use crate::parts::{Extent, PartAnalysis, PartDecision, parts};
-
-/// A sparse decision of rows of C, and these rows.
-struct Decided {
-    /// The first of them.
-    first: usize,
-    /// Without dimensions.
-    c: SparseMatrix,
-    found: SparseRank,
-}
-
-/// Rank and kept rows of the rows of C in a range, at the pose of the scratch, where Φ and C have
-/// been evaluated at coordinates q.
-///
-/// # Errors
-/// If C is not finite, or too dense for a sparse decision.
-pub(crate) fn decide_range(
-    mechanism: &Mechanism,
-    s: &Scratch,
-    q: &[f64],
-    rows: Range<usize>,
-) -> Result<SparseRank, AnalysisError> {
-    Decided::of(mechanism, s, q, rows).map(|decided| decided.found)
-}
-
-impl Decided {
-    fn of(
-        mechanism: &Mechanism,
-        s: &Scratch,
-        q: &[f64],
-        rows: Range<usize>,
-    ) -> Result<Self, AnalysisError> {
-        let (layout, size) = (mechanism.layout(), scene_size(mechanism, q));
-        let dimensions = mechanism.layout().dimension_scaling(size);
-        let unit = |j: usize| f64::from(dimensions.cols[j]).exp2();
-        let c = rows_of(mechanism, s, rows.clone(), unit);
-        let scaling = equilibrate_sparse(&c);
-        let known = mechanism
-            .scales(s)
-            .uncertainty_of_entries(size, Known::AsStored);
-        let pattern = &layout.pattern;
-        let mut largest = 0.0_f64;
-        for i in rows.clone() {
-            for k in pattern.start[i]..pattern.start[i + 1] {
-                let j = pattern.column[k];
-                let exponent = scaling.rows[i - rows.start] + scaling.cols[j];
-                largest = largest.max(known[k] * unit(j) * f64::from(exponent).exp2());
-            }
-        }
-        let found = decide_sparse(&c, largest, &blocks(mechanism), sketch_of(mechanism)).map_err(
-            |source| match source {
-                SparseRankError::Rank(source) => AnalysisError::Rank { time: s.t, source },
-                source => AnalysisError::Large {
-                    time: s.t,
-                    rows: rows.len(),
-                    source,
-                },
-            },
-        )?;
-        Ok(Self {
-            first: rows.start,
-            c,
-            found,
-        })
-    }
-
-    /// What verdicts of a group of rows are read from: the rows alone.
-    fn basis(&self, rows: Range<usize>) -> Basis {
-        let own = rows.start - self.first..rows.end - self.first;
-        let e = &self.found.evidence;
-        let mut columns: Vec<usize> = own.clone().flat_map(|i| self.c.row(i).0).copied().collect();
-        let entries = columns.len();
-        columns.sort_unstable();
-        columns.dedup();
-        let scaling = &self.found.scaling;
-        let mut c = Matrix::zeros(own.len(), columns.len());
-        for (k, i) in own.clone().enumerate() {
-            let (at, values) = self.c.row(i);
-            for (j, value) in at.iter().zip(values) {
-                if let Ok(l) = columns.binary_search(j) {
-                    let factor = f64::from(scaling.rows[i] + scaling.cols[*j]).exp2();
-                    c[(k, l)] = value * factor;
-                }
-            }
-        }
-        let w = &self.found.sketch;
-        let noise = self.found.noise();
-        Basis {
-            c,
-            z: w.select_rows(&own.clone().collect::<Vec<_>>()),
-            known: matrices::Known {
-                status: self.found.status,
-                row_factor: own.clone().map(|i| scaling.row_factor(i)).collect(),
-                row_noise: vec![noise; own.len()],
-                row_rounding: Vec::new(),
-                tolerance: noise,
-                spread: e.uncertainty * (entries as f64).sqrt(),
-                uncertainty: e.uncertainty,
-                row_turn: None,
-                readings: self.found.readings(),
-            },
-            exact: None,
-        }
-    }
-}
-
-/// Rows of C at the pose of the scratch, columns in these units.
-pub(crate) fn rows_of(
-    mechanism: &Mechanism,
-    s: &Scratch,
-    rows: impl IntoIterator<Item = usize>,
-    unit: impl Fn(usize) -> f64,
-) -> SparseMatrix {
-    let layout = mechanism.layout();
-    let row = |i: usize| layout.row(s, i).map(|(j, c)| (j, c * unit(j)));
-    // Columns of a pattern are below n_v.
-    SparseMatrix::from_rows(layout.n_v, rows.into_iter().map(row))
-        .unwrap_or_else(|e| unreachable!("columns of a pattern: {e}"))
-}
-
-/// The columns of each body.
-pub(crate) fn blocks(mechanism: &Mechanism) -> Vec<Range<usize>> {
-    let bodies = 0..mechanism.bodies().len();
-    bodies.map(|b| mechanism.layout().columns(b)).collect()
-}
-
-/// Combinations enough for the joint of most rows, and some against chance.
-pub(crate) fn sketch_of(mechanism: &Mechanism) -> Sketch {
-    let groups = mechanism.layout().groups.iter();
-    let most = groups.map(|group| group.rows.len()).max().unwrap_or(0);
-    let default = Sketch::default();
-    Sketch {
-        columns: default.columns.max(most + SPARE_COMBINATIONS),
-        ..default
-    }
-}
+use crate::sparse::{Decided, decide_range};
 
 /// Ranks and verdicts of a large mechanism at the pose of the scratch, where Φ and C have been
 /// evaluated at coordinates q.

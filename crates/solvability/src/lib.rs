@@ -23,7 +23,7 @@
 //! | `certificate` | the rank in double-double at a polished point |
 //! | [`questions`] | sums, frames, choices and deletions, by the parts that they touch |
 //! | [`mod@structure`] | what the shape settles before any rank |
-//! | `large` | the rank of one large set of joints, decided sparsely |
+//! | `sparse`, `large` | one large set of joints, decided sparsely |
 //! | [`mod@explain`] | mixing, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
 //! | [`sensitivity`] | how much a unique reaction hangs on the data |
@@ -57,6 +57,7 @@ mod row_decision;
 pub mod rows;
 pub mod second_order;
 pub mod sensitivity;
+mod sparse;
 pub mod state;
 pub mod structure;
 pub mod units;
@@ -90,7 +91,7 @@ pub use freedoms::{
 };
 pub use generic::{Elsewhere, Generic, generic, is_permanent};
 pub use groups::{
-    Configuration, Group, GroupVerdict, LinearForm, RequestError, Term, judge_groups,
+    Configuration, Group, GroupVerdict, LinearForm, ReactionForms, RequestError, Term, judge_groups,
 };
 pub use judged::{ComponentVerdict, Dependency, ReactionVerdict, RowVerdict};
 pub use limits::{FRAGILE, KERNEL_MAX, MOTIONS_TOLD, MOVED, ONE_PART};

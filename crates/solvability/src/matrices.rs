@@ -92,9 +92,10 @@ impl Solvability {
                     .map(|i| decision.scaling.row_factor(i))
                     .collect(),
                 row_noise: rows.clone().map(|i| decision.row_noise(i)).collect(),
-                row_rounding: match decision.has_tolerance() {
-                    true => rows.map(|i| decision.row_rounding(i)).collect(),
-                    false => Vec::new(),
+                row_rounding: if decision.has_tolerance() {
+                    rows.map(|i| decision.row_rounding(i)).collect()
+                } else {
+                    Vec::new()
                 },
                 tolerance: decision.coefficient_tolerance(),
                 spread: certificate.map_or(0.0, |c| c.spread),

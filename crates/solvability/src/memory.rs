@@ -6,8 +6,8 @@ use crate::pose::evaluated;
 use model::{Mechanism, System};
 use rank::SparsePattern;
 
-use crate::large::{blocks, rows_of, sketch_of};
 use crate::parts::parts;
+use crate::sparse::{blocks, rows_of, sketch_of};
 
 /// Bytes that ranks, kept rows and verdicts of a mechanism take at most, about, beside the
 /// mechanism itself: the part with most rows, on each of `threads` threads, and all verdicts.

@@ -347,17 +347,19 @@ pub(crate) enum Partition {
 impl Partition {
     /// The parts at time t and coordinates q.
     pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
-        match mechanism.layout().rows() <= ONE_PART {
-            true => Self::One,
-            false => Self::by_cycles(mechanism, t, q),
+        if mechanism.layout().rows() <= ONE_PART {
+            Self::One
+        } else {
+            Self::by_cycles(mechanism, t, q)
         }
     }
 
     /// The parts at the pose of the scratch, where C has been evaluated.
     pub(crate) fn at(mechanism: &Mechanism, s: &Scratch) -> Self {
-        match mechanism.layout().rows() <= ONE_PART {
-            true => Self::One,
-            false => Self::of_sets(mechanism, parts(mechanism, s)),
+        if mechanism.layout().rows() <= ONE_PART {
+            Self::One
+        } else {
+            Self::of_sets(mechanism, parts(mechanism, s))
         }
     }
 

@@ -180,7 +180,7 @@ impl<'a> Questions<'a> {
             Group::WrenchSum(terms) => {
                 let &(_, first) = terms.first().ok_or(NO_REACTION)?;
                 let (k, own) = self.place(first)?;
-                self.configuration(k)?.place(own).map(Some)
+                self.configuration(k)?.reactions.place(own).map(Some)
             }
             Group::Resultant(all) => {
                 let bodies = self.mechanism.bodies().len();
@@ -276,7 +276,7 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// Sums over parts; nothing where a share is missing.
+    /// Sums over parts; `None` if a share is missing.
     fn numbers(
         &self,
         group: &Group,
@@ -290,7 +290,7 @@ impl<'a> Questions<'a> {
         let mut sums: Vec<(&'static str, Option<Value>)> = Vec::new();
         for (k, share) in self.shares(group)? {
             let configuration = self.configuration(k)?;
-            for (name, form) in configuration.numbers_about(&share, about)? {
+            for (name, form) in configuration.reactions.numbers_about(&share, about)? {
                 let own = value(k, configuration, &form)?;
                 match sums.iter_mut().find(|(known, _)| *known == name) {
                     Some((_, sum)) => *sum = sum.take().zip(own).map(|(a, b)| a + b),
@@ -426,12 +426,11 @@ impl<'a> Questions<'a> {
         let of_part = |k: usize| {
             let extent = &self.parts()[k].extent;
             let configuration = self.configuration(k)?;
-            let equations = match extent.is_whole() {
-                true => Equations::of(self.mechanism, time, &self.q, v)?,
-                false => {
-                    let state = (time, &self.q[..], v);
-                    Equations::of_part(&configuration.mechanism, extent, state, solution)?
-                }
+            let equations = if extent.is_whole() {
+                Equations::of(self.mechanism, time, &self.q, v)?
+            } else {
+                let state = (time, &self.q[..], v);
+                Equations::of_part(&configuration.reactions.mechanism, extent, state, solution)?
             };
             let mut checks = check_equations(configuration, &equations)?;
             for check in &mut checks {
@@ -463,7 +462,12 @@ impl<'a> Questions<'a> {
             let extent = &self.parts()[k].extent;
             let q = extent.coordinates(&self.q);
             let solvability = configuration.solvability();
-            match explain(&configuration.mechanism, &configuration.s, &q, solvability) {
+            match explain(
+                &configuration.reactions.mechanism,
+                &configuration.reactions.s,
+                &q,
+                solvability,
+            ) {
                 Ok(mut found) => {
                     if !extent.is_whole() {
                         found.renumber(

@@ -13,9 +13,9 @@ use rank::{
 
 use crate::certificate::{self, inseparable};
 use crate::existence::{Contradiction, Ranks, contradictions};
-use crate::large::decide_range;
 use crate::parts::{Extent, ListedRows, Partition};
 use crate::row_decision::RowDecision;
+use crate::sparse::decide_range;
 use crate::state::{StateError, check, check_configuration};
 
 /// Rows of C, and of Φq alone, at one configuration, as they were decided there, part by part. The
@@ -152,9 +152,10 @@ pub fn decide_rows(
     q: &[f64],
 ) -> Result<RowDecision, AnalysisError> {
     of_parts(mechanism, s, q, |part, s, q, _| {
-        match part.layout().rows() > SPARSE_FROM {
-            true => Ok((&decide_range(part, s, q, 0..part.layout().rows())?).into()),
-            false => Ok((&decide(part, s, q)?).into()),
+        if part.layout().rows() > SPARSE_FROM {
+            Ok((&decide_range(part, s, q, 0..part.layout().rows())?).into())
+        } else {
+            Ok((&decide(part, s, q)?).into())
         }
     })
 }
@@ -169,9 +170,10 @@ pub fn decide_holonomic_rows(
     q: &[f64],
 ) -> Result<RowDecision, AnalysisError> {
     of_parts(mechanism, s, q, |part, s, q, _| {
-        match part.layout().rows() > SPARSE_FROM {
-            true => Ok((&decide_range(part, s, q, 0..part.layout().m)?).into()),
-            false => Ok((&decide_holonomic(part, s, q)?).into()),
+        if part.layout().rows() > SPARSE_FROM {
+            Ok((&decide_range(part, s, q, 0..part.layout().m)?).into())
+        } else {
+            Ok((&decide_holonomic(part, s, q)?).into())
         }
     })
 }
@@ -217,17 +219,18 @@ pub(crate) fn told_of_whole(
     else {
         return error;
     };
-    match dropped.len() == whole.redundancy {
-        true => KeptRowsError::Dependent {
+    if dropped.len() == whole.redundancy {
+        KeptRowsError::Dependent {
             smallest_singular_value: 0.0,
             required: NEARLY_SINGULAR,
-        },
-        false => KeptRowsError::WrongCount {
+        }
+    } else {
+        KeptRowsError::WrongCount {
             dropped: dropped.len(),
             kept: rows - dropped.len(),
             rank: whole.rank,
             rows,
-        },
+        }
     }
 }
 
@@ -240,12 +243,11 @@ fn of_parts<E: Send>(
 ) -> Result<RowDecision, E> {
     let partition = Partition::at(mechanism, s);
     let parts = partition.map(mechanism, |part, extent| {
-        let decision = match extent.is_whole() {
-            true => decide(part, s, q, &extent)?,
-            false => {
-                let q = extent.coordinates(q);
-                decide(part, &evaluated(part, s.t, &q), &q, &extent)?
-            }
+        let decision = if extent.is_whole() {
+            decide(part, s, q, &extent)?
+        } else {
+            let q = extent.coordinates(q);
+            decide(part, &evaluated(part, s.t, &q), &q, &extent)?
         };
         Ok::<_, E>((decision, extent))
     })?;

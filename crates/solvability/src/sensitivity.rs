@@ -107,9 +107,10 @@ fn told(change: f64, reactions: usize) -> String {
     if change < BEYOND {
         return format!("{verb} by {up_to}about {:.2} %", Digits(100.0 * change));
     }
-    let times = match change < MANY {
-        true => "several times",
-        false => "many times",
+    let times = if change < MANY {
+        "several times"
+    } else {
+        "many times"
     };
     format!("would change by {up_to}{times} {whose} size")
 }

@@ -101,7 +101,7 @@ pub(crate) fn check_equations(
     configuration: &Configuration<'_>,
     real: &Equations,
 ) -> Result<Vec<UnitCheck>, UnitError> {
-    let mechanism = &configuration.mechanism;
+    let mechanism = &configuration.reactions.mechanism;
     let numbers = Numbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
     if configuration.solvability.null_space().ncols() == 0 {
@@ -140,9 +140,10 @@ pub(crate) fn check_equations(
         }
     }
     for check in &mut checks {
-        check.nature = match check.change <= UNIT_ROUNDING {
-            true => Nature::Fact,
-            false => Nature::Choice,
+        check.nature = if check.change <= UNIT_ROUNDING {
+            Nature::Fact
+        } else {
+            Nature::Choice
         };
     }
     Ok(checks)
@@ -175,15 +176,17 @@ struct Numbers<'a> {
 impl<'a> Numbers<'a> {
     fn of(configuration: &'a Configuration<'a>) -> Result<Self, RequestError> {
         let (mut checks, mut forms, mut wrenches) = (Vec::new(), Vec::new(), Vec::new());
-        let layout = configuration.mechanism.layout();
+        let layout = configuration.reactions.mechanism.layout();
         for (k, group) in layout.groups.iter().enumerate() {
             let id = ConstraintId(k);
             for component in group.components() {
-                let form = configuration.component(id, COMPONENTS[component])?;
+                let form = configuration
+                    .reactions
+                    .component(id, COMPONENTS[component])?;
                 wrenches.push((id, dimension(component), form));
             }
             for frame in Frame::ALL {
-                let found = configuration.in_frame(id, frame)?;
+                let found = configuration.reactions.in_frame(id, frame)?;
                 let forces_only = frame != Frame::Global;
                 let components = found.map_or(Vec::new(), |f| f.components.to_vec());
                 for (component, form) in components.into_iter().enumerate() {
@@ -213,7 +216,12 @@ impl<'a> Numbers<'a> {
     /// What is free in other units.
     fn rewritten(&self, equations: &Equations, units: Units) -> Result<Rewritten, UnitError> {
         let decided = self.configuration.solvability.decision();
-        let kinds = self.configuration.mechanism.layout().column_kinds();
+        let kinds = self
+            .configuration
+            .reactions
+            .mechanism
+            .layout()
+            .column_kinds();
         let rewriting = Rewriting::new(equations, units, &kinds);
         let equations = rewriting.equations(equations);
         let decision = rank::decide(&equations.c, decided.evidence.constraint_residual)?;
@@ -268,11 +276,16 @@ impl<'a> Numbers<'a> {
     /// fractions of 1 N, of 1 N at the arm of the mechanism's size for rotations.
     fn probing_load(&self, equations: &Equations) -> Equations {
         let golden = 0.618_033_988_749_894_9;
-        let kinds = self.configuration.mechanism.layout().column_kinds();
+        let kinds = self
+            .configuration
+            .reactions
+            .mechanism
+            .layout()
+            .column_kinds();
         let load = |(k, kind): (usize, &ColumnKind)| {
             let arm = match kind {
                 ColumnKind::Translation => 1.0,
-                ColumnKind::Rotation => self.configuration.size,
+                ColumnKind::Rotation => self.configuration.reactions.size,
             };
             arm * ((golden * (k + 1) as f64).fract() - 0.5)
         };
@@ -289,13 +302,18 @@ impl<'a> Numbers<'a> {
     /// is what reactions are rounded against.
     fn scale(&self, equations: &Equations, numbers: &[f64]) -> f64 {
         let largest = |x: &[f64]| x.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        let size = self.configuration.size;
+        let size = self.configuration.reactions.size;
         let forces = self
             .checks
             .iter()
             .zip(numbers)
             .map(|(check, x)| x.abs() / self.unit(check, 1.0));
-        let kinds = self.configuration.mechanism.layout().column_kinds();
+        let kinds = self
+            .configuration
+            .reactions
+            .mechanism
+            .layout()
+            .column_kinds();
         let loads = kinds
             .iter()
             .zip(&equations.force)
@@ -314,7 +332,7 @@ impl<'a> Numbers<'a> {
     fn unit(&self, check: &UnitCheck, force: f64) -> f64 {
         match dimension(check.component) {
             Dimension::Force => force,
-            Dimension::Torque => force * self.configuration.size,
+            Dimension::Torque => force * self.configuration.reactions.size,
         }
     }
 }

@@ -84,9 +84,10 @@ impl Judgement {
     /// The judgement of data that are meant exactly: what vanishes has no margin, what does not has
     /// one, however small.
     pub(crate) fn exact(margin: f64, vanishes: bool) -> Self {
-        match vanishes {
-            true => Self::new(Verdict::Unique, 0.0),
-            false => Self::new(Verdict::NotUnique, margin.max(f64::MIN_POSITIVE)),
+        if vanishes {
+            Self::new(Verdict::Unique, 0.0)
+        } else {
+            Self::new(Verdict::NotUnique, margin.max(f64::MIN_POSITIVE))
         }
     }
 

@@ -260,9 +260,10 @@ pub(crate) fn short(x: f64) -> String {
         1e-3..1e4 => {
             let digits = (3.0 - size.log10().floor()).max(0.0) as usize;
             let text = format!("{x:.digits$}");
-            match text.contains('.') {
-                true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-                false => text,
+            if text.contains('.') {
+                text.trim_end_matches('0').trim_end_matches('.').to_owned()
+            } else {
+                text
             }
         }
         _ => format!("{x:.3e}"),

@@ -1,7 +1,8 @@
 //! Factorisation: LU of Cᵀ row by row, null space basis, reduced mass.
 
+use super::error::{SaddleError, check_finite, check_length};
 use super::lu::Elimination;
-use super::{KeptRowSaddle, SaddleError, check_finite, check_length, mass_spread};
+use super::{KeptRowSaddle, mass_spread};
 use crate::kernels::extremes;
 use crate::limits::{GRADED_BESIDE_MASSLESS, GRADED_MASSES, PIVOT_FLOOR};
 

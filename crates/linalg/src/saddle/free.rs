@@ -1,7 +1,7 @@
 //! The motions that the rows leave free: a basis N of their null space and the reduced mass
 //! `Nᵀ·M·N`, factored by Cholesky without roots.
 
-use super::SaddleError;
+use super::error::SaddleError;
 use super::lu::TallLu;
 use crate::kernels::{axpy, dot, max_abs};
 

@@ -1,8 +1,8 @@
 //! LU with partial pivoting of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`,
 //! `L = [L₁; L₂]` unit lower trapezoidal.
 
+use super::error::{SaddleError, check_finite, check_length};
 use super::order::Order;
-use super::{SaddleError, check_finite, check_length};
 use crate::kernels::{axpy, dot, max_abs};
 use crate::limits::CANDIDATE;
 

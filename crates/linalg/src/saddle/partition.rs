@@ -3,7 +3,8 @@
 //! and gives the same solutions; with it the free coordinates are coordinates of a manifold, and
 //! the rows determine the others.
 
-use super::{KeptRowSaddle, SaddleError, check_finite, check_length};
+use super::KeptRowSaddle;
+use super::error::{SaddleError, check_finite, check_length};
 
 impl KeptRowSaddle {
     /// From the next factorisation on, solves for these coordinates: one for each row, in any

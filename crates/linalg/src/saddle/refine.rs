@@ -8,7 +8,8 @@
 //! iterate after J. Demmel et al., Error bounds from extra-precise iterative refinement, ACM TOMS
 //! 32 (2006) 325–351.
 
-use super::{KeptRowSaddle, SaddleError, check_length};
+use super::KeptRowSaddle;
+use super::error::{SaddleError, check_length};
 use crate::Dd;
 use crate::kernels::max_abs;
 use crate::limits::{REFINEMENT_NOISE, REFINEMENT_ROUNDS, SETTLED};
@@ -229,9 +230,12 @@ mod tests {
                 ((k * k + 7 * k + 13 * seed * k + seed) % (2 * most + 1) - most) as f64
             };
             let r = 1 + seed as usize % 7;
-            let c = Matrix::from_fn(r, N, |i, j| match i == j {
-                true => 11.0,
-                false => whole((i * N + j) as i64, 3),
+            let c = Matrix::from_fn(r, N, |i, j| {
+                if i == j {
+                    11.0
+                } else {
+                    whole((i * N + j) as i64, 3)
+                }
             });
             let mass: Vec<f64> = (0..N)
                 .map(|j| 3.0 * 2_f64.powi((j as i32 * (seed as i32 + 5)) % 41))

@@ -1,6 +1,7 @@
 //! Solution for one right-hand side; any number of them per factorisation.
 
-use super::{KeptRowSaddle, SaddleError, check_finite, check_length};
+use super::KeptRowSaddle;
+use super::error::{SaddleError, check_finite, check_length};
 
 impl KeptRowSaddle {
     /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the last factorisation; allocates nothing.

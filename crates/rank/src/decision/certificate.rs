@@ -34,12 +34,12 @@ pub struct Certificate {
     /// Whether only angles were wrong by these two, because a tolerance is stated for angles alone.
     pub lower_rank_by_angles: bool,
     /// By how much each row of the left null space changes with data within what they are known to,
-    /// m values; nothing where nobody asked.
+    /// m values; `None` if nobody asked.
     pub row_data: Option<Vec<f64>>,
     /// Whether that is a tolerance which the scene states.
     pub has_tolerance: bool,
     /// By what angle (rad) the force of each row turns with data within that tolerance, and by what
-    /// length (m) it shifts, m values; nothing without one.
+    /// length (m) it shifts, m values; `None` without one.
     pub row_turn: Option<Vec<[f64; 2]>>,
     /// Rows of dependencies of which that tolerance leaves open which rows belong to them,
     /// ascending.

@@ -132,9 +132,10 @@ impl RankDecision {
 
     /// Up to here a coefficient with this noise is left out of a dependency.
     pub(crate) fn largest_zero(&self, noise: f64) -> f64 {
-        match self.has_tolerance() {
-            true => noise.min(STATED_ZERO),
-            false => noise,
+        if self.has_tolerance() {
+            noise.min(STATED_ZERO)
+        } else {
+            noise
         }
     }
 

@@ -1,5 +1,5 @@
-//! What a rank decision says: the rank, the rows to keep, the numbers behind both, and why a rank is
-//! undecided or none.
+//! What a rank decision says: the rank, the rows to keep, the numbers behind both, and why a rank
+//! is undecided or none.
 
 use super::certificate::{Certificate, NearlyRedundant};
 use linalg::{Matrix, Scaling, powers::scale};

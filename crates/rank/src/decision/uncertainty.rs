@@ -57,10 +57,7 @@ impl Uncertainty<'_> {
                 let mut significant = c.clone();
                 let entries = significant.as_mut_slice().iter_mut();
                 for (c, u) in entries.zip(u.as_slice()) {
-                    *c = match c.abs() > SIGNIFICANT * u {
-                        true => *c,
-                        false => 0.0,
-                    };
+                    *c = if c.abs() > SIGNIFICANT * u { *c } else { 0.0 };
                 }
                 equilibrate(&significant)
             }
@@ -85,11 +82,12 @@ impl Uncertainty<'_> {
                 }
             }
         };
-        match spread.norm.is_finite() && spread.largest >= 0.0 {
-            true => Ok(spread),
-            false => Err(RankError::Uncertainty {
+        if spread.norm.is_finite() && spread.largest >= 0.0 {
+            Ok(spread)
+        } else {
+            Err(RankError::Uncertainty {
                 value: spread.largest,
-            }),
+            })
         }
     }
 

@@ -265,9 +265,10 @@ impl SparsePattern {
         // required of them.
         let required = required(tolerance);
         let found = factor(required.max(LEFT))?;
-        match found.rank == rank {
-            true => Ok(found),
-            false => factor(required),
+        if found.rank == rank {
+            Ok(found)
+        } else {
+            factor(required)
         }
     }
 
@@ -284,9 +285,10 @@ impl SparsePattern {
         if let Some((row, col, value)) = c.first_non_finite() {
             return Err(RankError::NonFinite { row, col, value }.into());
         }
-        match uncertainty.is_finite() && uncertainty >= 0.0 {
-            true => Ok(()),
-            false => Err(RankError::Uncertainty { value: uncertainty }.into()),
+        if uncertainty.is_finite() && uncertainty >= 0.0 {
+            Ok(())
+        } else {
+            Err(RankError::Uncertainty { value: uncertainty }.into())
         }
     }
 }

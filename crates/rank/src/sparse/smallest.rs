@@ -39,9 +39,10 @@ pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64
     let epsilon = FAILURE.powf(1.0 / REFLECTORS_WIDTH as f64) / DENSITY;
     let largest = logarithm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let bound = ((epsilon.ln() - largest) / f64::from(2 * SOLVES)).exp();
-    match logarithm.iter().all(|l| l.is_finite()) {
-        true => bound,
-        false => 0.0,
+    if logarithm.iter().all(|l| l.is_finite()) {
+        bound
+    } else {
+        0.0
     }
 }
 

@@ -40,9 +40,10 @@ pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
 pub(super) fn stretch(s: &Stretch, generic: &Analysis) -> String {
     let (from, to) = (digits(s.from, GIVEN_DIGITS), digits(s.to, GIVEN_DIGITS));
     let usual = generic.decision.redundancy;
-    let rank = match s.redundancy == usual {
-        true => "at the same rank".to_owned(),
-        false => format!("the redundancy is {} instead of {usual}", s.redundancy),
+    let rank = if s.redundancy == usual {
+        "at the same rank".to_owned()
+    } else {
+        format!("the redundancy is {} instead of {usual}", s.redundancy)
     };
     with_differences(
         format!("from t = {from} s to t = {to} s other verdicts hold, {rank}"),
@@ -93,11 +94,12 @@ fn digits(x: f64, digits: i32) -> String {
     };
     let decimals = (digits - 1 - before).clamp(0, 12) as usize;
     let text = format!("{x:.decimals$}");
-    match text.contains('.') {
-        true => match text.trim_end_matches('0').trim_end_matches('.') {
+    if text.contains('.') {
+        match text.trim_end_matches('0').trim_end_matches('.') {
             "-0" => "0".to_owned(),
             short => short.to_owned(),
-        },
-        false => text,
+        }
+    } else {
+        text
     }
 }

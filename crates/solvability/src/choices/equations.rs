@@ -10,8 +10,8 @@ use rank::RankStatus;
 
 use super::ChoiceError;
 use crate::groups::{RequestError, check};
-use crate::large::{blocks, rows_of};
 use crate::parts::Extent;
+use crate::sparse::{blocks, rows_of};
 
 /// `M·a + Cᵀ·λ = Q`, `C·a = Γ` at one instant.
 ///

@@ -77,13 +77,15 @@ impl Label {
             Choice::Compliance(joints) => {
                 let joint = |j: &Compliance| {
                     let name = &layout.groups[j.reaction.0].name;
-                    let along = match j.x == j.y {
-                        true => format!("{:e} m/N", j.x),
-                        false => format!("{:e} m/N along x, {:e} m/N along y", j.x, j.y),
+                    let along = if j.x == j.y {
+                        format!("{:e} m/N", j.x)
+                    } else {
+                        format!("{:e} m/N along x, {:e} m/N along y", j.x, j.y)
                     };
-                    match j.rotation == 0.0 {
-                        true => format!("`{name}` {along}"),
-                        false => format!("`{name}` {along}, {:e} rad/(N·m)", j.rotation),
+                    if j.rotation == 0.0 {
+                        format!("`{name}` {along}")
+                    } else {
+                        format!("`{name}` {along}, {:e} rad/(N·m)", j.rotation)
                     }
                 };
                 let listed: Vec<String> = joints.iter().map(joint).collect();
@@ -97,9 +99,10 @@ impl Label {
                 let known = rows.iter().filter_map(|&i| layout.labels.get(i));
                 let labels: Vec<RowLabel> = known.cloned().collect();
                 // The label stands at every number.
-                let (told, more) = match labels.len() > NAMED_ROWS {
-                    true => labels.split_at(FIRST_NAMED),
-                    false => (&labels[..], &[][..]),
+                let (told, more) = if labels.len() > NAMED_ROWS {
+                    labels.split_at(FIRST_NAMED)
+                } else {
+                    (&labels[..], &[][..])
                 };
                 let word = row_word(&labels);
                 match more.len() {

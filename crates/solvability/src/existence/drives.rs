@@ -181,9 +181,10 @@ impl Way<'_> {
                     .sum::<f64>()
             };
             let change = (value(&then) - value(now)).abs();
-            match self.mechanism.layout().is_angular(groups[id.0].rows.start) {
-                true => change,
-                false => change / self.size,
+            if self.mechanism.layout().is_angular(groups[id.0].rows.start) {
+                change
+            } else {
+                change / self.size
             }
         });
         changes.fold(0.0, f64::max)

@@ -98,9 +98,12 @@ impl<'a> Connected<'a> {
                 rows.len() > ROWS_MAX || COLUMNS * self.sets[set].len() > ROWS_MAX
             };
             let too_large = own.iter().any(|(set, rows)| is_large(*set, rows));
-            let pivots = own.iter().map(|(set, rows)| match too_large {
-                true => Vec::new(),
-                false => self.pivots(&self.sets[*set], t, q, rows),
+            let pivots = own.iter().map(|(set, rows)| {
+                if too_large {
+                    Vec::new()
+                } else {
+                    self.pivots(&self.sets[*set], t, q, rows)
+                }
             });
             let pivots: Vec<Vec<f64>> = pivots.collect();
             for ((set, _), rank) in own.iter().zip(shared_rank(&pivots, part.rank)) {

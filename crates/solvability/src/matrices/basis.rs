@@ -137,7 +137,7 @@ impl Basis {
     }
 
     /// The rank of some of the rows, from the dependencies of all: those that need no other row,
-    /// `z = 0` there, are as many as `p − rank Z_other`. Nothing where the rank of all is
+    /// `z = 0` there, are as many as `p − rank Z_other`. `None` if the rank of all is
     /// undecided, or that of Z_other unclear.
     pub(crate) fn rank_of(&self, rows: Range<usize>) -> Option<usize> {
         let other: Vec<usize> = (0..self.z.nrows()).filter(|i| !rows.contains(i)).collect();
@@ -194,9 +194,12 @@ impl Basis {
     fn list(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
         let m = self.c.nrows();
         rows.into_iter()
-            .map(|row| match row < m {
-                true => Ok(row),
-                false => Err(QueryError::RowOutOfRange { row, rows: m }),
+            .map(|row| {
+                if row < m {
+                    Ok(row)
+                } else {
+                    Err(QueryError::RowOutOfRange { row, rows: m })
+                }
             })
             .collect()
     }

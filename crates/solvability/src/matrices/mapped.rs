@@ -94,9 +94,10 @@ impl<'a> Mapped<'a> {
         };
         let wobble = |k: usize, j: usize| {
             let [turn, shift] = known[j];
-            match k < forces {
-                true => turn * force(j),
-                false => turn * self.map[(k, j)].abs() + shift * force(j),
+            if k < forces {
+                turn * force(j)
+            } else {
+                turn * self.map[(k, j)].abs() + shift * force(j)
             }
         };
         self.wobble = Some(Matrix::from_fn(self.sizes.len(), self.rows.len(), wobble));

@@ -106,15 +106,17 @@ impl Question<'_> {
             let Some(asked) = self.lower_of(kept, limit) else {
                 continue;
             };
-            let own = match lower == first {
-                true => asked.near(&away, &asked.kept),
-                false => asked.near(&asked.walked(), &asked.kept),
+            let own = if lower == first {
+                asked.near(&away, &asked.kept)
+            } else {
+                asked.near(&asked.walked(), &asked.kept)
             };
             // Rows that are kept again may be singular here, and leave no way.
             let is_unknown = !own.is_walked && share(own.everywhere) <= rank::BEYOND_DOUBT;
-            let near = match is_unknown && lower > first {
-                true => asked.near(&away, &lowest.kept),
-                false => own,
+            let near = if is_unknown && lower > first {
+                asked.near(&away, &lowest.kept)
+            } else {
+                own
             };
             let found = |rank, certainty| LeastRank {
                 rank,
@@ -122,9 +124,10 @@ impl Question<'_> {
                 certainty,
             };
             if share(near.everywhere) < (1.0 / rank::BEYOND_DOUBT) {
-                return match near.is_walked {
-                    true => found(lower, Certainty::Decided),
-                    false => found(lower + 1, Certainty::OtherPoses),
+                return if near.is_walked {
+                    found(lower, Certainty::Decided)
+                } else {
+                    found(lower + 1, Certainty::OtherPoses)
                 };
             }
             if share(near.everywhere) <= rank::BEYOND_DOUBT {
@@ -226,9 +229,10 @@ impl Lower<'_> {
         let share = self.change(&poses, 1.0, Start::Known);
         let everywhere = self.least * self.change(&poses, share, Start::Known);
         let is_asked = self.question.tolerance().is_some() && is_led && everywhere > self.here;
-        let at_least = match is_asked {
-            true => everywhere.min(self.least * self.change(&poses, 1.0, Start::AsData)),
-            false => everywhere,
+        let at_least = if is_asked {
+            everywhere.min(self.least * self.change(&poses, 1.0, Start::AsData))
+        } else {
+            everywhere
         };
         Nearness {
             here: self.here,

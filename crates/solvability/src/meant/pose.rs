@@ -198,9 +198,10 @@ impl<'a> Pose<'a> {
 
     /// `u_aᵀ·C·v_b` (scaled) where the kept rows are satisfied, and its gradient.
     pub(super) fn entry(&self, a: usize, b: usize) -> (f64, Gradient) {
-        let here = match a == b {
-            true => self.sigma.get(a).copied().unwrap_or(0.0),
-            false => 0.0,
+        let here = if a == b {
+            self.sigma.get(a).copied().unwrap_or(0.0)
+        } else {
+            0.0
         };
         let gradient = self.gradient_between(self.left.row(a), self.right.row(b));
         (here + gradient.onto_kept, gradient)

@@ -128,9 +128,10 @@ fn open(
     upper: usize,
     from: Option<f64>,
 ) -> RankStatus {
-    let (one, unit) = match stated.by_angles {
-        true => (question.size, "rad"),
-        false => (1.0, "m"),
+    let (one, unit) = if stated.by_angles {
+        (question.size, "rad")
+    } else {
+        (1.0, "m")
     };
     let (lower, tolerance) = (upper - 1, stated.metres / one);
     RankStatus::Undecided(match from {

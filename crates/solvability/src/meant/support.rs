@@ -94,9 +94,10 @@ impl Question<'_> {
                     .max(rank::COEFFICIENT_ROUNDING);
                 let known = changes.sum::<f64>().max(rounding);
                 let reading = decision.read_coefficient(of.t[k].abs(), known);
-                let right = match circuit.rows.contains(&of.kept[k]) {
-                    true => CoefficientReading::NonZero,
-                    false => CoefficientReading::Zero,
+                let right = if circuit.rows.contains(&of.kept[k]) {
+                    CoefficientReading::NonZero
+                } else {
+                    CoefficientReading::Zero
                 };
                 reading != right
             })

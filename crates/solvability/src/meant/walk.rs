@@ -102,12 +102,11 @@ fn step(
     }
     let along = direction.iter().zip(units);
     let moved: Vec<f64> = along.map(|(d, unit)| stride / largest * d * unit).collect();
-    let (ahead, taken) = match ground.is_led() {
-        true => {
-            let (ahead, taken) = ground.flow(q, moved)?;
-            (ahead, Some(taken))
-        }
-        false => (mechanism.space().displaced(q, 1.0, &moved), None),
+    let (ahead, taken) = if ground.is_led() {
+        let (ahead, taken) = ground.flow(q, moved)?;
+        (ahead, Some(taken))
+    } else {
+        (mechanism.space().displaced(q, 1.0, &moved), None)
     };
     let rows = ground.holonomic();
     let there = nearest_configuration(mechanism, ground.t, &rows, &ahead, Metric::Length).ok()?;

@@ -111,7 +111,13 @@ impl Questions<'_> {
         };
         let configuration = self.configuration(k)?;
         let solvability = configuration.solvability();
-        let mut found = make_unique(&configuration.mechanism, solvability, own, &allowed, limits)?;
+        let mut found = make_unique(
+            &configuration.reactions.mechanism,
+            solvability,
+            own,
+            &allowed,
+            limits,
+        )?;
         for way in &mut found.ways {
             way.rows.iter_mut().for_each(|row| *row = extent.row(*row));
         }

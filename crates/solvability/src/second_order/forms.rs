@@ -199,12 +199,13 @@ impl Forms {
                 }
             }
         }
-        match self.y() > 0 && residual > REGULAR {
-            true => Err(Undetermined::Irregular {
+        if self.y() > 0 && residual > REGULAR {
+            Err(Undetermined::Irregular {
                 residual,
                 tolerance: REGULAR,
-            }),
-            false => Ok(()),
+            })
+        } else {
+            Ok(())
         }
     }
 }

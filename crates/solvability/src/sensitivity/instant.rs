@@ -27,6 +27,16 @@ pub(super) struct Instant<'a> {
     size: f64,
     saddle: KeptRowSaddle,
     lambda: Vec<f64>,
+    slopes: Slopes<'a>,
+    /// Points, directions and numbers, and how far each is moved.
+    blocks: Vec<(DataBlock, f64)>,
+    /// Largest applied or inertial load (N; torques divided by the size).
+    load: f64,
+    work: Work,
+}
+
+/// How the equations change with the pose, the velocities and the data.
+struct Slopes<'a> {
     derivatives: model::Derivatives,
     /// Those of the applied forces; none where unit loads are asked.
     force_dq: &'a [(usize, usize, f64)],
@@ -36,11 +46,6 @@ pub(super) struct Instant<'a> {
     /// velocity units, factored.
     c: Option<Follow>,
     phi_q: Follow,
-    /// Points, directions and numbers, and how far each is moved.
-    blocks: Vec<(DataBlock, f64)>,
-    /// Largest applied or inertial load (N; torques divided by the size).
-    load: f64,
-    work: Work,
 }
 
 /// Storage of one gradient.
@@ -131,10 +136,15 @@ impl<'a> Instant<'a> {
             (block, moved)
         };
         Ok(Self {
-            c: feels_velocities.then(|| Follow::new(&rows, kept.to_vec(), &units)),
-            phi_q: Follow::new(&rows, kept[..holonomic].to_vec(), &units),
+            slopes: Slopes {
+                derivatives,
+                force_dq,
+                force_dv,
+                by_data: mechanism.data().gradients(&s, &lambda, &a, &v),
+                c: feels_velocities.then(|| Follow::new(&rows, kept.to_vec(), &units)),
+                phi_q: Follow::new(&rows, kept[..holonomic].to_vec(), &units),
+            },
             blocks: mechanism.data().blocks(&s).into_iter().map(moved).collect(),
-            by_data: mechanism.data().gradients(&s, &lambda, &a, &v),
             work: Work::new(n, m, kept.len()),
             mechanism,
             s,
@@ -142,9 +152,6 @@ impl<'a> Instant<'a> {
             size,
             saddle,
             lambda,
-            derivatives,
-            force_dq,
-            force_dv,
             load,
         })
     }
@@ -220,22 +227,24 @@ impl<'a> Instant<'a> {
         for (&i, value) in self.kept.iter().zip(&w.y_kept) {
             w.y_lambda[i] = *value;
         }
-        let d = &self.derivatives;
+        let slopes = &self.slopes;
+        let d = &slopes.derivatives;
         // By velocities, which follow the data and the pose.
-        if let Some(c) = &self.c {
+        if let Some(c) = &slopes.c {
             w.by_pose.fill(0.0);
             add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
-            add_transposed(self.force_dv.iter().copied(), &w.y, 1.0, &mut w.by_pose);
+            add_transposed(slopes.force_dv.iter().copied(), &w.y, 1.0, &mut w.by_pose);
             c.multipliers(&mut w.by_pose, &mut w.w_v);
         }
         // By the pose, which follows the data.
         w.by_pose.fill(0.0);
-        add_transposed(self.force_dq.iter().copied(), &w.y, 1.0, &mut w.by_pose);
+        add_transposed(slopes.force_dq.iter().copied(), &w.y, 1.0, &mut w.by_pose);
         add_transposed(d.reaction_dq.iter(), &w.y, -1.0, &mut w.by_pose);
         add_transposed(d.residual_dq.iter(), &w.y_lambda, -1.0, &mut w.by_pose);
         add_transposed(d.velocity_dq.iter(), &w.w_v, -1.0, &mut w.by_pose);
-        self.phi_q.multipliers(&mut w.by_pose, &mut w.w_q);
-        self.by_data
+        slopes.phi_q.multipliers(&mut w.by_pose, &mut w.w_q);
+        slopes
+            .by_data
             .gradient(&w.y, [&w.y_lambda, &w.w_v, &w.w_q], out);
         Ok(())
     }

@@ -99,9 +99,10 @@ impl Rewriting {
         let row = |i: usize| {
             let mut entries = equations.c.row(i).iter().zip(kinds);
             let translates = entries.any(|(c, kind)| *c != 0.0 && *kind == ColumnKind::Translation);
-            units.velocity(match translates {
-                true => ColumnKind::Translation,
-                false => ColumnKind::Rotation,
+            units.velocity(if translates {
+                ColumnKind::Translation
+            } else {
+                ColumnKind::Rotation
             })
         };
         Self {

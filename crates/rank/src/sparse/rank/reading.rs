@@ -52,9 +52,10 @@ impl SparseRank {
         let noise = self.noise();
         let (mut zero, mut other) = (0.0_f64, f64::INFINITY);
         for margin in (0..self.sketch.nrows()).map(|i| self.margin(i)) {
-            match margin <= noise {
-                true => zero = zero.max(margin),
-                false => other = other.min(margin),
+            if margin <= noise {
+                zero = zero.max(margin)
+            } else {
+                other = other.min(margin)
             }
         }
         (zero, other)

@@ -104,13 +104,14 @@ fn planted_matrices_read_as_by_the_dense_code() {
         for i in 0..c.nrows() {
             let margin = linalg::kernels::norm(z.row(i));
             let reading = found.read_row(i);
-            match margin > 1e-9 {
-                true => assert_eq!(
+            if margin > 1e-9 {
+                assert_eq!(
                     reading,
                     CoefficientReading::NonZero,
                     "{case}: {i} {margin:e}"
-                ),
-                false => assert_eq!(reading, CoefficientReading::Zero, "{case}: {i} {margin:e}"),
+                )
+            } else {
+                assert_eq!(reading, CoefficientReading::Zero, "{case}: {i} {margin:e}")
             }
         }
         // Same left null space of each group: equal ranks, also side by side.
