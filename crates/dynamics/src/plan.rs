@@ -133,12 +133,13 @@ impl<'a> Plan<'a> {
         } else {
             split::split(prepared)?
         };
-        let components = match parts.is_empty() {
-            true => vec![ComponentPlan::whole(prepared, options, &groups)?],
-            false => parts
+        let components = if parts.is_empty() {
+            vec![ComponentPlan::whole(prepared, options, &groups)?]
+        } else {
+            parts
                 .into_iter()
                 .map(|part| ComponentPlan::part(part, options, &groups))
-                .collect::<Result<_, _>>()?,
+                .collect::<Result<_, _>>()?
         };
         Ok(Self {
             prepared,

@@ -163,9 +163,9 @@ impl Scaling {
         for (i, row) in self.rows.iter().enumerate() {
             let entries = scaled.row_mut(i).iter_mut().zip(&self.cols);
             if has_factors {
-                entries.for_each(|(c, col)| *c *= power(sign * (row + col)))
+                entries.for_each(|(c, col)| *c *= power(sign * (row + col)));
             } else {
-                entries.for_each(|(c, col)| *c = scale(*c, sign * (row + col)))
+                entries.for_each(|(c, col)| *c = scale(*c, sign * (row + col)));
             }
         }
         scaled

@@ -47,10 +47,10 @@ pub(crate) fn own(a: &Matrix) -> Vec<f64> {
         *x = powers::scale(*x, e);
     }
     let (mut d, mut f) = bidiagonal(scaled);
-    let mut sigma = match diagonal::iterate(&mut d, &mut f) {
-        true => d,
-        // What the rotations left has the same singular values.
-        false => by_jacobi(upper(&d, &f)),
+    let mut sigma = if diagonal::iterate(&mut d, &mut f) {
+        d
+    } else {
+        by_jacobi(upper(&d, &f))
     };
     for x in &mut sigma {
         *x = powers::scale(x.abs(), -e);

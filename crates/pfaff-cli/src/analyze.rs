@@ -91,10 +91,10 @@ fn of_study(
     }
     document.along = along.transpose()?;
     answer(arguments, &configuration, &document, console)?;
-    match document.along.is_some_and(|along| along.stopped.is_some()) {
-        // Said above, with what was computed.
-        true => Err(Failure::Incomplete),
-        false => Ok(()),
+    if document.along.is_some_and(|along| along.stopped.is_some()) {
+        Err(Failure::Incomplete)
+    } else {
+        Ok(())
     }
 }
 

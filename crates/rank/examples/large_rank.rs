@@ -55,9 +55,10 @@ fn run(known: &Known) -> (f64, String) {
         .iter()
         .enumerate()
         .filter(|&(i, &is_unique)| {
-            let reading = match is_unique {
-                true => CoefficientReading::Zero,
-                false => CoefficientReading::NonZero,
+            let reading = if is_unique {
+                CoefficientReading::Zero
+            } else {
+                CoefficientReading::NonZero
             };
             found.read_row(i) != reading
         });

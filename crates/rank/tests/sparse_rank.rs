@@ -13,9 +13,10 @@ fn check(known: &Known) {
     assert_eq!(found.redundancy, known.redundancy, "{name}");
     assert_eq!(found.kept.len(), found.rank, "{name}");
     for (i, is_unique) in known.is_unique.iter().enumerate() {
-        let expected = match is_unique {
-            true => CoefficientReading::Zero,
-            false => CoefficientReading::NonZero,
+        let expected = if *is_unique {
+            CoefficientReading::Zero
+        } else {
+            CoefficientReading::NonZero
         };
         assert_eq!(found.read_row(i), expected, "{name}: row {i}");
     }

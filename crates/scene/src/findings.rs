@@ -47,9 +47,9 @@ impl<'s> Findings<'s> {
     /// Reports a problem.
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
         if self.is_full() {
-            self.more += 1
+            self.more += 1;
         } else {
-            self.list.push(diagnostic)
+            self.list.push(diagnostic);
         }
     }
 

@@ -65,9 +65,9 @@ pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 fn lower(text: &str, out: &mut Vec<char>) {
     out.clear();
     if text.is_ascii() {
-        out.extend(text.bytes().map(|b| char::from(b.to_ascii_lowercase())))
+        out.extend(text.bytes().map(|b| char::from(b.to_ascii_lowercase())));
     } else {
-        out.extend(text.chars().flat_map(char::to_lowercase))
+        out.extend(text.chars().flat_map(char::to_lowercase));
     }
 }
 

@@ -78,13 +78,11 @@ pub(crate) fn list<'t>(
     let Some(field) = root.optional(*kind) else {
         return Vec::new();
     };
-    let items = match field.value.get_ref().is_table() {
-        // One pair of brackets too few: say so, and read on.
-        true => {
-            field.mismatch(&expected, findings);
-            vec![field]
-        }
-        false => field.items(&expected, findings).unwrap_or_default(),
+    let items = if field.value.get_ref().is_table() {
+        field.mismatch(&expected, findings);
+        vec![field]
+    } else {
+        field.items(&expected, findings).unwrap_or_default()
     };
     let numbered = items.iter().enumerate();
     numbered

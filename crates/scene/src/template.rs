@@ -113,9 +113,11 @@ impl Template {
 
 /// The shortest text that reads back to the same bits.
 fn number(value: f64) -> String {
-    match value.fract() == 0.0 && value.abs() < WHOLE {
-        true => format!("{value:.0}"),
-        false if value.is_nan() => "nan".to_owned(),
-        false => format!("{value:?}"),
+    if value.fract() == 0.0 && value.abs() < WHOLE {
+        format!("{value:.0}")
+    } else if value.is_nan() {
+        "nan".to_owned()
+    } else {
+        format!("{value:?}")
     }
 }

@@ -99,10 +99,12 @@ impl Solvability {
         let decision = self.decision();
         let m = decision.rank + decision.redundancy;
         let c = self.equilibrated();
-        Matrix::from_fn(c.ncols(), m, |k, i| match rows.contains(&i) {
-            // D_r,i⁻¹·(D_r·C·D_c)_ik = C_ik·D_c,k
-            true => c[(i, k)] / decision.scaling.row_factor(i),
-            false => 0.0,
+        Matrix::from_fn(c.ncols(), m, |k, i| {
+            if rows.contains(&i) {
+                c[(i, k)] / decision.scaling.row_factor(i)
+            } else {
+                0.0
+            }
         })
     }
 }

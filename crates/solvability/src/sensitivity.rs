@@ -259,9 +259,10 @@ fn by_sets(
         let extent = joined.extent;
         let kept = own_kept(kept, extent, joined.mechanism);
         let is_wanted = |k: usize| is_wanted(extent.group(k));
-        let mut found = match joined.mechanism.layout().rows() <= ROWS_MAX {
-            true => of_joined(joined, t, &kept, is_wanted),
-            false => by_parts(joined, t, kept, is_wanted),
+        let mut found = if joined.mechanism.layout().rows() <= ROWS_MAX {
+            of_joined(joined, t, &kept, is_wanted)
+        } else {
+            by_parts(joined, t, kept, is_wanted)
         }?;
         placed(&mut found, extent);
         Ok(found)

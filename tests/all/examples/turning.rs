@@ -167,9 +167,9 @@ fn chebyshev() {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if slope(middle) > 0.0 {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     let largest = height(low.acos()) - 0.4;

@@ -115,9 +115,10 @@ impl Elimination {
         saddle
             .solve(force, gamma, &mut x, &mut lambda)
             .expect("factored");
-        let health = match *kept == *self.facts.kept {
-            true => saddle.orientation_of(&work.frame) * saddle.pivot_ratio() / work.reference,
-            false => 1.0,
+        let health = if *kept == *self.facts.kept {
+            saddle.orientation_of(&work.frame) * saddle.pivot_ratio() / work.reference
+        } else {
+            1.0
         };
         (x, lambda, health)
     }

@@ -33,9 +33,9 @@ impl<'a> Scope<'a> {
         check_row_count(d, expr, rows.len())?;
         for &(row, at) in &rows {
             if holonomic {
-                self.refuse_all(at, check::PHI)?
+                self.refuse_all(at, check::PHI)?;
             } else {
-                self.refuse_all(at, check::PSI)?
+                self.refuse_all(at, check::PSI)?;
             }
             if !holonomic && !check::moves(&mut self.model, row) {
                 return Err(syn::Error::new_spanned(

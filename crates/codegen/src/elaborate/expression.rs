@@ -157,9 +157,9 @@ impl<'a> Scope<'a> {
         let known: Vec<&str> = self.values.keys().map(String::as_str).collect();
         let mut message = format!("unknown name `{key}`");
         if self.definition.slots.contains(name) {
-            message.push_str(": it is a body slot, write `origin(…)` or `angle(…)` of it")
+            message.push_str(": it is a body slot, write `origin(…)` or `angle(…)` of it");
         } else {
-            message.push_str(&hint(&key, &known))
+            message.push_str(&hint(&key, &known));
         }
         Err(syn::Error::new_spanned(name, message))
     }

@@ -50,9 +50,10 @@ impl Doubt {
         if health.is_nan() || health < LEAVE {
             return Err(Self::Health { health });
         }
-        match results.iter().all(|x| x.is_finite()) {
-            true => Ok(()),
-            false => Err(Self::NotFinite),
+        if results.iter().all(|x| x.is_finite()) {
+            Ok(())
+        } else {
+            Err(Self::NotFinite)
         }
     }
 }

@@ -122,17 +122,15 @@ impl KeptRows {
         self.forget_partition();
         self.factor(at)?;
         let chosen = self.solver.dense().and_then(|it| {
-            let dependent = match it.saddle.is_graded() {
-                // Heavy coordinates are independent, whatever the rows would determine best.
-                true => it.saddle.solved_for().to_vec(),
-                false => {
-                    let mut c = it.c.clone();
-                    for k in 0..c.nrows() {
-                        let row = c.row_mut(k).iter_mut().enumerate();
-                        row.for_each(|(j, c)| *c *= known_to(j));
-                    }
-                    PivotedQr::of_columns(&c).permutation()[..c.nrows()].to_vec()
+            let dependent = if it.saddle.is_graded() {
+                it.saddle.solved_for().to_vec()
+            } else {
+                let mut c = it.c.clone();
+                for k in 0..c.nrows() {
+                    let row = c.row_mut(k).iter_mut().enumerate();
+                    row.for_each(|(j, c)| *c *= known_to(j));
                 }
+                PivotedQr::of_columns(&c).permutation()[..c.nrows()].to_vec()
             };
             it.saddle.partition(&dependent)?;
             Ok(dependent)

@@ -242,7 +242,7 @@ impl SchurSaddle {
                 x[j as usize] -= r;
             }
         }
-        x.iter_mut().zip(&*inverse).for_each(|(x, d)| *x *= d);
+        x.iter_mut().zip(inverse).for_each(|(x, d)| *x *= d);
         for front in s.fronts.iter().rev() {
             let (p, later) = (front.pivots.clone(), &s.later[front.rest.clone()]);
             if p.is_empty() {

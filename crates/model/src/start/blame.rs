@@ -212,9 +212,9 @@ impl Start<'_> {
             if before.iter().any(is_other)
                 || self.solve(rows, &tried, self.limit, &mut v)?.is_some()
             {
-                needed.push(what)
+                needed.push(what);
             } else {
-                hold = tried
+                hold = tried;
             }
         }
         needed.extend(last.map(|(what, _)| what));

@@ -196,9 +196,9 @@ impl<'m> Start<'m> {
                 break;
             }
             if rows.len() > DENSE_ROWS {
-                self.correct_many(rows, hold, v)?
+                self.correct_many(rows, hold, v)?;
             } else {
-                self.correct(&tier, &given, v)?
+                self.correct(&tier, &given, v)?;
             }
             tier.follow(of, v)?;
         }

@@ -26,7 +26,7 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
             let number = |v: &ValueDocument| format!("{:>12}", number(v.value));
             let is_fact = component.choice.is_none();
             if is_fact {
-                cells.push(number(component))
+                cells.push(number(component));
             } else {
                 cells.push(String::new());
                 let all = columns_of.iter();

@@ -97,10 +97,12 @@ pub(super) fn look(
         if times.has(sample.t) {
             observations.push(Observation::of(sample)?);
         }
-        early = match interrupted() {
-            true => Some(Ending::Interrupted),
-            false if clock.elapsed().as_secs_f64() > budget => Some(Ending::GivenUp(sample.t)),
-            false => None,
+        early = if interrupted() {
+            Some(Ending::Interrupted)
+        } else if clock.elapsed().as_secs_f64() > budget {
+            Some(Ending::GivenUp(sample.t))
+        } else {
+            None
         };
         Ok(match early {
             Some(_) => ControlFlow::Break(()),

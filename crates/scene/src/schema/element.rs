@@ -61,9 +61,9 @@ fn table(spec: &Spec, of: Kind, title: &str) -> Value {
     if let Some(variant) = spec.variant {
         let mut value = json!({ "const": variant.value });
         if variant.default {
-            value["default"] = variant.value.into()
+            value["default"] = variant.value.into();
         } else {
-            required.push(variant.key)
+            required.push(variant.key);
         }
         properties.insert(variant.key.to_owned(), value);
     }

@@ -260,10 +260,12 @@ fn regular_motions<F: FnMut(f64) -> State>(
     }
     // The mean of both sides is wrong by the square of their distance only.
     let distance = BESIDE_PASSAGE * (to - t).min(t - from);
-    let sides = match distance > 0.0 {
-        true => vec![t - distance, t + distance],
-        false if to > t => vec![t + BESIDE_PASSAGE * (to - t)],
-        false => vec![t + BESIDE_PASSAGE * (from - t)],
+    let sides = if distance > 0.0 {
+        vec![t - distance, t + distance]
+    } else if to > t {
+        vec![t + BESIDE_PASSAGE * (to - t)]
+    } else {
+        vec![t + BESIDE_PASSAGE * (from - t)]
     };
     let mut frames = Vec::new();
     for t in sides {

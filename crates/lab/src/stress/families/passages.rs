@@ -61,15 +61,14 @@ fn passed(pivots: &'static [f64], offset: f64, options: &MotionOptions) -> Case 
         "all cranks have the angle of the drive, which is a straight line; a hundred tolerances",
     );
     let is_certain = is_explicit(options.method) && offset.abs() > NEAR;
-    let right = match is_certain {
-        true => Expected::answer(bound, source),
-        // A step that has to end there, or stages that cannot keep away, may be too near to tell
-        // the branches apart.
-        false => Expected::AnswerOrRefusal {
+    let right = if is_certain {
+        Expected::answer(bound, source)
+    } else {
+        Expected::AnswerOrRefusal {
             bound,
             source,
             parts: vec!["do not determine".into()],
-        },
+        }
     };
     let name = format!("{} cranks, offset {offset:.1e}", pivots.len());
     let case = moving(name, options.clone(), right, move |options| {

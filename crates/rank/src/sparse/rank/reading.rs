@@ -53,9 +53,9 @@ impl SparseRank {
         let (mut zero, mut other) = (0.0_f64, f64::INFINITY);
         for margin in (0..self.sketch.nrows()).map(|i| self.margin(i)) {
             if margin <= noise {
-                zero = zero.max(margin)
+                zero = zero.max(margin);
             } else {
-                other = other.min(margin)
+                other = other.min(margin);
             }
         }
         (zero, other)

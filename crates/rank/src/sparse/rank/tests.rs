@@ -109,9 +109,9 @@ fn planted_matrices_read_as_by_the_dense_code() {
                     reading,
                     CoefficientReading::NonZero,
                     "{case}: {i} {margin:e}"
-                )
+                );
             } else {
-                assert_eq!(reading, CoefficientReading::Zero, "{case}: {i} {margin:e}")
+                assert_eq!(reading, CoefficientReading::Zero, "{case}: {i} {margin:e}");
             }
         }
         // Same left null space of each group: equal ranks, also side by side.

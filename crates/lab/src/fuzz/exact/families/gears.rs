@@ -89,10 +89,10 @@ fn closed_train(pen: &mut Pen<'_>) {
     }
     let is_locked = pen.once_in(3);
     pen.drawing.redundancy = Some(usize::from(!is_locked));
-    let closing = match is_locked {
-        // A near relative.
-        true => product * Ratio::new(51, 50),
-        false => product,
+    let closing = if is_locked {
+        product * Ratio::new(51, 50)
+    } else {
+        product
     };
     if pen.once_in(2) {
         mesh(pen, wheels[0], wheels[n - 1], carrier, closing);

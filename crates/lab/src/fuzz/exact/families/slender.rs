@@ -134,34 +134,30 @@ fn offset_pin(pen: &mut Pen<'_>) {
     let (at, off, little) = (pen.point(), pen.vector(5), little(pen));
     pen.hinge([base, door], at);
     let beside = along(at, little, off);
-    match pen.once_in(3) {
-        // One row of a second pin.
-        true => {
-            let u = pen.direction();
-            let axis = pen.drawing.across(u);
-            let from = pen.on_line(beside, axis, 2);
-            pen.link(
-                &[base, door],
-                Tie::PinInSlot {
-                    from,
-                    at: beside,
-                    along: u,
-                },
-            );
-        }
-        false => {
-            // Without the row along the line of the pins, which is there already.
-            let u = quarter(off);
-            let from = beside;
-            pen.link(
-                &[base, door],
-                Tie::PinInSlot {
-                    from,
-                    at: beside,
-                    along: u,
-                },
-            );
-        }
+    if pen.once_in(3) {
+        let u = pen.direction();
+        let axis = pen.drawing.across(u);
+        let from = pen.on_line(beside, axis, 2);
+        pen.link(
+            &[base, door],
+            Tie::PinInSlot {
+                from,
+                at: beside,
+                along: u,
+            },
+        );
+    } else {
+        // Without the row along the line of the pins, which is there already.
+        let u = quarter(off);
+        let from = beside;
+        pen.link(
+            &[base, door],
+            Tie::PinInSlot {
+                from,
+                at: beside,
+                along: u,
+            },
+        );
     }
     if pen.once_in(2) {
         // Something beside it that is well held, and makes the whole larger.
