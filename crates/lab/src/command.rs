@@ -7,16 +7,13 @@ mod stress;
 mod work_precision;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 use pfaff::model::Registry;
 use pfaff_cli::console::Console;
 use pfaff_cli::output::{Answer, Outcome};
-use pfaff_cli::{CommandLine, Stream, named, serve};
-
-use crate::generate::Kind;
+use pfaff_cli::{CommandLine, Stream, serve};
 
 /// The laboratory of pfaff: extreme cases, scenes of any size, other ways to move a mechanism.
 #[derive(Parser)]
@@ -34,75 +31,16 @@ struct Arguments {
 enum Command {
     /// The stiff and extreme cases, each with its right answer and what came out
     #[command(after_help = examples::STRESS)]
-    Stress(Stress),
+    Stress(stress::Stress),
     /// Write a large scene whose answer is known
     #[command(after_help = examples::GENERATE)]
-    Generate(Generate),
+    Generate(generate::Generate),
     /// Random, damaged and degenerate scenes through check, analyze and simulate
     #[command(subcommand, after_help = examples::FUZZ)]
     Fuzz(fuzz::Fuzz),
     /// Error against run time: the product's methods, and others, at many tolerances
     #[command(after_help = examples::WORK_PRECISION)]
-    WorkPrecision(WorkPrecision),
-}
-
-#[derive(Args)]
-pub(super) struct Stress {
-    /// Directory for the results
-    #[arg(long, value_name = "DIR", required_unless_present = "list")]
-    pub(super) out: Option<PathBuf>,
-    /// Cases of this family only; may be given several times
-    #[arg(long, value_name = "NAME")]
-    pub(super) family: Vec<String>,
-    /// Name the families
-    #[arg(long, conflicts_with = "json")]
-    pub(super) list: bool,
-    /// All results as one JSON document on standard output
-    #[arg(long)]
-    pub(super) json: bool,
-}
-
-#[derive(Args)]
-pub(super) struct Generate {
-    /// Family of mechanisms
-    #[arg(value_parser = named(Kind::ALL, Kind::name))]
-    pub(super) kind: Kind,
-    /// How large: loops, cells, cells along each side, robots, modules
-    #[arg(long, value_name = "N")]
-    pub(super) n: usize,
-    /// Seed of what is drawn at random (parallelograms, random); 1 where it is not given
-    #[arg(long, value_name = "SEED")]
-    pub(super) seed: Option<u64>,
-    /// Share of the cells, blocks or modules that are redundant, 0 to 1
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
-    pub(super) redundant: Option<f64>,
-    /// File for the scene; standard output where it is not given
-    #[arg(long, value_name = "FILE")]
-    pub(super) out: Option<PathBuf>,
-    /// What is known of the scene as one JSON document on standard output
-    #[arg(long, requires = "out")]
-    pub(super) json: bool,
-}
-
-#[derive(Args)]
-pub(super) struct WorkPrecision {
-    /// Scene files, - for standard input, or names of cases of the suite; none: the suite
-    pub(super) scenes: Vec<PathBuf>,
-    /// Directory for the results
-    #[arg(long, value_name = "DIR")]
-    pub(super) out: PathBuf,
-    /// Three tolerances, for a first look
-    #[arg(long, conflicts_with = "all")]
-    pub(super) quick: bool,
-    /// Every method of the product with every stabilisation
-    #[arg(long)]
-    pub(super) all: bool,
-    /// The product's methods only
-    #[arg(long)]
-    pub(super) own: bool,
-    /// All results as one JSON document on standard output
-    #[arg(long)]
-    pub(super) json: bool,
+    WorkPrecision(work_precision::WorkPrecision),
 }
 
 impl CommandLine for Arguments {

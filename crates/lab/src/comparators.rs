@@ -9,6 +9,7 @@
 //! | [`mod@equations`] | the differential equation, with Baumgarte's terms or projection |
 //! | `kept_rows`, `null_space`, `minimum_norm`, `proximal` | accelerations from the saddle equations |
 //! | `stepping` | the loop of steps for `gbs` and `generalized_alpha` |
+//! | `way` | formulation, method, drift |
 //! | `run` | from a prepared mechanism to rows at given times |
 
 pub mod equations;
@@ -22,6 +23,7 @@ mod run;
 mod stepping;
 #[cfg(test)]
 mod tests;
+mod way;
 
 use linalg::{Matrix, SaddleError};
 
@@ -29,7 +31,8 @@ pub use kept_rows::KeptRows;
 pub use minimum_norm::MinimumNorm;
 pub use null_space::NullSpace;
 pub use proximal::{Proximal, Tuning};
-pub use run::{Drift, Formulation, Method, Row, Run, Way, run, run_within};
+pub use run::{Row, Run, run, run_within};
+pub use way::{Drift, Formulation, Method, Way};
 
 /// `M·a + Cᵀ·λ = f`, `C·a = γ` at one instant, M = diag(mass).
 #[derive(Clone, Copy, Debug)]

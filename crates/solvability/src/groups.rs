@@ -5,6 +5,7 @@
 mod configuration;
 mod error;
 mod form;
+mod group;
 mod reactions;
 
 use crate::judged::ComponentVerdict;
@@ -15,37 +16,11 @@ pub use configuration::Configuration;
 pub use error::RequestError;
 pub(crate) use error::{check, check_finite};
 pub use form::LinearForm;
+pub(crate) use group::NO_REACTION;
+pub use group::{Group, Term};
 pub use reactions::ReactionForms;
 
 use crate::verdict::{Judgement, Verdict};
-
-/// What is to be judged.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Group {
-    /// The reactions of these joints and drives together: unique iff each is.
-    Members(Vec<ConstraintId>),
-    /// These joints and drives as if they were one: unique iff their total force on each body is.
-    OneJoint(Vec<ConstraintId>),
-    /// `Σ coefficient · component`: one number.
-    Combination(Vec<Term>),
-    /// `Σ coefficient · wrench`, each wrench as it acts on the first body of its joint, torques
-    /// about the place of the first one.
-    WrenchSum(Vec<(f64, ConstraintId)>),
-    /// Everything that acts on these bodies from joints and drives, torques about the origin of the
-    /// first. Newton and Euler make it unique.
-    Resultant(Vec<usize>),
-}
-
-/// One component of a reaction, times a number.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Term {
-    /// The joint or drive.
-    pub reaction: ConstraintId,
-    /// `Fx`, `Fy`, `T`, or the named component of its definition.
-    pub component: String,
-    /// The number.
-    pub coefficient: f64,
-}
 
 /// The verdict of a group.
 #[derive(Clone, Debug)]
@@ -149,11 +124,6 @@ impl Configuration<'_> {
             .ok_or(RequestError::Empty { of: "body" })
     }
 }
-
-/// A group without members.
-pub(crate) const NO_REACTION: RequestError = RequestError::Empty {
-    of: "joint or drive",
-};
 
 fn whole(judgement: Judgement) -> GroupVerdict {
     GroupVerdict {

@@ -3,18 +3,41 @@
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::generate::{Answer, Generator, Order};
+use crate::generate::{Answer, Generator, Kind, Order};
+use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use pfaff::report::OutputDirectory;
 use serde_json::json;
 
-use super::Generate;
 use pfaff_cli::console::Console;
 use pfaff_cli::input::LARGEST;
 use pfaff_cli::interrupt::Interrupt;
+use pfaff_cli::named;
 use pfaff_cli::output::{Failure, Outcome, count};
+
+#[derive(Args)]
+pub(super) struct Generate {
+    /// Family of mechanisms
+    #[arg(value_parser = named(Kind::ALL, Kind::name))]
+    kind: Kind,
+    /// How large: loops, cells, cells along each side, robots, modules
+    #[arg(long, value_name = "N")]
+    n: usize,
+    /// Seed of what is drawn at random (parallelograms, random); 1 where it is not given
+    #[arg(long, value_name = "SEED")]
+    seed: Option<u64>,
+    /// Share of the cells, blocks or modules that are redundant, 0 to 1
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    redundant: Option<f64>,
+    /// File for the scene; standard output where it is not given
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// What is known of the scene as one JSON document on standard output
+    #[arg(long, requires = "out")]
+    pub(super) json: bool,
+}
 
 pub(super) fn run(arguments: &Generate, console: &Console<'_>) -> Outcome {
     let order = Order {

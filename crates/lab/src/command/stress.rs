@@ -1,6 +1,7 @@
 //! `lab stress`: the stiff and extreme cases, each with its right answer and what came out.
 
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
@@ -8,15 +9,31 @@ use crate::stress::{
     self, Family, StressDocument, StressFamily, StressRow, StressTable, Tally, extremes,
     stress_page,
 };
+use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{OutputDirectory, OutputFile, TableError, write_json};
 
-use super::Stress;
 use pfaff_cli::console::Console;
 use pfaff_cli::input::unknown;
 use pfaff_cli::interrupt::Interrupt;
 use pfaff_cli::output::{Failure, Outcome, columns, count, wrapped};
 use pfaff_cli::work_precision::provenance;
+
+#[derive(Args)]
+pub(super) struct Stress {
+    /// Directory for the results
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
+    /// Cases of this family only; may be given several times
+    #[arg(long, value_name = "NAME")]
+    family: Vec<String>,
+    /// Name the families
+    #[arg(long, conflicts_with = "json")]
+    list: bool,
+    /// All results as one JSON document on standard output
+    #[arg(long)]
+    pub(super) json: bool,
+}
 
 pub(super) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
     let families = families(arguments)?;

@@ -1,16 +1,37 @@
 //! `lab work-precision`: error against run time, by the product's methods and by others.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use pfaff::work_precision::{Rival, Subject};
 use pfaff_cli::console::Console;
 use pfaff_cli::input::unknown;
 use pfaff_cli::output::{Failure, Outcome};
 use pfaff_cli::work_precision::{Request, plan, subject};
 
-use super::WorkPrecision;
 use crate::comparators::Way;
 use crate::work_precision::{of_case, ways};
+
+#[derive(Args)]
+pub(super) struct WorkPrecision {
+    /// Scene files, - for standard input, or names of cases of the suite; none: the suite
+    scenes: Vec<PathBuf>,
+    /// Directory for the results
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Three tolerances, for a first look
+    #[arg(long, conflicts_with = "all")]
+    quick: bool,
+    /// Every method of the product with every stabilisation
+    #[arg(long)]
+    all: bool,
+    /// The product's methods only
+    #[arg(long)]
+    own: bool,
+    /// All results as one JSON document on standard output
+    #[arg(long)]
+    pub(super) json: bool,
+}
 
 pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     let subjects = subjects(arguments, console)?;

@@ -9,7 +9,8 @@ use linalg::Matrix;
 use model::{Mechanism, Reaction, Scratch, System};
 
 use super::kept_rows::KeptRows;
-use super::{Drift, Fault, Saddle, Solver};
+use super::way::Drift;
+use super::{Fault, Saddle, Solver};
 
 /// Corrections of a projection at most: Newton's method converges quadratically from where a step
 /// ends.

@@ -7,6 +7,7 @@
 //! and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
 //! II.9.
 
+mod columns;
 mod order;
 
 use integrators::Ode;
@@ -14,20 +15,8 @@ use integrators::Ode;
 use super::Fault;
 use super::equations::Equations;
 use super::stepping::{Stepper, Trial};
+use columns::{COLUMNS, substeps};
 use order::{OrderControl, Verdict};
-
-/// Columns there are.
-const COLUMNS: usize = 9;
-
-/// n_j for j = 1, 2, …
-const fn substeps(j: usize) -> usize {
-    2 * j
-}
-
-/// Evaluations for columns 1 to j, the derivative at the end included.
-fn work(j: usize) -> f64 {
-    (1 + (1..=j).map(|l| substeps(l) - 1).sum::<usize>()) as f64
-}
 
 /// Weights w of columns `first` to `last`: Σ w_j·c_j is the value at h = 0 of the polynomial in h²
 /// through the c_j at h = 1/n_j: `w_j = Π_{l ≠ j} n_j² / (n_j² − n_l²)`. Weights of other columns

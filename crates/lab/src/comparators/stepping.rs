@@ -4,8 +4,8 @@
 use integrators::Ode;
 use model::System;
 
+use super::Fault;
 use super::equations::Equations;
-use super::{Fault, run::Limits};
 
 /// The first step, as share of the time there is.
 const FIRST: f64 = 1e-3;
@@ -75,6 +75,24 @@ impl Trial<'_> {
 pub(super) struct Steps {
     pub(super) accepted: u64,
     pub(super) rejected: u64,
+}
+
+/// When a run is given up.
+pub(super) struct Limits {
+    pub(super) tolerance: f64,
+    /// Steps at most.
+    pub(super) steps: u64,
+}
+
+impl Limits {
+    pub(super) fn check(&self, time: f64, steps: Steps) -> Result<(), Fault> {
+        let made = steps.accepted + steps.rejected;
+        if made >= self.steps {
+            Err(Fault::TooManySteps { time, steps: made })
+        } else {
+            Ok(())
+        }
+    }
 }
 
 /// Integrates from t = 0 and shows the states at `times`, ascending and > 0.

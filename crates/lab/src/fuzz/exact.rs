@@ -18,6 +18,7 @@
 //! | [`truth`] | what exact arithmetic says |
 //! | [`answer`] | what the program says |
 //! | [`examine`] | the two compared |
+//! | [`findings`] | what is not right in an answer |
 //! | [`words`] | the same for sentences |
 //! | [`deletions`] | the same for what may be deleted |
 //! | [`tally`] | many scenes |
@@ -34,6 +35,7 @@ pub mod doubles;
 pub mod drawing;
 pub mod examine;
 pub mod families;
+pub mod findings;
 pub mod loads;
 pub mod minimax;
 pub mod near;

@@ -5,73 +5,16 @@
 
 mod judged;
 mod moved;
-
-use std::fmt;
+mod reach;
 
 use pfaff::dynamics::MotionOptions;
 use pfaff::model::Registry;
 use pfaff::scene::Diagnostic;
 use pfaff::{AssembledScene, Overrides, StudyError};
 
-/// Runs go no farther than this (s), nor than so many steps or rows.
-pub(crate) const T_END: f64 = 0.25;
-pub(crate) const STEPS: usize = 60;
-pub(crate) const ROWS: usize = 60;
-
-/// How far a text came.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Reach {
-    /// It is no scene.
-    Refused,
-    /// It is a scene without a consistent start.
-    NoStart,
-    /// Its reactions were judged, but no motion begins there.
-    Judged,
-    /// A motion began, and stopped by name.
-    Stopped,
-    /// A motion went as far as it was let.
-    Cut,
-    /// A motion reached its end.
-    Moved,
-}
-
-impl Reach {
-    /// All of them, from near to far.
-    pub const ALL: [Self; 6] = [
-        Self::Refused,
-        Self::NoStart,
-        Self::Judged,
-        Self::Stopped,
-        Self::Cut,
-        Self::Moved,
-    ];
-
-    /// Its letter in the answers of a process.
-    #[must_use]
-    pub fn letter(self) -> char {
-        match self {
-            Self::Refused => 'r',
-            Self::NoStart => 'n',
-            Self::Judged => 'j',
-            Self::Stopped => 's',
-            Self::Cut => 'c',
-            Self::Moved => 'm',
-        }
-    }
-}
-
-impl fmt::Display for Reach {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Refused => "refused",
-            Self::NoStart => "without a start",
-            Self::Judged => "judged",
-            Self::Stopped => "stopped by name",
-            Self::Cut => "moved, cut off",
-            Self::Moved => "moved",
-        })
-    }
-}
+pub use reach::Reach;
+pub(crate) use reach::T_END;
+use reach::named;
 
 /// What a trial is about to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,12 +124,4 @@ fn places(text: &str, problems: &[Diagnostic]) {
             );
         }
     }
-}
-
-/// An error says something.
-fn named(error: &StudyError) {
-    assert!(
-        !error.to_string().trim().is_empty(),
-        "an error without words: {error:?}"
-    );
 }

@@ -4,8 +4,9 @@
 use lab::fuzz::exact::answer::answer;
 use lab::fuzz::exact::doubles::Doubles;
 use lab::fuzz::exact::drawing::{Drawing, GROUND, Tie, Vector};
-use lab::fuzz::exact::examine::{Kind, examine, list};
+use lab::fuzz::exact::examine::examine;
 use lab::fuzz::exact::families::Family;
+use lab::fuzz::exact::findings::{Kind, list};
 use lab::fuzz::exact::pose::{Posed, Writing};
 use lab::fuzz::exact::ratio::Ratio;
 use lab::fuzz::exact::rounded::{self, Suite};

@@ -9,7 +9,7 @@ use model::{ConstraintId, Mechanism, Scratch, System};
 
 use super::error::{RequestError, check, check_finite};
 use super::form::LinearForm;
-use super::{Group, NO_REACTION, Term};
+use super::group::{Group, NO_REACTION, Term};
 
 /// A mechanism at a pose, where numbers of its reactions are made.
 pub struct ReactionForms<'a> {

@@ -3,7 +3,7 @@
 //! Source: HNW I, II.9, "Order and step size control", with the constants and the rules for first,
 //! last and rejected steps of the program ODEX. Columns are counted from 1.
 
-use super::{COLUMNS, substeps, work};
+use super::columns::{COLUMNS, substeps, work};
 
 /// A step aims at `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))`.
 const SAFETY: f64 = 0.94;

@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use super::examine::{Findings, Kind, list, rows};
+use super::findings::{Findings, Kind, list, rows};
 use super::truth::Truth;
 
 /// More sets than this are not counted one by one.

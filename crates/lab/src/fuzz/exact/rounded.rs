@@ -9,9 +9,10 @@ use rayon::prelude::*;
 
 use super::answer;
 use super::doubles::{Doubles, extent};
-use super::examine::{Kind, examine};
+use super::examine::examine;
 use super::families::Family;
 use super::families::slender::Slender;
+use super::findings::Kind;
 use super::pose::{Posed, Writing};
 use super::ratio::Ratio;
 use super::text::{Precision, text_within};

@@ -8,8 +8,9 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::examine::{Findings, Kind, examine};
+use super::examine::examine;
 use super::families::Family;
+use super::findings::{Findings, Kind};
 use super::pose::Writing;
 use super::truth::Truth;
 use super::{Scene, answer, scene, text};

@@ -7,7 +7,8 @@ use serde_json::Value;
 
 use super::doubles::Doubles;
 use super::drawing::Tie;
-use super::examine::{Finding, Findings, Kind, kept_rows, list, reactions};
+use super::examine::{kept_rows, reactions};
+use super::findings::{Finding, Findings, Kind, list};
 use super::loads::Reactions;
 use super::minimax::Bounds;
 use super::truth::Truth;

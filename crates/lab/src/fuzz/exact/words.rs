@@ -5,7 +5,7 @@
 use num_bigint::BigInt;
 use serde_json::Value;
 
-use super::examine::{Findings, Kind, along_free, list, rounding, rows};
+use super::findings::{Findings, Kind, along_free, list, rounding, rows};
 use super::text;
 use super::truth::Truth;
 

@@ -6,7 +6,7 @@ use pfaff::report::{AnalysisDocument, write_json};
 use pfaff::solvability::Verdict;
 use pfaff::{ConfigurationAnalysis, Study};
 
-use super::named;
+use super::reach::named;
 
 /// A consistent start has finite numbers, and as many kept rows as its rank.
 pub(super) fn start(study: &Study) {

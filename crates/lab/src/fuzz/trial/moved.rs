@@ -9,7 +9,7 @@ use pfaff::model::start::scene_size;
 use pfaff::model::{Mechanism, Scratch, System};
 use pfaff::report::{ReactionTable, Selection, TrajectoryTable};
 
-use super::{ROWS, Reach, STEPS, named};
+use super::reach::{ROWS, Reach, STEPS, named};
 
 /// Residuals of projected rows are at most this share of the terms of their row of Φ or C·v − b.
 /// Next to a singular configuration coordinates are accurate to √ε = 1.5e-8 only, and what the kept

@@ -3,7 +3,7 @@
 
 use super::super::drawing::{GROUND, Side, along};
 use super::super::ratio::Ratio;
-use super::Pen;
+use super::pen::Pen;
 
 pub(super) fn bars(pen: &mut Pen<'_>) {
     let n = 1 + pen.numbers.below(2);

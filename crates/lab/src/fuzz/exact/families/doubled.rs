@@ -2,7 +2,7 @@
 //! parallel line, the second weld.
 
 use super::super::drawing::{GROUND, Side, Tie, Vector};
-use super::Pen;
+use super::pen::Pen;
 
 pub(super) fn doubled(pen: &mut Pen<'_>) {
     let mut bodies: Vec<Side> = vec![GROUND];

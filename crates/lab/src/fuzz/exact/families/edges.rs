@@ -3,7 +3,7 @@
 
 use super::super::drawing::{GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
-use super::Pen;
+use super::pen::Pen;
 
 pub(super) fn edges(pen: &mut Pen<'_>) {
     let n = if pen.once_in(3) { 2 } else { 1 };

@@ -3,7 +3,7 @@
 
 use super::super::drawing::{GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
-use super::Pen;
+use super::pen::Pen;
 
 /// Ratios whose doubles are not exact, nor their products.
 const RATIOS: [(i128, i128); 10] = [

@@ -3,7 +3,7 @@
 
 use super::super::drawing::{GROUND, Side, Vector, along};
 use super::super::ratio::Ratio;
-use super::Pen;
+use super::pen::Pen;
 
 pub(super) fn linkage(pen: &mut Pen<'_>) {
     match pen.numbers.below(5) {

@@ -6,7 +6,7 @@ use crate::numbers::Numbers;
 
 use super::super::drawing::{Drawing, GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
-use super::Pen;
+use super::pen::Pen;
 
 /// A kind of such drawings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,7 +2,7 @@
 //! and a bar off their line changes nothing of that.
 
 use super::super::drawing::{GROUND, Side, Vector};
-use super::Pen;
+use super::pen::Pen;
 
 pub(super) fn truss(pen: &mut Pen<'_>) {
     let (origin, line) = (pen.point(), pen.direction());

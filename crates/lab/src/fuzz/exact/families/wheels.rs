@@ -2,7 +2,7 @@
 //! 1e-17 m. Castors on forks, pulleys on the ground and on vehicles.
 
 use super::super::drawing::{GROUND, Side, Tie, along};
-use super::Pen;
+use super::pen::Pen;
 
 pub(super) fn wheels(pen: &mut Pen<'_>) {
     pen.drawing.is_careless = pen.once_in(2);

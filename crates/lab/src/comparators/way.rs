@@ -1,0 +1,123 @@
+//! Ways to move a mechanism: formulation, method, and what is done about drift.
+
+/// How redundant rows are dealt with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Formulation {
+    /// Independent rows, those of the start.
+    KeptRows,
+    /// A basis of the motions that C allows.
+    NullSpace,
+    /// All rows by a complete orthogonal decomposition.
+    MinimumNorm,
+    /// All rows by proximal iterations, tuned at the start to the tolerance of the run.
+    Proximal,
+}
+
+impl Formulation {
+    /// All of them.
+    pub const ALL: [Self; 4] = [
+        Self::KeptRows,
+        Self::NullSpace,
+        Self::MinimumNorm,
+        Self::Proximal,
+    ];
+
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::KeptRows => "kept-rows",
+            Self::NullSpace => "null-space",
+            Self::MinimumNorm => "minimum-norm",
+            Self::Proximal => "proximal",
+        }
+    }
+}
+
+/// How the equations are integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Dormand–Prince 8(5,3).
+    Dop853,
+    /// Dormand–Prince 5(4).
+    Dopri5,
+    /// Tsitouras 5(4).
+    Tsit5,
+    /// Extrapolated midpoint rule, order 4 to 18.
+    Gbs,
+    /// Generalized-α on positions and kept rows, order 2; the formulation gives the first
+    /// accelerations and those of rows.
+    GeneralizedAlpha,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Dop853,
+        Self::Dopri5,
+        Self::Tsit5,
+        Self::Gbs,
+        Self::GeneralizedAlpha,
+    ];
+
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dop853 => "dop853",
+            Self::Dopri5 => "dopri5",
+            Self::Tsit5 => "tsit5",
+            Self::Gbs => "gbs",
+            Self::GeneralizedAlpha => "generalized-alpha",
+        }
+    }
+}
+
+/// What is done about drift off the constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Drift {
+    /// States are projected in the metric of the masses after each step.
+    Projection,
+    /// Accelerations pull back: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic
+    /// rows.
+    Baumgarte {
+        /// α (1/s)
+        alpha: f64,
+        /// β (1/s)
+        beta: f64,
+    },
+    /// Nothing.
+    None,
+}
+
+impl Drift {
+    /// Baumgarte's method with gains of 5/s.
+    pub const BAUMGARTE: Self = Self::Baumgarte {
+        alpha: 5.0,
+        beta: 5.0,
+    };
+
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Projection, Self::BAUMGARTE, Self::None];
+
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Projection => "projection",
+            Self::Baumgarte { .. } => "baumgarte",
+            Self::None => "none",
+        }
+    }
+}
+
+/// A way to move a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    /// Treatment of redundancy.
+    pub formulation: Formulation,
+    /// Integrator.
+    pub method: Method,
+    /// Treatment of drift.
+    pub drift: Drift,
+}

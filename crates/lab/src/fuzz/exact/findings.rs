@@ -1,0 +1,146 @@
+//! What is not right in an answer, and how the numbers of a document are read.
+
+use serde_json::Value;
+
+use super::pose::Posed;
+use super::truth::Truth;
+
+/// What is to be thought of one thing that was said, from bad to worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// No answer: the scene was refused.
+    Refused,
+    /// The program says that it does not know.
+    Undecided,
+    /// A dependency or a sentence that does not hold.
+    Sentence,
+    /// A force or torque that a joint carries in a dependency is wrong.
+    Load,
+    /// A wrong verdict.
+    Verdict,
+    /// A wrong number: a rank, a redundancy, kept rows.
+    Rank,
+    /// The program panicked.
+    Panic,
+}
+
+impl Kind {
+    /// Whether an answer is wrong.
+    #[must_use]
+    pub fn is_wrong(self) -> bool {
+        !matches!(self, Self::Refused | Self::Undecided)
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Refused => "refused",
+            Self::Undecided => "undecided",
+            Self::Rank => "rank wrong",
+            Self::Verdict => "verdict wrong",
+            Self::Sentence => "sentence wrong",
+            Self::Load => "load wrong",
+            Self::Panic => "panic",
+        }
+    }
+}
+
+/// One thing that is not right.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// What is to be thought of it.
+    pub kind: Kind,
+    /// What was said, and what is so.
+    pub text: String,
+}
+
+/// All that is not right.
+#[derive(Debug, Default)]
+pub struct Findings(pub Vec<Finding>);
+
+impl Findings {
+    /// Adds one.
+    pub fn note(&mut self, kind: Kind, text: String) {
+        self.0.push(Finding { kind, text });
+    }
+
+    /// Compares a number.
+    pub(super) fn number(&mut self, kind: Kind, what: &str, answer: &Value, right: usize) {
+        if answer.as_u64() != Some(right as u64) {
+            self.note(kind, format!("{what}: answer {answer}, right {right}"));
+        }
+    }
+
+    /// Compares a verdict.
+    pub(super) fn verdict(&mut self, what: &str, answer: &Value, is_unique: bool) {
+        let right = if is_unique { "unique" } else { "not_unique" };
+        match answer.as_str() {
+            Some("undecided") => self.note(Kind::Undecided, format!("{what}: undecided")),
+            Some(answer) if answer == right => {}
+            _ => self.note(
+                Kind::Verdict,
+                format!("{what}: answer {answer}, right {right}"),
+            ),
+        }
+    }
+}
+
+/// Numbers of dependencies are right to this share of the largest: they were computed in doubles.
+const ROUNDING: f64 = 1e-9;
+
+/// The same for each metre that a scene was moved: coordinates are accurate to 1e-16 of that, and
+/// rounding grows ten thousandfold on the way through small angles.
+const ROUNDING_PER_METRE: f64 = 1e-12;
+
+/// What numbers of dependencies may be off by.
+#[must_use]
+pub fn rounding(posed: &Posed) -> f64 {
+    ROUNDING
+        .max(ROUNDING_PER_METRE * posed.distance())
+        .max(posed.known_to)
+}
+
+/// The entries of an array.
+#[must_use]
+pub fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Rows of the program, from 0.
+pub(super) fn rows(value: &Value) -> Vec<usize> {
+    let row = |x: &Value| x.as_u64().and_then(|x| x.checked_sub(1));
+    list(value)
+        .iter()
+        .filter_map(row)
+        .map(|x| x as usize)
+        .collect()
+}
+
+/// What a free wrench has along a direction of components, relative to both, if that is more than
+/// rounding.
+pub(super) fn along_free(
+    truth: &Truth,
+    link: usize,
+    axes: &[usize],
+    direction: &[f64],
+) -> Option<f64> {
+    let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let shares = truth.free_wrenches(link)?.into_iter().map(|w| {
+        let w = w.rounded(truth.posed);
+        let w: Vec<f64> = axes.iter().map(|&axis| w[axis]).collect();
+        let product: f64 = w.iter().zip(direction).map(|(a, b)| a * b).sum();
+        match norm(&w) * norm(direction) {
+            0.0 => 0.0,
+            size => product.abs() / size,
+        }
+    });
+    // Directions are printed with all digits, sentences have four.
+    shares.fold(None, |worst: Option<f64>, share| {
+        if share <= rounding(truth.posed) {
+            worst
+        } else {
+            Some(worst.map_or(share, |worst| worst.max(share)))
+        }
+    })
+}
