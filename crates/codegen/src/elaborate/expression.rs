@@ -1,7 +1,7 @@
 //! One expression of the language: names, functions, shapes.
 
 use proc_macro2::Ident;
-use symbolic::{Expr, Node};
+use symbolic::{Expr, Graph, Node};
 use syn::{BinOp, Lit, UnOp};
 
 use super::check::Refusal;
@@ -22,7 +22,7 @@ impl<'a> Scope<'a> {
     /// The value of an expression.
     pub(super) fn value(&mut self, e: &'a syn::Expr) -> syn::Result<Value> {
         let value = self.unbounded(e)?;
-        match self.out_of_bounds(&value) {
+        match out_of_bounds(&self.model.g, &value) {
             Some(what) => Err(syn::Error::new_spanned(e, what)),
             None => Ok(value),
         }
@@ -32,7 +32,7 @@ impl<'a> Scope<'a> {
         match e {
             syn::Expr::Paren(inner) => self.value(&inner.expr),
             syn::Expr::Group(inner) => self.value(&inner.expr),
-            syn::Expr::Lit(literal) => self.number(&literal.lit),
+            syn::Expr::Lit(literal) => number(&mut self.model.g, &literal.lit),
             syn::Expr::Path(path) => match path.path.get_ident() {
                 Some(name) => self.named(name),
                 None => Err(syn::Error::new_spanned(path, "expected a name")),
@@ -132,22 +132,6 @@ impl<'a> Scope<'a> {
             ),
         )
     }
-
-    fn number(&mut self, literal: &Lit) -> syn::Result<Value> {
-        let (x, suffix) = match literal {
-            Lit::Float(f) => (f.base10_parse::<f64>()?, f.suffix()),
-            Lit::Int(i) => (i.base10_parse::<f64>()?, i.suffix()),
-            other => return Err(syn::Error::new_spanned(other, "expected a number")),
-        };
-        if !suffix.is_empty() {
-            return Err(syn::Error::new_spanned(
-                literal,
-                format!("numbers have no suffix: leave `{suffix}` out"),
-            ));
-        }
-        Ok(Value::Scalar(self.model.g.number(x)))
-    }
-
     fn named(&mut self, name: &Ident) -> syn::Result<Value> {
         let key = name.to_string();
         if let Some(value) = self.values.get(&key) {
@@ -162,38 +146,6 @@ impl<'a> Scope<'a> {
             message.push_str(&hint(&key, &known));
         }
         Err(syn::Error::new_spanned(name, message))
-    }
-
-    /// Why the coefficients or the powers of a value are not accepted.
-    fn out_of_bounds(&self, value: &Value) -> Option<String> {
-        let scalars = match value {
-            Value::Scalar(e) => vec![*e],
-            Value::Vector(v) => v.components().collect(),
-            _ => return None,
-        };
-        scalars.into_iter().find_map(|e| {
-            let (numbers, power) = match self.model.g.node(e) {
-                Node::Number(x) => (vec![*x], 0),
-                Node::Product(x, factors) => {
-                    let power = factors.iter().map(|f| f.1.unsigned_abs()).max();
-                    (vec![*x], power.unwrap_or(0))
-                }
-                Node::Sum(terms) => (terms.iter().map(|t| t.0).collect(), 0),
-                Node::Symbol(_) | Node::Call(..) => return None,
-            };
-            let bad = |x: &f64| *x != 0.0 && !NUMBERS.contains(&x.abs());
-            match numbers.into_iter().find(bad) {
-                Some(x) => Some(format!(
-                    "the number {x:e} is out of bounds: magnitudes are 0 or from {:e} to {:e}",
-                    NUMBERS.start(),
-                    NUMBERS.end()
-                )),
-                None if power > POWER => Some(format!(
-                    "the power {power} is too high: up to {POWER} are accepted"
-                )),
-                None => None,
-            }
-        })
     }
 
     fn binary(&mut self, b: &'a syn::ExprBinary) -> syn::Result<Value> {
@@ -294,6 +246,54 @@ impl<'a> Scope<'a> {
             None => e,
         }
     }
+}
+
+/// The value of a literal.
+fn number(g: &mut Graph, literal: &Lit) -> syn::Result<Value> {
+    let (x, suffix) = match literal {
+        Lit::Float(f) => (f.base10_parse::<f64>()?, f.suffix()),
+        Lit::Int(i) => (i.base10_parse::<f64>()?, i.suffix()),
+        other => return Err(syn::Error::new_spanned(other, "expected a number")),
+    };
+    if !suffix.is_empty() {
+        return Err(syn::Error::new_spanned(
+            literal,
+            format!("numbers have no suffix: leave `{suffix}` out"),
+        ));
+    }
+    Ok(Value::Scalar(g.number(x)))
+}
+
+/// Returns why the coefficients or the powers of a value are not accepted.
+fn out_of_bounds(g: &Graph, value: &Value) -> Option<String> {
+    let scalars = match value {
+        Value::Scalar(e) => vec![*e],
+        Value::Vector(v) => v.components().collect(),
+        _ => return None,
+    };
+    scalars.into_iter().find_map(|e| {
+        let (numbers, power) = match g.node(e) {
+            Node::Number(x) => (vec![*x], 0),
+            Node::Product(x, factors) => {
+                let power = factors.iter().map(|f| f.1.unsigned_abs()).max();
+                (vec![*x], power.unwrap_or(0))
+            }
+            Node::Sum(terms) => (terms.iter().map(|t| t.0).collect(), 0),
+            Node::Symbol(_) | Node::Call(..) => return None,
+        };
+        let bad = |x: &f64| *x != 0.0 && !NUMBERS.contains(&x.abs());
+        match numbers.into_iter().find(bad) {
+            Some(x) => Some(format!(
+                "the number {x:e} is out of bounds: magnitudes are 0 or from {:e} to {:e}",
+                NUMBERS.start(),
+                NUMBERS.end()
+            )),
+            None if power > POWER => Some(format!(
+                "the power {power} is too high: up to {POWER} are accepted"
+            )),
+            None => None,
+        }
+    })
 }
 
 /// What an expression is made of; for the name of a `let`, what the name stands for.
