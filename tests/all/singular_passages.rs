@@ -1,5 +1,5 @@
-//! Change points of linkages: passed on the smooth branch, and reported. And rows that become nearly
-//! dependent although the rank stays: exchanged, and reported.
+//! Change points of linkages: passed on the smooth branch, and reported. And rows that become
+//! nearly dependent although the rank stays: exchanged, and reported.
 
 use std::ops::ControlFlow;
 

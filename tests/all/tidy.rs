@@ -115,6 +115,18 @@ fn the_product_depends_on_no_crate_of_the_laboratory() {
     }
 }
 
+/// Documents are written by `report`; `scene` writes the schema of its own format.
+#[test]
+fn json_is_written_by_report_alone() {
+    const WRITERS: [&str; 3] = ["lab", "report", "scene"];
+    for name in crates() {
+        let manifest = read(format!("crates/{name}/Cargo.toml"));
+        let own = manifest.split("[dev-dependencies]").next();
+        let writes = own.is_some_and(|text| text.contains("serde_json"));
+        assert_eq!(writes, WRITERS.contains(&name.as_str()), "{name}");
+    }
+}
+
 #[test]
 fn every_crate_has_a_readme_and_a_licence() {
     for name in crates() {

@@ -12,7 +12,7 @@ mod rank;
 mod text;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
-use pfaff::report::{AnalysisDocument, write_json};
+use pfaff::report::AnalysisDocument;
 use pfaff::{ConfigurationAnalysis, Overrides, Study};
 
 use crate::args::Analyze;
@@ -125,7 +125,7 @@ fn answer(
     console: &Console<'_>,
 ) -> Outcome {
     if arguments.json {
-        return json(document, console);
+        return console.document(&document);
     }
     let hints = ask::hints(configuration)?;
     console.print(&text::describe(document, &hints))
@@ -149,10 +149,4 @@ impl Judging {
     fn end(&self) {
         self.0.finish_and_clear();
     }
-}
-
-fn json(document: &AnalysisDocument, console: &Console<'_>) -> Outcome {
-    let mut out = Vec::new();
-    write_json(&mut out, document).map_err(|e| Failure::stopped(e.to_string()))?;
-    console.print(&String::from_utf8_lossy(&out))
 }

@@ -1,10 +1,9 @@
 //! `pfaff check`: read and assemble, and say everything that is wrong.
 
 use pfaff::model::{Layout, Mechanism, System};
-use pfaff::report::documents::FreedomsDocument;
+use pfaff::report::documents::{CheckDocument, FreedomsDocument};
 use pfaff::scene::Scene;
 use pfaff::{ConfigurationAnalysis, Overrides, StudyError};
-use serde_json::json;
 
 use crate::args::Check;
 use crate::console::Console;
@@ -23,7 +22,7 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     let source = Source::read(&arguments.scene, console)?.known(arguments.known);
     let checked = Checked::of(&source, arguments.resources)?;
     if arguments.json {
-        console.print(&format!("{:#}\n", checked.facts()))
+        console.document(&checked.document())
     } else {
         console.print(&checked.describe())
     }
@@ -122,21 +121,22 @@ impl Checked {
         }
     }
 
-    fn facts(&self) -> serde_json::Value {
-        json!({
-            "ok": true,
-            "scene": self.scene,
-            "bodies": self.bodies,
-            "coordinates": self.layout.n_q,
-            "holonomic_rows": self.layout.m,
-            "nonholonomic_rows": self.layout.h,
-            "start_correction": self.position,
-            "start_velocity_correction": self.velocity,
-            "mobility": self.freedoms.as_ref().map(|f| f.mobility),
-            "mobility_without_drives": self.freedoms.as_ref().and_then(|f| f.document.mobility_without_drives()),
-            "problems": [],
-            "warnings": self.warnings,
-        })
+    fn document(&self) -> CheckDocument<'_> {
+        let freedoms = self.freedoms.as_ref();
+        CheckDocument {
+            ok: true,
+            scene: &self.scene,
+            bodies: self.bodies,
+            coordinates: self.layout.n_q,
+            holonomic_rows: self.layout.m,
+            nonholonomic_rows: self.layout.h,
+            start_correction: self.position,
+            start_velocity_correction: self.velocity,
+            mobility: freedoms.map(|f| f.mobility),
+            mobility_without_drives: freedoms.and_then(|f| f.document.mobility_without_drives()),
+            problems: [],
+            warnings: &self.warnings,
+        }
     }
 
     /// In words.

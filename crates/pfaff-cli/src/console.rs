@@ -6,8 +6,9 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use pfaff::model::Registry;
+use serde::Serialize;
 
-use crate::output::{Answer, Failure, Outcome};
+use crate::output::{Answer, Failure, Outcome, json};
 
 /// A place that is written to, and what it can show.
 pub struct Stream<'w> {
@@ -64,6 +65,14 @@ impl<'c> Console<'c> {
         self.write(|out| out.write_all(text.as_bytes()))
     }
 
+    /// Writes an answer as a document.
+    ///
+    /// # Errors
+    /// As [`Console::print`].
+    pub fn document(&self, document: &impl Serialize) -> Outcome {
+        self.print(&json(document)?)
+    }
+
     /// Writes an answer piece by piece.
     ///
     /// # Errors
@@ -106,7 +115,7 @@ impl<'c> Console<'c> {
             Failure::Stopped(_) => 1,
         };
         let unsaid = match answer {
-            Answer::Json => self.print(&format!("{:#}\n", failure.document())).err(),
+            Answer::Json => failure.document().and_then(|text| self.print(&text)).err(),
             Answer::Words => Some(failure),
         };
         if let Some(failure) = unsaid {

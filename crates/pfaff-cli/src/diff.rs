@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
-use pfaff::difference::MotionComparison;
+use pfaff::difference::{MotionComparison, VerdictChange};
 use pfaff::report::AnalysisDocument;
-use pfaff::report::documents::{DependencyDocument, ReactionDocument};
+use pfaff::report::documents::{
+    DependencyDocument, DiffBody, DiffChange, DiffDocument, DiffMotion, DiffReaction,
+    ReactionDocument,
+};
 use pfaff::{Comparison, Overrides, StudyError};
-use serde_json::{Value, json};
 
 use crate::args::Diff;
 use crate::console::Console;
@@ -40,7 +42,7 @@ pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
     let comparison = Comparison::of(x, y);
     let motion = motion(&sources, &starts, arguments)?;
     if arguments.json {
-        console.print(&format!("{:#}\n", document([x, y], &comparison, &motion)))
+        console.document(&document([x, y], &comparison, &motion))
     } else {
         console.print(&describe(&names(&sources), [x, y], &comparison, &motion))
     }
@@ -81,52 +83,43 @@ fn cannot_move(name: &str, e: &StudyError) -> String {
     format!("`{name}` cannot be moved: {e}")
 }
 
-fn document(sides: [&AnalysisDocument; 2], c: &Comparison<'_>, motion: &Motion) -> Value {
-    let side = |d: &AnalysisDocument| {
-        json!({
-            "scene": d.scene, "bodies": d.bodies, "rows": d.rows, "rank": d.rank,
-            "redundancy": d.redundancy, "mobility": d.mobility,
-            "mobility_without_drives": d.freedoms.mobility_without_drives(),
-        })
+fn document<'a>(
+    sides: [&'a AnalysisDocument; 2],
+    c: &'a Comparison<'a>,
+    motion: &'a Motion,
+) -> DiffDocument<'a> {
+    let changed = |v: &VerdictChange<'a>| DiffChange {
+        name: v.name,
+        a: v.sides[0].into(),
+        b: v.sides[1].into(),
     };
-    let reaction = |r: &ReactionDocument| {
-        json!({
-            "type": r.kind, "rows": r.rows, "verdict": r.wrench.verdict,
-            "fragile": r.data.fragile,
-            "components": r.components,
-        })
+    let body = |b: &'a pfaff::MotionDifference| DiffBody {
+        body: &b.body,
+        distance: b.distance[0],
+        t_distance: b.distance[1],
+        angle: b.angle[0],
+        t_angle: b.angle[1],
     };
-    let named = |r: &&ReactionDocument| {
-        let mut value = reaction(r);
-        value["name"] = r.name.clone().into();
-        value
-    };
-    let changed = |v: &pfaff::difference::VerdictChange<'_>| json!({ "name": v.name, "a": reaction(v.sides[0]), "b": reaction(v.sides[1]) });
     let (motion, reason) = match motion {
         Motion::Both(m) => {
-            let body = |b: &pfaff::MotionDifference| {
-                json!({
-                    "body": b.body, "distance": b.distance[0], "t_distance": b.distance[1],
-                    "angle": b.angle[0], "t_angle": b.angle[1],
-                })
-            };
-            let bodies: Vec<_> = m.bodies.iter().map(body).collect();
-            (json!({ "t_end": m.t_end, "bodies": bodies }), Value::Null)
+            let bodies = m.bodies.iter().map(body).collect();
+            let t_end = m.t_end;
+            (Some(DiffMotion { t_end, bodies }), None)
         }
-        Motion::None(reason) => (Value::Null, json!(reason)),
+        Motion::None(reason) => (None, Some(reason.as_str())),
     };
-    json!({
-        "ok": true,
-        "a": side(sides[0]),
-        "b": side(sides[1]),
-        "removed": c.removed.iter().map(named).collect::<Vec<_>>(),
-        "added": c.added.iter().map(named).collect::<Vec<_>>(),
-        "changed": c.verdicts.iter().map(changed).collect::<Vec<_>>(),
-        "dependencies_gone": c.gone,
-        "dependencies_new": c.new,
-        "motion": motion,
-        "motion_not_compared": reason,
-    })
+    DiffDocument {
+        ok: true,
+        a: sides[0].into(),
+        b: sides[1].into(),
+        removed: c.removed.iter().copied().map(DiffReaction::named).collect(),
+        added: c.added.iter().copied().map(DiffReaction::named).collect(),
+        changed: c.verdicts.iter().map(changed).collect(),
+        dependencies_gone: &c.gone,
+        dependencies_new: &c.new,
+        motion,
+        motion_not_compared: reason,
+    }
 }
 
 fn describe(

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
+use pfaff::report::documents::{NewDocument, TemplateDocument, TemplatesDocument};
 
 use crate::args::New;
 use crate::console::Console;
@@ -37,10 +37,11 @@ pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
     }
     write(&path, &text, arguments.force)?;
     if arguments.json {
-        console.print(&format!(
-            "{:#}\n",
-            json!({ "ok": true, "template": template.name(), "file": file })
-        ))
+        console.document(&NewDocument {
+            ok: true,
+            template: template.name(),
+            file: &file,
+        })
     } else {
         console.print(&format!("written to {file}\nnext: pfaff analyze {file}\n"))
     }
@@ -75,13 +76,14 @@ fn write(path: &Path, text: &str, force: bool) -> Outcome {
 fn list(json: bool, console: &Console<'_>) -> Outcome {
     let all = Template::ALL.iter();
     if json {
-        let templates: Vec<_> = all
-            .map(|t| json!({ "name": t.name(), "summary": t.summary() }))
-            .collect();
-        return console.print(&format!(
-            "{:#}\n",
-            json!({ "ok": true, "templates": templates })
-        ));
+        let document = |t: &Template| TemplateDocument {
+            name: t.name(),
+            summary: t.summary(),
+        };
+        return console.document(&TemplatesDocument {
+            ok: true,
+            templates: all.map(document).collect(),
+        });
     }
     let mut rows = vec![["template", "is"].map(str::to_owned).to_vec()];
     rows.extend(all.map(|t| vec![t.name().to_owned(), t.summary()]));

@@ -1,8 +1,10 @@
 //! How answers and failures look; the console says where they go.
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
+use pfaff::report::documents::RefusalDocument;
+use pfaff::report::write_json;
 use pfaff::scene::{Diagnostic, Severity};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// For whom a command answers.
 #[derive(Clone, Copy)]
@@ -63,14 +65,31 @@ impl Failure {
 
     /// For programs: `error` is one line, `problems` are the places of a scene that are at fault,
     /// if any are.
-    pub fn document(&self) -> Value {
+    ///
+    /// # Errors
+    /// As [`json`].
+    pub fn document(&self) -> Result<String, Self> {
         let (error, problems) = match self {
             Self::Scene { diagnostics, .. } => (in_one_line(diagnostics), diagnostics.as_slice()),
             Self::Input(message) | Self::Stopped(message) => (message.clone(), [].as_slice()),
             Self::Closed | Self::Incomplete => (String::new(), [].as_slice()),
         };
-        json!({ "ok": false, "error": error, "problems": problems })
+        json(&RefusalDocument {
+            ok: false,
+            error,
+            problems,
+        })
     }
+}
+
+/// A document as text.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn json(document: &impl Serialize) -> Result<String, Failure> {
+    let mut out = Vec::new();
+    write_json(&mut out, document).map_err(|e| Failure::stopped(e.to_string()))?;
+    Ok(String::from_utf8_lossy(&out).into_owned())
 }
 
 /// The first problem, and how many more there are.

@@ -3,13 +3,13 @@
 use pfaff::Overrides;
 use pfaff::dynamics::Plan;
 use pfaff::dynamics::plan::Line;
-use pfaff::report::{PlanDocument, write_json};
+use pfaff::report::PlanDocument;
 
 use crate::args;
 use crate::console::Console;
 use crate::input::{Source, rows_from_zero};
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, columns, count};
+use crate::output::{Outcome, columns, count};
 use crate::resources::Bytes;
 
 pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
@@ -30,10 +30,7 @@ pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
     if !arguments.json {
         return console.print(&describe(study.scene.name(), &plan, memory));
     }
-    let mut out = Vec::new();
-    write_json(&mut out, &PlanDocument::new(&plan, memory))
-        .map_err(|e| Failure::stopped(e.to_string()))?;
-    console.print(&String::from_utf8_lossy(&out))
+    console.document(&PlanDocument::new(&plan, memory))
 }
 
 /// A table for the whole, and one for each of several components.

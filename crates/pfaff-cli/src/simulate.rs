@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument, write_json};
+use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument};
 use pfaff::{Overrides, StudyError};
 
 use crate::args::Simulate;
 use crate::console::Console;
 use crate::input::{Source, rows_from_zero};
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome};
+use crate::output::{Failure, Outcome, json};
 use crate::work_precision::provenance;
 
 /// Share of the largest kinetic energy by which a run may miss its energy balance without a
@@ -53,9 +53,7 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     bar.finish_and_clear();
     let document = outcome.map_err(|e| source.failure(e))?;
     let text = if arguments.json {
-        let mut out = Vec::new();
-        write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
-        String::from_utf8_lossy(&out).into_owned()
+        json(&document)?
     } else {
         let mut text = describe(&study.scene.description.name, &document);
         text.push_str(&written(

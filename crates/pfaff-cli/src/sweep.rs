@@ -4,14 +4,14 @@
 use std::num::NonZeroUsize;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::report::{SweepDocument, SweepStatus, write_json};
+use pfaff::report::{SweepDocument, SweepStatus};
 use pfaff::sweep::{Sweep, SweepError, SweepProgress, SweepSettings, merge};
 
 use crate::args;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, count, wrapped};
+use crate::output::{Failure, Outcome, count, json, wrapped};
 use crate::simulate::TRUSTED_BALANCE;
 
 pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
@@ -28,9 +28,7 @@ pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
         }
     };
     let text = if arguments.json {
-        let mut out = Vec::new();
-        write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
-        String::from_utf8_lossy(&out).into_owned()
+        json(&document)?
     } else {
         describe(&document, ending, &arguments.out.display().to_string())
     };

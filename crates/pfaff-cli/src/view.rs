@@ -1,5 +1,5 @@
-//! `pfaff view`: the page of the assembled start, or its picture as SVG, and the system's viewer for
-//! it.
+//! `pfaff view`: the page of the assembled start, or its picture as SVG, and the system's viewer
+//! for it.
 
 use std::env;
 use std::fs;
@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use pfaff::model::System;
+use pfaff::report::documents::ViewDocument;
 use pfaff::report::figures::{Labels, Marking, labelled_mechanism};
 use pfaff::report::{Frame, Recording, RunPage, run_page};
-use serde_json::json;
 
 use crate::args::View;
 use crate::console::Console;
@@ -48,18 +48,17 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         .count();
     let fragile = start.document.fragile_reactions().count();
     if arguments.json {
-        let facts = json!({
-            "ok": true,
-            "scene": start.scene.name(),
-            "file": path.display().to_string(),
-            "bytes": picture.len(),
-            "reactions": start.reactions.len(),
-            "not_unique": open,
-            "fragile": fragile,
-            "mobility": start.document.mobility,
-            "mobility_without_drives": start.document.freedoms.mobility_without_drives(),
+        return console.document(&ViewDocument {
+            ok: true,
+            scene: start.scene.name(),
+            file: path.display().to_string(),
+            bytes: picture.len(),
+            reactions: start.reactions.len(),
+            not_unique: open,
+            fragile,
+            mobility: start.document.mobility,
+            mobility_without_drives: start.document.freedoms.mobility_without_drives(),
         });
-        return console.print(&format!("{facts:#}\n"));
     }
     let opened = if arguments.no_open {
         String::new()

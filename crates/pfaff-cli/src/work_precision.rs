@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::StudyError;
 use pfaff::report::{
     OutputDirectory, OutputFile, Provenance, TableError, WorkPrecisionDocument, WorkPrecisionRow,
-    WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page, write_json,
+    WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page,
 };
 use pfaff::work_precision::{Plan, Rival, Subject, overview, provenance};
 
@@ -15,7 +15,7 @@ use crate::args::WorkPrecision;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, wrapped};
+use crate::output::{Failure, Outcome, json, wrapped};
 use crate::resources::Resources;
 
 pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
@@ -95,9 +95,7 @@ impl Request<'_> {
                 .map_err(|e| stopped(&e))?;
         }
         let text = if self.json {
-            let mut out = Vec::new();
-            write_json(&mut out, &document).map_err(|e| stopped(&e))?;
-            String::from_utf8_lossy(&out).into_owned()
+            json(&document)?
         } else {
             describe(&document, &self.out.display().to_string())
         };

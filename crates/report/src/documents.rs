@@ -3,6 +3,7 @@
 //! are `null`.
 
 mod analysis;
+mod answers;
 mod freedoms;
 mod motion;
 mod plan;
@@ -25,6 +26,10 @@ pub use analysis::{
     NamedVerdictDocument, NearlyRedundantDocument, NoteDocument, PartsDocument, PassageDocument,
     PointDocument, ReactionDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument,
     WayDocument,
+};
+pub use answers::{
+    CheckDocument, DiffBody, DiffChange, DiffDocument, DiffMotion, DiffReaction, DiffSide,
+    NewDocument, RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
 };
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use motion::{BodyStateDocument, MomentDocument, MotionDocument};

@@ -1,6 +1,6 @@
-//! `report.html` of a run, and the page of a start alone: one file that opens without a network, for a reader who has the
-//! mechanism in mind and not the program. The mechanism moves, verdicts are told in words, curves
-//! have their cursor where the picture is.
+//! `report.html` of a run, and the page of a start alone: one file that opens without a network,
+//! for a reader who has the mechanism in mind and not the program. The mechanism moves, verdicts
+//! are told in words, curves have their cursor where the picture is.
 //!
 //! A reaction that is not unique has no curve of its own: it is a band between choices that are
 //! named ([`Comparison`]).

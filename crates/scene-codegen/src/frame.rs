@@ -4,8 +4,8 @@
 //!
 //! The frame stands still and is turned by the angle θ of the body: positions and velocities are
 //! turned by −θ, and accelerations back. Rows that are components x and y of one vector are turned
-//! in pairs. Whether a mechanism may be seen like this does not follow from its parts: its C, Γ and Q
-//! are compared with the turned ones at states far from any motion, to rounding.
+//! in pairs. Whether a mechanism may be seen like this does not follow from its parts: its C, Γ and
+//! Q are compared with the turned ones at states far from any motion, to rounding.
 
 use model::System;
 use model::record::Input;

@@ -218,8 +218,8 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     None
 }
 
-/// A run has one formulation, and Baumgarte's method no gains: keys of these names are reported where
-/// they have gone.
+/// A run has one formulation, and Baumgarte's method no gains: keys of these names are reported
+/// where they have gone.
 fn refuse_moved(table: &mut Table, findings: &mut Findings) {
     for (key, of) in [
         ("formulation", "formulation"),

@@ -82,8 +82,8 @@ impl Sample<'_, '_> {
         }
     }
 
-    /// Multipliers of all rows as [`KeptRowMotion::multipliers`] gives them, NaN for rows of joints and
-    /// drives whose reactions the plan leaves out; allocates.
+    /// Multipliers of all rows as [`KeptRowMotion::multipliers`] gives them, NaN for rows of joints
+    /// and drives whose reactions the plan leaves out; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.

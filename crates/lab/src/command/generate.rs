@@ -74,8 +74,8 @@ fn to_standard_output(generator: &Generator, console: &Console<'_>) -> Outcome {
     written
 }
 
-/// Writes a temporary file and renames it, so that what has the name is whole; pipes and devices are
-/// written as they are. Tells how many bytes were written.
+/// Writes a temporary file and renames it, so that what has the name is whole; pipes and devices
+/// are written as they are. Tells how many bytes were written.
 fn to_file(generator: &Generator, path: &Path) -> Result<u64, Failure> {
     let refused =
         |e: io::Error| Failure::stopped(format!("cannot write `{}`: {e}", path.display()));

@@ -109,8 +109,8 @@ struct Solved {
     left: f64,
 }
 
-/// Gauss with complete pivoting of a symmetric matrix; what is rounding relative to the first pivot is
-/// left out. `None` if there is nothing else.
+/// Gauss with complete pivoting of a symmetric matrix; what is rounding relative to the first pivot
+/// is left out. `None` if there is nothing else.
 fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Solved> {
     const ROUNDING: f64 = 1e-13;
     let n = b.len();

@@ -1,5 +1,5 @@
-//! What the program says of a drawing whose numbers are known to a tolerance, compared with what exact
-//! arithmetic says of the drawing, and with how far its data are from a lower rank.
+//! What the program says of a drawing whose numbers are known to a tolerance, compared with what
+//! exact arithmetic says of the drawing, and with how far its data are from a lower rank.
 
 use std::rc::Rc;
 

@@ -20,12 +20,13 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Above this a rank in double precision has to be decided: singular values are answer apart down to
-/// 1e-7.
+/// Above this a rank in double precision has to be decided: singular values are answer apart down
+/// to 1e-7.
 const DECIDED: f64 = 1e-6;
 /// Some thousand roundings of numbers of size 1: no larger ε may be taken for rounding.
 const ROUNDING: f64 = 1e-12;
-/// Data of size 1 are accurate to some 1e-15: an angle between this and the next may be one or none.
+/// Data of size 1 are accurate to some 1e-15: an angle between this and the next may be one or
+/// none.
 const READ_BOTH_WAYS: f64 = 5e-15;
 /// See [`READ_BOTH_WAYS`].
 const ROUNDED_AWAY: f64 = 5e-14;

@@ -1,0 +1,222 @@
+//! Documents of commands that answer in a few numbers, and of refusals. `ok` says whether there is
+//! an answer.
+
+use serde::Serialize;
+
+use super::{AnalysisDocument, ComponentDocument, DependencyDocument, ReactionDocument};
+
+/// Why there is no answer.
+#[derive(Clone, Debug, Serialize)]
+pub struct RefusalDocument<'a, P> {
+    /// `false`
+    pub ok: bool,
+    /// The reason in one line.
+    pub error: String,
+    /// Places of a scene that are at fault.
+    pub problems: &'a [P],
+}
+
+/// A scene that was read and assembled.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CheckDocument<'a> {
+    /// `true`
+    pub ok: bool,
+    /// Name of the scene.
+    pub scene: &'a str,
+    /// Number of bodies.
+    pub bodies: usize,
+    /// n_q
+    pub coordinates: usize,
+    /// m
+    pub holonomic_rows: usize,
+    /// h
+    pub nonholonomic_rows: usize,
+    /// The largest correction of a coordinate of the start (m, rad).
+    pub start_correction: f64,
+    /// The same of a velocity (m/s, rad/s), if there is a motion.
+    pub start_velocity_correction: Option<f64>,
+    /// n_v − r
+    pub mobility: Option<usize>,
+    /// The same without the drives.
+    pub mobility_without_drives: Option<usize>,
+    /// None: a scene with problems is refused.
+    pub problems: [(); 0],
+    /// What else the reader should know.
+    pub warnings: &'a [String],
+}
+
+/// A picture that was written.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ViewDocument<'a> {
+    /// `true`
+    pub ok: bool,
+    /// Name of the scene.
+    pub scene: &'a str,
+    /// The file.
+    pub file: String,
+    /// Its size.
+    pub bytes: usize,
+    /// Number of joints and drives.
+    pub reactions: usize,
+    /// How many of them are not unique.
+    pub not_unique: usize,
+    /// How many are unique, but fragile.
+    pub fragile: usize,
+    /// n_v − r
+    pub mobility: usize,
+    /// The same without the drives.
+    pub mobility_without_drives: Option<usize>,
+}
+
+/// A template that was written.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NewDocument<'a> {
+    /// `true`
+    pub ok: bool,
+    /// Name of the template.
+    pub template: &'a str,
+    /// The file.
+    pub file: &'a str,
+}
+
+/// All templates.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TemplatesDocument<'a> {
+    /// `true`
+    pub ok: bool,
+    /// Each with what it is.
+    pub templates: Vec<TemplateDocument<'a>>,
+}
+
+/// A template.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TemplateDocument<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// What it is.
+    pub summary: String,
+}
+
+/// Two scenes side by side.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffDocument<'a> {
+    /// `true`
+    pub ok: bool,
+    /// The first scene.
+    pub a: DiffSide<'a>,
+    /// The second scene.
+    pub b: DiffSide<'a>,
+    /// Joints and drives of the first scene only.
+    pub removed: Vec<DiffReaction<'a>>,
+    /// Those of the second scene only.
+    pub added: Vec<DiffReaction<'a>>,
+    /// Those that differ.
+    pub changed: Vec<DiffChange<'a>>,
+    /// Dependencies of the first scene only.
+    pub dependencies_gone: &'a [&'a DependencyDocument],
+    /// Those of the second scene only.
+    pub dependencies_new: &'a [&'a DependencyDocument],
+    /// Differences of the motions; `null` if they were not compared.
+    pub motion: Option<DiffMotion<'a>>,
+    /// Why they were not.
+    pub motion_not_compared: Option<&'a str>,
+}
+
+/// One of two scenes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffSide<'a> {
+    scene: &'a str,
+    bodies: usize,
+    rows: usize,
+    rank: usize,
+    redundancy: usize,
+    mobility: usize,
+    mobility_without_drives: Option<usize>,
+}
+
+impl<'a> From<&'a AnalysisDocument> for DiffSide<'a> {
+    fn from(d: &'a AnalysisDocument) -> Self {
+        Self {
+            scene: &d.scene,
+            bodies: d.bodies,
+            rows: d.rows,
+            rank: d.rank,
+            redundancy: d.redundancy,
+            mobility: d.mobility,
+            mobility_without_drives: d.freedoms.mobility_without_drives(),
+        }
+    }
+}
+
+/// A joint or drive of one of two scenes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffReaction<'a> {
+    /// Its name, unless it stands above.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<&'a str>,
+    #[serde(rename = "type")]
+    kind: &'a str,
+    rows: &'a [usize],
+    verdict: &'static str,
+    fragile: bool,
+    components: &'a [ComponentDocument],
+}
+
+impl<'a> From<&'a ReactionDocument> for DiffReaction<'a> {
+    fn from(r: &'a ReactionDocument) -> Self {
+        Self {
+            name: None,
+            kind: &r.kind,
+            rows: &r.rows,
+            verdict: r.wrench.verdict,
+            fragile: r.data.fragile,
+            components: &r.components,
+        }
+    }
+}
+
+impl<'a> DiffReaction<'a> {
+    /// With its name.
+    #[must_use]
+    pub fn named(r: &'a ReactionDocument) -> Self {
+        Self {
+            name: Some(&r.name),
+            ..r.into()
+        }
+    }
+}
+
+/// A joint or drive that both scenes have.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffChange<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// In the first scene.
+    pub a: DiffReaction<'a>,
+    /// In the second scene.
+    pub b: DiffReaction<'a>,
+}
+
+/// Differences of two motions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffMotion<'a> {
+    /// How far both were run (s).
+    pub t_end: f64,
+    /// Body by body.
+    pub bodies: Vec<DiffBody<'a>>,
+}
+
+/// The largest differences of the motions of a body, and when (s).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffBody<'a> {
+    /// The body.
+    pub body: &'a str,
+    /// m
+    pub distance: f64,
+    /// Time of that.
+    pub t_distance: f64,
+    /// rad
+    pub angle: f64,
+    /// Time of that.
+    pub t_angle: f64,
+}
