@@ -166,7 +166,7 @@ impl<'a> From<&'a ReactionDocument> for DiffReaction<'a> {
     fn from(r: &'a ReactionDocument) -> Self {
         Self {
             name: None,
-            kind: &r.kind,
+            kind: r.kind,
             rows: &r.rows,
             verdict: r.wrench.verdict,
             fragile: r.data.fragile,
