@@ -6,7 +6,7 @@ use super::ranks::WithoutDrives;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FreeMotions {
-    /// In words and numbers, at most [`MOTIONS_TOLD`].
+    /// In words and numbers, at most [`MOTIONS_TOLD`](crate::MOTIONS_TOLD).
     pub motions: Vec<FreeMotion>,
     /// What is not told. `None` if everything is.
     pub left_out: Option<LeftOut>,

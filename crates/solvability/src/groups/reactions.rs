@@ -198,7 +198,7 @@ impl ReactionForms<'_> {
     /// of wrenches. Several reactions side by side are none.
     ///
     /// # Errors
-    /// As [`judge_groups`].
+    /// As [`crate::judge_groups`].
     pub fn numbers(&self, group: &Group) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
         self.numbers_about(group, self.about(group)?)
     }
@@ -231,7 +231,7 @@ impl ReactionForms<'_> {
     /// `Σ coefficient · component`
     ///
     /// # Errors
-    /// As [`judge_groups`].
+    /// As [`crate::judge_groups`].
     pub fn combination(&self, terms: &[Term]) -> Result<LinearForm, RequestError> {
         if terms.is_empty() {
             return Err(RequestError::Empty { of: "term" });
@@ -251,7 +251,7 @@ impl ReactionForms<'_> {
     /// `[Fx, Fy, T]` of `Σ coefficient · wrench`, T about the place of the first reaction.
     ///
     /// # Errors
-    /// As [`judge_groups`].
+    /// As [`crate::judge_groups`].
     pub fn wrench_sum(
         &self,
         terms: &[(f64, ConstraintId)],
