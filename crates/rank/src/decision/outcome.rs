@@ -53,8 +53,7 @@ pub struct Evidence {
 #[non_exhaustive]
 pub enum RankStatus {
     /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`, or, with a certificate, what its
-    /// [`Grounds`](super::Grounds)
-    /// say.
+    /// [`Grounds`](super::Grounds) say.
     Decided,
     /// Two ranks can be read from the singular values; do not build on either.
     Undecided(Doubt),
