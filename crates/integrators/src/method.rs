@@ -10,7 +10,8 @@ use crate::statistics::Statistics;
 /// A method that can integrate the problem `O`: [`Dopri5`](crate::Dopri5) and its like. A method
 /// asks of the problem what it needs: explicit methods are methods of every [`Ode`].
 ///
-/// Sealed: the loop behind [`integrate`](crate::integrate) and the methods are written for each other.
+/// Sealed: the loop behind [`integrate`](crate::integrate) and the methods are written for each
+/// other.
 pub trait Method<O: Ode> {
     /// Stages and memory of the method.
     #[doc(hidden)]
