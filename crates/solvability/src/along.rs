@@ -1,14 +1,15 @@
-//! Verdicts along a motion: one that holds almost always, and what is different where.
+//! Verdicts along a motion: the generic verdict, which holds almost everywhere, and the times at
+//! which the verdict differs from it.
 //!
 //! Rank and verdicts are constant on each component of the configuration set except on a nowhere
-//! dense part of it. Where the laws of drives are analytic, between break times, they are therefore
-//! constant except at isolated instants, or the whole stretch of the motion stays in the special
-//! part. So a motion has one generic verdict, stretches between break times where another one
-//! holds, and passages: instants with their times.
+//! dense part of it. Between break times, if the functions of time of the drives are analytic, they
+//! are therefore constant except at isolated instants, unless the whole stretch of the motion lies
+//! in the exceptional part. So a motion has one generic verdict, stretches between break times on
+//! which another verdict holds, and passages: single instants with a different verdict.
 //!
-//! States are brought onto the constraints before anything is decided. An instant that falls
-//! between two sample times is seen if the smallest singular value falls towards it at these times,
-//! or if the kept rows change their orientation.
+//! States are moved onto the constraints before anything is decided. An instant between two sample
+//! times is found if the smallest singular value decreases towards it at the sample times, or if
+//! the kept rows change their orientation.
 
 mod border;
 mod compare;
@@ -32,9 +33,9 @@ use stretches::ends_of_pieces;
 
 pub use data::{Along, AlongError, Difference, Part, Passage, PassageKind, Stretch};
 
-/// Verdicts along a motion of a mechanism, which `motion` gives at any time between the first and
-/// the last sample time, and only there: a closed form, or the dense output of a simulation. Break
-/// times of functions of time are sampled too.
+/// Computes the verdicts along a motion of a mechanism. `motion` returns the state at a given time;
+/// it is called only for times between the first and the last sample time. It may be a closed form
+/// or the dense output of a simulation. Break times of functions of time are sampled as well.
 ///
 /// ```
 /// use joints::Revolute;
@@ -64,7 +65,7 @@ pub use data::{Along, AlongError, Difference, Part, Passage, PassageKind, Stretc
 /// # Errors
 /// - [`AlongError::Times`], [`AlongError::State`]: bad input.
 /// - [`AlongError::OffConstraints`]: no configuration on the constraints is near a state.
-/// - [`AlongError::Analysis`], [`AlongError::Undecided`]: no rank can be read.
+/// - [`AlongError::Analysis`], [`AlongError::Undecided`]: the rank cannot be decided.
 /// - [`AlongError::Large`]: too many joints are on common cycles.
 pub fn along_motion(
     mechanism: &Mechanism,
@@ -75,7 +76,7 @@ pub fn along_motion(
     let of_part = |t: f64, extent: &Extent| {
         let whole = match motion.lock() {
             Ok(mut motion) => motion(t),
-            // By a panic elsewhere, which goes on there.
+            // The lock is poisoned by a panic in another thread; that panic continues there.
             Err(poisoned) => poisoned.into_inner()(t),
         };
         if extent.is_whole() {
@@ -90,8 +91,8 @@ pub fn along_motion(
     along_motion_of_parts(mechanism, of_part, times)
 }
 
-/// The same of a motion that can be asked for the coordinates and velocities of single parts: of
-/// large mechanisms it is asked often, and for few of them.
+/// Like [`along_motion`], for a motion that can return the coordinates and velocities of a single
+/// part. For large mechanisms it is called often, each time for a few parts only.
 ///
 /// # Errors
 /// As [`along_motion`].
@@ -109,7 +110,7 @@ pub fn along_motion_of_parts(
     }
 }
 
-/// The same of a mechanism that is one part, at these times, break times included.
+/// [`along_motion`] for a mechanism that is a single part; `times` already include the break times.
 fn judged_as_one(
     mechanism: &Mechanism,
     motion: impl FnMut(f64) -> State,
@@ -129,8 +130,8 @@ fn judged_as_one(
     })
 }
 
-/// The singular and nearly singular configurations of a motion alone: part of what [`along_motion`]
-/// finds, in a fraction of its time.
+/// Finds only the singular and nearly singular configurations of a motion: part of what
+/// [`along_motion`] finds, in a fraction of its time.
 ///
 /// # Errors
 /// As [`along_motion`].
@@ -145,7 +146,8 @@ pub fn singular_passages(
     passages::passages(&mut path, &generic, &stretches)
 }
 
-/// Sample times, break times between them, and one time within each piece between break times.
+/// Returns the sample times, the break times between them, and one time within each piece between
+/// break times.
 fn with_break_times(mechanism: &Mechanism, times: &[f64]) -> Result<Vec<f64>, AlongError> {
     let wrong = |index: usize| {
         let grows = index == 0 || times[index] > times[index - 1];

@@ -1,5 +1,5 @@
-//! Ranks and verdicts of one configuration of a mechanism of any size: those of its parts, added up
-//! and numbered as in the whole.
+//! Ranks and verdicts of one configuration of a mechanism of any size: the results of its parts,
+//! added up and numbered as in the whole mechanism.
 
 use crate::error::AnalysisError;
 use crate::judged::{Dependency, Judged, ReactionVerdict};
@@ -35,7 +35,7 @@ pub struct Analysis {
     pub velocities: usize,
     /// Size of the mechanism (m).
     pub size: f64,
-    /// What its numbers are known to where nothing is said of their joint or body.
+    /// Tolerance of its numbers, unless one is stated for their joint or body.
     pub tolerance: Tolerance,
     /// Number of holonomic rows m.
     pub holonomic_rows: usize,
@@ -47,29 +47,29 @@ pub struct Analysis {
     pub rank_nonholonomic: usize,
     /// Rank, redundancy and kept rows of C.
     pub decision: RowDecision,
-    /// Kept rows that are independent, but only just: of the part where they come closest to a
-    /// dependence.
+    /// Kept rows that are independent by a small margin only, from the part in which they come
+    /// closest to a dependence.
     pub nearly_redundant: Option<NearlyRedundant>,
-    /// Joints and drives in the order of their rows.
+    /// Verdicts of joints and drives in the order of their rows.
     pub reactions: Vec<ReactionVerdict>,
-    /// As many as the degree of redundancy, part by part, short ones first; fewer where more rows
-    /// than can be judged together depend on each other.
+    /// Dependencies, as many as the degree of redundancy, part by part, short ones first. There are
+    /// fewer if more rows depend on each other than can be analysed together.
     pub dependencies: Vec<Dependency>,
-    /// What else the reader should know.
+    /// Other remarks for the reader.
     pub warnings: Vec<String>,
-    /// Parts that were judged alone, by their first joints.
+    /// Parts that were analysed separately, ordered by their first joints.
     pub parts: Vec<PartAnalysis>,
 }
 
 impl Analysis {
-    /// Freedoms of motion: n_v − r.
+    /// Degrees of freedom: n_v − r.
     #[must_use]
     pub fn mobility(&self) -> usize {
         self.velocities - self.decision.rank
     }
 
-    /// The part whose rank is least certain: undecided, or else the one with the smallest σ_r.
-    /// There is always one.
+    /// The part whose rank is least certain: an undecided one, or else the one with the smallest
+    /// σ_r. Every mechanism has one.
     #[must_use]
     pub fn weakest(&self) -> &PartAnalysis {
         let least = |a: &&PartAnalysis, b: &&PartAnalysis| a.strength().total_cmp(&b.strength());
@@ -83,7 +83,7 @@ impl Analysis {
         self.weakest().decision.evidence()
     }
 
-    /// The place of the part with this joint or drive.
+    /// Index of the part that contains this joint or drive.
     #[must_use]
     pub fn part_of(&self, id: ConstraintId) -> Option<usize> {
         let has = |part: &PartAnalysis| part.extent.own_group(id.0).is_some();
@@ -93,8 +93,8 @@ impl Analysis {
         }
     }
 
-    /// The decision of all rows with all dependencies, made of those of the parts; `None` if there
-    /// are too many rows for that. Its evidence is that of the weakest part.
+    /// The decision on all rows with all dependencies, assembled from those of the parts. Returns
+    /// `None` if there are too many rows for that. Its evidence is that of the weakest part.
     #[must_use]
     pub fn whole(&self) -> Option<Cow<'_, RankDecision>> {
         if let [one] = self.parts.as_slice()
@@ -137,7 +137,7 @@ impl Analysis {
         }))
     }
 
-    /// Adds up what was judged of the parts.
+    /// Adds up the results of the parts.
     pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64], judged: Vec<Judged>) -> Self {
         let layout = mechanism.layout();
         let mut analysis = Self {
@@ -198,7 +198,8 @@ impl Analysis {
     }
 }
 
-/// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates.
+/// Computes the verdicts at time t and coordinates q, which must satisfy the constraints.
+/// Allocates.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
@@ -209,8 +210,8 @@ pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, Ana
     analyse_known(mechanism, t, q, Known::AsStored)
 }
 
-/// The same at a configuration that is known to less than it is stored with; what is zero to that
-/// is zero.
+/// Like [`analyse`], for a configuration that is less accurate than it is stored: `known` states
+/// its accuracy, and whatever is zero within that accuracy counts as zero.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -223,8 +224,9 @@ pub fn analyse_known(
     analyse_watched(mechanism, t, q, known, |_| ())
 }
 
-/// The same; after each part `progress` is told how many joints are judged. Parts are judged on the
-/// threads of the pool of `rayon` from which this is called; the result does not depend on them.
+/// Like [`analyse_known`]; after each part it calls `progress` with the number of joints analysed
+/// so far. Parts run on the `rayon` thread pool of the caller; the result does not depend on the
+/// number of threads.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -246,7 +248,7 @@ pub fn analyse_watched(
     })
 }
 
-/// The same where the ranks have been decided.
+/// Like [`analyse_watched`], for ranks that have already been decided.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -277,8 +279,8 @@ pub fn analyse_decided(
     Ok(Analysis::of(mechanism, t, q, judged))
 }
 
-/// Verdicts set of cycles by set of cycles, also of a mechanism that is small enough to be judged
-/// as one: they are the same.
+/// Analyses each set of joints on common cycles separately, even if the mechanism is small enough
+/// to be analysed as one. The verdicts are the same.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -294,8 +296,8 @@ pub fn analyse_by_cycles(
     })
 }
 
-/// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts
-/// do not depend on them.
+/// Like [`analyse`], with dependencies that express the dropped rows chosen by the caller (from 0).
+/// The verdicts do not depend on them.
 ///
 /// # Errors
 /// As [`analyse`], and [`AnalysisError::Rows`]: the rows cannot be dropped without changing the
@@ -318,7 +320,8 @@ pub fn analyse_dropping(
         let own = extent.own_rows(&listed);
         if part.layout().rows() > ROWS_MAX {
             let found = judged_alone(part, t, q, Known::AsStored)?;
-            // The same rows are dropped, or none can be chosen among so many.
+            // Either these are the rows that were dropped anyway, or there are too many rows to
+            // choose.
             return if found.part.decision.rows().dropped == own {
                 Ok(found)
             } else {
@@ -367,7 +370,7 @@ fn by_parts(
     Ok(Analysis::of(mechanism, t, q, judged))
 }
 
-/// A part by itself.
+/// Analyses a part separately.
 fn judged_alone(
     part: &Mechanism,
     t: f64,

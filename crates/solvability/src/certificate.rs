@@ -1,9 +1,9 @@
-//! The rank of a mechanism, as certain as it can be had: decided in double-double, at a
-//! configuration polished in double-double, for data known to the rounding with which a scene
-//! stores them.
+//! The rank of a mechanism with the strongest available evidence: decided in double-double at a
+//! configuration polished in double-double, for data that are accurate to the rounding with which a
+//! scene stores them.
 //!
-//! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated
-//! anyway.
+//! Not for the motion: a run decides in `f64`, because a nearly redundant mechanism cannot be
+//! integrated in `f64` anyway.
 
 use crate::error::AnalysisError;
 use crate::limits::{ASKED, COEFFICIENT_LARGE, ROWS_MAX, SAFELY, TOLERANCE_ROWS};
@@ -21,18 +21,18 @@ use rank::{
 use crate::meant::{MeantMatrix, Nearness, Question, Reading};
 use crate::state::check_configuration;
 
-/// C of a mechanism without dimensions, with what its entries are known to.
+/// C of a mechanism without dimensions, with the accuracy of its entries.
 pub(crate) struct Rows<'a> {
     mechanism: &'a Mechanism,
     /// Φ and C evaluated at q.
     scratch: Cow<'a, Scratch>,
     q: Cow<'a, [f64]>,
     size: f64,
-    /// Rows of the mechanism that are judged, ascending.
+    /// Numbers of the analysed rows in the mechanism, ascending.
     places: Vec<usize>,
     meant: MeantMatrix,
-    /// At a configuration polished in double-double; `None` if that is no help: too many rows,
-    /// or kept rows dependent to the last digit of `f64`.
+    /// C at a configuration polished in double-double. `None` if that does not help: there are too
+    /// many rows, or the kept rows are dependent to the last digit of `f64`.
     extended: Option<DdMatrix>,
 }
 
@@ -42,8 +42,8 @@ impl<'a> Rows<'a> {
         Self::at(mechanism, Cow::Borrowed(s), q, Known::AsStored)
     }
 
-    /// C without dimensions of a mechanism of this size, and what its entries are known to, as they
-    /// were found at the pose of the scratch, where q are its coordinates.
+    /// C without dimensions of a mechanism of this size, and the accuracy of its entries, both
+    /// evaluated at the pose of the scratch, whose coordinates are q.
     pub(crate) fn of_matrix(
         mechanism: &'a Mechanism,
         (s, q, size): (&'a Scratch, &'a [f64], f64),
@@ -142,8 +142,8 @@ impl<'a> Rows<'a> {
         Ok(with_nearness(decision, nearness))
     }
 
-    /// Asks what the data make of the rows of the dependencies: with a tolerance of all, without
-    /// one of those that the entries of C leave open.
+    /// Determines how the accuracy of the data affects the rows of the dependencies: all of these
+    /// rows if a tolerance is stated, otherwise only rows that the entries of C leave undecided.
     fn know_rows(&self, question: &Question<'_>, decision: &mut RankDecision, has_tolerance: bool) {
         let t = decision.equilibrated_dependence();
         let is_open = |row: usize| -> bool {
@@ -177,12 +177,13 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The decision for a rank that has been read, with the evidence of double-double.
+    /// The decision for a rank that has been read, with the evidence from double-double.
     fn certified(&self, reading: RankReading) -> Result<RankDecision, RankError> {
         if let Some(c) = &self.extended {
             let certified = certify_rank(c, &self.meant.uncertainty, reading.clone())?;
             if let Some(mut decision) = certified {
-                // A force or lever that counts as none is none within the data only.
+                // A force or lever arm that counts as zero is zero within the accuracy of the data
+                // only.
                 if let Some(certificate) = &mut decision.evidence.certificate
                     && certificate.grounds == Grounds::Vanishes
                     && self.meant.has_zeros()
@@ -199,8 +200,9 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Whether the kept rows nearly depend on each other as bodies feel it, at the pose of the
-    /// scratch; equilibration may scale the only misaligned entry of a column up to size one.
+    /// Whether the kept rows nearly depend on each other in the scaling of the bodies (rotations
+    /// times the arm of the body), at the pose of the scratch. Equilibration does not show this: it
+    /// may scale the only misaligned entry of a column up to size one.
     pub(crate) fn nearly_redundant(
         &self,
         mechanism: &Mechanism,
@@ -212,7 +214,7 @@ impl<'a> Rows<'a> {
         }
         let physical = weakest_as_felt(mechanism, s, (self.size, &self.matrix()), decision)
             .filter(|weakest| weakest.sigma < NEARLY_REDUNDANT);
-        // Below the resolution of `f64` the certificate knows better.
+        // Below the resolution of `f64` the certificate is more accurate.
         let certified = decision.nearly_redundant().cloned();
         [physical, certified]
             .into_iter()
@@ -220,7 +222,7 @@ impl<'a> Rows<'a> {
             .min_by(|a, b| a.sigma.total_cmp(&b.sigma))
     }
 
-    /// Some of the rows, ascending.
+    /// Selects some of the rows, ascending.
     pub(crate) fn select(&self, rows: &[usize]) -> Self {
         Self {
             mechanism: self.mechanism,
@@ -234,7 +236,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// What the data would have to be wrong by for a lower rank goes into the certificate.
+/// Adds to the certificate by how much the data would have to be wrong for a lower rank.
 fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> RankDecision {
     if let (Some(certificate), Some(near)) = (&mut decision.evidence.certificate, nearness) {
         certificate.lower_rank_here = Some(near.here);
@@ -244,9 +246,9 @@ fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> Rank
     decision
 }
 
-/// The combination of kept rows that comes closest to zero as bodies feel it, at the pose of the
-/// scratch, where C without dimensions is that of a mechanism of this size: rows with largest entry
-/// 1, rotations measured by the arms of their bodies.
+/// The combination of kept rows that comes closest to zero at the pose of the scratch, with each
+/// row scaled to largest entry 1 and rotations measured by the arms of their bodies. `c` is C
+/// without dimensions for a mechanism of this size.
 fn weakest_as_felt(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -272,11 +274,12 @@ fn weakest_as_felt(
     })
 }
 
-/// Kept rows that cannot be told from dependent ones in `f64` as bodies feel them, at the pose of
-/// the scratch, where C has been evaluated at coordinates q. The rank may be decided nevertheless:
-/// equilibration scales up a column whose only entries are the misalignment. It is that of the data
-/// as read, but velocities on these rows are known to the rounding of the state divided by σ only.
-/// Allocates.
+/// Returns the combination of kept rows that cannot be distinguished from a dependence in `f64` at
+/// the pose of the scratch, with rotations measured by the arms of the bodies; C must have been
+/// evaluated at coordinates q. The rank may be decided nevertheless, because equilibration scales
+/// up a column whose only entries are the misalignment. The misalignment is part of the data as
+/// read, but velocities along these rows are accurate only to the rounding of the state divided by
+/// σ. Allocates.
 #[must_use]
 pub fn inseparable(
     mechanism: &Mechanism,
@@ -290,9 +293,8 @@ pub fn inseparable(
         .filter(|weakest| weakest.sigma < NEARLY_SINGULAR)
 }
 
-/// Decides the rank of C at time t and coordinates q, which satisfy the constraints, in
-/// double-double where that is possible (up to 600 rows); the evidence then has a certificate.
-/// Allocates.
+/// Decides the rank of C at time t and coordinates q, which satisfy the constraints. Uses
+/// double-double if possible (up to 600 rows); the evidence then has a certificate. Allocates.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.

@@ -1,6 +1,6 @@
-//! Choices among the solutions `λ₀ + Z·y` where the model leaves one. None of them is *the*
-//! reaction: what is not unique is given with the choice that was made, and a number that depends
-//! on it cannot be taken without its label.
+//! Choices of one of the solutions `λ₀ + Z·y` if the model determines none. No choice is *the*
+//! reaction: every number that is not unique is given with the choice on which it depends, and
+//! cannot be read without that label.
 
 mod equations;
 mod error;
@@ -24,21 +24,21 @@ use crate::parts::Extent;
 use crate::verdict::Verdict;
 use minimise::independent_columns;
 
-/// A way to choose one of the solutions.
+/// A rule that chooses one of the solutions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// The least `Σ (force·F)² + (torque·T)²` over all joints and drives, wrenches on the first
-    /// body at its place.
+    /// Minimises `Σ (force·F)² + (torque·T)²` over all joints and drives, with the wrench on the
+    /// first body at the place of the joint.
     MinimumNorm(NormWeights),
-    /// What elastic supports of these compliances would carry, in the limit of stiff ones: the
-    /// least complementary energy `½·Σ (x·Fx² + y·Fy² + rotation·T²)`. Joints and drives that are
-    /// not listed are rigid.
+    /// The forces that elastic supports of these compliances would carry, in the limit of stiff
+    /// supports: minimises the complementary energy `½·Σ (x·Fx² + y·Fy² + rotation·T²)`. Joints and
+    /// drives that are not listed are rigid.
     Compliance(Vec<Compliance>),
-    /// No reaction in these rows (from 0).
+    /// Sets the reactions in these rows (from 0) to zero.
     Elimination(Vec<usize>),
 }
 
-/// What forces and torques are divided by before they are added up.
+/// Weights of forces and torques in a norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormWeights {
     /// 1/N
@@ -60,7 +60,7 @@ impl NormWeights {
         torque: 1e3,
     };
 
-    /// Torques count as forces at this arm (m).
+    /// Divides torques by this arm (m), so that they count as forces.
     #[must_use]
     pub fn with_arm(length: f64) -> Self {
         Self {
@@ -70,7 +70,7 @@ impl NormWeights {
     }
 }
 
-/// How a joint or drive gives way, in global components at its place.
+/// Compliance of a joint or drive, in global components at its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compliance {
     /// The joint or drive.
@@ -83,13 +83,13 @@ pub struct Compliance {
     pub rotation: f64,
 }
 
-/// One solution, with what of it is a fact and what a choice.
+/// One solution, in which each number is marked as unique or as chosen.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Distribution {
-    /// The choice.
+    /// Name of the choice.
     pub label: Label,
-    /// Joints and drives in the order of their rows.
+    /// Reactions of joints and drives in the order of their rows.
     pub reactions: Vec<ReactionValues>,
     /// The multiplier of each row.
     pub multipliers: Vec<Value>,
@@ -97,7 +97,7 @@ pub struct Distribution {
     lambda: Vec<f64>,
 }
 
-/// A reaction on the first body, at its place.
+/// A reaction on the first body, at the place of the joint.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ReactionValues {
@@ -105,12 +105,12 @@ pub struct ReactionValues {
     pub id: ConstraintId,
     /// Its name.
     pub name: String,
-    /// Components (N, N·m) that are not identically zero, by name.
+    /// Components (N, N·m) that are not identically zero, with their names.
     pub components: Vec<(&'static str, Value)>,
 }
 
 impl Distribution {
-    /// Any other number of the same solution.
+    /// Another number of the same solution, given as a linear form of the multipliers.
     ///
     /// # Errors
     /// [`RequestError::Length`]: the form belongs to another mechanism.
@@ -122,7 +122,7 @@ impl Distribution {
         self.value_in(&Extent::Whole, configuration, form)
     }
 
-    /// Any other number of a part.
+    /// Another number of a part.
     pub(crate) fn value_in(
         &self,
         extent: &Extent,
@@ -132,7 +132,7 @@ impl Distribution {
         let lambda = extent.of_rows(&self.lambda);
         check("multipliers", &lambda, form.coefficients().len())?;
         Ok(match configuration.judge(form)?.verdict {
-            // From the best rows there are, whatever the choice.
+            // A unique number is computed from λ₀, the most accurate solution, whatever the choice.
             Verdict::Unique => {
                 Value::Unique(configuration.value(form, &extent.of_rows(&self.lambda_0)))
             }
@@ -143,8 +143,8 @@ impl Distribution {
         })
     }
 
-    /// One solution of the whole, made of those of its parts; `reactions` and `rows` are numbers of
-    /// joints and rows.
+    /// Assembles one solution of the whole mechanism from those of its parts; `reactions` and
+    /// `rows` are the numbers of joints and rows.
     pub(crate) fn of_parts(
         label: Label,
         lambda_0: &[f64],
@@ -176,14 +176,15 @@ impl Distribution {
 }
 
 impl Configuration<'_> {
-    /// The distribution that a choice makes of one solution λ₀, as [`Equations::multipliers`] gives
-    /// it.
+    /// The solution selected by a choice, starting from one solution λ₀ as returned by
+    /// [`Equations::multipliers`].
     ///
     /// # Errors
-    /// - [`ChoiceError::Undecided`]: the rank is.
-    /// - [`ChoiceError::Rows`]: rows that cannot be eliminated.
-    /// - [`ChoiceError::Indeterminate`], [`ChoiceError::Hidden`]: the choice leaves something open.
-    /// - [`ChoiceError::Weight`], [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: wrong
+    /// - [`ChoiceError::Undecided`]: the rank is undecided.
+    /// - [`ChoiceError::Rows`]: these rows cannot be eliminated.
+    /// - [`ChoiceError::Indeterminate`], [`ChoiceError::Hidden`]: the choice does not determine the
+    ///   solution.
+    /// - [`ChoiceError::Weight`], [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: invalid
     ///   numbers.
     pub fn distribute(
         &self,
@@ -201,7 +202,7 @@ impl Configuration<'_> {
         )
     }
 
-    /// The same by this name.
+    /// Like [`Self::distribute`], with this label.
     pub(crate) fn distribute_as(
         &self,
         lambda_0: &[f64],
@@ -247,8 +248,7 @@ impl Configuration<'_> {
         Ok(distribution)
     }
 
-    /// The number that a form makes of multipliers; zero where it is less than their rounding
-    /// leaves open.
+    /// The value of a linear form of the multipliers; zero if it is below their rounding error.
     ///
     /// # Panics
     /// If there is not one multiplier for each row.
@@ -266,11 +266,12 @@ impl Configuration<'_> {
         }
     }
 
-    /// The λ of least norm by these weights among all solutions that a solution λ₀ stands for.
+    /// The λ of least norm with these weights among all solutions `λ₀ + Z·y`.
     ///
     /// # Errors
-    /// - [`ChoiceError::Hidden`]: the wrenches on first bodies do not show all that is free.
-    /// - [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: wrong numbers.
+    /// - [`ChoiceError::Hidden`]: some free direction does not change the wrenches on the first
+    ///   bodies.
+    /// - [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: invalid numbers.
     pub fn least_norm(&self, lambda_0: &[f64], w: NormWeights) -> Result<Vec<f64>, ChoiceError> {
         for value in [w.force, w.torque] {
             if !(value.is_finite() && value > 0.0) {
@@ -289,14 +290,14 @@ impl Configuration<'_> {
                 if !(compliance.is_finite() && compliance >= 0.0) {
                     return Err(ChoiceError::Weight { value: compliance });
                 }
-                // Springs in series give way one after the other.
+                // Compliances of springs in series add up.
                 *total += compliance;
             }
         }
         self.least(lambda_0, |id| of_joint[id.0])
     }
 
-    /// The least weighted sum of squares of all wrenches.
+    /// Minimises the weighted sum of squares of all wrenches.
     fn least(
         &self,
         lambda_0: &[f64],
@@ -314,7 +315,7 @@ impl Configuration<'_> {
         minimise(&self.solvability, lambda_0, &terms)
     }
 
-    /// Checks that whatever is free to change can be seen in the wrenches.
+    /// Checks that every free direction changes at least one of the wrenches.
     fn check_visible(&self, terms: &[(LinearForm, f64)]) -> Result<(), ChoiceError> {
         let p = self.solvability.null_space().ncols();
         let tolerance = rank::support_tolerance(self.solvability.decision());
@@ -343,8 +344,8 @@ impl Configuration<'_> {
         Ok(())
     }
 
-    /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D` with Z from the dependence of the rows D on the others, for which Z_D
-    /// = I: exactly zero on D.
+    /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D`, with Z from the dependence of the rows D on the others, for which Z_D
+    /// = I; the result is exactly zero on D.
     fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
         let c = dimensionless(
             &self.reactions.mechanism,
@@ -379,7 +380,7 @@ impl Configuration<'_> {
         }
     }
 
-    /// Joints and drives that share loads with others and are not listed: they do not give way.
+    /// Joints and drives that share loads with others but are not listed: they count as rigid.
     pub(crate) fn rigid(&self, listed: &[Compliance]) -> Vec<ConstraintId> {
         let groups = &self.reactions.mechanism.layout().groups;
         let shares = |id: &ConstraintId| {

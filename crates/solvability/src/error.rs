@@ -1,4 +1,4 @@
-//! Why no analysis can be made.
+//! Errors of the analysis.
 
 use rank::{KeptRowsError, RankError};
 
@@ -6,57 +6,57 @@ use crate::limits::ROWS_MAX;
 use crate::matrices::QueryError;
 use crate::state::StateError;
 
-/// Why no analysis can be made.
+/// Reason why a configuration cannot be analysed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnalysisError {
-    /// Time or coordinates are none of this mechanism.
+    /// Time or coordinates are not valid for this mechanism.
     #[error(transparent)]
     State(#[from] StateError),
-    /// The constraint matrix cannot be judged.
+    /// The constraint matrix cannot be analysed.
     #[error("at t = {time} s: {source}")]
     Rank {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Why.
+        /// Cause.
         source: RankError,
     },
-    /// Joints that share cycles are too many for the rank of their rows.
+    /// Too many joints share cycles for the rank of their rows to be decided.
     #[error("at t = {time} s: {rows} rows share cycles: {source}")]
     Large {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Their rows.
+        /// Number of their rows.
         rows: usize,
-        /// Why.
+        /// Cause.
         source: rank::SparseRankError,
     },
-    /// Rows to drop can be chosen in a part of fewer rows only.
+    /// The rows to drop can be chosen only in a part with fewer rows.
     #[error(
         "at t = {time} s: the rows that are dropped cannot be chosen where {rows} rows share cycles; up to {max} rows they can, and elsewhere in \
          this mechanism",
         max = ROWS_MAX
     )]
     Chosen {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Rows of the part.
+        /// Number of rows of the part.
         rows: usize,
     },
-    /// A verdict cannot be asked for.
+    /// A requested verdict cannot be computed.
     #[error("at t = {time} s: {source}")]
     Query {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Why.
+        /// Cause.
         source: QueryError,
     },
-    /// The rows asked to be dropped cannot be.
+    /// The rows that were to be dropped cannot be dropped.
     #[error("at t = {time} s these rows cannot be dropped: {source}")]
     Rows {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Why; rows are counted from 0 here.
+        /// Cause; rows are counted from 0 here.
         source: KeptRowsError,
     },
 }

@@ -1,10 +1,11 @@
-//! Existence before uniqueness: redundant rows must agree. Of each circuit `Σ z_i·row_i = 0` the
+//! Existence before uniqueness: redundant rows must agree. For each circuit `Σ z_i·row_i = 0` the
 //! right-hand sides must satisfy the same sum: `Σ z_i·b_i = 0` or no velocity exists,
-//! `Σ z_i·Γ_i = 0` or no acceleration does. At position level the residuals of Φ take their place:
-//! that of a circuit does not vanish where a row was redundant only elsewhere.
+//! `Σ z_i·Γ_i = 0` or no acceleration does. At position level the residuals of Φ take the place of
+//! the right-hand sides: their sum over a circuit does not vanish if a row was redundant only at
+//! another configuration.
 //!
-//! Nothing is decided here about the rank: contradictions are those of the circuits of decided
-//! ranks. Drives that take part are named, with what each of them asks for.
+//! Nothing is decided here about the rank: the circuits are those of ranks that have been decided.
+//! Drives in a contradiction are named, together with the motion that each of them prescribes.
 
 mod demands;
 mod drives;
@@ -22,7 +23,7 @@ use crate::words;
 pub use demands::Demand;
 pub use drives::{contradicting_drives, contradicting_drives_along};
 
-/// Where rows are compared.
+/// The level at which rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstraintLevel {
     /// Φ = 0
@@ -34,7 +35,7 @@ pub enum ConstraintLevel {
 }
 
 impl ConstraintLevel {
-    /// Unit of a row of lengths or of angles.
+    /// Unit of a row, for lengths or for angles.
     fn unit(self, angular: bool) -> &'static str {
         match (self, angular) {
             (Self::Position, false) => "m",
@@ -57,31 +58,32 @@ impl std::fmt::Display for ConstraintLevel {
     }
 }
 
-/// Redundant rows that cannot hold together.
+/// Redundant rows that contradict each other.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("at t = {time} s {}. {}", self.what(), self.advice())]
 #[non_exhaustive]
 pub struct Contradiction {
-    /// When.
+    /// Time (s).
     pub time: f64,
     /// The rows of one circuit.
     pub rows: Vec<RowLabel>,
     /// Position, velocity or acceleration.
     pub level: ConstraintLevel,
-    /// What one row would have to change by to agree with the others: the last one that depends on
-    /// time, or else the last one. At position level to first order.
+    /// How much one row would have to change to agree with the others: the last row that depends on
+    /// time, or else the last row. At position level it is accurate to first order.
     pub size: f64,
     /// Unit of `size`.
     pub unit: &'static str,
-    /// Up to here `size` would be rounding.
+    /// A `size` up to this value would be rounding.
     pub tolerance: f64,
-    /// How many joints and drives with functions of time take part.
+    /// Number of joints and drives with functions of time that take part.
     pub drives: usize,
-    /// What the drives among them ask for, in the order of their rows; of accelerations that no
-    /// drive takes part in, what the drives ask for that leave the bodies no other velocities.
+    /// What the drives among them prescribe, in the order of their rows. For a contradiction of
+    /// accelerations without a drive: what the drives prescribe that leave the bodies no other
+    /// velocities.
     pub demands: Vec<Demand>,
-    /// Whether these drives take no part in the rows: they ask for velocities with which the rows
-    /// cannot go on.
+    /// Whether these drives are not among the rows, but prescribe velocities with which the rows
+    /// cannot continue to hold.
     pub is_forced: bool,
 }
 
@@ -92,14 +94,15 @@ impl Contradiction {
         !self.demands.is_empty()
     }
 
-    /// The rows of drives, and those of joints.
+    /// Splits the rows into those of drives and those of joints.
     #[must_use]
     pub fn split_rows(&self) -> (Vec<&RowLabel>, Vec<&RowLabel>) {
         let is_drive = |row: &&RowLabel| self.demands.iter().any(|d| d.drive == row.joint);
         self.rows.iter().partition(is_drive)
     }
 
-    /// Drives that leave the rows no way to go on, if it is these that contradict each other.
+    /// Names of the drives that force the contradicting rows; empty if the drives are among the
+    /// rows.
     #[must_use]
     pub fn forcing(&self) -> Vec<&str> {
         let demands = self.demands.iter().filter(|_| self.is_forced);
@@ -195,25 +198,25 @@ fn of_rows(rows: &[String]) -> String {
 /// Rank decisions at one configuration.
 #[derive(Clone, Copy, Debug)]
 pub struct Ranks<'a> {
-    /// Of all rows of C.
+    /// Decision on all rows of C.
     pub all: &'a RankDecision,
-    /// Of the rows of Φq alone.
+    /// Decision on the rows of Φq alone.
     pub holonomic: &'a RankDecision,
 }
 
 /// Contradictions between redundant rows at time t, coordinates q and velocities v, at all three
-/// levels; the one that exceeds its tolerance most comes first. Kept rows must hold: `Φ_K = 0` and
-/// `C_K·v = b_K` to rounding.
+/// levels, the largest excess over the tolerance first. The kept rows must be satisfied: `Φ_K = 0`
+/// and `C_K·v = b_K` to rounding.
 ///
 /// The sum over a circuit is compared with the size of the terms that cancel in it, times the noise
-/// of the coefficients, [`rank::support_tolerance`]: near a singular configuration kept rows
-/// express the dropped ones with coefficients that are wrong by 1/σ_r roundings, and an agreement
-/// cannot be better than that. Rows that mix with those of the circuit count, others do not, so
-/// that nothing elsewhere hides a contradiction; velocities count as known to the same share of the
-/// fastest one.
+/// of the coefficients, [`rank::support_tolerance`]: near a singular configuration the coefficients
+/// that express dropped rows by kept rows have errors of 1/σ_r roundings, and the agreement cannot
+/// be better than that. Only rows that are coupled with those of the circuit count, so that large
+/// terms elsewhere do not hide a contradiction. Velocities are taken as accurate to the same
+/// fraction of the largest one.
 ///
 /// # Errors
-/// If the state has not as many numbers as the mechanism, or one of them is not finite.
+/// If the state has the wrong number of values, or one of them is not finite.
 pub fn contradictions(
     mechanism: &Mechanism,
     t: f64,
@@ -231,7 +234,7 @@ pub fn contradictions(
     mechanism.gamma(&mut s);
     let size = scene_size(mechanism, q);
     let prescribed = |i: usize| mechanism.scales(&s).prescribed(i);
-    // Velocities are known to rounding of the fastest, also those of slow bodies.
+    // Velocities are accurate to the rounding of the largest one, even those of slow bodies.
     let noise = rank::support_tolerance(ranks.all).max(f64::EPSILON);
     let units = velocity_units(mechanism, size);
     let fastest = v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
@@ -281,17 +284,17 @@ pub fn contradictions(
 /// Values of all rows at one level, and the size of their terms.
 struct Comparison<'a> {
     level: ConstraintLevel,
-    /// Where functions of time have been evaluated.
+    /// Scratch in which functions of time have been evaluated.
     prescribed: &'a Scratch,
     decision: &'a RankDecision,
     values: &'a [f64],
     scale: &'a dyn Fn(usize) -> f64,
-    /// Contradictions below this share of the terms are not told, also above rounding.
+    /// Contradictions below this fraction of the terms are not reported, even if above rounding.
     share: f64,
 }
 
 impl Comparison<'_> {
-    /// Of the shortest circuits.
+    /// Contradictions of the shortest circuits.
     fn contradictions(&self, mechanism: &Mechanism, time: f64) -> Vec<Contradiction> {
         match self.decision.redundancy {
             0 => Vec::new(),
@@ -299,7 +302,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Of these circuits.
+    /// Contradictions of the given circuits.
     fn among(
         &self,
         circuits: Vec<Circuit>,
@@ -309,7 +312,7 @@ impl Comparison<'_> {
         let rows = rank::components(self.decision);
         let noise = rank::support_tolerance(self.decision);
         let term = |&i: &usize| self.decision.scaling.row_factor(i) * (self.scale)(i);
-        // Rows in no dependency: what is left of their coefficients is rounding.
+        // Rows in no dependency: the remainder of their coefficients is rounding.
         let left = self.decision.equilibrated_dependence();
         let coefficient = |i: &usize| {
             let k = self.decision.kept.binary_search(i).ok();
@@ -323,8 +326,8 @@ impl Comparison<'_> {
             .iter()
             .filter_map(|circuit| {
                 let first = circuit.rows.first()?;
-                // Coefficients of rows that mix with these may be wrong by the noise, also those
-                // that count as zero.
+                // Coefficients of rows that are coupled with these may have an error of this size,
+                // including those that count as zero.
                 let component = rows.coupled.iter().find(|rows| rows.contains(first))?;
                 let terms: f64 = component.iter().map(term).sum();
                 self.contradiction(mechanism, time, circuit, noise * terms + aside)
@@ -385,8 +388,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// What data within a stated tolerance make of the sum over a circuit of positions; zero where
-    /// none is stated.
+    /// How much data within a stated tolerance change the sum over a circuit of positions; zero if
+    /// no tolerance is stated.
     fn within_data(&self, mechanism: &Mechanism, circuit: &Circuit) -> f64 {
         let blocks = mechanism.data().blocks(self.prescribed);
         if self.level != ConstraintLevel::Position || blocks.iter().all(|b| b.tolerance.is_none()) {
@@ -403,8 +406,9 @@ impl Comparison<'_> {
                 .phi_change(self.prescribed, &weights, &blocks, moved)
     }
 
-    /// Drives that move the bodies of these rows and with the joints leave them no other
-    /// velocities, as groups; none if there are others, with which the rows might go on.
+    /// Drives that move the bodies of these rows and, together with the joints, leave them no other
+    /// velocities; numbers of groups. Empty if other velocities exist, with which the rows might
+    /// continue to hold.
     fn forcing(&self, mechanism: &Mechanism, rows: &[usize]) -> BTreeSet<usize> {
         let layout = mechanism.layout();
         let group = |row: usize| layout.groups.partition_point(|g| g.rows.end <= row);

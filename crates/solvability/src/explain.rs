@@ -1,8 +1,8 @@
-//! Why reactions are not unique, in words and as directions that can be drawn: which joints mix,
-//! which loads they can put on each other without any effect, and what of a reaction is determined
-//! all the same.
+//! Explains why reactions are not unique, as text and as directions that can be drawn: which joints
+//! share loads, which loads they can put on each other without any effect on the motion, and which
+//! part of a reaction is determined nevertheless.
 //!
-//! Nothing is claimed of a sum or a component that has not been tested against all dependencies.
+//! A statement about a sum or a component is made only after a test against all dependencies.
 
 use crate::limits::VISIBLE;
 use crate::pose::TRANSLATIONS;
@@ -15,21 +15,22 @@ use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
 
-/// What there is to say about the redundancy of a configuration.
+/// Explanation of the redundancy of a configuration.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Explanation {
     /// One self-stress for each degree of redundancy, short ones first.
     pub stresses: Vec<SelfStress>,
-    /// Joints and drives whose reactions mix, by their first row.
+    /// Sets of joints and drives whose reactions are coupled, ordered by their first row.
     pub mixing: Vec<Mixing>,
     /// The reactions that are not unique, in the order of their rows.
     pub reactions: Vec<ReactionExplanation>,
-    /// Joints and drives that the structure alone settles as unique, with the reason.
+    /// Joints and drives whose reactions are unique because of the structure alone, with the
+    /// reason.
     pub settled: Vec<(ConstraintId, Settled)>,
 }
 
-/// Loads that joints can put on each other without any force on any body.
+/// Loads that joints can put on each other while the total force on each body is zero.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SelfStress {
@@ -37,25 +38,25 @@ pub struct SelfStress {
     pub rows: Vec<usize>,
     /// `Σ coefficient·row = 0`, the largest coefficient 1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene
-    /// only; zero where none does.
+    /// The largest coefficient (rows scaled) that counts as zero only within the tolerance of the
+    /// scene; zero if there is none.
     pub left_out: f64,
-    /// What each joint carries, in the order of rows; the largest force is 1 N, or the largest
-    /// torque 1 N·m if there is no force.
+    /// Load on each joint, in the order of rows. The largest force is 1 N, or the largest torque is
+    /// 1 N·m if there is no force.
     pub directions: Vec<FreeDirection>,
-    /// What it means.
+    /// Explanation as text.
     pub text: String,
 }
 
-/// What one joint or drive carries in a self-stress.
+/// Load on one joint or drive in a self-stress.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FreeDirection {
     /// The joint or drive.
     pub joint: ConstraintId,
-    /// Its bodies; the force acts on the first.
+    /// Its bodies; the force acts on the first one.
     pub bodies: Vec<BodyRef>,
-    /// Where it acts (m), global components.
+    /// Point at which the force acts (m), global components.
     pub place: [f64; 2],
     /// Fx, Fy (N), global components.
     pub force: [f64; 2],
@@ -63,17 +64,17 @@ pub struct FreeDirection {
     pub torque: f64,
 }
 
-/// Joints and drives whose reactions mix in some dependency.
+/// Joints and drives whose reactions are coupled by dependencies.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Mixing {
-    /// Which.
+    /// The joints and drives.
     pub reactions: Vec<ConstraintId>,
     /// Rows of C, from 0.
     pub rows: Vec<usize>,
-    /// How many numbers are missing to tell all of them.
+    /// Number of further conditions that would determine all of these reactions.
     pub redundancy: usize,
-    /// The same in words.
+    /// Explanation as text.
     pub text: String,
 }
 
@@ -81,29 +82,29 @@ pub struct Mixing {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ReactionExplanation {
-    /// Which.
+    /// The joint or drive.
     pub id: ConstraintId,
-    /// With whom it shares load, and what of it is determined.
+    /// Joints with which it shares loads, and the part of the reaction that is determined.
     pub text: String,
 }
 
-/// Why nothing can be explained.
+/// Reason why there is no explanation.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExplanationError {
-    /// The constraint matrix cannot be judged.
+    /// The constraint matrix cannot be analysed.
     #[error(transparent)]
     Rank(#[from] rank::RankError),
-    /// The rank is undecided, and every sentence would build on one of two readings.
+    /// The rank is undecided, so every sentence would depend on one of two possible ranks.
     #[error("nothing can be explained while the rank is undecided: {0}")]
     Undecided(rank::Doubt),
-    /// The solvability is of another constraint matrix.
+    /// The solvability belongs to another constraint matrix.
     #[error(transparent)]
     Query(#[from] QueryError),
 }
 
 impl Explanation {
-    /// Numbers of a part become those of the whole.
+    /// Converts the numbers of a part to those of the whole mechanism.
     pub(crate) fn renumber(
         &mut self,
         row: impl Fn(usize) -> usize,
@@ -125,7 +126,7 @@ impl Explanation {
         self.settled.iter_mut().for_each(|s| s.0 = id(s.0));
     }
 
-    /// Adds that of another part.
+    /// Adds the explanation of another part.
     pub(crate) fn add(&mut self, other: Self) {
         self.stresses.extend(other.stresses);
         self.mixing.extend(other.mixing);
@@ -133,7 +134,7 @@ impl Explanation {
         self.settled.extend(other.settled);
     }
 
-    /// Puts what was told of several parts in order.
+    /// Sorts the explanations of several parts.
     pub(crate) fn sort(&mut self) {
         self.mixing
             .sort_by_key(|mixing| mixing.rows.first().copied());
@@ -157,7 +158,7 @@ pub fn explain(
     }
     let structure = crate::structure::structure(mechanism, s, q)?;
     let mut mixing = mixing(mechanism, solvability);
-    // What the tolerance leaves open is not told as if it were known.
+    // Rows left open by the tolerance are not reported as decided.
     let open = rank::open_rows(solvability.decision());
     let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
     mixing.retain(|m| is_known(&m.rows));
@@ -170,7 +171,8 @@ pub fn explain(
         .filter(|circuit| is_known(&circuit.rows))
         .map(|circuit| stress(mechanism, s, q, solvability, circuit))
         .collect();
-    // What the shape settles for the numbers as they stand may be open within a tolerance.
+    // A reaction that the structure makes unique for the exact numbers may be undecided within a
+    // tolerance.
     let is_unique = |id: &ConstraintId| {
         let rows = mechanism.layout().groups[id.0].rows.clone();
         let judged = solvability.group(rows);
@@ -189,7 +191,7 @@ pub fn explain(
     })
 }
 
-/// Components of rows, joined where one joint has rows in several.
+/// Components of coupled rows, merged if one joint has rows in several of them.
 fn mixing(mechanism: &Mechanism, solvability: &Solvability) -> Vec<Mixing> {
     let layout = mechanism.layout();
     let decision = solvability.decision();
@@ -342,8 +344,8 @@ fn stress(
     }
 }
 
-/// Largest force 1, or largest torque 1 where forces are rounding beside torques divided by the
-/// size; rounding set to zero.
+/// Scales the loads to largest force 1, or to largest torque 1 if all forces are rounding relative
+/// to the torques divided by the size. Rounding is set to zero.
 fn normalise(directions: &mut [FreeDirection], size: f64) {
     let force = |d: &FreeDirection| d.force[0].hypot(d.force[1]);
     let force = directions.iter().map(force).fold(0.0, f64::max);

@@ -1,6 +1,7 @@
-//! Components of reactions in the frames in which engineers think: global, of the first body, along
-//! and across an edge. What is mixed in one frame may be separate in another: of a crank's bearing
-//! force the part across the crank is unique, whatever the global components say.
+//! Components of reactions in the frames that engineers use: global, of the first body, along and
+//! across an edge. Components that are coupled in one frame may be independent in another: the
+//! bearing force of a crank has a unique component across the crank, whatever its global components
+//! are.
 
 use model::{ConstraintId, Frame, Mechanism};
 use rank::RankDecision;
@@ -16,8 +17,9 @@ pub struct FrameVerdict {
     pub frame: Frame,
     /// Unit vectors of its axes, global components.
     pub axes: [[f64; 2]; 2],
-    /// Along the first axis, along the second, torque about the place of the joint; names as
-    /// [`Frame::components`] has them. A component that is identically zero is unique.
+    /// Verdicts on the components along the first axis, along the second axis, and on the torque
+    /// about the place of the joint; named as in [`Frame::components`]. A component that is
+    /// identically zero is unique.
     pub components: [Judgement; 3],
 }
 
@@ -26,11 +28,12 @@ pub struct FrameVerdict {
 pub struct FrameForms {
     /// Unit vectors of the axes, global components.
     pub axes: [[f64; 2]; 2],
-    /// As in [`FrameVerdict`].
+    /// The components, in the order of [`FrameVerdict`].
     pub components: [LinearForm; 3],
 }
 
-/// Judges the reaction of a joint or drive at time t and coordinates q in all frames that it has.
+/// Determines the verdicts on the reaction of a joint or drive at time t and coordinates q, in all
+/// frames that it has.
 ///
 /// ```
 /// use joints::Revolute;

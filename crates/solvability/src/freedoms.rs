@@ -1,14 +1,14 @@
-//! What can move: rank, redundancy and mobility of the rows without those of drives, and free
-//! motions in words and numbers.
+//! Degrees of freedom: rank, redundancy and mobility of the rows without those of drives, and the
+//! free motions as text and numbers.
 //!
-//! A drive fills the rank like any row: with its drive a four-bar has mobility 0, as a truss has.
-//! Without drives the two differ, and the motions that are left say how. Ranks are those of
-//! [`crate::analyse`] and its machinery; nothing is decided here. Free motions are those of first
-//! order at one configuration: velocities v with `C·v = 0`.
+//! A drive adds to the rank like any other row: with its drive, a four-bar has mobility 0, like a
+//! truss. Without drives the two differ, and the remaining motions show how. The ranks are those of
+//! [`crate::analyse`]; nothing is decided here. Free motions are of first order at one
+//! configuration: velocities v with `C·v = 0`.
 //!
-//! A basis of these velocities is a matter of choice. Bodies that no joint connects move apart; of
-//! connected ones each motion moves as few joints as a search finds, and as few bodies; a body that
-//! nothing holds is told as free.
+//! A basis of these velocities is a matter of choice. Bodies that no joint connects move
+//! separately. Of connected bodies, each motion moves as few joints as a search finds, and then as
+//! few bodies. A body that is attached to nothing is reported as free.
 
 mod basis;
 mod component;
@@ -31,36 +31,36 @@ pub use ranks::WithoutDrives;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Freedoms {
-    /// n_v − r
+    /// Mobility n_v − r.
     pub mobility: usize,
-    /// What moves while the drives stand still.
+    /// Motions that are possible while the drives are locked.
     pub motions: FreeMotions,
-    /// The same without the drives. `None` if there are none.
+    /// The freedoms without the drives. `None` if there are no drives.
     pub without_drives: Option<FreedomsWithoutDrives>,
-    /// Whether nothing moves whatever the drives do: no velocity is left without them, and no joint
-    /// follows a function of time.
+    /// Whether nothing can move, whatever the drives do: no velocity is free without them, and no
+    /// joint depends on a function of time.
     pub cannot_move: bool,
 }
 
-/// What can move where nothing is driven.
+/// What can move if the drives are removed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FreedomsWithoutDrives {
-    /// How many drives are left out.
+    /// Number of drives that are removed.
     pub drives: usize,
     /// Rank and redundancy of the other rows.
     pub ranks: WithoutDrives,
-    /// Their n_v − r.
+    /// Mobility n_v − r of these rows.
     pub mobility: usize,
-    /// What moves.
+    /// Motions that are possible.
     pub motions: FreeMotions,
 }
 
 impl Analysis {
-    /// What can move at the configuration q of the analysis.
+    /// Determines what can move at the configuration q of the analysis.
     ///
     /// # Errors
-    /// If q is no configuration of this mechanism.
+    /// If q is not a configuration of this mechanism.
     pub fn freedoms(&self, mechanism: &Mechanism, q: &[f64]) -> Result<Freedoms, StateError> {
         let decided = self.parts.iter().map(|part| Decided {
             rows: (0..part.rows()).map(|k| part.extent.row(k)).collect(),
@@ -73,7 +73,7 @@ impl Analysis {
 }
 
 impl Freedoms {
-    /// From the ranks of all rows, part by part.
+    /// Computes the freedoms from the ranks of all rows, part by part.
     fn of(
         mechanism: &Mechanism,
         t: f64,

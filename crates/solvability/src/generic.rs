@@ -1,10 +1,10 @@
-//! Is a redundancy permanent, or only of this configuration? The rank is constant on each connected
-//! component of the configuration set except on a nowhere dense part of it, so a few other points
-//! of the same component tell.
+//! Is a redundancy permanent, or present at this configuration only? The rank is constant on each
+//! connected component of the configuration set except on a nowhere dense part of it, so the ranks
+//! at a few other points of the same component decide.
 //!
-//! The mechanism walks there on its constraints, by steps along its free directions. Drives are
-//! left free: what they prescribe changes with time. Where other constraints depend on time, time
-//! moves too.
+//! Other points are reached by steps along the free directions of the constraints. Drives are left
+//! out, because the values they prescribe change with time. If other constraints depend on time,
+//! time changes as well.
 
 use crate::limits::{
     GENERIC_HALVINGS, GENERIC_STEP, GENERIC_STEPS, ONE_PART, POINTS, POINTS_APART, WALKS,
@@ -20,9 +20,9 @@ use crate::certificate::Rows;
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generic {
-    /// The smallest redundancy found: that of almost all configurations.
+    /// The smallest redundancy found, which holds at almost all configurations.
     pub redundancy: usize,
-    /// What was compared.
+    /// The configurations that were compared.
     pub points: Vec<Elsewhere>,
 }
 
@@ -30,9 +30,9 @@ pub struct Generic {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Elsewhere {
-    /// Its time (s).
+    /// Time (s).
     pub time: f64,
-    /// Its coordinates.
+    /// Coordinates, n_q.
     pub q: Vec<f64>,
     /// Rank of C.
     pub rank: usize,
@@ -40,9 +40,10 @@ pub struct Elsewhere {
     pub redundancy: usize,
 }
 
-/// Ranks at other configurations than (t, q), which must lie on the constraints. `None` if none was
-/// found at which the rank is decided (a structure that cannot move has none), if there are more
-/// than [`ONE_PART`], or if t and q are no configuration of this mechanism.
+/// Ranks at configurations other than (t, q), which must satisfy the constraints. Returns `None` if
+/// no configuration was found at which the rank is decided (a structure that cannot move has no
+/// others), if there are more than [`ONE_PART`] rows, or if t and q are not a configuration of this
+/// mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     crate::state::check_configuration(mechanism, t, q).ok()?;
@@ -75,15 +76,16 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     Some(Generic { redundancy, points })
 }
 
-/// Largest part of a displacement: a share of the mechanism's size, or radians.
+/// The largest component of a displacement, as a fraction of the size of the mechanism or in
+/// radians.
 fn length(d: impl Iterator<Item = f64>, units: &[f64], size: f64) -> f64 {
     d.zip(units)
         .map(|(d, unit)| (d / unit / size).abs())
         .fold(0.0, f64::max)
 }
 
-/// Whether the degree of redundancy is the same at other configurations. `None` where [`generic`]
-/// finds none, or the rank here is undecided.
+/// Whether the degree of redundancy is the same at other configurations. Returns `None` if
+/// [`generic`] does, or if the rank at this configuration is undecided.
 #[must_use]
 pub fn is_permanent(
     mechanism: &Mechanism,
@@ -95,7 +97,7 @@ pub fn is_permanent(
     Some(found.redundancy == decision.redundancy)
 }
 
-/// Rows of Φ that hold wherever the drives are.
+/// Rows of Φ that do not belong to drives.
 fn lasting_rows(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
     let lasting = layout.groups.iter().filter(|g| !g.is_drive());
@@ -105,7 +107,7 @@ fn lasting_rows(mechanism: &Mechanism) -> Vec<usize> {
         .collect()
 }
 
-/// The end of one walk, if it led away.
+/// The last point of one walk, if it moved away from the start.
 fn walk_from(
     mechanism: &Mechanism,
     from: &(f64, Vec<f64>),
@@ -115,7 +117,7 @@ fn walk_from(
     walk: usize,
 ) -> Option<(f64, Vec<f64>)> {
     let moves_time = has_lasting_function(mechanism);
-    // Walks of different lengths do not lead back.
+    // Different step lengths prevent the walks from returning to the start.
     let stride = GENERIC_STEP * (1.0 + 0.5 * spread(walk + 1));
     let (mut t, mut q) = from.clone();
     let mut heading: Option<Vec<f64>> = None;
@@ -126,7 +128,7 @@ fn walk_from(
         }
         let mut step = match &heading {
             None => mixed(&directions, walk),
-            // What is free of the last step.
+            // The projection of the last step onto the free directions.
             Some(last) => directions.transpose_times(&directions.times(last)),
         };
         heading = Some(step.clone());
@@ -163,7 +165,8 @@ fn has_lasting_function(mechanism: &Mechanism) -> bool {
 /// The rank at a point, if it is decided there.
 fn elsewhere(mechanism: &Mechanism, (t, q): &(f64, Vec<f64>), rows: &[usize]) -> Option<Elsewhere> {
     let mut s = crate::pose::evaluated(mechanism, *t, q);
-    // Drives were left free: their rows say nothing of this configuration.
+    // Drives were left out of the walk, so the residuals of their rows say nothing about the
+    // accuracy of this configuration.
     for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
         s.phi[i] = 0.0;
     }
@@ -176,7 +179,7 @@ fn elsewhere(mechanism: &Mechanism, (t, q): &(f64, Vec<f64>), rows: &[usize]) ->
     })
 }
 
-/// Basis of the dimensionless velocities that these rows of Φq allow, one in each row.
+/// Basis of the dimensionless velocities that these rows of Φq allow, one velocity in each row.
 fn free_directions(
     mechanism: &Mechanism,
     t: f64,

@@ -1,6 +1,6 @@
-//! Verdicts of what a user puts together: several reactions, one number made of their components, a
-//! sum of wrenches, everything that acts on a set of bodies. The grouping is a decision of the one
-//! who asks, so each kind says what it means.
+//! Verdicts on groups that the user defines: several reactions, one number computed from their
+//! components, a sum of wrenches, everything that acts on a set of bodies. The meaning of a group
+//! is up to the user, so each kind states its own.
 
 mod configuration;
 mod error;
@@ -26,22 +26,24 @@ use crate::verdict::{Judgement, Verdict};
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct GroupVerdict {
-    /// Of the whole: where it has parts, not unique if one is not, else undecided if one is.
+    /// Verdict on the whole group. If it has parts: not unique if one part is not unique, otherwise
+    /// undecided if one part is undecided.
     pub judgement: Judgement,
     /// `Fx`, `Fy` and `T` of a sum of wrenches or a resultant; empty for other groups.
     pub components: Vec<ComponentVerdict>,
-    /// Where T of these components is about: a global point (m).
+    /// The point (m, global) about which T of these components is taken.
     pub about: Option<[f64; 2]>,
 }
 
-/// Judges groups at time t and coordinates q, where the rank has been decided.
+/// Determines the verdicts of groups at time t and coordinates q, at which the rank has been
+/// decided.
 ///
 /// # Errors
 /// - [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`],
 ///   [`RequestError::UnknownBody`]: a group names what does not exist.
-/// - [`RequestError::Empty`]: a group of nothing.
-/// - [`RequestError::NotFinite`], [`RequestError::Length`]: a coefficient is no number, or t, q and
-///   the decision do not fit the mechanism.
+/// - [`RequestError::Empty`]: a group is empty.
+/// - [`RequestError::NotFinite`], [`RequestError::Length`]: a coefficient is not a finite number,
+///   or t, q and the decision do not fit the mechanism.
 pub fn judge_groups(
     mechanism: &Mechanism,
     t: f64,
@@ -62,7 +64,7 @@ impl Configuration<'_> {
         self.group_about(group, self.reactions.about(group)?)
     }
 
-    /// The same with T of wrenches about this point.
+    /// Like [`Self::group`], with T of wrenches about this point.
     pub(crate) fn group_about(
         &self,
         group: &Group,
@@ -133,9 +135,9 @@ fn whole(judgement: Judgement) -> GroupVerdict {
     }
 }
 
-/// The judgement of all together: not unique if one is not, else undecided if one is. Of equal
-/// verdicts that with the largest margin, NaN above all; margins of different verdicts do not
-/// compare, because each was read against its own noise.
+/// The verdict on all together: not unique if one is not unique, otherwise undecided if one is
+/// undecided. Among equal verdicts the one with the largest margin counts (NaN is the largest).
+/// Margins of different verdicts cannot be compared, because each was compared with its own noise.
 pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
     let severity = |j: &Judgement| match j.verdict {
         Verdict::Unique => 0,

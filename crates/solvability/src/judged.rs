@@ -1,52 +1,52 @@
-//! What is found of a part: verdicts of its joints and drives, and its dependencies.
+//! Results for a part: verdicts on its joints and drives, and its dependencies.
 
 use model::{ConstraintId, Mechanism};
 
 use crate::parts::{Extent, PartAnalysis};
 use crate::verdict::Judgement;
 
-/// The verdict of a joint or drive.
+/// The verdict on a joint or drive.
 #[derive(Clone, Debug)]
 pub struct ReactionVerdict {
-    /// Which one.
+    /// The joint or drive.
     pub id: ConstraintId,
     /// Its name.
     pub name: String,
-    /// Its scene type.
+    /// Its type in scene files.
     pub kind: &'static str,
-    /// The wrench: unique iff `B_X = 0`, and no component is free where a row moves no body, as
-    /// between two parts of the ground.
+    /// Verdict on the wrench: unique iff `B_X = 0` and no component is free because a row moves no
+    /// body, as between two parts of the ground.
     pub wrench: Judgement,
-    /// All its multipliers: unique iff `Z_X = 0`.
+    /// Verdict on all its multipliers together: unique iff `Z_X = 0`.
     pub multipliers: Judgement,
-    /// Each of its rows.
+    /// Verdicts on each of its rows.
     pub rows: Vec<RowVerdict>,
-    /// Each component of the reaction that is not identically zero.
+    /// Verdicts on each component of the reaction that is not identically zero.
     pub components: Vec<ComponentVerdict>,
-    /// Those of them that are zero at this configuration under any load, as the force of an edge
-    /// along itself: unique, but no finding.
+    /// Those of them that are zero at this configuration under any load, such as the force along a
+    /// knife edge: unique, but not informative.
     pub zero_components: Vec<&'static str>,
     /// Basis of the unique directions, in these components.
     pub unique_directions: Vec<Vec<f64>>,
-    /// The same without what is zero under any load: perpendicular to the directions along which
-    /// there is no reaction here. `None` if their number is undecided; there are no unique
-    /// directions then either.
+    /// Basis of the unique directions that are not zero under any load: perpendicular to the
+    /// directions along which there is no reaction here. `None` if their number is undecided; then
+    /// there are no unique directions either.
     pub live_directions: Option<Vec<Vec<f64>>>,
-    /// The largest part of the reaction that counts as zero within the tolerance of the scene only
-    /// for these to be unique; zero where none does.
+    /// The largest part of the reaction that had to count as zero within the tolerance of the scene
+    /// for these directions to be unique; zero if there is none.
     pub directions_left_out: f64,
 }
 
-/// The verdict of one row.
+/// The verdict on one row.
 #[derive(Clone, Debug)]
 pub struct RowVerdict {
     /// Row of C, from 0.
     pub row: usize,
-    /// Its multiplier.
+    /// Verdict on its multiplier.
     pub judgement: Judgement,
 }
 
-/// The verdict of one component of a reaction.
+/// The verdict on one component of a reaction.
 #[derive(Clone, Debug)]
 pub struct ComponentVerdict {
     /// `Fx`, `Fy` or `T`.
@@ -62,14 +62,14 @@ pub struct Dependency {
     pub rows: Vec<usize>,
     /// `Σ coefficient·row = 0`, the largest coefficient 1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene
-    /// only; zero where none does.
+    /// The largest coefficient (rows scaled) that counts as zero only within the tolerance of the
+    /// scene; zero if there is none.
     pub left_out: f64,
-    /// What it means.
+    /// Explanation as text.
     pub text: String,
 }
 
-/// What is found of a part, in numbers of the part until it is placed.
+/// Results for a part, in the numbers of the part until [`Self::placed`] is called.
 pub(crate) struct Judged {
     pub(crate) part: PartAnalysis,
     pub(crate) reactions: Vec<ReactionVerdict>,
@@ -78,7 +78,8 @@ pub(crate) struct Judged {
 }
 
 impl Judged {
-    /// The same in numbers of the whole; warnings say of which part they are.
+    /// Converts the results to the numbers of the whole mechanism; each warning then names its
+    /// part.
     pub(crate) fn placed(mut self, whole: &Mechanism, extent: Extent) -> Self {
         if extent.is_whole() {
             return self;

@@ -1,9 +1,9 @@
-//! One large set of joints on common cycles: its rank, and verdicts from random combinations of its
+//! A large set of joints on common cycles: its rank, and verdicts from random combinations of its
 //! left null space.
 //!
-//! A joint is read from its own rows of `W = Z·Ω` alone, as it is read from those of Z in a small
-//! mechanism, at a cost that does not depend on the degree of redundancy. Dependencies are told
-//! where those rows that depend on others fall into small sets of cycles again.
+//! The verdict on a joint is read from its own rows of `W = Z·Ω` alone, as it is read from its rows
+//! of Z in a small mechanism; the cost does not depend on the degree of redundancy. Dependencies
+//! are reported if the dependent rows split into small sets of cycles.
 
 use crate::error::AnalysisError;
 use crate::judged::{Dependency, Judged, ReactionVerdict};
@@ -21,7 +21,7 @@ use crate::mechanism::{Told, reaction};
 use crate::parts::{Extent, PartAnalysis, PartDecision, parts};
 use crate::sparse::{Decided, decide_range};
 
-/// Ranks and verdicts of a large mechanism at the pose of the scratch, where Φ and C have been
+/// Ranks and verdicts of a large mechanism at the pose of the scratch, in which Φ and C have been
 /// evaluated at coordinates q.
 ///
 /// # Errors
@@ -100,7 +100,8 @@ pub(crate) fn judge_sparse(
     })
 }
 
-/// Rank and redundancy of the joints alone, decided like all rows. `None` if there are no drives.
+/// Rank and redundancy without the drives, decided in the same way as for all rows. `None` if there
+/// are no drives.
 fn without_drives(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -126,7 +127,7 @@ fn without_drives(
     }))
 }
 
-/// Minimal dependent sets of rows, where those joints that have dependent rows share small sets of
+/// Minimal dependent sets of rows, for those joints with dependent rows that share small sets of
 /// cycles.
 fn dependencies(
     mechanism: &Mechanism,
@@ -160,7 +161,7 @@ fn dependencies(
     Ok(all)
 }
 
-/// The evidence of a sparse rank in the terms of a dense one.
+/// Converts the evidence of a sparse rank to that of a dense one.
 fn evidence(found: &SparseRank) -> Evidence {
     let e = found.evidence;
     Evidence {

@@ -13,11 +13,11 @@ pub(super) struct VerdictOf<'a> {
     pub(super) reaction: &'a str,
     pub(super) place: Place,
     pub(super) judgement: &'a Judgement,
-    /// Whether it is that of a component which is zero under any load.
+    /// Whether the verdict belongs to a component that is zero under any load.
     pub(super) is_zero: bool,
 }
 
-/// What a verdict is of, as [`Part`], with the number of a row.
+/// What a verdict belongs to: like [`Part`], with the number of a row.
 #[derive(Clone, Copy)]
 pub(super) enum Place {
     Wrench,
@@ -25,7 +25,8 @@ pub(super) enum Place {
     Row(usize),
 }
 
-/// Every verdict of an analysis; those of one mechanism come in the same order whatever they say.
+/// Iterates over all verdicts of an analysis. Analyses of the same mechanism give them in the same
+/// order, whatever the verdicts are.
 pub(super) fn verdicts<'a>(analysis: &'a Analysis) -> impl Iterator<Item = VerdictOf<'a>> {
     let of_reaction = |r: &'a ReactionVerdict| {
         let components = r.components.iter();
@@ -45,8 +46,8 @@ pub(super) fn verdicts<'a>(analysis: &'a Analysis) -> impl Iterator<Item = Verdi
     analysis.reactions.iter().flat_map(of_reaction)
 }
 
-/// Verdicts that are not the same in two analyses of one mechanism. That a component is zero says
-/// nothing of what is determined.
+/// Lists the verdicts that differ between two analyses of one mechanism. Whether a component is
+/// identically zero is not compared: it does not say whether the reaction is determined.
 pub(super) fn differences(
     mechanism: &Mechanism,
     generic: &Analysis,

@@ -1,4 +1,4 @@
-//! What is told of a motion, and why nothing is.
+//! Results of the verdicts along a motion, and the errors if there are none.
 
 use model::{RowLabel, StartError};
 use rank::Doubt;
@@ -13,11 +13,11 @@ use crate::verdict::Verdict;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Along {
-    /// The verdicts that hold almost always, at an instant where they do.
+    /// The verdicts that hold almost everywhere, at an instant at which they do.
     pub generic: Analysis,
     /// Stretches of time with other verdicts, in the order of time.
     pub stretches: Vec<Stretch>,
-    /// Instants where something is different, in the order of time.
+    /// Instants at which something differs, in the order of time.
     pub passages: Vec<Passage>,
 }
 
@@ -25,31 +25,32 @@ pub struct Along {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Stretch {
-    /// Where it begins (s).
+    /// Time at which it begins (s).
     pub from: f64,
-    /// Where it ends (s).
+    /// Time at which it ends (s).
     pub to: f64,
-    /// Degree of redundancy on it.
+    /// Degree of redundancy on this stretch.
     pub redundancy: usize,
-    /// What differs from the generic verdicts.
+    /// Verdicts that differ from the generic ones.
     pub differences: Vec<Difference>,
-    /// All this in words.
+    /// Description of the stretch as text.
     pub text: String,
 }
 
-/// An instant where something is different.
+/// An instant at which something differs.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Passage {
-    /// When (s).
+    /// Time of the instant (s).
     pub time: f64,
     /// What happens.
     pub kind: PassageKind,
-    /// From when to when the smallest non-zero singular value is below 10⁻³, if it is.
+    /// First and last time at which the smallest non-zero singular value is below 10⁻³; `None` if
+    /// it is not.
     pub nearly_singular: Option<[f64; 2]>,
-    /// What differs from the generic verdicts at this instant.
+    /// Verdicts that differ from the generic ones at this instant.
     pub differences: Vec<Difference>,
-    /// All this in words.
+    /// Description of the passage as text.
     pub text: String,
 }
 
@@ -61,20 +62,20 @@ pub enum PassageKind {
     RankDrops {
         /// Degree of redundancy at the instant.
         redundancy: usize,
-        /// How the motion goes on.
+        /// How the motion continues.
         continuation: Continuation,
     },
-    /// The configuration is nearly singular; the rank stays.
+    /// The configuration is nearly singular; the rank does not drop.
     NearlySingular {
         /// The smallest non-zero singular value.
         sigma: f64,
     },
-    /// The configuration is so nearly singular that it cannot be said whether the rank drops.
+    /// The configuration is so close to singular that it is undecided whether the rank drops.
     Undecided {
-        /// The numbers.
+        /// The singular values and the tolerance.
         doubt: Doubt,
     },
-    /// Only verdicts change, the rank stays.
+    /// Only verdicts change; the rank does not.
     Verdicts,
 }
 
@@ -84,15 +85,15 @@ pub enum PassageKind {
 pub struct Difference {
     /// Name of the joint or drive.
     pub reaction: String,
-    /// Of what the verdict is.
+    /// What the verdict belongs to.
     pub part: Part,
-    /// Almost always.
+    /// Verdict almost everywhere.
     pub generic: Verdict,
-    /// Here.
+    /// Verdict at this instant or on this stretch.
     pub here: Verdict,
 }
 
-/// What a verdict is of.
+/// What a verdict belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
     /// The whole reaction.
@@ -103,30 +104,30 @@ pub enum Part {
     Row(RowLabel),
 }
 
-/// Why a motion has no verdicts.
+/// Reason why the verdicts along a motion cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AlongError {
-    /// Sample times that are no interval.
+    /// The sample times do not form an interval.
     #[error("sample times must be finite and grow, and at least two: {found} at place {index}")]
     Times {
-        /// Place of the first wrong one, from 0.
+        /// Index of the first wrong time, from 0.
         index: usize,
-        /// The time there, NaN if there is none.
+        /// The time at this index, NaN if there is none.
         found: f64,
     },
-    /// A state of the motion is none.
+    /// A state of the motion is not valid for this mechanism.
     #[error(transparent)]
     State(#[from] StateError),
     /// A state of the motion cannot be brought onto the constraints.
     #[error("at t = {time} s the state of the motion is not on the constraints: {source}")]
     OffConstraints {
-        /// When.
+        /// Time of the state (s).
         time: f64,
-        /// Why.
+        /// Cause.
         source: StartError,
     },
-    /// The constraint matrix cannot be judged.
+    /// The constraint matrix cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
     /// Too many rows are on common cycles.
@@ -136,24 +137,24 @@ pub enum AlongError {
     Large {
         /// The first joints and drives of the part.
         joints: String,
-        /// Its rows.
+        /// Number of their rows.
         rows: usize,
-        /// Rows that are possible.
+        /// Largest number of rows that is possible.
         most: usize,
     },
-    /// The rank is decided at no sample time.
+    /// The rank is undecided at every sample time.
     #[error(
         "the rank is decided at none of the sample times; at t = {time} s singular values are {sigma_r:.3e} and then {sigma_next:.3e}, \
          with a tolerance of {tolerance:.3e}"
     )]
     Undecided {
-        /// The last time.
+        /// The last sample time (s).
         time: f64,
-        /// σ_r there, for the reading with the larger gap.
+        /// σ_r at this time, for the reading of the rank with the larger gap.
         sigma_r: f64,
         /// σ_{r+1}
         sigma_next: f64,
-        /// Below it a singular value counts as zero.
+        /// Singular values below this tolerance count as zero.
         tolerance: f64,
     },
 }

@@ -1,5 +1,5 @@
-//! Instants at which a reaction is unique that is not unique almost always, at the same rank: its
-//! margin falls to zero and rises again.
+//! Instants at which a reaction is unique that is generically not unique, while the rank stays the
+//! same: its margin falls to zero and rises again.
 
 use super::compare::{differences, verdicts};
 use super::data::{AlongError, Passage, PassageKind, Stretch};
@@ -11,8 +11,8 @@ use crate::limits::FINER;
 use crate::state::State;
 use crate::verdict::Verdict;
 
-/// Isolated instants outside the stretches that have verdicts of their own, and outside nearly
-/// singular intervals.
+/// Finds isolated instants outside the stretches that have verdicts of their own, and outside
+/// nearly singular intervals.
 pub(super) fn instants<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     generic: &Analysis,
@@ -26,8 +26,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
         let contains = |[from, to]: [f64; 2]| from <= t && t <= to;
         stretches.any(contains) || intervals.any(contains)
     };
-    // Margins of what is generically not unique, sample by sample; nothing where another verdict is
-    // known to hold.
+    // Margins of the reactions that are generically not unique, sample by sample; `None` at samples
+    // at which another verdict is already known to hold.
     let is_known = |s: &Sample| s.regular && !is_special(s.t);
     let of_all_parts = |s: &Sample| -> Option<Vec<f64>> {
         let margins = || verdicts(&s.analysis).map(|v| v.judgement.margin).collect();
@@ -40,7 +40,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
         .filter(|(_, v)| v.judgement.verdict == Verdict::NotUnique)
         .map(|(k, _)| k)
         .collect();
-    // Each analysis has as many verdicts.
+    // All analyses have the same number of verdicts.
     let margin = |analysis: &Analysis, part: usize| {
         let of_part = verdicts(analysis).nth(part);
         of_part.map_or(f64::NAN, |v| v.judgement.margin)
@@ -53,8 +53,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             .collect();
         let mut brackets = Vec::new();
         for coarse in local_minima(&times, &margins) {
-            // Two instants may share what looks like one minimum: between neighbouring samples
-            // beside each other.
+            // Two instants may share what looks like one minimum: search between neighbouring
+            // samples on each side.
             let neighbour = |t: f64, side: isize| -> Option<f64> {
                 let at = times.binary_search_by(|x| x.total_cmp(&t)).ok()?;
                 let next = at.checked_add_signed(side)?;
@@ -89,8 +89,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             if found.iter().any(|(t, a)| inside(*t) && is_unique(a)) {
                 continue;
             }
-            // Near a flat minimum the margin is rounding: a time that somebody gave is better than
-            // any in that range.
+            // Near a flat minimum the margin is only rounding, so a sample time given by the caller
+            // is preferred to any other time in that range.
             let mut given = path.samples.iter().filter(|s| inside(s.t) && is_known(s));
             let (t, there) = match given.find(|s| is_unique(&s.analysis)) {
                 Some(sample) => (sample.t, sample.analysis.clone()),

@@ -1,5 +1,5 @@
-//! A motion judged part by part: each set of joints on common cycles has a motion of its own, with
-//! its own passages.
+//! A motion analysed part by part: each set of joints on common cycles has its own motion and its
+//! own passages.
 
 use crate::judged::Judged;
 use crate::limits::ROWS_MAX;
@@ -12,7 +12,7 @@ use crate::parts::{Extent, Partition};
 use crate::second_order::Continuation;
 use crate::state::State;
 
-/// Judges a motion of parts at these times, break times included.
+/// Analyses a motion of parts at these times, which include the break times.
 pub(super) fn judged_by_parts(
     mechanism: &Mechanism,
     motion: impl Fn(f64, &Extent) -> State + Sync,
@@ -83,7 +83,7 @@ pub(super) fn judged_by_parts(
     })
 }
 
-/// What was judged of a part, in numbers of the whole.
+/// Converts the analysis of a part to the numbering of the whole mechanism.
 fn of_whole(analysis: Analysis, whole: &Mechanism, extent: Extent) -> Judged {
     let mut parts = analysis.parts;
     let part = parts.swap_remove(0);
@@ -96,8 +96,8 @@ fn of_whole(analysis: Analysis, whole: &Mechanism, extent: Extent) -> Judged {
     .placed(whole, extent)
 }
 
-/// Velocities of the whole on other branches of a part; those of bodies beyond it are of the
-/// motion.
+/// Extends the velocities on other branches of a part to the whole mechanism; bodies outside the
+/// part keep the velocities of the motion.
 fn whole_branches(passage: &mut Passage, extent: &Extent, motion: &impl Fn(f64, &Extent) -> State) {
     if let PassageKind::RankDrops {
         continuation: Continuation::Bifurcation { branches },
@@ -111,8 +111,8 @@ fn whole_branches(passage: &mut Passage, extent: &Extent, motion: &impl Fn(f64, 
     }
 }
 
-/// Stretches of all parts, in the order of time; `redundancy` is that of the whole, the numbers
-/// beside them are those of their parts.
+/// Merges the stretches of all parts, in the order of time. `redundancy` is that of the whole
+/// mechanism; the number with each stretch is the usual redundancy of its part.
 fn together(mut found: Vec<(usize, Stretch)>, redundancy: usize) -> Vec<Stretch> {
     found.sort_by(|(_, a), (_, b)| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
     let mut all: Vec<Stretch> = Vec::new();

@@ -1,4 +1,4 @@
-//! Instants at which the rank drops, or nearly does.
+//! Instants at which the rank drops or nearly drops.
 
 use crate::limits::{
     BENT, BESIDE_PASSAGE, MAY_PASS, MINIMUM_LOWER, OVERLAP, SAMPLE_HALVINGS, SINGULAR_INSTANT,
@@ -19,16 +19,16 @@ use crate::analysis::Analysis;
 use crate::second_order::{Continuation, Undetermined, second_order};
 use crate::state::State;
 
-/// An instant where σ_r is smallest.
+/// An instant at which σ_r has a minimum.
 #[derive(Clone, Copy)]
 struct Candidate {
     t: f64,
     sigma: f64,
-    /// Whether a sign change proves that σ_r is zero there.
+    /// Whether a sign change proves that σ_r is zero at this instant.
     proved: bool,
 }
 
-/// Singular and nearly singular instants, but not those of stretches that are singular throughout.
+/// Finds singular and nearly singular instants, except on stretches that are singular throughout.
 pub(super) fn passages<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     generic: &Analysis,
@@ -62,8 +62,9 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
         .collect()
 }
 
-/// Brackets of the minima of a sampled function, at its ends too; none where it is constant, and
-/// none beside times at which it is not known, because it may fall on towards these.
+/// Returns brackets of the minima of a sampled function, including minima at its ends. Returns none
+/// where the function is constant, and none next to times at which it is not known, because it may
+/// decrease further towards these.
 pub(super) fn local_minima(times: &[f64], values: &[Option<f64>]) -> Vec<[f64; 2]> {
     let last = times.len().saturating_sub(1);
     (0..times.len())
@@ -83,7 +84,7 @@ struct End {
     t: f64,
     /// σ_r
     sigma: f64,
-    /// C, equilibrated as all samples.
+    /// C, equilibrated with the scaling of all samples.
     matrix: Matrix,
     kept: Vec<usize>,
 }
@@ -94,7 +95,7 @@ fn distance(a: &Matrix, b: &Matrix) -> f64 {
     pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// Roots of the bordered determinant between regular samples.
+/// Finds roots of the bordered determinant between regular samples.
 fn sign_changes<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
 ) -> Result<Vec<Candidate>, AlongError> {
@@ -115,7 +116,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
         .map(|w| (w[0].clone(), w[1].clone(), SAMPLE_HALVINGS))
         .collect();
     while let Some((a, b, halvings)) = intervals.pop() {
-        // No matrix so near to one of rank r has a lower rank.
+        // Every matrix as near as this to one of rank r has rank r or more.
         if BENT * distance(&a.matrix, &b.matrix) < a.sigma.max(b.sigma) {
             continue;
         }
@@ -134,7 +135,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
                 continue;
             }
         }
-        // The same the other way round: rows and frame of b.
+        // The same in the other direction: rows and frame of b.
         let back = Border::new(&b.matrix, &b.kept);
         let doubtful = value < MAY_PASS
             || back.value(&a.matrix) < MAY_PASS
@@ -159,7 +160,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// What happens at a candidate.
+/// Determines what happens at a candidate.
 fn passage<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     candidate: Candidate,
@@ -167,7 +168,7 @@ fn passage<F: FnMut(f64) -> State>(
 ) -> Result<Passage, AlongError> {
     let (time, sigma) = (candidate.t, candidate.sigma);
     let point = path.at(time)?;
-    // A sign change proves that a matrix of lower rank is as near as σ_r.
+    // A sign change proves that a matrix of lower rank is at most σ_r away.
     let distance = if candidate.proved { sigma } else { 0.0 };
     let decision = path.decide(&point, distance)?;
     let analysis = path.judged(&point, decision.clone())?;
@@ -200,7 +201,7 @@ fn passage<F: FnMut(f64) -> State>(
     Ok(passage)
 }
 
-/// The interval around t on which σ_r is below the limit, as far as the motion is known.
+/// The interval around t on which σ_r is below the limit, as far as the motion is given.
 fn nearly_singular<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     t: f64,
@@ -226,8 +227,8 @@ fn nearly_singular<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// Velocities of the motion, moved onto `C·v = b` in the kept rows; `None` where these are
-/// dependent to the last digit.
+/// Velocities of the motion, moved onto `C·v = b` in the kept rows. Returns `None` if these rows
+/// are dependent to the last digit.
 fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Option<Vec<f64>> {
     let layout = mechanism.layout();
     let mut s = p.s.clone();
@@ -242,7 +243,7 @@ fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Option<Vec<f6
     Some(p.v.iter().zip(step).map(|(v, d)| v + d).collect())
 }
 
-/// Velocities that the mechanism has also beside the instant, n_v × (n_v − r).
+/// The velocities that the mechanism also has just before and after the instant, n_v × (n_v − r).
 fn regular_motions<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     t: f64,
@@ -258,7 +259,7 @@ fn regular_motions<F: FnMut(f64) -> State>(
     if freedoms == 0 {
         return Ok(Matrix::zeros(n, 0));
     }
-    // The mean of both sides is wrong by the square of their distance only.
+    // The mean of both sides differs from the limit by the square of their distance only.
     let distance = BESIDE_PASSAGE * (to - t).min(t - from);
     let sides = if distance > 0.0 {
         vec![t - distance, t + distance]
@@ -277,7 +278,7 @@ fn regular_motions<F: FnMut(f64) -> State>(
     let first = &frames[0];
     let mut sum = first.clone();
     for other in &frames[1..] {
-        // The other frame, turned into the first.
+        // The other frame, rotated onto the first.
         let turned = other.product(&other.transpose().product(first));
         let entries = sum.as_mut_slice().iter_mut().zip(turned.as_slice());
         entries.for_each(|(sum, x)| *sum += x);

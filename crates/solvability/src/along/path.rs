@@ -1,4 +1,4 @@
-//! States of a motion on the constraints, and the samples that were taken of it.
+//! States of a motion moved onto the constraints, and the samples taken of them.
 
 use crate::error::AnalysisError;
 use crate::limits::REGULAR_SAMPLE;
@@ -18,15 +18,15 @@ use crate::state::{self, State};
 pub(super) struct Path<'a, F> {
     pub(super) mechanism: &'a Mechanism,
     motion: F,
-    /// Rows of Φ.
+    /// Numbers of the rows of Φ.
     holonomic: Vec<usize>,
     /// Length that makes C dimensionless, the same along the motion.
     size: f64,
-    /// Almost everywhere.
+    /// The rank almost everywhere.
     pub(super) rank: usize,
     /// The equilibration of the best sample, used for all.
     scaling: Scaling,
-    /// In the order of time.
+    /// The samples in the order of time.
     pub(super) samples: Vec<Sample>,
 }
 
@@ -36,22 +36,22 @@ pub(super) struct Point {
     pub(super) q: Vec<f64>,
     pub(super) v: Vec<f64>,
     pub(super) s: Scratch,
-    /// C without dimensions, and what its entries are known to.
+    /// C without dimensions; `known` holds the accuracy of its entries.
     pub(super) c: Matrix,
     known: Matrix,
 }
 
-/// A point where the rank was asked for.
+/// A point at which the rank has been determined.
 pub(super) struct Sample {
     pub(super) t: f64,
-    /// The r-th singular value of the equilibrated C; r is the rank almost everywhere.
+    /// The r-th singular value of the equilibrated C, with r the rank almost everywhere.
     pub(super) sigma: f64,
-    /// Whether the rank is r, decided, and the configuration not nearly singular.
+    /// Whether the rank is decided and equal to r, and the configuration is not nearly singular.
     pub(super) regular: bool,
-    /// Equilibrated as all samples.
+    /// C, equilibrated with the scaling of all samples.
     pub(super) c: Matrix,
     pub(super) decision: RankDecision,
-    /// Its verdicts.
+    /// The verdicts at this point.
     pub(super) analysis: Analysis,
 }
 
@@ -91,7 +91,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         Ok(path)
     }
 
-    /// Takes rank and equilibration from the samples and measures all of them by these.
+    /// Takes rank and equilibration from the samples and evaluates all samples with these.
     fn settle_rank(&mut self) -> Result<(), AlongError> {
         let sigma = |s: &Sample| s.decision.evidence.sigma_r;
         let decided = self.samples.iter().filter(|s| s.decision.is_decided());
@@ -151,7 +151,8 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         self.size
     }
 
-    /// The rank at a point; `distance` is how far its C may be from the matrix that is asked for.
+    /// Decides the rank at a point; `distance` bounds how far its C may be from the matrix whose
+    /// rank is wanted.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
         let decision = match distance {
             0.0 => rank::decide(&p.c, &p.known),
@@ -165,7 +166,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         decision.map_err(|source| AnalysisError::Rank { time: p.t, source }.into())
     }
 
-    /// C at a point, equilibrated as all samples.
+    /// C at a point, equilibrated with the scaling of all samples.
     pub(super) fn equilibrated(&self, p: &Point) -> Matrix {
         self.scaling.apply(&p.c)
     }
@@ -183,7 +184,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         self.judged(&point, decision)
     }
 
-    /// All that is known at time t, dependencies included.
+    /// The complete analysis at time t, with dependencies.
     pub(super) fn complete(&mut self, t: f64) -> Result<Analysis, AlongError> {
         let p = self.at(t)?;
         let rows = Rows::in_double(self.mechanism, &p.s, &p.q);
@@ -191,7 +192,8 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         Ok(Analysis::of(self.mechanism, t, &p.q, vec![judged]))
     }
 
-    /// The verdicts at a point where the rank has been decided, without directions.
+    /// The verdicts at a point whose rank has been decided, without the directions of non-unique
+    /// reactions.
     pub(super) fn judged(&self, p: &Point, decision: RankDecision) -> Result<Analysis, AlongError> {
         let pose = (&p.s, &p.q[..], self.size);
         let rows = Rows::of_matrix(self.mechanism, pose, &p.c, &p.known);
@@ -200,7 +202,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     }
 }
 
-/// σ_r, infinite for rank 0.
+/// σ_r; infinite if the rank is 0.
 pub(super) fn singular_value(c: &Matrix, rank: usize) -> f64 {
     match rank {
         0 => f64::INFINITY,

@@ -1,11 +1,11 @@
-//! Where a function of time changes its sign, where it falls below zero, and where a function is
-//! smallest. All may fail. Singular instants are found by these, along a motion that is known and
-//! within a step of one that is not.
+//! Searches in a function of time: for a change of sign, for the time at which it falls below zero,
+//! and for a minimum. The function may return an error. They find singular instants along a given
+//! motion and within a step of a simulation.
 
 use crate::limits::{EDGE, FALL, RESOLUTION, SEARCH_ITERATIONS};
 
 /// A root of `f` between a and b, where `f(a) > 0 > f(b)`: secant steps with the Illinois
-/// modification, halvings where these gain too little, until a value is at most `enough`.
+/// modification, bisection if these gain too little, until a value is at most `enough`.
 ///
 /// # Errors
 /// Those of `f`.
@@ -57,8 +57,8 @@ pub fn root<E>(
     })
 }
 
-/// The time between `outside` and `inside`, in either order, at which `f` falls below zero: not
-/// below outside, but inside.
+/// The time between `outside` and `inside`, in either order, at which `f` becomes negative: `f` is
+/// not negative at `outside`, but is at `inside`.
 pub(super) fn edge<E>(
     [outside, inside]: [f64; 2],
     mut f: impl FnMut(f64) -> Result<f64, E>,
@@ -73,17 +73,18 @@ pub(super) fn edge<E>(
     Ok(direction * root(along, values, enough, |x| f(direction * x))?)
 }
 
-/// Whether a function that was found to be no smaller than `least` around its minimum, and no
-/// larger than `largest`, may fall to `limit` between.
+/// Whether a function may reach `limit` near its minimum, if the values found around the minimum
+/// lie between `least` and `largest`.
 pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
     let lowest = least - FALL * (largest - least);
-    // Not a number may be anything.
+    // NaN excludes nothing.
     lowest.is_nan() || lowest <= limit
 }
 
-/// Where `f` is smallest between a and b, if it has one minimum there, and its value: golden
-/// sections, which find the corner of an absolute value to rounding, or until the interval is as
-/// narrow as `enough`. `None` as soon as it is clear that it stays above `limit`.
+/// Finds the minimum of `f` between a and b and its value, provided that there is one minimum.
+/// Golden section search, which finds the corner of an absolute value to rounding, or stops once
+/// the interval is as narrow as `enough`. Returns `None` as soon as it is clear that the minimum is
+/// above `limit`.
 ///
 /// # Errors
 /// Those of `f`.
@@ -173,7 +174,7 @@ mod tests {
         assert!((at(&|t| (t - 0.3).abs()) - 0.3).abs() < 1e-15);
         assert!((at(&|t| (t - 0.3).powi(2)) - 0.3).abs() < 1e-8);
         assert_eq!(at(&|t| t), -1.0);
-        // Above the limit by a tenth: few questions; below it by as much: found.
+        // A tenth above the limit: few evaluations; a tenth below it: found.
         let above = |t: f64| 0.1 + (t - 0.3).abs().sqrt();
         assert!(matches!(found(0.0, &|t| 0.1 + (t - 0.3).powi(2)), (None, asked) if asked < 14));
         assert!(matches!(found(0.0, &above), (None, asked) if asked < 24));

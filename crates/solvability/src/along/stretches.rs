@@ -1,9 +1,9 @@
-//! The generic verdict of a motion, and the stretches between break times on which another one
+//! The generic verdict of a motion, and the stretches between break times on which another verdict
 //! holds.
 //!
-//! At constant rank a reaction that is not unique at one instant is not unique at almost all:
-//! margins that are not zero stay so nearby. So of several verdicts the one with the most reactions
-//! that are not unique is generic.
+//! At constant rank a reaction that is not unique at one instant is not unique at almost all
+//! instants, because a non-zero margin stays non-zero nearby. So of several analyses the one with
+//! the most non-unique reactions is generic.
 
 use super::compare::{differences, verdicts};
 use super::data::Stretch;
@@ -14,8 +14,8 @@ use model::{Mechanism, System};
 use crate::analysis::Analysis;
 use crate::verdict::Verdict;
 
-/// The generic verdict, and stretches in the order of time; neighbouring ones with the same
-/// verdicts are one.
+/// The generic analysis, and the stretches in the order of time; neighbouring stretches with the
+/// same verdicts are merged.
 pub(super) fn stretches<F>(path: &Path<'_, F>) -> (Analysis, Vec<Stretch>) {
     let (mechanism, samples) = (path.mechanism, &path.samples);
     let (first, last) = (samples[0].t, samples[samples.len() - 1].t);
@@ -64,8 +64,8 @@ pub(super) fn stretches<F>(path: &Path<'_, F>) -> (Analysis, Vec<Stretch>) {
     (generic, found)
 }
 
-/// The sample with the largest rank, of these the one with the most verdicts "not unique" and the
-/// fewest "undecided", of these the one that is farthest from singular.
+/// The sample with the largest rank; among these the one with the most verdicts "not unique" and
+/// the fewest "undecided"; among these the one farthest from singular.
 fn most_generic<'a>(samples: impl Iterator<Item = &'a Sample>) -> Option<&'a Sample> {
     let standing = |s: &Sample| {
         let (mut not_unique, mut undecided) = (0, 0);

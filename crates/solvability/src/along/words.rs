@@ -4,7 +4,7 @@ use super::data::{Difference, Part, Passage, PassageKind, Stretch};
 use crate::analysis::Analysis;
 use crate::limits::{GIVEN_DIGITS, SEARCHED_DIGITS};
 
-/// What happens at an instant.
+/// Describes what happens at an instant.
 pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
     let time = format!("at t = {} s", digits(p.time, SEARCHED_DIGITS));
     let interval = p.nearly_singular.map_or(String::new(), |[from, to]| {
@@ -36,7 +36,7 @@ pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
     with_differences(what, &p.differences)
 }
 
-/// What holds on a stretch.
+/// Describes what holds on a stretch.
 pub(super) fn stretch(s: &Stretch, generic: &Analysis) -> String {
     let (from, to) = (digits(s.from, GIVEN_DIGITS), digits(s.to, GIVEN_DIGITS));
     let usual = generic.decision.redundancy;
@@ -51,7 +51,7 @@ pub(super) fn stretch(s: &Stretch, generic: &Analysis) -> String {
     )
 }
 
-/// The sentence, and what was unique and is not, and the other way round.
+/// Appends to the sentence which reactions change from unique to not unique, and the reverse.
 fn with_differences(sentence: String, differences: &[Difference]) -> String {
     let named = |word: &str| {
         let changed = differences.iter().filter(|d| d.here.word() == word);
@@ -73,7 +73,8 @@ fn with_differences(sentence: String, differences: &[Difference]) -> String {
     text
 }
 
-/// The reaction where its whole wrench differs in the same way, or else the part of it.
+/// Name of the reaction if its whole wrench differs in the same way, or else of the part of it that
+/// differs.
 fn name(d: &Difference, all: &[Difference]) -> String {
     let whole = |w: &&Difference| w.reaction == d.reaction && w.part == Part::Wrench;
     let is_covered = all.iter().find(whole).is_some_and(|w| w.here == d.here);
@@ -85,7 +86,7 @@ fn name(d: &Difference, all: &[Difference]) -> String {
     }
 }
 
-/// A number with so many significant digits, without trailing zeros.
+/// Formats a number with this many significant digits, without trailing zeros.
 fn digits(x: f64, digits: i32) -> String {
     let before = if x == 0.0 {
         0

@@ -1,5 +1,5 @@
-//! The equations behind the multipliers, and one solution of them: on the kept rows of the rank
-//! decision, the dropped ones zero.
+//! The equations for the multipliers, and the solution of them on the kept rows of the rank
+//! decision; the multipliers of dropped rows are zero.
 
 use crate::limits::{AGREEMENT, ROWS_MAX};
 use crate::pose::velocity_units;
@@ -41,23 +41,23 @@ pub struct Equations {
     pub c: Matrix,
     /// Γ, m + h.
     pub gamma: Vec<f64>,
-    /// Size of the terms that each entry of Γ is made of, m + h: what is small beside it is
-    /// rounding. Zeros where Γ is exact.
+    /// Size of the terms that are added up in each entry of Γ, m + h: an entry that is small
+    /// relative to it is rounding. Zeros if Γ is exact.
     pub gamma_terms: Vec<f64>,
 }
 
-/// Accelerations, and one choice of multipliers for them.
+/// Accelerations, and one solution for the multipliers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// a, n_v.
     pub acceleration: Vec<f64>,
-    /// λ: that of the kept rows, zero on the dropped ones. All others are `λ + Z·y`.
+    /// λ with zeros on the dropped rows. All other solutions are `λ + Z·y`.
     pub multipliers: Vec<f64>,
 }
 
 impl Equations {
-    /// Those of a mechanism at time t, coordinates q and velocities v, which must satisfy the
-    /// constraints.
+    /// The equations of a mechanism at time t, coordinates q and velocities v, which must satisfy
+    /// the constraints.
     ///
     /// # Errors
     /// [`RequestError::Length`], [`RequestError::NotFinite`]: t, q or v do not fit the mechanism.
@@ -72,9 +72,9 @@ impl Equations {
         })
     }
 
-    /// Those of a part of a mechanism at a solution of the whole: what other parts do to its bodies
-    /// is a load. They have the same accelerations, and as multipliers those of the whole and what
-    /// can be added to them.
+    /// The equations of a part of a mechanism, given a solution of the whole; the forces of other
+    /// parts on its bodies become loads. The accelerations are the same, and the multipliers of the
+    /// whole are one of the solutions of the part.
     ///
     /// # Errors
     /// As [`Equations::of`].
@@ -91,7 +91,7 @@ impl Equations {
         ];
         let of_part = Self::of(part, t, &q, &v)?;
         let lambda = extent.of_rows(&solution.multipliers);
-        // Any masses do, because accelerations are known; only none must be zero.
+        // The accelerations are known, so any positive masses serve; only zeros are replaced.
         let largest = of_part.mass.iter().fold(0.0_f64, |a, m| a.max(*m));
         let some = |m: &f64| match (*m > 0.0, largest > 0.0) {
             (true, _) => *m,
@@ -111,19 +111,19 @@ impl Equations {
         })
     }
 
-    /// One solution λ: that of the kept rows, zero on the dropped ones. All others are `λ + Z·y`.
+    /// Solves for one λ, with zeros on the dropped rows. All other solutions are `λ + Z·y`.
     ///
     /// # Errors
-    /// - [`ChoiceError::Undecided`]: which rows to keep is not known.
+    /// - [`ChoiceError::Undecided`]: the rank is undecided, so the kept rows are not known.
     /// - [`ChoiceError::Saddle`]: the kept rows and the masses do not determine the accelerations.
-    /// - [`ChoiceError::Contradiction`]: the dropped rows ask for other accelerations, so there is
-    ///   no solution at all.
+    /// - [`ChoiceError::Contradiction`]: the dropped rows require other accelerations, so there is
+    ///   no solution.
     /// - [`ChoiceError::Request`]: sizes do not fit.
     pub fn multipliers(&self, rows: impl Into<RowDecision>) -> Result<Vec<f64>, ChoiceError> {
         self.solution(rows).map(|solution| solution.multipliers)
     }
 
-    /// The same with accelerations.
+    /// Like [`Equations::multipliers`], with the accelerations.
     ///
     /// # Errors
     /// As [`Equations::multipliers`].
@@ -139,8 +139,7 @@ impl Equations {
         let gamma: Vec<f64> = kept.iter().map(|&i| self.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
         saddle.solve(&self.force, &gamma, &mut a, &mut of_kept)?;
-        // What the error of each acceleration is proportional to is measured by the sizes of the
-        // columns of C.
+        // The error of each acceleration is estimated with the sizes of the columns of C.
         let units = linalg::equilibrate(&self.c).cols;
         let units: Vec<f64> = units.into_iter().map(|e| f64::from(e).exp2()).collect();
         let row = |i: usize| self.c.row(i).iter().copied().enumerate();
@@ -152,7 +151,7 @@ impl Equations {
     }
 }
 
-/// The equations of a mechanism at one instant, before any matrix of all rows and columns.
+/// The values of a mechanism at one instant, before a dense matrix is built.
 struct Terms {
     s: Scratch,
     gamma_terms: Vec<f64>,
@@ -181,7 +180,7 @@ impl Terms {
             .iter()
             .map(length)
             .collect();
-        // The fastest thing in the mechanism, in rad/s; Γ is quadratic in it.
+        // The largest rate in the mechanism (rad/s); Γ is quadratic in it.
         let rates = v.iter().zip(&lengths).map(|(v, length)| (v / length).abs());
         let rate = rates.fold(0.0, f64::max);
         let reach = |i| layout.row(&s, i).map(|(k, c)| c.abs() * lengths[k]);
@@ -193,12 +192,12 @@ impl Terms {
 }
 
 /// One solution of the equations of a mechanism of any size at time t, coordinates q and velocities
-/// v, which must satisfy the constraints: on dense matrices, or, where those would be too large, on
-/// sparse ones.
+/// v, which must satisfy the constraints. Uses dense matrices, or sparse ones if dense ones would
+/// be too large.
 ///
 /// # Errors
-/// As [`Equations::of`] and [`Equations::multipliers`]; on sparse matrices every coordinate needs a
-/// mass.
+/// As [`Equations::of`] and [`Equations::multipliers`]; with sparse matrices every
+/// coordinate needs a mass.
 pub fn solution(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -211,7 +210,8 @@ pub fn solution(
     sparse_solution(mechanism, q, &terms, &terms.s.force, rows)
 }
 
-/// The same on sparse matrices under other forces than those of the mechanism, n_v values.
+/// The solution with sparse matrices under the given forces, n_v values, instead of those of the
+/// mechanism.
 pub(crate) fn solution_under(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -249,7 +249,7 @@ fn sparse_solution(
     })
 }
 
-/// Checks that a decided rank is one of so many rows.
+/// Checks that the rank is decided and that the decision has this number of rows.
 fn check_rows(rows: &RowDecision, m: usize) -> Result<(), ChoiceError> {
     let found = rows.kept.len() + rows.dropped.len();
     if found != m {
@@ -265,8 +265,8 @@ fn check_rows(rows: &RowDecision, m: usize) -> Result<(), ChoiceError> {
     }
 }
 
-/// Checks that the dropped rows ask for these accelerations, too. The error of each is taken as
-/// that of the largest one, in these units.
+/// Checks that the dropped rows agree with these accelerations. Every acceleration, in these units,
+/// is assumed to have the error of the largest one.
 fn agree<R: Iterator<Item = (usize, f64)>>(
     rows: &RowDecision,
     row: impl Fn(usize) -> R,
@@ -291,7 +291,7 @@ fn agree<R: Iterator<Item = (usize, f64)>>(
     Ok(())
 }
 
-/// Multipliers of the kept rows, and zeros.
+/// Multipliers of the kept rows, with zeros for the dropped rows.
 fn on_all_rows(kept: &[usize], of_kept: Vec<f64>, rows: usize) -> Vec<f64> {
     let mut lambda = vec![0.0; rows];
     for (&i, l) in kept.iter().zip(of_kept) {

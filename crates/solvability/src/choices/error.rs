@@ -1,4 +1,4 @@
-//! Why a choice cannot be made.
+//! Errors of choices among non-unique reactions.
 
 use linalg::SaddleError;
 use model::RowLabel;
@@ -6,20 +6,20 @@ use rank::{Doubt, KeptRowsError};
 
 use crate::groups::RequestError;
 
-/// Why there is no such distribution.
+/// Reason why a distribution cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChoiceError {
-    /// The rank is undecided: what is a choice is not known.
+    /// The rank is undecided, so it is not known what may be chosen.
     #[error("the rank is undecided, and with it what may be chosen: {0}")]
     Undecided(Doubt),
-    /// An argument is wrong.
+    /// An argument is invalid.
     #[error(transparent)]
     Request(#[from] RequestError),
     /// The equations cannot be solved on the kept rows.
     #[error(transparent)]
     Saddle(#[from] SaddleError),
-    /// Redundant rows ask for different accelerations: there are no reactions at all.
+    /// Redundant rows require different accelerations: no reactions exist.
     #[error(
         "row {} asks for an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
          there are no reactions that satisfy both",
@@ -28,33 +28,33 @@ pub enum ChoiceError {
     Contradiction {
         /// The dropped row, from 0.
         row: usize,
-        /// By how much.
+        /// Difference of the accelerations.
         by: f64,
-        /// What rounding explains.
+        /// Largest difference that rounding explains.
         allowed: f64,
     },
-    /// A weight or compliance is negative or no number.
+    /// A weight or compliance is negative or not a number.
     #[error("a weight is {value:.3e}, need a finite number ≥ 0")]
     Weight {
-        /// What it is.
+        /// The weight.
         value: f64,
     },
     /// A weight of a norm is not positive.
     #[error("the norm has the weight {value:.3e}, need a finite number > 0")]
     NormWeight {
-        /// What it is.
+        /// The weight.
         value: f64,
     },
-    /// Rigid supports share a load in no particular way.
+    /// Several rigid supports share a load, and the choice does not determine how.
     #[error(
         "the choice leaves open how loads are shared ({free} missing): what has weight zero (a rigid joint) stays undetermined among its like; \
          give a compliance to one more of the joints that mix"
     )]
     Indeterminate {
-        /// Directions that nothing determines.
+        /// Number of directions that are not determined.
         free: usize,
     },
-    /// The wrench on the first body does not show all that a joint does.
+    /// The wrench on the first body does not determine all reactions of the joint.
     #[error(
         "the reaction of `{reaction}` on its first body does not tell those on its other bodies, which are not unique"
     )]
@@ -62,30 +62,30 @@ pub enum ChoiceError {
         /// The joint or drive.
         reaction: String,
     },
-    /// The same in one part of the mechanism.
+    /// An error in one part of the mechanism.
     #[error("among {joints}: {source}")]
     InPart {
         /// The first joints and drives of the part.
         joints: String,
-        /// Why.
+        /// Cause.
         source: Box<ChoiceError>,
     },
-    /// Not as many rows as one part of the mechanism has too many.
+    /// The number of listed rows differs from the redundancy of one part of the mechanism.
     #[error(
         "rows without reaction are as many as are redundant, {redundancy} in all: {joints} have {own} of them, but {listed} of their rows {} listed",
         if *listed == 1 { "is" } else { "are" }
     )]
     Count {
-        /// Of the whole mechanism.
+        /// Redundancy of the whole mechanism.
         redundancy: usize,
         /// The first joints and drives of the part.
         joints: String,
         /// Redundancy of the part.
         own: usize,
-        /// Its rows among those asked for.
+        /// Number of its rows that are listed.
         listed: usize,
     },
-    /// These rows cannot be without reaction.
+    /// The reactions in these rows cannot be zero.
     #[error(
         "no solution has zero reactions in {} {}: {}",
         row_word(rows),
@@ -93,11 +93,11 @@ pub enum ChoiceError {
         cause(unique, source)
     )]
     Rows {
-        /// The rows asked for that exist.
+        /// The requested rows that exist.
         rows: Vec<RowLabel>,
         /// Those of them whose multiplier is unique.
         unique: Vec<RowLabel>,
-        /// Why; rows are counted from 0 here.
+        /// Cause; rows are counted from 0 here.
         source: KeptRowsError,
     },
 }

@@ -1,5 +1,5 @@
-//! The solution with the least sum of weighted squares: minimum norms and elastic supports are both
-//! of this kind.
+//! The solution that minimises a sum of weighted squares: used for minimum norms and for elastic
+//! supports.
 
 use crate::limits::CHOICE_SOLVES;
 use linalg::{Matrix, PivotedQr};
@@ -9,8 +9,8 @@ use crate::groups::{LinearForm, check, check_finite};
 use crate::matrices::Solvability;
 
 /// The λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`: with the rows
-/// `√weight·ℓᵀ` in L, `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, solved by QR of L·Z. Directions of y that change
-/// none of the numbers ℓᵀ·λ are left alone.
+/// `√weight·ℓᵀ` in L, `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, solved by QR of L·Z. Components of y that change
+/// none of the numbers ℓᵀ·λ stay zero.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -35,7 +35,7 @@ use crate::matrices::Solvability;
 ///
 /// # Errors
 /// - [`ChoiceError::Indeterminate`]: numbers with weight zero are free to change.
-/// - [`ChoiceError::Weight`]: a weight is negative or no number.
+/// - [`ChoiceError::Weight`]: a weight is negative or not a number.
 /// - [`ChoiceError::Request`]: sizes do not fit.
 pub fn minimise(
     solvability: &Solvability,
@@ -90,7 +90,7 @@ pub fn minimise(
     Ok(lambda)
 }
 
-/// Columns of a matrix of images (rows of size one or less) that are independent; the others depend
+/// Selects independent columns of a matrix of images (rows of size one or less); the others depend
 /// on them.
 pub(super) fn independent_columns(rows: &[&[f64]], columns: usize, tolerance: f64) -> Vec<usize> {
     let matrix = Matrix::from_fn(rows.len(), columns, |i, j| rows[i][j]);
@@ -98,7 +98,7 @@ pub(super) fn independent_columns(rows: &[&[f64]], columns: usize, tolerance: f6
     qr.permutation()[..count(&qr, tolerance)].to_vec()
 }
 
-/// Pivots above a tolerance.
+/// Number of pivots above a tolerance.
 fn count(qr: &PivotedQr, tolerance: f64) -> usize {
     qr.r_diagonal().filter(|r| r.abs() > tolerance).count()
 }

@@ -1,4 +1,4 @@
-//! Numbers of a distribution: facts, and choices under their names.
+//! Numbers of a distribution: unique ones, and chosen ones with the name of the choice.
 
 use crate::limits::{FIRST_NAMED, NAMED_ROWS};
 use std::fmt;
@@ -13,13 +13,13 @@ use crate::words;
 /// A number of a distribution.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// The same in every solution: a fact of the model.
+    /// The same in every solution: determined by the model.
     Unique(f64),
-    /// One of many. A number whose verdict is undecided is given like this too.
+    /// One of many possible values. A number whose verdict is undecided is also given as chosen.
     Chosen {
         /// The number.
         value: f64,
-        /// Who says so.
+        /// The choice on which the number depends.
         by: Label,
     },
 }
@@ -39,7 +39,7 @@ impl fmt::Display for Value {
 impl std::ops::Add for Value {
     type Output = Self;
 
-    /// A sum is a fact iff both are; of two choices it is that of the first.
+    /// A sum is unique if both numbers are; a sum of two chosen numbers has the label of the first.
     fn add(self, other: Self) -> Self {
         match (self, other) {
             (Self::Unique(a), Self::Unique(b)) => Self::Unique(a + b),
@@ -67,7 +67,7 @@ impl fmt::Display for Label {
 }
 
 impl Label {
-    /// Of a choice where these joints and drives do not give way.
+    /// Name of a choice in which these joints and drives are rigid.
     pub(crate) fn of(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) -> Self {
         let text = match choice {
             Choice::MinimumNorm(w) => format!(
@@ -98,7 +98,7 @@ impl Label {
             Choice::Elimination(rows) => {
                 let known = rows.iter().filter_map(|&i| layout.labels.get(i));
                 let labels: Vec<RowLabel> = known.cloned().collect();
-                // The label stands at every number.
+                // The label is repeated at every number, so it lists only the first rows.
                 let (told, more) = if labels.len() > NAMED_ROWS {
                     labels.split_at(FIRST_NAMED)
                 } else {

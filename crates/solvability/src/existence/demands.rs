@@ -1,17 +1,17 @@
-//! What drives ask for.
+//! What drives prescribe.
 
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use super::ConstraintLevel;
 use crate::words::short;
 
-/// What a drive asks for at one time.
+/// What a drive prescribes at one time.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Demand {
     /// The drive.
     pub drive: String,
-    /// The joint that it moves, and the measure; nothing if no joint has its place.
+    /// The driven joint and the measure; `None` if no joint is at this place.
     pub joint: Option<(String, &'static str)>,
     /// Whether the measure is an angle.
     pub angular: bool,
@@ -20,7 +20,8 @@ pub struct Demand {
 }
 
 impl Demand {
-    /// Of a drive, where its function of time has been evaluated. `None` if this is no drive.
+    /// The demand of a drive whose function of time has been evaluated. Returns `None` if this is
+    /// not a drive.
     pub(super) fn of(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Option<Self> {
         let groups = &mechanism.layout().groups;
         let group = &groups[id.0];

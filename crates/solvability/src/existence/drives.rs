@@ -1,6 +1,7 @@
-//! Drives that cannot follow what they prescribe, at one configuration and along the motion. Joints
-//! come first: a redundant row is that of a drive where it can be, so that what misses is what a
-//! drive asks for, and no joint is blamed, however much drives differ.
+//! Drives that cannot follow the motion they prescribe, at one configuration and along the motion.
+//! Joints are kept before drives: if a redundant row can be one of a drive, it is. Then the row
+//! that is violated belongs to a drive, and no joint is named as the cause, however much the drives
+//! differ.
 
 use crate::error::AnalysisError;
 use crate::limits::{DRIVE_HALVINGS, DRIVE_POSITIONS, DRIVE_STEPS, ONE_PART, RUNS_NOTICE, STRIDE};
@@ -14,11 +15,12 @@ use super::{Comparison, ConstraintLevel, Contradiction};
 use crate::generic::{Elsewhere, generic};
 use crate::state::check_configuration;
 
-/// Contradictions between drives and what else holds at time t and coordinates q, positions before
-/// velocities and the worst first: drives that ask for different positions or velocities, and
-/// drives that ask for what joints forbid. No velocities are needed. The joints must hold at q, and
-/// of the drives as many as are independent of them and of those before. Nothing is known of this
-/// where the rank is undecided in `f64`, and nothing is asked above [`ONE_PART`] rows.
+/// Contradictions between drives and the other constraints at time t and coordinates q: drives that
+/// prescribe different positions or velocities, and drives that prescribe what joints forbid.
+/// Positions come before velocities, the largest excess first. No velocities are needed. At q the
+/// joints must be satisfied, and so must each drive that is independent of them and of the drives
+/// before it. The result is empty if the rank is undecided in `f64`, or if there are more than
+/// [`ONE_PART`] rows.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
@@ -31,10 +33,10 @@ pub fn contradicting_drives(
     compared(mechanism, t, q, Notice::Rounding)
 }
 
-/// The first contradiction of drives on the way from the start to the last time, at a dozen
-/// positions after the start. Positions are those that the drives ask for; where they cannot be
-/// followed, or above [`ONE_PART`] rows, nothing is known; rows that depend on each other at
-/// the start alone are left out. Drives that differ by less than a run would notice agree.
+/// The first contradiction of drives between the start and the last time, checked at a dozen
+/// positions after the start. The positions follow the drives. Returns `None` if the drives cannot
+/// be followed or if there are more than [`ONE_PART`] rows. Rows that depend on each other only at
+/// the start are ignored, and so are differences too small for a run to notice.
 ///
 /// # Errors
 /// As [`contradicting_drives`].
@@ -48,8 +50,8 @@ pub fn contradicting_drives_along(
     if is_beyond(mechanism) {
         return Ok(None);
     }
-    // Drives that are needed at the start contradict nothing: the rank does not fall on the way but
-    // for an instant.
+    // Drives that are independent at the start contradict nothing: on the way the rank is lower at
+    // single instants only.
     match JointsFirst::of_velocities(mechanism, 0.0, start)? {
         Some(rows) if rows.has_redundant_drives(mechanism) => {}
         _ => return Ok(None),
@@ -62,8 +64,9 @@ pub fn contradicting_drives_along(
     Ok(found)
 }
 
-/// Whether drives of a contradiction are redundant at other configurations too, where some can be
-/// reached from the start q: at a singular start a drive is redundant that is needed beside it.
+/// Whether the drives of a contradiction are redundant at other configurations as well, if any can
+/// be reached from the start q: at a singular start a drive may be redundant that is needed at all
+/// configurations around it.
 fn lasts(mechanism: &Mechanism, q: &[f64], contradiction: &Contradiction) -> bool {
     let labels = &mechanism.layout().labels;
     let (drives, _) = contradiction.split_rows();
@@ -79,13 +82,13 @@ fn lasts(mechanism: &Mechanism, q: &[f64], contradiction: &Contradiction) -> boo
     generic(mechanism, 0.0, q).is_none_or(|found| found.points.iter().all(is_redundant))
 }
 
-/// Whether there is nothing to compare, or too much.
+/// Whether there are no drives, or too many rows.
 fn is_beyond(mechanism: &Mechanism) -> bool {
     let layout = mechanism.layout();
     layout.drive_rows().is_empty() || layout.rows() > ONE_PART
 }
 
-/// Shows the positions on the way, until one cannot be reached or `see` has seen enough.
+/// Calls `see` with the positions on the way until one cannot be reached or `see` returns `false`.
 fn walk(
     mechanism: &Mechanism,
     start: &[f64],
@@ -108,7 +111,7 @@ fn walk(
             DRIVE_POSITIONS => t_end,
             k => t_end * f64::from(k) / f64::from(DRIVE_POSITIONS),
         };
-        // Where it ends, drives that differ have differed already.
+        // If the walk ends early, it is at a place where differing drives already differ.
         let is_there = way.go(to)?;
         if !see(way.t, &way.q)? || !is_there {
             break;
@@ -117,10 +120,10 @@ fn walk(
     Ok(())
 }
 
-/// Where the drives have led.
+/// The configuration reached by following the drives.
 struct Way<'m> {
     mechanism: &'m Mechanism,
-    /// (m)
+    /// Size of the mechanism (m).
     size: f64,
     t: f64,
     q: Vec<f64>,
@@ -128,7 +131,7 @@ struct Way<'m> {
 }
 
 impl Way<'_> {
-    /// Goes on to a later time. Returns whether it has been reached.
+    /// Continues to a later time. Returns whether it has been reached.
     fn go(&mut self, to: f64) -> Result<bool, AnalysisError> {
         while self.t < to {
             if self.steps == DRIVE_STEPS {
@@ -160,7 +163,7 @@ impl Way<'_> {
         Ok(true)
     }
 
-    /// What the drives that are followed change by from the time of these rows to another.
+    /// The largest change of a followed drive between the time of these rows and `next`.
     fn stride(&self, rows: &JointsFirst, next: f64) -> f64 {
         let now = &rows.s;
         let mut then = self.mechanism.scratch();
@@ -191,7 +194,7 @@ impl Way<'_> {
     }
 }
 
-/// Which contradictions are told.
+/// Which contradictions are reported.
 #[derive(Clone, Copy)]
 enum Notice {
     /// Those above rounding.
@@ -200,7 +203,7 @@ enum Notice {
     RunTo(f64),
 }
 
-/// Contradictions at both levels.
+/// Contradictions of positions and of velocities.
 fn compared(
     mechanism: &Mechanism,
     t: f64,
@@ -221,14 +224,15 @@ fn compared(
         of_level.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
         found.extend(of_level);
     };
-    // What cannot hold at all comes before what cannot go on.
+    // Contradictions of positions are reported before those of velocities.
     if let Some(positions) = JointsFirst::of_positions(mechanism, t, q)? {
         let terms = |i| mechanism.scales(&positions.s).position(i);
         let level = ConstraintLevel::Position;
         add(positions.contradictions(mechanism, level, &terms, share));
     }
     if let Some(all) = JointsFirst::of_velocities(mechanism, t, q)? {
-        // Rates that part the positions by nothing in the time of the run are none.
+        // Different rates count as equal if the positions differ by less than a run notices at its
+        // end.
         let slow = |i| per_second * mechanism.scales(&all.s).position(i);
         let terms = |i| mechanism.scales(&all.s).prescribed(i) + slow(i);
         let level = ConstraintLevel::Velocity;
@@ -237,15 +241,15 @@ fn compared(
     Ok(found)
 }
 
-/// Rows at a configuration, the joints kept before the drives.
+/// Rank decision at a configuration in which joints are kept before drives.
 struct JointsFirst {
-    /// Where they are evaluated.
+    /// Scratch in which the rows are evaluated.
     s: Scratch,
     decision: RankDecision,
 }
 
 impl JointsFirst {
-    /// The rows of Φ.
+    /// Decision on the rows of Φ.
     fn of_positions(
         mechanism: &Mechanism,
         t: f64,
@@ -254,7 +258,7 @@ impl JointsFirst {
         Self::of(mechanism, t, q, mechanism.layout().m)
     }
 
-    /// All rows.
+    /// Decision on all rows.
     fn of_velocities(
         mechanism: &Mechanism,
         t: f64,
@@ -263,7 +267,7 @@ impl JointsFirst {
         Self::of(mechanism, t, q, mechanism.layout().rows())
     }
 
-    /// The first rows of C. `None` if a rank is undecided.
+    /// Decision on the first `rows` rows of C. Returns `None` if a rank is undecided.
     fn of(
         mechanism: &Mechanism,
         t: f64,
@@ -279,8 +283,8 @@ impl JointsFirst {
         let size = scene_size(mechanism, q);
         let all: Vec<usize> = (0..rows).collect();
         let c = dimensionless(mechanism, &s, size).select_rows(&all);
-        // What drives miss by is asked here, and says nothing of how well the configuration is
-        // known.
+        // The residuals of drives are what is being compared, so they do not count as inaccuracy of
+        // the configuration.
         let mut of_joints = s.clone();
         for row in layout.drive_rows() {
             of_joints.phi[row] = 0.0;
@@ -319,14 +323,14 @@ impl JointsFirst {
         Ok(decision.map(|decision| Self { s, decision }))
     }
 
-    /// Whether a drive is implied by what is kept.
+    /// Whether a drive depends on the kept rows.
     fn has_redundant_drives(&self, mechanism: &Mechanism) -> bool {
         let drives = mechanism.layout().drive_rows();
         let mut dropped = self.decision.dropped.iter();
         dropped.any(|row| drives.binary_search(row).is_ok())
     }
 
-    /// What redundant drives miss by, above a share of the terms of their rows.
+    /// Residuals of redundant drives that are larger than a fraction of the terms of their rows.
     fn contradictions(
         &self,
         mechanism: &Mechanism,

@@ -1,17 +1,17 @@
-//! Choosing readable vectors from a space of velocities: conditions are imposed one after the
-//! other, and each one that leaves something new stays. No rank is decided here.
+//! Chooses readable vectors from a space of velocities: conditions are imposed one after the other,
+//! and a condition is kept if it leaves a new vector. No rank is decided here.
 
 use crate::limits::{NEW_MOTION, SATISFIED};
 use linalg::{Matrix, PivotedQr};
 
-/// A linear form of the velocities: column and coefficient, at most about one.
+/// A linear form of the velocities: columns and coefficients, the coefficients at most about 1.
 pub(super) type Form = Vec<(usize, f64)>;
 
-/// The velocities that rows allow, and those that have been chosen of them.
+/// The velocities that the rows allow, and those already chosen among them.
 pub(super) struct Space<'a> {
-    /// n × f, orthonormal columns.
+    /// Orthonormal basis, n × f.
     all: &'a Matrix,
-    /// Orthonormal coefficients of the columns.
+    /// Coefficients of the chosen velocities in this basis, orthonormal.
     chosen: Vec<Vec<f64>>,
 }
 
@@ -25,18 +25,18 @@ impl<'a> Space<'a> {
         Self { all, chosen }
     }
 
-    /// Freedoms that have not been chosen.
+    /// Number of freedoms that have not been chosen.
     pub(super) fn left(&self) -> usize {
         self.all.ncols() - self.chosen.len()
     }
 
-    /// All of it.
+    /// The whole space.
     pub(super) fn whole(&self) -> Subspace {
         Matrix::identity(self.all.ncols())
     }
 
-    /// Takes velocities out that the caller tells otherwise. Returns whether they lie in the space;
-    /// if one of them does not, none is taken.
+    /// Marks velocities as chosen that the caller reports separately. Returns `false` and marks
+    /// none if one of them does not lie in the space.
     pub(super) fn take_out(&mut self, velocities: &[Vec<f64>]) -> bool {
         let mut within = Vec::new();
         for v in velocities {
@@ -54,7 +54,8 @@ impl<'a> Space<'a> {
         true
     }
 
-    /// What of a subspace satisfies these forms. `None` if nothing new is left.
+    /// The part of a subspace in which these forms vanish. Returns `None` if it contains nothing
+    /// new.
     pub(super) fn restricted(&self, y: &Subspace, forms: &[Form]) -> Option<Subspace> {
         let k = y.ncols();
         let mut a = Matrix::zeros(forms.len(), k);
@@ -78,7 +79,8 @@ impl<'a> Space<'a> {
         self.newest(&left).map(|_| left)
     }
 
-    /// Chooses a velocity of a subspace, n numbers. `None` if nothing in it is new.
+    /// Chooses a velocity of a subspace, n numbers. Returns `None` if nothing in the subspace is
+    /// new.
     pub(super) fn take(&mut self, y: &Subspace) -> Option<Vec<f64>> {
         let column = self.newest(y)?;
         let coefficients: Vec<f64> = (0..y.nrows()).map(|i| y[(i, column)]).collect();
@@ -87,7 +89,7 @@ impl<'a> Space<'a> {
         Some(v)
     }
 
-    /// The column that differs most from what has been chosen, if one is new.
+    /// The column that differs most from the chosen velocities, if one is new.
     fn newest(&self, y: &Subspace) -> Option<usize> {
         let mut best = (NEW_MOTION, None);
         for j in 0..y.ncols() {
@@ -100,7 +102,7 @@ impl<'a> Space<'a> {
         best.1
     }
 
-    /// What of these coefficients has not been chosen.
+    /// The part of these coefficients that is orthogonal to the chosen ones.
     fn remainder(&self, mut x: Vec<f64>) -> Vec<f64> {
         for c in &self.chosen {
             let along: f64 = c.iter().zip(&x).map(|(a, b)| a * b).sum();
@@ -110,7 +112,7 @@ impl<'a> Space<'a> {
     }
 
     fn choose(&mut self, coefficients: Vec<f64>) {
-        // Twice, so that the chosen ones stay orthogonal to rounding.
+        // Done twice, so that the chosen ones stay orthogonal to rounding.
         let rest = self.remainder(self.remainder(coefficients));
         let size = norm(rest.iter().copied());
         if size > 0.0 {

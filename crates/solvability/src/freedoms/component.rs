@@ -1,4 +1,4 @@
-//! Bodies that joints connect: the velocities that their rows leave free, as motions of few bodies
+//! Bodies connected by joints: the velocities that their rows leave free, as motions of few bodies
 //! each.
 
 use crate::limits::{AT_REST, TRIALS};
@@ -12,34 +12,34 @@ use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
 use super::basis::{Form, Space, Subspace};
 
-/// Connected bodies at a configuration, as a mechanism of their own.
+/// Connected bodies at a configuration, as a separate mechanism.
 pub(super) struct Component<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) s: Scratch,
-    /// Length by which it is measured (m).
+    /// Size of the mechanism (m).
     pub(super) size: f64,
-    /// Velocities that are one without dimensions.
+    /// Velocities that correspond to 1 without dimensions.
     units: Vec<f64>,
 }
 
 /// Velocities of all bodies of a component: vx, vy (m/s), ω (rad/s).
 pub(super) type Velocities = Vec<[f64; COLUMNS]>;
 
-/// How much moves.
+/// Number of joints and bodies that move, and their mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 struct Cost {
     joints: usize,
     bodies: usize,
-    /// (kg)
+    /// Mass of the moving bodies (kg).
     mass: f64,
 }
 
-/// What a component can do.
+/// Free motions of a component.
 pub(super) struct Motions {
-    /// Whether all of it moves as one free body: two translations and a rotation, before all
-    /// others.
+    /// Whether the component moves as one free body: two translations and a rotation, which come
+    /// before all other motions.
     pub(super) is_free: bool,
-    /// Other motions, those of few joints first.
+    /// The other motions, those with few moving joints first.
     pub(super) motions: Vec<Velocities>,
 }
 
@@ -54,20 +54,20 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// How much each row adds to those before it, the largest first.
+    /// The pivots of the rows, the largest first: how much each row adds to those before it.
     pub(super) fn pivots(&self, rows: &[usize]) -> Vec<f64> {
         let (qr, _) = self.factors(rows);
         qr.r_diagonal().map(f64::abs).collect()
     }
 
-    /// The factors of these rows, equilibrated, and the exponents of their columns.
+    /// QR factors of these rows, equilibrated, and the exponents of their columns.
     fn factors(&self, rows: &[usize]) -> (PivotedQr, Vec<i32>) {
         let c = dimensionless(self.mechanism, &self.s, self.size).select_rows(rows);
         let scaling = equilibrate(&c);
         (PivotedQr::of_rows(scaling.apply(&c)), scaling.cols)
     }
 
-    /// At most `most` motions that its rows leave free, where their rank is known.
+    /// At most `most` motions that the rows leave free; `rank` is the rank of the rows.
     pub(super) fn motions(&self, rank: usize, most: usize) -> Motions {
         let rows: Vec<usize> = (0..self.mechanism.layout().rows()).collect();
         let (qr, columns) = self.factors(&rows);
@@ -89,7 +89,7 @@ impl<'a> Component<'a> {
         Motions { is_free, motions }
     }
 
-    /// A motion of as few joints and bodies as a search finds.
+    /// A motion of as few joints and bodies as the search finds.
     fn next(&self, space: &mut Space<'_>) -> Option<Vec<f64>> {
         let mut y = space.whole();
         if y.ncols() > 1 {
@@ -101,8 +101,8 @@ impl<'a> Component<'a> {
         space.take(&y)
     }
 
-    /// What is left where as many joints as possible are held, and then as many bodies: the best of
-    /// several orders.
+    /// The subspace that remains after holding as many joints as possible, and then as many bodies;
+    /// the best result of several orders.
     fn smallest(&self, space: &Space<'_>) -> Subspace {
         let bodies = self.mechanism.bodies();
         let groups = self.mechanism.layout().groups.len();
@@ -140,7 +140,8 @@ impl<'a> Component<'a> {
         best.map_or(whole, |(_, y)| y)
     }
 
-    /// Joints from which to look for motions of few: those at the ends of chains first.
+    /// Joints at which the search for motions of few bodies begins: those at the ends of chains
+    /// first.
     fn targets(&self) -> Vec<usize> {
         let groups = &self.mechanism.layout().groups;
         let mut joints = vec![0_usize; self.mechanism.bodies().len()];
@@ -153,7 +154,7 @@ impl<'a> Component<'a> {
         order
     }
 
-    /// Joints by their distance from one, the farthest first and this one last.
+    /// Joints by their distance from `target`, the farthest first and `target` last.
     fn farthest_first(&self, target: usize) -> Vec<usize> {
         let groups = &self.mechanism.layout().groups;
         let mut of_body = vec![Vec::new(); self.mechanism.bodies().len()];
@@ -178,8 +179,8 @@ impl<'a> Component<'a> {
         order
     }
 
-    /// What makes a motion easy to tell, the most wanted first: bodies that do not turn, joints and
-    /// centres of mass that stay where they are, motions along one axis.
+    /// Conditions that make a motion easy to describe, the most useful first: bodies that do not
+    /// rotate, joints and centres of mass that stay at rest, motions along one axis.
     fn wishes(&self) -> Vec<Vec<Form>> {
         let bodies = || 0..self.mechanism.bodies().len();
         let pinned = self.mechanism.layout().constraint_ids().flat_map(|id| {
@@ -195,14 +196,14 @@ impl<'a> Component<'a> {
         turns.chain(pinned).chain(centres).chain(axes).collect()
     }
 
-    /// Forms that vanish where the bodies of a joint move as one; with the ground, where they are
-    /// at rest.
+    /// Forms that vanish if the bodies of a joint move as one; if one of them is the ground, if
+    /// they are at rest.
     fn held(&self, group: usize) -> Vec<Form> {
         let place = self.mechanism.reactions(&self.s).place(ConstraintId(group));
         let all = &self.mechanism.layout().groups[group].bodies;
         let bodies: Vec<usize> = all.iter().filter_map(|b| b.moving()).collect();
         match bodies.as_slice() {
-            // Of joints of one body the ground is the other.
+            // The second body of a joint with only one body is the ground.
             bodies if all.len() == 1 || bodies.len() < all.len() => {
                 bodies.iter().flat_map(|&b| at_rest(b)).collect()
             }
@@ -215,11 +216,12 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// Forms that vanish where a point of a body is at rest.
+    /// Forms that vanish if a point of a body is at rest.
     fn point_at_rest(&self, body: usize, [x, y]: [f64; 2]) -> Vec<Form> {
         let pose = &self.s.poses[body];
         let first = COLUMNS * body;
-        // Below one: the point is within the size of the mechanism, and turning is measured by it.
+        // The coefficients are below 1: the point is within the size of the mechanism, and
+        // rotations are scaled by it.
         let unit = self.units[first + 2];
         vec![
             vec![(first, 1.0), (first + 2, -unit * (y - pose.y))],
@@ -227,7 +229,7 @@ impl<'a> Component<'a> {
         ]
     }
 
-    /// Forms that vanish where two bodies move as one, compared at a point.
+    /// Forms that vanish if two bodies move as one, compared at a point.
     fn together(&self, [a, b]: [usize; 2], place: [f64; 2]) -> Vec<Form> {
         let difference = |(mut one, other): (Form, Form)| {
             one.extend(other.into_iter().map(|(j, c)| (j, -c)));
@@ -240,8 +242,8 @@ impl<'a> Component<'a> {
         forms
     }
 
-    /// All bodies as one: two translations, and a rotation about the first body's centre of mass;
-    /// without dimensions.
+    /// The motions of all bodies as one rigid body: two translations, and a rotation about the
+    /// centre of mass of the first body; without dimensions.
     fn rigid(&self) -> Vec<Vec<f64>> {
         let centre = self.s.poses.first().map_or([0.0; 2], |p| [p.x, p.y]);
         let motion = |of: &dyn Fn(f64, f64) -> [f64; COLUMNS]| -> Vec<f64> {
@@ -256,13 +258,13 @@ impl<'a> Component<'a> {
         ]
     }
 
-    /// The rigid motions with their dimensions.
+    /// The rigid motions with dimensions.
     pub(super) fn rigid_velocities(&self) -> Vec<Velocities> {
         self.rigid().iter().map(|v| self.velocities(v)).collect()
     }
 
-    /// Velocities with their dimensions, such that the largest rotation is 1, or the fastest
-    /// translation where nothing turns. What is rounding is zero.
+    /// Velocities with dimensions, scaled so that the largest rotation is 1, or the fastest
+    /// translation if nothing rotates. Rounding is set to zero.
     fn velocities(&self, v: &[f64]) -> Velocities {
         let fastest = v.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let known = |x: f64| if x.abs() > AT_REST * fastest { x } else { 0.0 };
@@ -283,15 +285,15 @@ impl<'a> Component<'a> {
     }
 }
 
-/// Forms that vanish where a body is at rest.
+/// Forms that vanish if a body is at rest.
 fn at_rest(body: usize) -> Vec<Form> {
     (COLUMNS * body..COLUMNS * (body + 1))
         .map(|j| vec![(j, 1.0)])
         .collect()
 }
 
-/// How many independent rows each component has of rows that have this rank together, where each
-/// component's pivots are given: as the pivoted factorisation of all of them would take them.
+/// The number of independent rows in each component, if the rows of all components have this rank
+/// together. The largest pivots count, as in a pivoted factorisation of all rows.
 pub(super) fn shared_rank(pivots: &[Vec<f64>], rank: usize) -> Vec<usize> {
     let all = pivots.iter().enumerate();
     let mut all: Vec<(f64, usize)> = all

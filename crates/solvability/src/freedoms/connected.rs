@@ -1,4 +1,4 @@
-//! Bodies that joints connect: sets with ranks of their own, told one after the other.
+//! Sets of bodies connected by joints: each has its own rank and is described separately.
 
 use crate::limits::{MOTIONS_TOLD, ROWS_MAX};
 use crate::pose::COLUMNS;
@@ -7,7 +7,7 @@ use model::{Mechanism, Part, System};
 use super::component::{Component, shared_rank};
 use super::{Decided, FreeMotion, FreeMotions, LeftOut, words};
 
-/// What has been said.
+/// The motions described so far.
 #[derive(Default)]
 struct Told {
     motions: Vec<FreeMotion>,
@@ -15,16 +15,16 @@ struct Told {
     too_large: usize,
 }
 
-/// A mechanism of some joints, and the sets of bodies that they connect.
+/// A mechanism with some of the joints, and the sets of bodies that these joints connect.
 pub(super) struct Connected<'a> {
     whole: &'a Mechanism,
     joined: Part,
-    /// Bodies of the whole, ascending; those of no joint alone.
+    /// Bodies of the whole mechanism, ascending; a body without joints is a set of its own.
     sets: Vec<Vec<usize>>,
 }
 
 impl<'a> Connected<'a> {
-    /// Of all joints, with the drives or without them.
+    /// Connects by all joints, with or without the drives.
     pub(super) fn new(whole: &'a Mechanism, drives: bool) -> Self {
         let groups = whole.layout().groups.iter().enumerate();
         let chosen = groups.filter(|(_, group)| drives || !group.is_drive());
@@ -38,8 +38,8 @@ impl<'a> Connected<'a> {
         }
     }
 
-    /// A basis of the velocities that the rows allow, where their ranks are known and less than n_v
-    /// in all.
+    /// A basis of the velocities that the rows allow, if their ranks are known and less than n_v in
+    /// total.
     pub(super) fn motions(&self, t: f64, q: &[f64], decided: &[Decided]) -> FreeMotions {
         let rank: usize = decided.iter().map(|part| part.rank).sum();
         let mut told = Told::default();
@@ -60,8 +60,8 @@ impl<'a> Connected<'a> {
         }
     }
 
-    /// Rank of the rows of each set. `None` if it is too large to be told from those of others, or
-    /// to be taken apart.
+    /// Rank of the rows of each set. `None` if the set is too large to separate its rank from that
+    /// of others, or to be analysed further.
     fn ranks(&self, t: f64, q: &[f64], decided: &[Decided]) -> Vec<Option<usize>> {
         let layout = self.whole.layout();
         let mut set_of = vec![0; self.whole.bodies().len()];
@@ -80,7 +80,7 @@ impl<'a> Connected<'a> {
         for part in decided {
             let mut own: Vec<(usize, Vec<usize>)> = Vec::new();
             for &row in &part.rows {
-                // Rows between parts of the ground add nothing to any rank.
+                // Rows between two parts of the ground do not add to any rank.
                 let Some(set) = set_of_row[row] else {
                     continue;
                 };
@@ -119,7 +119,7 @@ impl<'a> Connected<'a> {
         ranks
     }
 
-    /// How much each of some rows (of the whole) of a set adds to the others.
+    /// The pivots of some rows of a set; the rows are numbered in the whole mechanism.
     fn pivots(&self, set: &[usize], t: f64, q: &[f64], rows: &[usize]) -> Vec<f64> {
         let part = self.part(set);
         let places = |row: &usize| {
@@ -138,15 +138,15 @@ impl<'a> Connected<'a> {
         places.map(|k| q[k]).collect()
     }
 
-    /// The mechanism of a set that joints connect; its places are those in the mechanism of the
-    /// chosen joints.
+    /// The mechanism of a set of connected bodies; its places refer to the mechanism of the chosen
+    /// joints.
     fn part(&self, set: &[usize]) -> Part {
         let bodies = &self.joined.places.bodies;
         let own = set.iter().filter_map(|b| bodies.binary_search(b).ok());
         self.joined.mechanism.part(&own.collect::<Vec<_>>())
     }
 
-    /// Whether no joint touches the bodies of a set.
+    /// Whether no joint acts on the bodies of a set.
     fn is_alone(&self, set: &[usize]) -> bool {
         let joined = &self.joined.places.bodies;
         set.iter().all(|b| joined.binary_search(b).is_err())
@@ -196,7 +196,7 @@ impl<'a> Connected<'a> {
         }
     }
 
-    /// Bodies of a set on which a drive acts, as places in the set.
+    /// Bodies of a set on which a drive acts, as indices into the set.
     fn driven(&self, set: &[usize]) -> Vec<usize> {
         let groups = self.whole.layout().groups.iter();
         let drives = groups.filter(|group| group.is_drive());

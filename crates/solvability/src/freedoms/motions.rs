@@ -1,46 +1,46 @@
-//! Free motions as they are told, and the ranks that they follow from.
+//! Free motions as reported, and the ranks from which they follow.
 
 use super::ranks::WithoutDrives;
 
-/// A basis of the velocities that rows allow.
+/// A basis of the velocities that the rows allow.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FreeMotions {
-    /// In words and numbers, at most [`MOTIONS_TOLD`](crate::MOTIONS_TOLD).
+    /// The motions as text and numbers, at most [`MOTIONS_TOLD`](crate::MOTIONS_TOLD).
     pub motions: Vec<FreeMotion>,
-    /// What is not told. `None` if everything is.
+    /// Freedoms that are not described. `None` if all are.
     pub left_out: Option<LeftOut>,
 }
 
-/// Freedoms that are counted only.
+/// Freedoms that are only counted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
-    /// How many.
+    /// Their number.
     pub freedoms: usize,
-    /// Why.
+    /// Reason why they are not described.
     pub reason: String,
 }
 
-/// One free motion; of a body that nothing holds, and of bodies that are joined to each other
-/// alone, the three that it has as a whole.
+/// One free motion. A body that is attached to nothing, and bodies that are joined only to each
+/// other, have all three rigid motions in one entry.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FreeMotion {
-    /// What moves: "`crank` turns about `A`; with it `coupler` and `rocker` turn".
+    /// Description, for example "`crank` turns about `A`; with it `coupler` and `rocker` turn".
     pub text: String,
-    /// One list for each freedom, with the bodies that move: their place among the bodies, vx, vy
-    /// (m/s) and ω (rad/s). The largest rotation is 1, or the fastest translation where nothing
-    /// turns.
+    /// One list for each degree of freedom, with the bodies that move: index of the body, vx, vy
+    /// (m/s) and ω (rad/s). The largest rotation is 1, or the fastest translation if nothing
+    /// rotates.
     pub velocities: Vec<Vec<(usize, [f64; 3])>>,
 }
 
-/// Ranks of rows that have been decided together: of the whole, or of a part that shares no cycle
-/// with others.
+/// Rank of rows that have been decided together: those of the whole mechanism, or of a part that
+/// shares no cycle with others.
 pub(crate) struct Decided {
-    /// Rows of the whole, ascending.
+    /// Rows of the whole mechanism, ascending.
     pub(crate) rows: Vec<usize>,
     /// Their rank.
     pub(crate) rank: usize,
-    /// Without those of drives. `None` if there are none among them.
+    /// The rank without the rows of drives. `None` if no row is of a drive.
     pub(crate) without_drives: Option<WithoutDrives>,
 }

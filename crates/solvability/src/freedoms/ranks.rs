@@ -11,12 +11,12 @@ use crate::matrices::Solvability;
 pub struct WithoutDrives {
     /// Their rank.
     pub rank: usize,
-    /// What they are more than that.
+    /// Number of rows minus their rank.
     pub redundancy: usize,
 }
 
 impl WithoutDrives {
-    /// From the decision of all rows. `None` if none is a drive's.
+    /// Computes them from the decision of all rows. Returns `None` if there are no drives.
     pub(crate) fn of(
         layout: &Layout,
         rows: &Rows,

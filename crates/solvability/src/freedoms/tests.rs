@@ -1,5 +1,5 @@
-//! Mechanisms whose free motions are written down by hand: points of a body at r move by v + ω × (p
-//! − r).
+//! Mechanisms whose free motions are derived by hand: a point p of a body at r has the velocity v +
+//! ω × (p − r).
 
 use crate::limits::MOTIONS_TOLD;
 use joints::{
@@ -14,10 +14,10 @@ use crate::analyse;
 
 const GROUND: BodyRef = BodyRef::Ground;
 
-/// What is computed may differ from what is derived by rounding.
+/// Allowed difference between computed and derived numbers: rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A bar with its centre of mass here.
+/// A bar with its centre of mass at `position`.
 fn at(name: &str, position: [f64; 2]) -> Body {
     Body {
         position,
@@ -46,7 +46,7 @@ fn motor(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2])
     );
 }
 
-/// A guide along an axis (global; bodies are not turned).
+/// A guide along an axis (global direction; bodies have angle 0).
 fn rail(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2], axis: Direction) {
     let [s_i, s_j] = bodies.map(|b| d.local(b, place));
     let angle_0 = 0.0;
@@ -91,7 +91,7 @@ fn texts(motions: &FreeMotions) -> Vec<&str> {
     motions.motions.iter().map(|m| m.text.as_str()).collect()
 }
 
-/// The velocities of one motion, against what is derived.
+/// Compares the velocities of one motion with the derived ones.
 fn moves(motions: &FreeMotions, which: usize, expected: &[(usize, [f64; 3])]) {
     let [found] = motions.motions[which].velocities.as_slice() else {
         panic!("{motions:?}");
@@ -148,7 +148,7 @@ fn a_four_bar_moves_without_its_motor_only() {
     moves(&without.motions, 0, &derived);
 }
 
-/// Where the rocker is driven, it is named first: it is what the drive moves.
+/// If the rocker is driven, it is named first, because the drive moves it.
 #[test]
 fn what_a_drive_moves_is_named_first() {
     let mut d = four_bar();
@@ -185,7 +185,7 @@ fn a_slider_slides_along_its_rail() {
     assert_eq!((driven.mobility, without), (0, 1));
 }
 
-/// A cart on a rail with a wheel pinned at its centre: the wheel spins alone.
+/// A cart on a rail with a wheel pinned at its centre: the wheel can rotate alone.
 #[test]
 fn a_wheel_at_its_centre_spins_alone() {
     let mut d = Description::new("cart");
@@ -250,7 +250,7 @@ fn a_body_that_nothing_holds_is_free() {
     assert_eq!(free.motions.motions[1].velocities, expected);
 }
 
-/// A drive connects nothing where drives are left out: the body that it alone holds is free then.
+/// Without drives, a drive connects nothing: a body that only a drive holds is then free.
 #[test]
 fn a_body_that_a_drive_alone_holds_is_free_without_it() {
     let mut d = Description::new("driven stone");
@@ -264,8 +264,8 @@ fn a_body_that_a_drive_alone_holds_is_free_without_it() {
     assert_eq!(texts(&without.motions), ["`stone` is free"]);
 }
 
-/// Two bars pinned to each other and to nothing else: three freedoms of both, and one between them,
-/// told of the lighter one.
+/// Two bars pinned only to each other: three freedoms of both together, and one between them,
+/// described by the lighter bar.
 #[test]
 fn bodies_that_hold_only_each_other_are_free_together() {
     let mut d = Description::new("bars");
@@ -368,7 +368,7 @@ fn wheels_of_a_planetary_gear_turn_together() {
     moves(&free.motions, 0, &derived);
 }
 
-/// A slide whose tool slides across it: each axis by itself.
+/// A slide whose tool slides across it: each axis moves separately.
 #[test]
 fn slides_on_slides_move_along_their_axes() {
     let mut d = Description::new("gantry");

@@ -1,4 +1,5 @@
-//! Free motions as sentences: what turns about which point, what slides, and what goes with it.
+//! Free motions as sentences: which body turns about which point, which body slides, and which
+//! bodies move with it.
 
 use crate::limits::{NAMED_BODIES, SAME_PLACE, VISIBLE};
 use model::{BodyRef, ConstraintId, Mechanism, System};
@@ -6,16 +7,16 @@ use model::{BodyRef, ConstraintId, Mechanism, System};
 use super::component::{Component, Velocities};
 use crate::words::{list, short};
 
-/// What a body does at an instant.
+/// Movement of a body at an instant.
 enum Movement {
-    /// It turns about a point (m).
+    /// Rotation about a point (m).
     Turn([f64; 2]),
-    /// It translates along a direction of length one.
+    /// Translation along a unit vector.
     Slide([f64; 2]),
 }
 
-/// The motion of a component in words, and its velocities with the sign that the words mean:
-/// positive turns, or along the first axis.
+/// Describes a motion of a component and returns its velocities with the sign that the text
+/// implies: positive rotation, or translation along the first axis.
 pub(super) fn tell(
     of: &Component<'_>,
     driven: &[usize],
@@ -72,7 +73,7 @@ pub(super) fn tell(
     (text, velocities)
 }
 
-/// Bodies of a mechanism that nothing holds but each other.
+/// Describes bodies of a mechanism that are joined only to each other.
 pub(super) fn free(mechanism: &Mechanism, bodies: &[usize]) -> String {
     let names = named(mechanism, bodies);
     match bodies.len() {
@@ -81,8 +82,8 @@ pub(super) fn free(mechanism: &Mechanism, bodies: &[usize]) -> String {
     }
 }
 
-/// The body that is named first: one that slides or turns about a joint before others, and of these
-/// one that a drive acts on, then one that is joined to the ground.
+/// The body that is named first: preferably one that slides or turns about a joint, then one on
+/// which a drive acts, then one that is joined to the ground.
 fn leader(
     of: &Component<'_>,
     driven: &[usize],
@@ -104,7 +105,7 @@ fn leader(
     moving.iter().copied().min_by_key(|&b| rank(b))
 }
 
-/// Whether a body moves as if it were fixed to another.
+/// Whether a body moves as if it were rigidly attached to another.
 fn moves_as(of: &Component<'_>, v: &Velocities, leader: usize, body: usize) -> bool {
     let [p, o] = [body, leader].map(|b| &of.s.poses[b]);
     let turn = v[leader][2];
@@ -128,8 +129,8 @@ fn movement(of: &Component<'_>, v: &Velocities, body: usize) -> Movement {
     Movement::Turn([pose.x - y / turn, pose.y + x / turn])
 }
 
-/// The joint of these bodies that stands at a point, or their only centre of mass, or the point in
-/// numbers.
+/// The joint of these bodies located at a point, or "its centre of mass", or the coordinates of the
+/// point.
 fn about(of: &Component<'_>, bodies: &[usize], centre: [f64; 2]) -> String {
     if let Some(joint) = joint_at(of, bodies, centre) {
         return format!("`{joint}`");
@@ -142,7 +143,8 @@ fn about(of: &Component<'_>, bodies: &[usize], centre: [f64; 2]) -> String {
     }
 }
 
-/// The joint of these bodies that stands at a point: the one that holds it most.
+/// The joint of these bodies located at a point; if there are several, the one that constrains
+/// most.
 fn joint_at<'m>(of: &Component<'m>, bodies: &[usize], centre: [f64; 2]) -> Option<&'m str> {
     let mechanism = of.mechanism;
     let groups = mechanism.layout().groups.iter().enumerate();
@@ -170,7 +172,7 @@ fn joint_at<'m>(of: &Component<'m>, bodies: &[usize], centre: [f64; 2]) -> Optio
     named.map(|(_, name)| name)
 }
 
-/// Whether two points are one, as far as the mechanism shows.
+/// Whether two points coincide at the scale of the mechanism.
 fn is_at(of: &Component<'_>, [x, y]: [f64; 2], other: [f64; 2]) -> bool {
     (x - other[0]).hypot(y - other[1]) <= SAME_PLACE * of.size
 }
@@ -181,10 +183,10 @@ fn point(p: [f64; 2], size: f64) -> String {
     format!("({x}, {y})")
 }
 
-/// Names of bodies, at most so many as can be read.
+/// Names of bodies, with a count instead of a long list.
 fn named(mechanism: &Mechanism, bodies: &[usize]) -> String {
     let name = |&b: &usize| format!("`{}`", mechanism.bodies()[b].name);
-    // One more is named rather than counted.
+    // If only one name would be replaced by a count, it is named.
     let told = if bodies.len() == NAMED_BODIES + 1 {
         NAMED_BODIES + 1
     } else {

@@ -1,5 +1,5 @@
-//! A mechanism at a configuration whose rank has been decided: where the numbers of its reactions
-//! are judged.
+//! A mechanism at a configuration whose rank has been decided. It gives the verdicts on the numbers
+//! of its reactions.
 
 use crate::pose::{dimensionless, evaluated, uncertainty};
 use std::borrow::Cow;
@@ -18,13 +18,13 @@ use crate::verdict::Judgement;
 /// A mechanism at time t and coordinates q, with the rank of C there.
 pub struct Configuration<'a> {
     pub(crate) reactions: ReactionForms<'a>,
-    /// What the entries of the dimensionless C are known to.
+    /// Accuracy of the entries of the dimensionless C.
     pub(crate) uncertainty: Matrix,
     pub(crate) solvability: Solvability,
 }
 
 impl<'a> Configuration<'a> {
-    /// The mechanism where `decision` was made.
+    /// Combines a mechanism with the configuration at which `decision` was made.
     ///
     /// # Errors
     /// - [`RequestError::Length`]: q, or the decision, belongs to another mechanism.
@@ -38,7 +38,7 @@ impl<'a> Configuration<'a> {
         Self::of(Cow::Borrowed(mechanism), t, q, decision)
     }
 
-    /// The same of a mechanism that nobody else needs.
+    /// Like [`Self::new`], for a mechanism that the caller gives away.
     pub(crate) fn of(
         mechanism: Cow<'a, Mechanism>,
         t: f64,
@@ -80,19 +80,19 @@ impl<'a> Configuration<'a> {
         })
     }
 
-    /// The numbers that reactions have.
+    /// The reaction numbers as linear forms.
     #[must_use]
     pub fn reactions(&self) -> &ReactionForms<'a> {
         &self.reactions
     }
 
-    /// What can be said of the multipliers.
+    /// Solvability of the multipliers.
     #[must_use]
     pub fn solvability(&self) -> &Solvability {
         &self.solvability
     }
 
-    /// The verdict of a number.
+    /// The verdict on a number.
     ///
     /// # Errors
     /// [`RequestError::Length`]: the form belongs to another mechanism.

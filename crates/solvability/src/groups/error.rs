@@ -1,17 +1,17 @@
-//! What can be wrong with a question about reactions.
+//! Errors in a request about reactions.
 
 use crate::matrices::QueryError;
 
-/// Why a question has no answer.
+/// Reason why a request cannot be answered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RequestError {
     /// A joint or drive that does not exist.
     #[error("there is no joint or drive {id}; the mechanism has {reactions}, counted from 0")]
     UnknownReaction {
-        /// Its place, from 0.
+        /// Its number, from 0.
         id: usize,
-        /// How many there are.
+        /// Number of reactions.
         reactions: usize,
     },
     /// A component that the reaction does not have.
@@ -19,25 +19,25 @@ pub enum RequestError {
     UnknownComponent {
         /// The joint or drive.
         reaction: String,
-        /// What was asked for.
+        /// Name of the requested component.
         component: String,
-        /// What it has.
+        /// Names of its components.
         available: String,
     },
     /// A body that does not exist.
     #[error("there is no body {body}; the mechanism has {bodies}, counted from 0")]
     UnknownBody {
-        /// Its place, from 0.
+        /// Its number, from 0.
         body: usize,
-        /// How many there are.
+        /// Number of bodies.
         bodies: usize,
     },
     /// A row that does not exist.
     #[error("there is no row {row}; the matrix has {rows}, counted from 0")]
     UnknownRow {
-        /// Its place, from 0.
+        /// Its number, from 0.
         row: usize,
-        /// How many there are.
+        /// Number of rows.
         rows: usize,
     },
     /// Too many rows are on common cycles.
@@ -48,34 +48,34 @@ pub enum RequestError {
     Large {
         /// The first joints and drives of the part.
         joints: String,
-        /// Its rows.
+        /// Number of their rows.
         rows: usize,
-        /// Rows that are possible.
+        /// Largest number of rows that is possible.
         most: usize,
     },
-    /// The solvability is of another constraint matrix.
+    /// The solvability belongs to another constraint matrix.
     #[error(transparent)]
     Query(#[from] QueryError),
-    /// A group of nothing.
+    /// An empty group.
     #[error("a group needs at least one {of}")]
     Empty {
-        /// Of what.
+        /// What the group should contain.
         of: &'static str,
     },
-    /// NaN or infinite.
+    /// A value is NaN or infinite.
     #[error("{argument} contains {value} at {index}, need finite numbers")]
     NotFinite {
-        /// Which argument.
+        /// Name of the argument.
         argument: &'static str,
-        /// Which entry.
+        /// Index of the entry.
         index: usize,
-        /// What it is.
+        /// The value.
         value: f64,
     },
-    /// An argument of another length.
+    /// An argument has the wrong length.
     #[error("{argument} has {found} entries, need {expected}")]
     Length {
-        /// Which argument.
+        /// Name of the argument.
         argument: &'static str,
         /// Its length.
         found: usize,

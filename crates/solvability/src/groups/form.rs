@@ -1,5 +1,5 @@
-//! A number linear in the multipliers, with the size of the terms it is summed from. Everything an
-//! engineer asks for is one: a component, a sum of components, a moment about a point, a resultant.
+//! A number that is linear in the multipliers, with the size of the terms that are summed: a
+//! component, a sum of components, a moment about a point, a resultant.
 
 use linalg::Matrix;
 
@@ -7,11 +7,10 @@ use super::error::{RequestError, check_finite};
 use crate::matrices::Solvability;
 use crate::verdict::Judgement;
 
-/// `ℓᵀ·λ` over all rows, summed from terms.
+/// `ℓᵀ·λ` over all rows, a sum of terms.
 ///
-/// The sizes decide what is rounding: where terms cancel, what they leave behind is compared with
-/// the terms and not with itself. So a total that vanishes identically is unique, whatever its
-/// digits.
+/// The sizes decide what is rounding: if terms cancel, the remainder is compared with the terms,
+/// not with itself. So a total that vanishes identically is unique, whatever digits remain.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -50,7 +49,7 @@ impl LinearForm {
     /// Adds `coefficient·λ_row` for each pair.
     ///
     /// # Errors
-    /// [`RequestError::UnknownRow`], [`RequestError::NotFinite`]; nothing is added then.
+    /// [`RequestError::UnknownRow`], [`RequestError::NotFinite`]; in this case nothing is added.
     pub fn add(&mut self, terms: &[(usize, f64)]) -> Result<(), RequestError> {
         let rows = self.coefficients.len();
         let coefficients: Vec<f64> = terms.iter().map(|(_, c)| *c).collect();
@@ -117,8 +116,8 @@ impl LinearForm {
         sizes.map(|(i, size)| size * of_row(i)).sum()
     }
 
-    /// Unique iff `ℓᵀ·Z = 0`; the margin is relative to the size of the terms, both for
-    /// equilibrated rows.
+    /// Verdict on the number: unique iff `ℓᵀ·Z = 0`. The margin is relative to the size of the
+    /// terms, both for equilibrated rows.
     ///
     /// # Errors
     /// [`RequestError::Length`]: the matrix has another number of rows.
@@ -135,7 +134,7 @@ impl LinearForm {
             0.0 => 1.0,
             largest => largest,
         };
-        // A component is judged relative to the largest row of its map: here that of the sizes.
+        // A component is compared with the largest row of its map; here that row holds the sizes.
         let rows = [&self.coefficients, &self.sizes];
         let map = Matrix::from_fn(rows.len(), m, |k, i| rows[k][i] / largest);
         Ok(solvability.component(&map, 0, 0..m)?)

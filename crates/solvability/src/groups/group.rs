@@ -1,34 +1,35 @@
-//! What a user puts together.
+//! Groups of reactions that the user defines.
 
 use model::ConstraintId;
 
 use super::error::RequestError;
 
-/// What is to be judged.
+/// A group on which a verdict is requested.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Group {
-    /// The reactions of these joints and drives together: unique iff each is.
+    /// The reactions of these joints and drives together: unique iff every one of them is unique.
     Members(Vec<ConstraintId>),
-    /// These joints and drives as if they were one: unique iff their total force on each body is.
+    /// These joints and drives as if they were one joint: unique iff their total wrench on each
+    /// body is unique.
     OneJoint(Vec<ConstraintId>),
     /// `Σ coefficient · component`: one number.
     Combination(Vec<Term>),
     /// `Σ coefficient · wrench`, each wrench as it acts on the first body of its joint, torques
     /// about the place of the first one.
     WrenchSum(Vec<(f64, ConstraintId)>),
-    /// Everything that acts on these bodies from joints and drives, torques about the origin of the
-    /// first. Newton and Euler make it unique.
+    /// The total of all joints and drives that act on these bodies, torques about the origin of the
+    /// first body. It is unique by the Newton-Euler equations.
     Resultant(Vec<usize>),
 }
 
-/// One component of a reaction, times a number.
+/// One component of a reaction, times a coefficient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
     /// The joint or drive.
     pub reaction: ConstraintId,
     /// `Fx`, `Fy`, `T`, or the named component of its definition.
     pub component: String,
-    /// The number.
+    /// The coefficient.
     pub coefficient: f64,
 }
 

@@ -1,5 +1,5 @@
 //! The numbers of reactions at one pose, as linear forms of the multipliers: components, sums of
-//! them, sums of wrenches, resultants. Not here: which of them are unique.
+//! them, sums of wrenches, resultants. This module does not determine which of them are unique.
 
 use std::borrow::Cow;
 
@@ -11,11 +11,11 @@ use super::error::{RequestError, check, check_finite};
 use super::form::LinearForm;
 use super::group::{Group, NO_REACTION, Term};
 
-/// A mechanism at a pose, where numbers of its reactions are made.
+/// A mechanism at a pose, from which the linear forms of its reactions are computed.
 pub struct ReactionForms<'a> {
     pub(crate) mechanism: Cow<'a, Mechanism>,
     pub(crate) s: Scratch,
-    /// Length by which torques are compared with forces (m).
+    /// Length by which torques are divided for comparison with forces (m).
     pub(crate) size: f64,
 }
 
@@ -110,7 +110,7 @@ impl ReactionForms<'_> {
     }
 
     /// The total of all reactions on a set of bodies, `[Fx, Fy, T]` with the torque about a global
-    /// point. Each body counts once.
+    /// point. A body that is listed twice counts once.
     ///
     /// # Errors
     /// [`RequestError::UnknownBody`], [`RequestError::Empty`], [`RequestError::NotFinite`]
@@ -161,8 +161,8 @@ impl ReactionForms<'_> {
         }
     }
 
-    /// Adds `along · (map·λ)` for a map of some rows; forces count by their size in the plane,
-    /// torques by the arm that forces may have.
+    /// Adds `along · (map·λ)` for a map of some rows. The size of a term is the magnitude of its
+    /// force, and for torques also that force times the size of the mechanism.
     fn add_wrench(&self, form: &mut LinearForm, map: &Matrix, first_row: usize, along: [f64; 3]) {
         for j in 0..map.ncols() {
             let [x, y, t] = [0, 1, 2].map(|k| map[(k, j)]);
@@ -194,8 +194,8 @@ impl ReactionForms<'_> {
         self.mechanism.layout().groups[id.0].rows.start
     }
 
-    /// The numbers of a group that is one, by name: the `sum` of a combination; `Fx`, `Fy` and `T`
-    /// of wrenches. Several reactions side by side are none.
+    /// The numbers of a group, with their names: the `sum` of a combination; `Fx`, `Fy` and `T` of
+    /// wrenches. A group of several separate reactions has none.
     ///
     /// # Errors
     /// As [`crate::judge_groups`].
@@ -203,7 +203,7 @@ impl ReactionForms<'_> {
         self.numbers_about(group, self.about(group)?)
     }
 
-    /// The same with T of wrenches about this point.
+    /// Like [`Self::numbers`], with T of wrenches about this point.
     pub(crate) fn numbers_about(
         &self,
         group: &Group,
@@ -219,7 +219,7 @@ impl ReactionForms<'_> {
         })
     }
 
-    /// Where the T of a sum of wrenches or a resultant is about.
+    /// The point about which T of a sum of wrenches or a resultant is taken.
     pub(crate) fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
         match group {
             Group::WrenchSum(terms) => terms.first().map(|&(_, id)| self.place(id)).transpose(),

@@ -1,5 +1,5 @@
-//! Drives that agree, drives that do not, and drives against joints; what they differ by is known
-//! by hand.
+//! Drives that agree, drives that contradict each other, and drives that contradict joints; their
+//! differences are computed by hand.
 
 use std::f64::consts::PI;
 
@@ -56,7 +56,7 @@ fn gantry(motions: [Function; 2]) -> Description {
     d
 }
 
-/// From 0.5 s to 1 s to this value.
+/// A motion from 0.5 s to 1 s to this value.
 fn late(to: f64) -> Function {
     Function::steps(0.0, &[[0.5, 1.0, to]]).expect("ordered")
 }
@@ -73,7 +73,7 @@ fn assembled(d: &Description) -> (Mechanism, Vec<f64>) {
     (mechanism, q)
 }
 
-/// Where the drives lead, as far as they are independent.
+/// The configuration to which the independent drives lead.
 fn followed_drives(mechanism: &Mechanism, q: &[f64], t: f64) -> Option<Vec<f64>> {
     let mut last = None;
     let seen = walk(mechanism, q, t, |time, q| {
@@ -115,7 +115,7 @@ fn motors_of_two_speeds_are_named_at_the_start() {
     assert!(one.is_of_drives());
 }
 
-/// 0.3 m and 0.6 m, and as far apart as it likes: no rail is named.
+/// The motors differ by 0.3 m and 0.6 m; however large the difference, no rail is named.
 #[test]
 fn motors_that_part_later_are_named_with_the_time() {
     for (far, said) in [(0.6, "0.6 m"), (600.0, "600 m")] {
@@ -133,7 +133,7 @@ fn motors_that_part_later_are_named_with_the_time() {
         );
         let joints: Vec<&str> = one.rows.iter().map(|r| r.joint.as_str()).collect();
         assert_eq!(joints, ["rail-left", "left", "right"], "{one}");
-        // At the end they ask for all of it.
+        // At the end the whole difference is reported.
         let (mechanism, q) = assembled(&d);
         let there = followed_drives(&mechanism, &q, 1.0).expect("reached");
         assert!(
@@ -151,7 +151,8 @@ fn motors_that_part_later_are_named_with_the_time() {
     }
 }
 
-/// A drive that leads too far to be followed to the end is compared where it has been followed to.
+/// A drive that leads too far to be followed to the end is compared up to where it has been
+/// followed.
 #[test]
 fn what_leads_far_away_is_compared_on_the_way() {
     let one = along(&gantry([late(1e6), late(0.3)]), 1.5).expect("they differ");
@@ -161,8 +162,8 @@ fn what_leads_far_away_is_compared_on_the_way() {
     );
 }
 
-/// Laws that part by little: told to rounding at one time; along the way only what a run would
-/// notice.
+/// Functions of time that differ slightly: reported to rounding at a single time; along the motion
+/// only if a run would notice the difference.
 #[test]
 fn small_differences_are_told_at_their_time() {
     for size in [1e-3, 1e-6, 1e-9, 1e-12] {
@@ -171,7 +172,7 @@ fn small_differences_are_told_at_their_time() {
         let (mechanism, q) = assembled(&d);
         let there = followed_drives(&mechanism, &q, 2.0).expect("reached");
         let found = contradicting_drives(&mechanism, 2.0, &there).expect("a configuration");
-        // Positions part by less than the 1e-9 that are noticed, rates by twice as much.
+        // The positions differ by less than the 1e-9 that is noticed, the rates by twice as much.
         assert_eq!(along(&d, 2.0).is_some(), size > 1e-10, "{size}");
         if size < 1e-10 {
             assert_eq!(found, [], "below what the poses are known to");
@@ -218,8 +219,8 @@ fn locomotive(motions: [Function; 2]) -> Description {
     d
 }
 
-/// Six times through poses in which the rank drops, where the second wheel could turn the other
-/// way: it does not.
+/// The motion passes six poses at which the rank drops and the second wheel could turn the other
+/// way; it does not.
 #[test]
 fn agreeing_motors_are_followed_through_flat_poses() {
     for turns in [0.7, 3.0] {
@@ -258,7 +259,7 @@ fn a_motor_that_lags_behind_is_named_with_the_joints_between() {
     );
 }
 
-/// Hinges 0.8 m apart lock the leaf; the motor of the first asks it to turn.
+/// Hinges 0.8 m apart lock the leaf; the motor on the first one prescribes a rotation.
 fn locked_door(motion: Function) -> Description {
     let mut d = Description::new("door");
     let leaf = d.body(Body {
@@ -281,16 +282,16 @@ fn a_drive_that_asks_for_what_joints_forbid_is_named_with_them() {
         found.iter().map(ToString::to_string).collect::<Vec<_>>(),
         [text]
     );
-    // The same later.
+    // The same contradiction at a later time.
     let d = locked_door(late(0.25));
     assert_eq!(at_start(&d), []);
     let one = along(&d, 1.0).expect("it turns in the end");
     assert!((one.time, one.demands.len()) == (7.0 / 12.0, 1), "{one}");
-    // A motor that holds the leaf where it is asks for nothing.
+    // A motor that holds the leaf at rest contradicts nothing.
     assert_eq!(along(&locked_door(rate(0.0)), 1.0), None);
 }
 
-/// Where nothing is redundant, nothing contradicts; without drives neither.
+/// Nothing contradicts if no row is redundant or if there are no drives.
 #[test]
 fn a_drive_that_is_needed_contradicts_nothing() {
     let mut d = Description::new("crank");
@@ -304,7 +305,7 @@ fn a_drive_that_is_needed_contradicts_nothing() {
     assert!(contradicting_drives_along(&mechanism, &q, f64::NAN).is_err());
 }
 
-/// A slider-crank in line: its motor is redundant there and nowhere else, so that nothing
+/// A slider-crank in line: its motor is redundant at this configuration only, so nothing
 /// contradicts it.
 #[test]
 fn a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later() {
