@@ -8,27 +8,27 @@
 //! | [`matrices`] | solvability of a plain constraint matrix |
 //! | [`mod@rows`] | what a motion needs: independent rows, also of large mechanisms |
 //! | [`state`] | a state that the caller gives |
-//! | [`existence`] | do the rows contradict each other? |
-//! | [`mod@generic`] | permanent, or only of this configuration? |
+//! | [`existence`] | whether the rows contradict each other |
+//! | [`mod@generic`] | whether a redundancy is permanent, or of this configuration only |
 //! | [`freedoms`] | what can move, with drives and without |
 //! | [`groups`] | combinations of reactions, resultants |
 //! | [`frames`] | components in global, body and edge frames |
 //! | [`choices`] | one solution among many, labelled |
-//! | [`units`] | facts and choices told apart by a change of units |
+//! | [`units`] | distinguishes unique numbers from chosen ones by a change of units |
 //! | [`mod@analysis`] | ranks and verdicts of a mechanism of any size |
-//! | [`mod@parts`] | its parts on common cycles, each judged alone |
+//! | [`mod@parts`] | the parts of a mechanism on common cycles, each analysed separately |
 //! | `mechanism` | one part: joints, wrenches, directions |
 //! | `pose` | C at one configuration, without dimensions |
-//! | `judged` | what is found of a part |
+//! | `judged` | results for a part |
 //! | `certificate` | the rank in double-double at a polished point |
-//! | [`questions`] | sums, frames, choices and deletions, by the parts that they touch |
-//! | [`mod@structure`] | what the shape settles before any rank |
+//! | [`questions`] | sums, frames, choices and deletions, answered by the parts that they involve |
+//! | [`mod@structure`] | reactions that the structure makes unique, before any rank |
 //! | `sparse`, `large` | one large set of joints, decided sparsely |
 //! | [`mod@explain`] | mixing, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
-//! | [`sensitivity`] | how much a unique reaction hangs on the data |
-//! | [`mod@second_order`] | is the motion unique where the rank drops? |
-//! | [`along`] | verdicts along a motion: one, and where another holds |
+//! | [`sensitivity`] | how much a unique reaction depends on the data |
+//! | [`mod@second_order`] | whether the motion is unique at a drop of rank |
+//! | [`along`] | verdicts along a motion: the generic verdict, and the times of others |
 //! | `words` | dependencies as sentences |
 
 pub mod along;

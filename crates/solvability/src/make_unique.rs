@@ -1,9 +1,9 @@
-//! What to delete so that a wanted reaction becomes unique, and the motion stays as it is.
+//! Rows to delete so that a given reaction becomes unique while the motion stays the same.
 //!
-//! Deleting rows makes the rest unique by decree: it is a decision of the designer that these rows
-//! carry nothing, not a finding. The rule for what may be proposed is simple: any row may be
-//! relaxed as long as its joint keeps one row (a revolute becomes a pin in a slot), and a joint or
-//! drive of one row may be deleted.
+//! Deleting rows makes the others unique by decision: the designer assumes that these rows carry no
+//! load; it is not a result of the model. The rule for proposals: any row may be relaxed as long as
+//! its joint keeps one row (a revolute becomes a pin in a slot), and a joint or drive with a single
+//! row may be deleted.
 
 use std::ops::Range;
 
@@ -13,13 +13,13 @@ use rank::{DeletionError, Limits};
 
 use crate::matrices::Solvability;
 
-/// What may be proposed for deletion.
+/// Rows that may be proposed for deletion.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Allowed {
-    /// Single rows, but no joint of several rows loses all of them.
+    /// Single rows, but never all rows of a joint with several rows.
     #[default]
     Sensible,
-    /// Joints and drives as a whole.
+    /// Whole joints and drives.
     Whole,
     /// These rows (from 0), in any combination.
     Rows(Vec<usize>),
@@ -29,27 +29,29 @@ pub enum Allowed {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Proposal {
-    /// Rows to delete (from 0), ascending; empty if nothing needs to be.
+    /// Rows to delete (from 0), ascending; empty if no deletion is needed.
     pub rows: Vec<usize>,
-    /// What that means, in words.
+    /// The proposal as text.
     pub text: String,
 }
 
-/// The ways to make a reaction unique with the fewest deletions.
+/// The ways to make a reaction unique with the smallest number of deletions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Proposals {
-    /// Each is enough by itself, and no part of it is. None if nothing that is allowed helps.
+    /// The proposals. Each is sufficient by itself, and none of its rows can be omitted. Empty if
+    /// no allowed deletion is sufficient.
     pub ways: Vec<Proposal>,
-    /// Whether these are all of that size.
+    /// Whether all proposals of that size are listed.
     pub complete: bool,
 }
 
-/// The smallest deletions that make the wrench of a joint or drive unique without a change of
+/// Finds the smallest deletions that make the wrench of a joint or drive unique without a change of
 /// motion.
 ///
 /// # Errors
-/// If the rank is undecided, an answer lies between yes and no, or a row does not exist.
+/// If the rank is undecided, if it is undecided whether a deletion is sufficient, or if a row does
+/// not exist.
 pub fn make_unique(
     mechanism: &Mechanism,
     solvability: &Solvability,
@@ -93,8 +95,8 @@ pub fn make_unique(
 }
 
 impl Solvability {
-    /// The combinations of all multipliers that make up `C_Xᵀ·λ_X` (n × m), each in the scale of
-    /// its equilibrated column.
+    /// The combinations of all multipliers that give `C_Xᵀ·λ_X` (n × m), each in the scale of its
+    /// equilibrated column.
     fn wrench_combinations(&self, rows: Range<usize>) -> Matrix {
         let decision = self.decision();
         let m = decision.rank + decision.redundancy;

@@ -1,9 +1,9 @@
 //! Solvability of a plain constraint matrix: which combinations of multipliers are the same in all
 //! solutions `λ = λ₀ + Z·y` of `M·a + Cᵀ·λ = Q`.
 //!
-//! Rows may be grouped in any way; groups may overlap. A row named twice in a group counts once; a
-//! group without rows has no reaction, which is unique with margin 0. Not here: what rows and
-//! groups mean (`mechanism`), and how the rank is decided (`linalg`).
+//! Rows may be grouped in any way; groups may overlap. A row listed twice in a group counts once. A
+//! group without rows has no reaction and is unique with margin 0. The meaning of rows and groups
+//! is the subject of `mechanism`; the rank is decided in the crate `rank`.
 //!
 //! Source: Wojtyra, Frączek (2013), doi 10.1007/s11044-013-9352-0: with `C·P = Q·R` and the last p
 //! columns of Q as Z, the reaction of a joint with rows X is unique iff `B_X = C_Xᵀ·Z_X = 0` (27).
@@ -26,7 +26,7 @@ pub(crate) use mapped::Mapped;
 
 pub use error::QueryError;
 
-/// What can be said of the multipliers of a constraint matrix.
+/// Solvability of the multipliers of a constraint matrix.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -44,13 +44,13 @@ pub use error::QueryError;
 #[derive(Clone, Debug)]
 pub struct Solvability {
     decision: RankDecision,
-    /// All rows.
+    /// All rows with their null space.
     basis: Basis,
 }
 
 impl Solvability {
-    /// Decides the rank of `c` (m × n) and keeps what verdicts need; `uncertainty` is what its
-    /// entries are known to beyond rounding.
+    /// Decides the rank of `c` (m × n) and keeps what verdicts need; `uncertainty` is the
+    /// uncertainty of its entries beyond rounding.
     ///
     /// # Errors
     /// If an entry or the uncertainty is not finite.
@@ -58,10 +58,10 @@ impl Solvability {
         Ok(Self::from_decision(c, rank::decide(c, uncertainty)?))
     }
 
-    /// The same for a matrix whose entries are meant exactly as they stand: every verdict is exact,
-    /// none is undecided.
+    /// Like [`Self::of`], for a matrix whose entries are exact: every verdict is exact, and none is
+    /// undecided.
     ///
-    /// Zero tests are done modulo primes; margins are computed in `f64` and are upper estimates
+    /// Tests for zero are made modulo primes; margins are computed in `f64` and are upper estimates
     /// below 1e-15.
     ///
     /// # Errors
@@ -70,14 +70,14 @@ impl Solvability {
         Ok(Self::from_decision(c, rank::certify_exact(c)?))
     }
 
-    /// The same for a rank that has been decided already for this matrix, or for the double-double
-    /// matrix that was rounded to it.
+    /// Uses a rank that has already been decided for this matrix, or for the double-double matrix
+    /// that was rounded to it.
     ///
     /// # Panics
-    /// If the decision is that of a matrix of another shape.
+    /// If the decision belongs to a matrix of another shape.
     #[must_use]
     pub fn from_decision(c: &Matrix, decision: RankDecision) -> Self {
-        // An exact decision is that of a finite matrix.
+        // An exact decision always has a finite matrix.
         let exact = decision.is_exact();
         let exact = exact.then(|| ExactNullSpace::new(c).ok()).flatten();
         let certificate = decision.evidence.certificate.as_ref();
@@ -120,17 +120,17 @@ impl Solvability {
         &self.basis.z
     }
 
-    /// What its verdicts are read from.
+    /// The rows and null space from which verdicts are read.
     pub(crate) fn basis(&self) -> &Basis {
         &self.basis
     }
 
-    /// `D_r·C·D_c`, the matrix that verdicts are about.
+    /// `D_r·C·D_c`, the matrix to which verdicts refer.
     pub(crate) fn equilibrated(&self) -> &Matrix {
         &self.basis.c
     }
 
-    /// The multiplier of one row: unique iff `Z_i = 0`.
+    /// Verdict on the multiplier of one row: unique iff `Z_i = 0`.
     ///
     /// # Errors
     /// If there is no such row.
@@ -138,8 +138,8 @@ impl Solvability {
         self.basis.row(i)
     }
 
-    /// All multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than
-    /// [`Solvability::group`] where the rows depend on each other.
+    /// Verdict on all multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than
+    /// [`Solvability::group`] if the rows depend on each other.
     ///
     /// # Errors
     /// If a row does not exist.
@@ -158,7 +158,8 @@ impl Solvability {
         self.basis.b_x(rows)
     }
 
-    /// The reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖ (Frobenius).
+    /// Verdict on the reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖
+    /// (Frobenius).
     ///
     /// # Errors
     /// If a row does not exist.
@@ -166,8 +167,8 @@ impl Solvability {
         self.basis.group(rows)
     }
 
-    /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is
-    /// relative to ‖ℓ‖, both for equilibrated rows.
+    /// Verdict on a linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin
+    /// is relative to ‖ℓ‖, both for equilibrated rows.
     ///
     /// # Errors
     /// If there are not m coefficients, or one is not finite.
@@ -175,9 +176,10 @@ impl Solvability {
         self.basis.combination(l)
     }
 
-    /// Component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero; the margin is
-    /// relative to the largest row of W. A row that is rounding beside the others is zero, unless
-    /// the entries are meant exactly. Column l of W belongs to row l of the list.
+    /// Verdict on component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero. The
+    /// margin is relative to the largest row of W. A row of W that is only rounding relative to the
+    /// others counts as zero, unless the entries are exact. Column l of W belongs to row l of the
+    /// list.
     ///
     /// # Errors
     /// If a row or the component does not exist, or W does not have a column for each row, or is
@@ -192,11 +194,11 @@ impl Solvability {
     }
 
     /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the
-    /// map W (k × |X|) from multipliers to components. Unit vectors with k entries; the largest
+    /// map W (k × |X|) from multipliers to components. Unit vectors with k entries whose largest
     /// entry is positive.
     ///
     /// # Errors
-    /// As [`Solvability::component`], and where the numbers do not decide how many there are.
+    /// As [`Solvability::component`], and if the number of directions is undecided.
     pub fn unique_directions(
         &self,
         map: &Matrix,

@@ -1,19 +1,20 @@
-//! The rank of the mechanism that is meant: its data are known to their rounding, or to a tolerance
-//! that the scene states, and the rank is that of the data within what they are known to.
+//! The rank of the intended mechanism: the data are uncertain by their rounding, or by a tolerance
+//! that the scene states, and the rank is the lowest that data within this uncertainty have.
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `matrix` | C without dimensions, with the forces and levers that are none set to zero, and one scale for each force and lever |
+//! | `matrix` | C without dimensions; forces and levers within their uncertainty are set to zero |
 //! | `reading` | the rank of such a matrix |
-//! | `share` | by what share of their uncertainty the data would have to be wrong for a lower rank |
-//! | `near` | by how many metres, and the least rank within a stated tolerance |
+//! | `share` | change of the data for a lower rank, as a fraction of their uncertainty |
+//! | `near` | the same change in metres, and the least rank within a stated tolerance |
 //! | `pose` | how C changes with the data at one pose |
-//! | `support` | which rows belong to a dependency beyond doubt |
+//! | `support` | which rows certainly belong to a dependency |
 //! | `walk` | other poses of the same mechanism |
-//! | `follow` | how poses, and the way to them, follow the data |
+//! | `follow` | how poses, and the path to them, change with the data |
 //! | `cone` | the smallest change of data that satisfies equations |
 //!
-//! Not here: the proof in double-double (`certificate`), and what the rank means for reactions.
+//! The proof in double-double is in `certificate`. This module does not say what the rank means for
+//! reactions.
 
 mod cone;
 mod follow;

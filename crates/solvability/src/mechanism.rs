@@ -18,8 +18,8 @@ use crate::pose::TRANSLATIONS;
 use crate::verdict::Verdict;
 use crate::words;
 
-/// Verdicts of a mechanism that is one part, at the pose of the scratch, where Φ and C have been
-/// evaluated and the rank has been decided.
+/// Verdicts of a mechanism that is one part, at the pose of the scratch, in which Φ and C have been
+/// evaluated and for which the rank has been decided.
 pub(crate) fn judge(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -48,16 +48,16 @@ pub(crate) fn judge(
     Ok(found)
 }
 
-/// What is told of each reaction.
+/// How much is reported for each reaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Told {
     /// The verdicts of its wrench, its components and its rows.
     Verdicts,
-    /// The directions in which it is unique, too.
+    /// Also the directions in which it is unique.
     Directions,
 }
 
-/// The same without dependencies, also near ones.
+/// Like [`judge`], without dependencies and near dependencies.
 pub(crate) fn judge_reactions(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -70,7 +70,7 @@ pub(crate) fn judge_reactions(
     let solvability = Solvability::from_decision(&rows.matrix(), decision);
     let mut warnings = Vec::new();
     let mut rank_of = |what: &str, part: std::ops::Range<usize>| {
-        // What is nothing or everything needs no decision of its own.
+        // An empty range, and the range of all rows, need no decision of their own.
         if part.is_empty() {
             return Ok(0);
         }
@@ -121,7 +121,7 @@ pub(crate) fn judge_reactions(
     })
 }
 
-/// The verdict of a joint or drive, whose rows are these of the basis.
+/// The verdict on a joint or drive with these rows of the basis.
 pub(crate) fn reaction(
     mechanism: &Mechanism,
     id: ConstraintId,
@@ -159,7 +159,8 @@ pub(crate) fn reaction(
         (Some(free), true) => free.judgement.clone(),
         _ => on_bodies,
     };
-    // Where their number is undecided there are none to show; the verdicts above say so.
+    // If the number of directions is undecided, none are given; the verdicts above say that it is
+    // undecided.
     let unique_directions = match told {
         Told::Verdicts => None,
         Told::Directions => match mapped.unique_directions() {

@@ -1,4 +1,4 @@
-//! How much memory ranks and verdicts take, before it is taken.
+//! Estimates the memory of ranks and verdicts before it is allocated.
 
 use crate::error::AnalysisError;
 use crate::limits::{DENSE_MATRICES, OF_VERDICT, ONE_PART, ROWS_MAX, SPARSE_FROM};
@@ -9,8 +9,9 @@ use rank::SparsePattern;
 use crate::parts::parts;
 use crate::sparse::{blocks, rows_of, sketch_of};
 
-/// Bytes that ranks, kept rows and verdicts of a mechanism take at most, about, beside the
-/// mechanism itself: the part with most rows, on each of `threads` threads, and all verdicts.
+/// Estimated upper bound (bytes) on the memory of ranks, kept rows and verdicts of a mechanism, not
+/// counting the mechanism itself: the part with most rows, on each of `threads` threads, and all
+/// verdicts.
 ///
 /// # Errors
 /// [`AnalysisError::Large`]: rows are joined too closely for a sparse decision.
@@ -25,7 +26,7 @@ pub fn memory_of_verdicts(mechanism: &Mechanism, threads: usize) -> Result<usize
     let mut most = 0;
     for part in parts(mechanism, &s) {
         let rows: usize = part.iter().map(|&k| layout.groups[k].rows.len()).sum();
-        // Fewer rows than those of another part take less than it.
+        // A part with fewer rows than another one takes less memory.
         if rows > SPARSE_FROM {
             let part = mechanism.part_of_groups(&part).mechanism;
             most = most.max(of_part(&part, s.t)?);

@@ -1,12 +1,13 @@
-//! Parts of a mechanism that are judged alone.
+//! Parts of a mechanism that are analysed separately.
 //!
 //! Self-stresses live on cycles of the graph of bodies, ground and joints: every `z` with
-//! `Cᵀ·z = 0` is a sum of such vectors on single sets of [`rank::cycles`]. So each set is a
-//! mechanism of its own with all the evidence that it has; the redundancy of the whole is the sum
-//! of theirs, and no verdict depends on any other set. The work is linear in their number.
+//! `Cᵀ·z = 0` is a sum of such vectors on single sets of [`rank::cycles`]. So each set can be
+//! analysed as a separate mechanism with its own evidence; the redundancy of the whole is the sum
+//! of their redundancies, and no verdict depends on another set. The work is linear in their
+//! number.
 //!
-//! Each part is measured by its own size: margins do not depend on how long the chain is in which
-//! it stands. Not here: how a part is judged.
+//! Each part has its own size as unit of length, so margins do not depend on the length of the
+//! chain to which it belongs. The analysis of a part is in other modules.
 
 use crate::limits::{FIRST_NAMED, ONE_PART};
 use crate::pose::evaluated;
@@ -20,16 +21,16 @@ use rayon::prelude::*;
 use crate::freedoms::WithoutDrives;
 use crate::words;
 
-/// Where a part is in its mechanism.
+/// Which joints, bodies and rows of a mechanism belong to a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// It is all of it.
+    /// All of them: the part is the whole mechanism.
     Whole,
-    /// It is here.
+    /// Those at these places.
     Places(Places),
 }
 
-/// Numbers of the whole that belong to a part: `None` of places for all of them.
+/// Selects the numbers of the whole that belong to a part; `None` selects all.
 fn own<'a>(x: &'a [f64], places: Option<&[usize]>) -> Cow<'a, [f64]> {
     match places {
         None => Cow::Borrowed(x),
@@ -51,21 +52,22 @@ impl Extent {
         *self == Self::Whole
     }
 
-    /// The row of the whole that is this one of the part.
+    /// The number in the whole mechanism of a row of the part.
     #[must_use]
     pub fn row(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.rows[own])
     }
 
-    /// The row of the part that is this one of the whole; `None` if it belongs to another part.
+    /// The number in the part of a row of the whole mechanism; `None` if it belongs to another
+    /// part.
     #[must_use]
     pub fn own_row(&self, row: usize) -> Option<usize> {
         self.places()
             .map_or(Some(row), |p| p.rows.binary_search(&row).ok())
     }
 
-    /// Those of some rows of the whole that belong to the part, numbered there, in the order in
-    /// which they are listed.
+    /// The listed rows of the whole mechanism that belong to the part, numbered in the part, in the
+    /// order of the list.
     pub(crate) fn own_rows(&self, listed: &ListedRows<'_>) -> Vec<usize> {
         match self.places() {
             None => listed.rows.to_vec(),
@@ -73,13 +75,13 @@ impl Extent {
         }
     }
 
-    /// The joint or drive of the whole that is this one of the part.
+    /// The number in the whole mechanism of a joint or drive of the part.
     #[must_use]
     pub fn group(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.groups[own])
     }
 
-    /// The joint or drive of the part that is this one of the whole; `None` if it belongs to
+    /// The number in the part of a joint or drive of the whole mechanism; `None` if it belongs to
     /// another part.
     #[must_use]
     pub fn own_group(&self, group: usize) -> Option<usize> {
@@ -87,20 +89,21 @@ impl Extent {
             .map_or(Some(group), |p| p.groups.binary_search(&group).ok())
     }
 
-    /// Joints and drives of the whole that belong to the part; none are listed where it is the
+    /// Joints and drives of the whole mechanism that belong to the part; empty if the part is the
     /// whole.
     pub(crate) fn groups(&self) -> &[usize] {
         self.places().map_or(&[], |p| &p.groups)
     }
 
-    /// The body of the part that is this one of the whole; `None` if no joint of the part is on it.
+    /// The number in the part of a body of the whole mechanism; `None` if no joint of the part acts
+    /// on it.
     #[must_use]
     pub fn own_body(&self, body: usize) -> Option<usize> {
         self.places()
             .map_or(Some(body), |p| p.bodies.binary_search(&body).ok())
     }
 
-    /// The body of the whole that is this one of the part.
+    /// The number in the whole mechanism of a body of the part.
     #[must_use]
     pub fn body(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.bodies[own])
@@ -112,19 +115,20 @@ impl Extent {
         own(q, self.places().map(|p| &p.coordinates[..]))
     }
 
-    /// Velocities of the part, or anything else with a number for each of them.
+    /// Velocities of the part, or other values with one number for each velocity.
     #[must_use]
     pub fn velocities<'a>(&self, v: &'a [f64]) -> Cow<'a, [f64]> {
         own(v, self.places().map(|p| &p.velocities[..]))
     }
 
-    /// Multipliers of the part, or anything else with a number for each row.
+    /// Multipliers of the part, or other values with one number for each row.
     #[must_use]
     pub fn of_rows<'a>(&self, lambda: &'a [f64]) -> Cow<'a, [f64]> {
         own(lambda, self.places().map(|p| &p.rows[..]))
     }
 
-    /// Numbers of the rows of the part, at the places that they have in the whole of so many rows.
+    /// Places the numbers of the rows of the part in a vector for all `rows` rows of the whole
+    /// mechanism.
     pub(crate) fn spread(&self, x: &[f64], rows: usize) -> Vec<f64> {
         let mut all = vec![0.0; rows];
         for (k, x) in x.iter().enumerate() {
@@ -133,7 +137,7 @@ impl Extent {
         all
     }
 
-    /// Velocities of the whole with those of the part put in.
+    /// Velocities of the whole mechanism with those of the part replaced.
     pub(crate) fn put_velocities(&self, own: &[f64], mut all: Vec<f64>) -> Vec<f64> {
         match self.places() {
             None => own.to_vec(),
@@ -146,7 +150,7 @@ impl Extent {
         }
     }
 
-    /// The part as a mechanism of its own.
+    /// The part as a separate mechanism.
     #[must_use]
     pub fn mechanism<'a>(&self, whole: &'a Mechanism) -> Cow<'a, Mechanism> {
         match self {
@@ -155,7 +159,7 @@ impl Extent {
         }
     }
 
-    /// The part in words: the names of its first joints and drives.
+    /// The part as text: the names of its first joints and drives.
     pub(crate) fn name(&self, whole: &Mechanism) -> String {
         let groups = &whole.layout().groups;
         let count = self.places().map_or(groups.len(), |p| p.groups.len());
@@ -170,11 +174,11 @@ impl Extent {
     }
 }
 
-/// Rows of the whole in the order in which a caller lists them, found by their numbers: each of
-/// many parts then finds its own without reading the whole list.
+/// Rows of the whole mechanism in the order in which a caller lists them, indexed by row number, so
+/// that each of many parts finds its own rows without reading the whole list.
 pub(crate) struct ListedRows<'a> {
     rows: &'a [usize],
-    /// Each row with its place in the list, ascending.
+    /// Pairs of row and place in the list, ascending.
     by_number: Vec<(usize, usize)>,
 }
 
@@ -186,8 +190,8 @@ impl<'a> ListedRows<'a> {
         Self { rows, by_number }
     }
 
-    /// Places in `own`, which ascends, of the rows that are listed, as often and in the order as
-    /// these are.
+    /// Places in `own` (ascending) of the listed rows, in the order of the list and repeated if the
+    /// list repeats them.
     fn among(&self, own: &[usize]) -> Vec<usize> {
         let mut found: Vec<(usize, usize)> = Vec::new();
         for (k, row) in own.iter().enumerate() {
@@ -201,44 +205,44 @@ impl<'a> ListedRows<'a> {
     }
 }
 
-/// What is known of a part.
+/// Analysis of a part.
 #[derive(Clone, Debug)]
 pub struct PartAnalysis {
-    /// Where it is.
+    /// Joints, bodies and rows of the part.
     pub extent: Extent,
-    /// Size of the part (m): its lengths are dimensionless by this.
+    /// Size of the part (m), the unit of its lengths.
     pub size: f64,
     /// Rank of Φq alone.
     pub rank_holonomic: usize,
     /// Rank of Ψ alone.
     pub rank_nonholonomic: usize,
-    /// Rank and redundancy of the rows without those of drives. `None` if it has no drives.
+    /// Rank and redundancy of the rows without those of drives. `None` if the part has no drives.
     pub without_drives: Option<WithoutDrives>,
-    /// Rank and rows of C; rows are those of the part.
+    /// Rank and kept rows of C; rows are numbered in the part.
     pub decision: PartDecision,
-    /// The proof of the rank, also where the caller chose the dropped rows.
+    /// The proof of the rank; present also if the caller chose the dropped rows.
     pub certificate: Option<Certificate>,
-    /// Kept rows that are independent, but only just; in parts decided sparsely nothing is said of
-    /// them.
+    /// Kept rows that are independent by a small margin only. Always `None` in parts decided
+    /// sparsely.
     pub nearly_redundant: Option<NearlyRedundant>,
 }
 
-/// The rank of a part, by the matrix of all its rows and columns, or by its sparse factors.
+/// The rank of a part, decided by a dense matrix or by sparse factors.
 #[derive(Clone, Debug)]
 pub enum PartDecision {
-    /// With the dependencies of all rows.
+    /// Dense decision, with the dependencies of all rows.
     Dense(Box<RankDecision>),
-    /// With what a sparse decision knows.
+    /// Sparse decision.
     Sparse {
-        /// Rank and rows.
+        /// Rank and kept rows.
         rows: RowDecision,
-        /// The numbers behind them.
+        /// Evidence for the rank.
         evidence: Box<Evidence>,
     },
 }
 
 impl PartDecision {
-    /// Rank and rows.
+    /// Rank and kept rows.
     #[must_use]
     pub fn rows(&self) -> RowDecision {
         match self {
@@ -247,7 +251,7 @@ impl PartDecision {
         }
     }
 
-    /// r
+    /// Rank r.
     #[must_use]
     pub fn rank(&self) -> usize {
         match self {
@@ -256,7 +260,7 @@ impl PartDecision {
         }
     }
 
-    /// p
+    /// Degree of redundancy p.
     #[must_use]
     pub fn redundancy(&self) -> usize {
         match self {
@@ -265,7 +269,7 @@ impl PartDecision {
         }
     }
 
-    /// Decided, or why not.
+    /// Whether the rank is decided, or why it is not.
     #[must_use]
     pub fn status(&self) -> RankStatus {
         match self {
@@ -274,7 +278,7 @@ impl PartDecision {
         }
     }
 
-    /// The numbers behind it.
+    /// Evidence for the rank.
     #[must_use]
     pub fn evidence(&self) -> &Evidence {
         match self {
@@ -283,7 +287,7 @@ impl PartDecision {
         }
     }
 
-    /// The decision with all dependencies; `None` if there are too many rows for that.
+    /// The decision with all dependencies; `None` if the part was decided sparsely.
     #[must_use]
     pub fn dense(&self) -> Option<&RankDecision> {
         match self {
@@ -300,7 +304,7 @@ impl PartAnalysis {
         self.decision.rank() + self.decision.redundancy()
     }
 
-    /// Whether it is proved that the rank is not less.
+    /// Whether the lower bound of the rank is proved.
     #[must_use]
     pub fn is_proved(&self) -> bool {
         let proved = |c: &Certificate| c.rank_at_least == self.decision.rank();
@@ -308,7 +312,7 @@ impl PartAnalysis {
             && self.certificate.as_ref().is_some_and(proved)
     }
 
-    /// How certain the rank is: σ_r, or less than nothing if it is undecided.
+    /// Certainty of the rank: σ_r, or a negative number if it is undecided.
     pub(crate) fn strength(&self) -> f64 {
         match self.decision.status() {
             RankStatus::Decided => self.decision.evidence().sigma_r,
@@ -317,8 +321,8 @@ impl PartAnalysis {
     }
 }
 
-/// Joints and drives that lie on common cycles, at the pose of the scratch, where C has been
-/// evaluated: sets that can be judged alone.
+/// Joints and drives that lie on common cycles, at the pose of the scratch, in which C has been
+/// evaluated: sets that can be analysed separately.
 #[must_use]
 pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
     let ground = mechanism.bodies().len();
@@ -336,11 +340,11 @@ pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
     cycles(ground + 1, &touched)
 }
 
-/// How a mechanism is taken apart.
+/// How a mechanism is divided into parts.
 pub(crate) enum Partition {
-    /// Not at all.
+    /// Not divided.
     One,
-    /// Into these sets of joints and drives.
+    /// Divided into these sets of joints and drives.
     Several(Vec<Vec<usize>>),
 }
 
@@ -363,7 +367,7 @@ impl Partition {
         }
     }
 
-    /// The same without regard to the size of the mechanism.
+    /// The parts at time t and coordinates q, even if the mechanism is small.
     pub(crate) fn by_cycles(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
         Self::of_sets(mechanism, parts(mechanism, &evaluated(mechanism, t, q)))
     }
@@ -376,8 +380,8 @@ impl Partition {
         }
     }
 
-    /// What `f` makes of each part, by their first joints, on the threads of the pool of `rayon`
-    /// from which this is called; of several errors the one of the first part.
+    /// Applies `f` to each part, ordered by their first joints, on the `rayon` thread pool of the
+    /// caller. If several parts return errors, that of the first part is returned.
     pub(crate) fn map<T: Send, E: Send>(
         &self,
         mechanism: &Mechanism,
@@ -400,7 +404,8 @@ impl Partition {
 mod tests {
     use super::*;
 
-    /// As a search through the whole list finds them: in its order, repeated where it repeats.
+    /// The result equals that of a search through the whole list: in its order, and repeated if it
+    /// repeats.
     #[test]
     fn listed_rows_of_a_part() {
         let listed = [9, 4, 7, 4, 30, 0];

@@ -1,5 +1,5 @@
-//! The constraint matrix of a mechanism at one configuration, without dimensions, what its entries
-//! are known to, and its rank in `f64`.
+//! The constraint matrix of a mechanism at one configuration, without dimensions, the uncertainty
+//! of its entries, and its rank in `f64`.
 
 use linalg::Matrix;
 use model::start::scene_size;
@@ -8,10 +8,10 @@ use rank::{KeptRowsError, RankDecision};
 
 use crate::error::AnalysisError;
 
-/// Components of a planar reaction that are forces; the torque follows.
+/// Number of force components of a planar reaction; the torque follows them.
 pub(crate) const TRANSLATIONS: usize = 2;
 
-/// Columns of C that a planar body has: two translations and its rotation.
+/// Number of columns of C for a planar body: two translations and its rotation.
 pub(crate) const COLUMNS: usize = 3;
 
 /// C without dimensions, for a mechanism of this size.
@@ -22,7 +22,7 @@ pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Ma
         .apply(&mechanism.layout().dense(s))
 }
 
-/// What the entries of [`dimensionless`] C are known to in `f64`.
+/// Uncertainty in `f64` of the entries of the [`dimensionless`] C.
 pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism
         .layout()
@@ -30,14 +30,14 @@ pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matr
         .apply(&mechanism.scales(s).uncertainty(size, Known::AsStored))
 }
 
-/// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what
-/// moves a point at the size of the mechanism by about as much, a power of two.
+/// The velocities that correspond to 1 without dimensions: 1 m/s for translations. For rotations it
+/// is the rate that moves a point at the size of the mechanism by about as much; a power of two.
 pub(crate) fn velocity_units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let scaling = mechanism.layout().dimension_scaling(size);
     scaling.cols.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
-/// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated at
+/// Decides the rank of C at the pose of the scratch, in which Φ and C have been evaluated at
 /// coordinates q.
 ///
 /// # Errors
@@ -55,7 +55,7 @@ pub fn decide(
     .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
-/// The same for the holonomic rows alone: which rows of Φ hold the configuration.
+/// Like [`decide`], for the holonomic rows alone: which rows of Φ constrain the configuration.
 ///
 /// # Errors
 /// If C is not finite.
@@ -68,7 +68,7 @@ pub fn decide_holonomic(
     rank::decide(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
-/// Holonomic rows on which a configuration may be polished.
+/// Holonomic rows that are candidates for polishing a configuration.
 pub(crate) fn promising_holonomic(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -78,7 +78,7 @@ pub(crate) fn promising_holonomic(
     rank::promising_rows(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
-/// Φq without dimensions, and what its entries are known to.
+/// Φq without dimensions, and the uncertainty of its entries.
 fn holonomic(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> (Matrix, Matrix) {
     let size = scene_size(mechanism, q);
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
@@ -87,11 +87,11 @@ fn holonomic(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> (Matrix, Matrix) 
     (phi_q, known)
 }
 
-/// The same with the dropped rows given (from 0): they must be as many as the redundancy, and the
-/// others independent.
+/// Like [`decide`], with given dropped rows (from 0): their number must equal the redundancy, and
+/// the other rows must be independent.
 ///
 /// # Errors
-/// If they are not, or C is not finite.
+/// If the given rows do not satisfy this, or C is not finite.
 pub fn decide_dropping(
     mechanism: &Mechanism,
     s: &Scratch,

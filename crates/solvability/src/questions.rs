@@ -1,9 +1,10 @@
-//! Questions about the reactions of an analysed configuration of any size, each answered by the
-//! parts that it touches.
+//! Requests about the reactions of an analysed configuration of any size, each answered by the
+//! parts that it involves.
 //!
-//! The left null space of C is the direct sum of those of the parts. So a number made of reactions
-//! of several parts is unique iff its share in each is; a choice among the solutions is one choice
-//! in each; and rows may be deleted together iff those of each part may be.
+//! The left null space of C is the direct sum of those of the parts. So a number that depends on
+//! reactions of several parts is unique iff its contribution from each part is; a choice among the
+//! solutions is a separate choice in each part; and rows may be deleted together iff those of each
+//! part may be deleted.
 
 mod eliminations;
 
@@ -27,7 +28,7 @@ use crate::verdict::{Judgement, Verdict};
 
 pub use eliminations::EliminationError;
 
-/// An analysed configuration, to be asked about its reactions.
+/// An analysed configuration that answers requests about its reactions.
 ///
 /// ```
 /// use joints::{Direction, KnifeEdge};
@@ -56,17 +57,17 @@ pub struct Questions<'a> {
     mechanism: &'a Mechanism,
     q: Vec<f64>,
     analysis: Arc<Analysis>,
-    /// Of each part, made when it is asked for.
+    /// Configuration of each part, created at first use.
     configurations: Vec<OnceLock<Configuration<'a>>>,
     /// The part of each joint and drive.
     part_of: Vec<usize>,
 }
 
-/// Numbers of a group by name.
+/// Numbers of a group, with their names.
 pub type Numbers = Vec<(&'static str, Value)>;
 
 impl<'a> Questions<'a> {
-    /// To the configuration q of a mechanism that was analysed there.
+    /// Takes a mechanism and the analysis of its configuration q.
     #[must_use]
     pub fn new(mechanism: &'a Mechanism, q: &[f64], analysis: Arc<Analysis>) -> Self {
         let mut part_of = vec![0; mechanism.layout().groups.len()];
@@ -89,7 +90,7 @@ impl<'a> Questions<'a> {
         &self.analysis.parts
     }
 
-    /// The only part, if there is one, or that of a question.
+    /// The configuration of a part.
     fn configuration(&self, k: usize) -> Result<&Configuration<'a>, RequestError> {
         let cell = &self.configurations[k];
         if let Some(made) = cell.get() {
@@ -107,7 +108,7 @@ impl<'a> Questions<'a> {
         Ok(cell.get_or_init(|| made))
     }
 
-    /// The part of a joint or drive, and its number there.
+    /// The part of a joint or drive, and its number in that part.
     fn place(&self, id: ConstraintId) -> Result<(usize, ConstraintId), RequestError> {
         let reactions = self.part_of.len();
         let part = self.part_of.get(id.0).copied();
@@ -119,7 +120,7 @@ impl<'a> Questions<'a> {
             })
     }
 
-    /// The share of each part that a group touches.
+    /// The contribution of each part that a group involves.
     fn shares(&self, group: &Group) -> Result<Vec<(usize, Group)>, RequestError> {
         if let [one] = self.parts()
             && one.extent.is_whole()
@@ -174,7 +175,7 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// Where the T of a sum of wrenches or a resultant is about; checks bodies.
+    /// The point about which T of a sum of wrenches or a resultant is taken; checks the bodies.
     fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
         match group {
             Group::WrenchSum(terms) => {
@@ -196,10 +197,12 @@ impl<'a> Questions<'a> {
         }
     }
 
-    /// The verdict of a group: unique iff its share in each part is, with the largest margin.
+    /// The verdict on a group: unique iff its contribution from each part is unique; the margin is
+    /// the largest of the parts.
     ///
     /// # Errors
-    /// As [`crate::judge_groups`], and [`RequestError::Large`]: it touches a part of too many rows.
+    /// As [`crate::judge_groups`], and [`RequestError::Large`]: it involves a part with too many
+    /// rows.
     pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
         let about = self.about(group)?;
         let judged = self.shares(group)?.into_iter();
@@ -224,7 +227,8 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// The resultant on bodies without joints; any other group of nothing is none.
+    /// The verdict on a group without reactions: the resultant on bodies without joints is unique;
+    /// any other empty group is an error.
     fn of_nothing(
         &self,
         group: &Group,
@@ -247,8 +251,8 @@ impl<'a> Questions<'a> {
         }
     }
 
-    /// The numbers of a group that every solution shares, by name; several reactions side by side
-    /// have none.
+    /// The numbers of a group that are the same in every solution, with their names; a group of
+    /// several separate reactions has none.
     ///
     /// # Errors
     /// As [`Questions::group`].
@@ -261,7 +265,7 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// All numbers of a group as a choice gives them.
+    /// All numbers of a group for a given choice.
     ///
     /// # Errors
     /// As [`Questions::group`].
@@ -276,7 +280,7 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// Sums over parts; `None` if a share is missing.
+    /// Sums over parts; `None` if a contribution is missing.
     fn numbers(
         &self,
         group: &Group,
@@ -311,7 +315,7 @@ impl<'a> Questions<'a> {
         self.configuration(k)?.frames(own)
     }
 
-    /// The distribution that a choice makes of a solution: one choice in each part.
+    /// The distribution that a choice selects for a solution: one choice in each part.
     ///
     /// # Errors
     /// As [`Configuration::distribute`], and [`RequestError::Large`].
@@ -374,7 +378,7 @@ impl<'a> Questions<'a> {
         ))
     }
 
-    /// Checks that each part can do without these rows by their number.
+    /// Checks that the number of listed rows in each part equals its redundancy.
     fn check_counts(&self, rows: &ListedRows<'_>) -> Result<(), ChoiceError> {
         for part in self.parts() {
             let (own, listed) = (part.decision.redundancy(), part.extent.own_rows(rows).len());
@@ -391,7 +395,7 @@ impl<'a> Questions<'a> {
         Ok(())
     }
 
-    /// Those of some supports that belong to a part.
+    /// The listed supports that belong to a part.
     fn listed(&self, k: usize, joints: &[Compliance]) -> Vec<Compliance> {
         let own = |joint: &Compliance| {
             let reaction = self.parts()[k].extent.own_group(joint.reaction.0)?;
@@ -416,8 +420,8 @@ impl<'a> Questions<'a> {
         Ok(rigid)
     }
 
-    /// Which components are facts, and which depend on a choice: told by a change of units, without
-    /// any verdict.
+    /// Which components are unique and which depend on a choice, determined by a change of units
+    /// and independently of the verdicts.
     ///
     /// # Errors
     /// As [`crate::check_units`], and [`RequestError::Large`].
@@ -444,13 +448,13 @@ impl<'a> Questions<'a> {
             .collect();
         let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut checks: Vec<UnitCheck> = parts.into_iter().flatten().collect();
-        // In the order of joints; those of one joint stay as they are.
+        // Ordered by joint; the sort is stable, so the components of one joint keep their order.
         checks.sort_by_key(|check| check.id.0);
         Ok(checks)
     }
 
-    /// Why the reactions are not unique; of parts whose rank is undecided, or that are too large,
-    /// nothing is said. `None` if nothing can be said at all.
+    /// Explains why the reactions are not unique. Parts whose rank is undecided, or that are too
+    /// large, are left out. Returns `None` if no part can be explained.
     ///
     /// # Errors
     /// [`ExplanationError::Rank`], [`ExplanationError::Query`]
@@ -506,7 +510,7 @@ impl<'a> Questions<'a> {
     }
 }
 
-/// What belongs together by parts, in the order of parts.
+/// Collects items by part, in the order of parts.
 fn by_part<T>(
     placed: impl Iterator<Item = Result<(usize, T), RequestError>>,
 ) -> Result<impl Iterator<Item = (usize, Vec<T>)>, RequestError> {

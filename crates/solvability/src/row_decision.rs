@@ -5,15 +5,15 @@ use rank::{RankDecision, RankStatus, SparseRank};
 /// Rank and rows to keep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowDecision {
-    /// r
+    /// Rank r.
     pub rank: usize,
-    /// p
+    /// Degree of redundancy p.
     pub redundancy: usize,
     /// r independent rows, ascending.
     pub kept: Vec<usize>,
-    /// The others, ascending.
+    /// The other rows, ascending.
     pub dropped: Vec<usize>,
-    /// Decided, or why not.
+    /// Whether the rank is decided, or why it is not.
     pub status: RankStatus,
     /// Largest coefficient of a dependency that counts as zero.
     pub support_tolerance: f64,
@@ -26,7 +26,7 @@ impl RowDecision {
         self.status == RankStatus::Decided
     }
 
-    /// Of nothing.
+    /// Decision on zero rows.
     pub(crate) fn empty() -> Self {
         Self {
             rank: 0,
@@ -38,7 +38,7 @@ impl RowDecision {
         }
     }
 
-    /// Adds the decision of a part; `row` tells which row of the whole is a row of the part.
+    /// Adds the decision of a part; `row` maps a row of the part to one of the whole.
     pub(crate) fn add(&mut self, part: Self, row: impl Fn(usize) -> usize) {
         self.rank += part.rank;
         self.redundancy += part.redundancy;
@@ -50,8 +50,8 @@ impl RowDecision {
         self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
     }
 
-    /// That of some of the rows, ascending, which no other row depends on: those of bodies that
-    /// nothing joins to others.
+    /// The decision restricted to some rows (ascending) on which no other row depends: rows of
+    /// bodies that are not connected to others.
     #[must_use]
     pub fn of_rows(&self, rows: &[usize]) -> Self {
         let own = |all: &[usize]| -> Vec<usize> {
@@ -69,7 +69,7 @@ impl RowDecision {
         }
     }
 
-    /// Puts the rows of several parts in order.
+    /// Sorts the rows collected from several parts.
     pub(crate) fn sort(&mut self) {
         self.kept.sort_unstable();
         self.dropped.sort_unstable();

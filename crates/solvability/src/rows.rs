@@ -1,6 +1,6 @@
-//! What a motion needs of the rows: which are independent, of C and of Φq alone, and whether the
-//! others agree with them. At the start they are those of the certificate; on the way other rows
-//! are chosen in `f64`, at the same rank.
+//! The rows that a motion needs: which are independent, of C and of Φq alone, and whether the
+//! others agree with them. At the start they are those of the certificate; during the motion other
+//! rows are chosen in `f64`, at the same rank.
 
 use crate::error::AnalysisError;
 use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
@@ -18,14 +18,14 @@ use crate::row_decision::RowDecision;
 use crate::sparse::decide_range;
 use crate::state::{StateError, check, check_configuration};
 
-/// Rows of C, and of Φq alone, at one configuration, as they were decided there, part by part. The
-/// motion, the verdicts and the words take them from here.
+/// Rows of C, and of Φq alone, decided at one configuration, part by part. The motion, the verdicts
+/// and the texts all use these decisions.
 #[derive(Clone, Debug)]
 pub struct Rows {
-    /// Of all rows of C; undecided also where the rank is certified, but too nearly another one to
-    /// move by numbers in `f64`.
+    /// Decision on all rows of C. It may be undecided although the rank is certified, if the matrix
+    /// is too close to another rank for a motion in `f64`.
     pub all: RowDecision,
-    /// Of the rows of Φq alone.
+    /// Decision on the rows of Φq alone.
     pub holonomic: RowDecision,
     pub(crate) parts: Vec<DecidedPart>,
 }
@@ -36,8 +36,8 @@ pub(crate) struct DecidedPart {
     pub(crate) extent: Extent,
     all: RowDecision,
     holonomic: RowDecision,
-    /// Of all rows and of the holonomic ones, as they were certified; `None` in a part that is
-    /// decided sparsely.
+    /// Certified decisions on all rows and on the holonomic ones; `None` in a part that is decided
+    /// sparsely.
     pub(crate) certified: Option<Box<[RankDecision; 2]>>,
 }
 
@@ -75,8 +75,8 @@ impl DecidedPart {
     }
 }
 
-/// Certified decisions as far as they hold for numbers in `f64` at the pose of the scratch:
-/// velocities and residuals of a motion, which are known to the rounding of its coordinates.
+/// The certified decisions, as far as they are valid for `f64` numbers at the pose of the scratch:
+/// for velocities and residuals of a motion, which are accurate to the rounding of its coordinates.
 fn in_double(
     certified: &[RankDecision; 2],
     part: &Mechanism,
@@ -89,7 +89,8 @@ fn in_double(
         let known = ONE_ROUNDING * decision.scaling.apply(&known.select_rows(&rows)).max_abs();
         let entries = (rows.len() * decision.scaling.cols.len()) as f64;
         let tolerance = rank::NOISE_FACTOR * known.max(f64::EPSILON * entries.sqrt());
-        // The rank is that of the certificate; numbers in `f64` may be too coarse to move by it.
+        // The rank is that of the certificate, but `f64` may be too inaccurate for a motion with
+        // it.
         let required = (MOTION_CLEARANCE * tolerance).max(NEARLY_SINGULAR);
         let sigma = decision.evidence.sigma_r;
         let status = match decision.status {
@@ -118,7 +119,7 @@ fn in_double(
     })
 }
 
-/// Decides at time t and coordinates q, which satisfy the constraints.
+/// Decides the rows at time t and coordinates q, which satisfy the constraints.
 ///
 /// # Errors
 /// As [`crate::analyse`].
@@ -142,7 +143,7 @@ pub fn rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Rows, AnalysisEr
     })
 }
 
-/// Rank and rows of C alone, at the pose of the scratch.
+/// Rank and kept rows of C alone, at the pose of the scratch.
 ///
 /// # Errors
 /// If C is not finite.
@@ -160,7 +161,7 @@ pub fn decide_rows(
     })
 }
 
-/// Rank and rows of Φq alone.
+/// Rank and kept rows of Φq alone.
 ///
 /// # Errors
 /// If C is not finite.
@@ -178,7 +179,7 @@ pub fn decide_holonomic_rows(
     })
 }
 
-/// Rank and rows of C with the dropped rows given, from 0.
+/// Rank and kept rows of C with the given dropped rows, from 0.
 ///
 /// # Errors
 /// As [`decide_dropping`].
@@ -205,8 +206,9 @@ pub fn decide_rows_dropping(
     found.map_err(|e| told_of_whole(mechanism, s, q, dropped, e))
 }
 
-/// An error that counts the rows of one part, in numbers of the whole. Where as many rows are
-/// dropped as are redundant, but not in their parts, what is kept is dependent.
+/// Converts an error with rows of one part to the numbers of the whole mechanism. If the number of
+/// dropped rows equals the redundancy of the whole but not that of each part, the kept rows are
+/// dependent.
 pub(crate) fn told_of_whole(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -234,7 +236,7 @@ pub(crate) fn told_of_whole(
     }
 }
 
-/// Adds up what is decided of each part, by its mechanism, scratch and coordinates.
+/// Merges the decisions of all parts; each is decided from its mechanism, scratch and coordinates.
 fn of_parts<E: Send>(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -260,8 +262,8 @@ fn of_parts<E: Send>(
 }
 
 impl Rows {
-    /// Kept rows that cannot be told from dependent ones in `f64`; directions are those of all
-    /// rows. See [`inseparable`].
+    /// Kept rows that cannot be distinguished from dependent ones in `f64`; the direction is over
+    /// all rows. See [`inseparable`].
     #[must_use]
     pub fn inseparable(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<NearlyRedundant> {
         self.parts.iter().find_map(|part| {
@@ -279,8 +281,8 @@ impl Rows {
         })
     }
 
-    /// Whether the rank of all rows is decided, if only by a certificate: kept rows are independent
-    /// then, though numbers in `f64` may not show it.
+    /// Whether the rank of all rows is decided, if only by a certificate: then the kept rows are
+    /// independent, even if `f64` cannot show it.
     #[must_use]
     pub fn are_certified(&self) -> bool {
         self.parts.iter().all(|part| match &part.certified {
@@ -289,7 +291,8 @@ impl Rows {
         })
     }
 
-    /// Redundant rows that cannot hold together, the worst of a part first. See [`contradictions`].
+    /// Redundant rows that contradict each other, the largest contradiction of a part first. See
+    /// [`contradictions`].
     ///
     /// # Errors
     /// As [`contradictions`].
@@ -303,7 +306,7 @@ impl Rows {
         check(mechanism, t, q, v)?;
         let mut all = Vec::new();
         for part in &self.parts {
-            // The rows of larger ones are compared by the monitors of the motion.
+            // For larger parts the monitors of the motion compare the rows.
             let Some(certified) = &part.certified else {
                 continue;
             };

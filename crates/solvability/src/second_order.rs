@@ -1,10 +1,11 @@
-//! Is the motion unique where the rank drops? There more velocities satisfy `C·v = b` than
-//! elsewhere, but a velocity can go on only if accelerations exist: `z·Γ(v) = 0` for every z of the
-//! left null space, old self-stresses and new ones. These are quadratic equations in the
-//! velocities; the motion through the point solves them.
+//! Is the motion unique at a configuration at which the rank drops? There more velocities satisfy
+//! `C·v = b` than elsewhere, but a velocity can continue only if accelerations exist: `z·Γ(v) = 0`
+//! for every z of the left null space, both for self-stresses that exist everywhere and for new
+//! ones. These are quadratic equations in the velocities, and the motion through the point solves
+//! them.
 //!
-//! If nothing else does, the new motions are blocked at second order. If something does, there are
-//! branches. Where second order does not tell, that is said.
+//! If there is no other solution, the new motions are blocked at second order. If there is one, the
+//! motion branches. If second order does not decide, the result says so.
 //!
 //! Source: S. Pellegrino, C. R. Calladine, Matrix analysis of statically and kinematically
 //! indeterminate frameworks, Int. J. Solids Structures 22 (1986) 409–428, here with velocities of
@@ -24,17 +25,17 @@ use forms::Forms;
 
 pub use undetermined::Undetermined;
 
-/// How a motion goes on at a configuration where the rank drops.
+/// How a motion continues at a configuration at which the rank drops.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Continuation {
     /// No other velocity is compatible: the new motions are blocked at second order.
     Unique,
     /// Other velocities are compatible to second order: the constraints do not determine on which
-    /// branch the mechanism goes on.
+    /// branch the mechanism continues.
     Bifurcation {
         /// Velocities of other branches, n_v each. Without drives they are as fast as the motion,
-        /// and may be reversed. Where a branch has several freedoms these are examples.
+        /// and may be reversed. If a branch has several degrees of freedom, these are examples.
         branches: Vec<Vec<f64>>,
     },
     /// Second order does not decide.
@@ -63,15 +64,15 @@ impl std::fmt::Display for Continuation {
     }
 }
 
-/// Second-order test at time t, coordinates q on the constraints and velocities v with `C·v = b`,
-/// where `decision` is the rank there.
+/// Second-order test at time t, coordinates q on the constraints and velocities v with `C·v = b`;
+/// `decision` is the rank at this configuration.
 ///
-/// `regular` (n_v × k) holds the velocities `w` with `C·w = 0` that the mechanism has also at
-/// neighbouring configurations: for a mechanism with one freedom and without drives the column v,
-/// for a driven one without freedom no column.
+/// `regular` (n_v × k) holds the velocities `w` with `C·w = 0` that the mechanism also has at
+/// neighbouring configurations: the column v for a mechanism with one degree of freedom and without
+/// drives, no column for a driven one without freedom.
 ///
 /// # Errors
-/// If the state has not as many numbers as the mechanism, or one of them is not finite.
+/// If the state has the wrong number of values, or one of them is not finite.
 pub fn second_order(
     mechanism: &Mechanism,
     t: f64,
@@ -98,12 +99,12 @@ pub fn second_order(
     })
 }
 
-/// Whether the mechanism cannot move although C leaves it freedoms: second order excludes every
-/// velocity with `C·v = 0`, so its mobility is one of first order only. Not asked of mechanisms
-/// with functions of time, which move by these.
+/// Whether the mechanism cannot move although C leaves velocities free: second order excludes every
+/// velocity with `C·v = 0`, so its mobility exists to first order only. Always `false` for
+/// mechanisms with functions of time, which move by these.
 ///
 /// # Errors
-/// If the configuration has not as many numbers as the mechanism, or one of them is not finite.
+/// If the configuration has the wrong number of values, or one of them is not finite.
 pub fn is_locked(
     mechanism: &Mechanism,
     t: f64,

@@ -1,20 +1,20 @@
-//! How much a reaction hangs on the data: by what share it changes when one point moves a little. A
-//! reaction may be unique and yet be made of the last digits of a drawing.
+//! How strongly a reaction depends on the data: by what fraction it changes if one point moves
+//! slightly. A reaction may be unique and yet be determined by the last digits of a drawing.
 //!
-//! With the rank held, `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` change with a point by its own part of C and
-//! Γ, by the pose, which follows so that `Φ_K = 0`, and by the velocities, which follow so that
-//! `C_K·v = b`. For a component `wᵀ·λ` one solution y of the same symmetric equations with
-//! right-hand side (0, w) gives the change by all points at once:
+//! With the rank held, `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` change with a point through its own entries
+//! in C and Γ, through the pose, which follows so that `Φ_K = 0`, and through the velocities, which
+//! follow so that `C_K·v = b`. For a component `wᵀ·λ` one solution y of the same symmetric
+//! equations with right-hand side (0, w) gives the change with respect to all points at once:
 //! `y_aᵀ·(δQ − δCᵀ·λ) + y_λᵀ·(δΓ − δC·a)`.
 //!
-//! Size and loads are those of the bodies that joints connect: a robot says the same of itself
-//! alone and in a fleet, also where springs couple it to others.
+//! Size and loads are those of a set of connected bodies: the result for a robot is the same alone
+//! and in a fleet, even if springs couple it to others.
 //!
-//! Without any load there is nothing that could change. The answer is then given for a load of 1 N
-//! on each body, in directions that favour nothing, at rest and with equal masses: a combination of
-//! rows of norm σ makes reactions of about 1/σ of it, which change by the share moved/(σ·size).
+//! Without any load no reaction could change. Then the result is computed for a load of 1 N on each
+//! body, in directions without symmetry, at rest and with equal masses: a combination of rows of
+//! norm σ has reactions of about 1/σ of it, which change by the fraction moved/(σ·size).
 //!
-//! Not here: data within which the rank itself changes (`meant`).
+//! Data whose uncertainty changes the rank itself are the subject of `meant`.
 
 mod instant;
 mod joined;
@@ -39,34 +39,34 @@ pub struct Sensitivity {
     /// Largest change, relative to the larger of the reaction and of the largest applied or
     /// inertial load, torques divided by the size.
     pub change: f64,
-    /// What changes it most. `None` if nothing does.
+    /// The datum with the largest effect. `None` if nothing changes the reaction.
     pub by: Option<Datum>,
 }
 
-/// A point, direction or number of a joint or drive, and how far it is moved.
+/// A point, direction or number of a joint or drive, and by how much it is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Datum {
     /// The joint or drive.
     pub joint: ConstraintId,
-    /// Its name there.
+    /// Name of the datum in the joint or drive.
     pub name: &'static str,
-    /// How far it is moved (m or rad).
+    /// Displacement (m or rad).
     pub moved: f64,
-    /// The unit of that.
+    /// Unit of the displacement.
     pub unit: DataUnit,
     /// Whether it is a single number, not a point or a direction.
     pub is_number: bool,
 }
 
 impl Sensitivity {
-    /// Whether it hangs on the data.
+    /// Whether the reaction is fragile: it changes by more than the limit.
     #[must_use]
     pub fn is_fragile(&self) -> bool {
         self.change > FRAGILE
     }
 
-    /// In words, for the reaction of this name: that it is unique but changes, by how much, and
-    /// with what.
+    /// A sentence about the reaction of this name: that it is unique but changes, by how much, and
+    /// with which datum.
     #[must_use]
     pub fn sentence(&self, reaction: &str, layout: &Layout) -> String {
         match &self.by {
@@ -81,7 +81,7 @@ impl Sensitivity {
 }
 
 impl Datum {
-    /// That it is moved, and how far.
+    /// The displacement as a condition of the sentence.
     fn condition(&self, layout: &Layout) -> String {
         let (what, verb) = match (self.is_number, self.unit) {
             (true, _) => ("", "changes"),
@@ -97,8 +97,8 @@ impl Datum {
     }
 }
 
-/// That so many reactions change by at most this share of their size. The share is of the first
-/// order: it is a number only where it is small.
+/// States that this number of reactions changes by at most this fraction of their size. The
+/// fraction is of first order, so it is given as a number only if it is small.
 fn told(change: f64, reactions: usize) -> String {
     let (verb, up_to, whose) = match reactions {
         1 => ("changes", "", "its"),
@@ -115,7 +115,7 @@ fn told(change: f64, reactions: usize) -> String {
     format!("would change by {up_to}{times} {whose} size")
 }
 
-/// A number for people, with so many digits that count as the precision says.
+/// A number with as many significant digits as the precision of the format states.
 struct Digits(f64);
 
 impl std::fmt::Display for Digits {
@@ -131,7 +131,7 @@ impl std::fmt::Display for Digits {
     }
 }
 
-/// A small length in words.
+/// A small length as text.
 #[must_use]
 pub fn length(metres: f64) -> String {
     match metres.abs() {
@@ -145,22 +145,23 @@ pub fn length(metres: f64) -> String {
 /// Sensitivities of the reactions of a mechanism of any size.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sensitivities {
-    /// Joints and drives in the order of their rows. `None` if the reaction is not unique, or if
-    /// nothing can be said.
+    /// Sensitivities of joints and drives in the order of their rows. `None` if the reaction is not
+    /// unique, or if the sensitivity cannot be computed.
     pub each: Vec<Option<Sensitivity>>,
-    /// Of which unique reactions nothing can be said, and why, in sentences.
+    /// Sentences on unique reactions whose sensitivity cannot be computed, with the reason.
     pub left_out: Vec<String>,
 }
 
 impl Sensitivities {
-    /// The fragile ones.
+    /// The fragile reactions.
     pub fn fragile(&self) -> impl Iterator<Item = (ConstraintId, &Sensitivity)> {
         let each = self.each.iter().enumerate();
         let known = each.filter_map(|(k, s)| Some((ConstraintId(k), s.as_ref()?)));
         known.filter(|(_, s)| s.is_fragile())
     }
 
-    /// The fragile reactions in words: one sentence for those that hang most on the same point.
+    /// Sentences on the fragile reactions: one sentence for those whose largest change comes from
+    /// the same point.
     #[must_use]
     pub fn sentences(&self, layout: &Layout) -> Vec<String> {
         let mut groups: Vec<(Option<Datum>, f64, Vec<ConstraintId>)> = Vec::new();
@@ -185,12 +186,12 @@ impl Sensitivities {
 }
 
 impl Analysis {
-    /// How much each unique reaction hangs on the data, at the configuration of the analysis and
-    /// velocities v that satisfy the constraints. Each set of bodies that joints and drives connect
-    /// is asked alone, with its own size and loads, on the threads of the pool of `rayon` from
-    /// which this is called. In sets with more rows than dense matrices are made of each part on
-    /// common cycles is asked by its own data, with its own size and under what the rest of the set
-    /// does to it. Nothing is said where the rank is undecided, and of parts that are as large.
+    /// Computes how strongly each unique reaction depends on the data, at the configuration of the
+    /// analysis and velocities v that satisfy the constraints. Each set of bodies connected by
+    /// joints and drives is examined separately, with its own size and loads, on the `rayon` thread
+    /// pool of the caller. In sets with too many rows for dense matrices, each part on common
+    /// cycles is examined with its own data and size, under the loads from the rest of the set.
+    /// Parts that are themselves too large, or whose rank is undecided, are left out.
     ///
     /// # Errors
     /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
@@ -229,17 +230,17 @@ impl Analysis {
     }
 }
 
-/// Sensitivities by joints and drives.
+/// Sensitivities with the numbers of their joints and drives.
 type Found = Vec<(usize, Sensitivity)>;
 
-/// What is known of a set of joined bodies.
+/// Result for a set of connected bodies.
 struct JudgedSet {
     extent: Extent,
-    /// By the joints and drives of the whole.
+    /// Sensitivities, by joints and drives of the whole mechanism.
     found: Result<Found, SetError>,
 }
 
-/// Why nothing is known of a set.
+/// Reason why a set has no result.
 #[derive(Debug, thiserror::Error)]
 enum SetError {
     #[error("{rows} rows share cycles, and matrices of all of them are made up to {max} rows", max = ROWS_MAX)]
@@ -248,7 +249,7 @@ enum SetError {
     Equations(#[from] ChoiceError),
 }
 
-/// The sensitivities of the reactions that are wanted, set by set of bodies that joints connect.
+/// The sensitivities of the requested reactions, one set of connected bodies after the other.
 fn by_sets(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -273,13 +274,13 @@ fn by_sets(
     })
 }
 
-/// Those of some rows of the whole, ascending, that are rows of this part, numbered there.
+/// The rows of the whole mechanism (ascending) that belong to this part, numbered in the part.
 fn own_kept(kept: &[usize], extent: &Extent, part: &Mechanism) -> Vec<usize> {
     let is_kept = |&row: &usize| kept.binary_search(&extent.row(row)).is_ok();
     (0..part.layout().rows()).filter(is_kept).collect()
 }
 
-/// Numbers joints and drives as in the mechanism that this is a part of.
+/// Renumbers joints and drives from the part to the whole mechanism.
 fn placed(found: &mut Found, extent: &Extent) {
     for (group, sensitivity) in found {
         *group = extent.group(*group);
@@ -289,8 +290,8 @@ fn placed(found: &mut Found, extent: &Extent) {
     }
 }
 
-/// Those of the reactions of joined bodies that are wanted, by all their data; joints and drives by
-/// their numbers there.
+/// The sensitivities of the requested reactions of connected bodies with respect to all their data;
+/// joints and drives are numbered within the set.
 fn of_joined(
     joined: &Joined<'_>,
     t: f64,
@@ -307,7 +308,8 @@ fn of_joined(
     wanted.into_iter().map(of).collect()
 }
 
-/// The same part by part, each by its own data; of parts that are too large nothing is found.
+/// Like [`of_joined`], part by part, each with respect to its own data; parts that are too large
+/// are left out.
 fn by_parts(
     joined: &Joined<'_>,
     t: f64,

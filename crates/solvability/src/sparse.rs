@@ -1,4 +1,4 @@
-//! Rows of a large mechanism, decided sparsely.
+//! Sparse decisions on the rows of a large mechanism.
 
 use std::ops::Range;
 
@@ -11,17 +11,17 @@ use crate::error::AnalysisError;
 use crate::limits::SPARE_COMBINATIONS;
 use crate::matrices::{self, Basis};
 
-/// A sparse decision of rows of C, and these rows.
+/// A sparse decision on rows of C, with these rows.
 pub(crate) struct Decided {
-    /// The first of them.
+    /// Number of the first row.
     first: usize,
-    /// Without dimensions.
+    /// The rows of C without dimensions.
     c: SparseMatrix,
     pub(crate) found: SparseRank,
 }
 
-/// Rank and kept rows of the rows of C in a range, at the pose of the scratch, where Φ and C have
-/// been evaluated at coordinates q.
+/// Decides rank and kept rows of a range of rows of C, at the pose of the scratch, in which Φ and C
+/// have been evaluated at coordinates q.
 ///
 /// # Errors
 /// If C is not finite, or too dense for a sparse decision.
@@ -75,7 +75,7 @@ impl Decided {
         })
     }
 
-    /// What verdicts of a group of rows are read from: the rows alone.
+    /// The rows and null space from which verdicts on a group of rows are read.
     pub(crate) fn basis(&self, rows: Range<usize>) -> Basis {
         let own = rows.start - self.first..rows.end - self.first;
         let e = &self.found.evidence;
@@ -115,7 +115,7 @@ impl Decided {
     }
 }
 
-/// Rows of C at the pose of the scratch, columns in these units.
+/// Rows of C at the pose of the scratch, with columns in the given units.
 pub(crate) fn rows_of(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -124,7 +124,7 @@ pub(crate) fn rows_of(
 ) -> SparseMatrix {
     let layout = mechanism.layout();
     let row = |i: usize| layout.row(s, i).map(|(j, c)| (j, c * unit(j)));
-    // Columns of a pattern are below n_v.
+    // The columns of a sparsity pattern are always below n_v.
     SparseMatrix::from_rows(layout.n_v, rows.into_iter().map(row))
         .unwrap_or_else(|e| unreachable!("columns of a pattern: {e}"))
 }
@@ -135,7 +135,8 @@ pub(crate) fn blocks(mechanism: &Mechanism) -> Vec<Range<usize>> {
     bodies.map(|b| mechanism.layout().columns(b)).collect()
 }
 
-/// Combinations enough for the joint of most rows, and some against chance.
+/// A sketch with enough combinations for the joint with most rows, and some more so that a random
+/// failure is improbable.
 pub(crate) fn sketch_of(mechanism: &Mechanism) -> Sketch {
     let groups = mechanism.layout().groups.iter();
     let most = groups.map(|group| group.rows.len()).max().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! A state that the caller gives: is it one of this mechanism?
+//! A state given by the caller, and the check that it fits the mechanism.
 
 use model::{Mechanism, System};
 
@@ -11,32 +11,32 @@ pub struct State {
     pub v: Vec<f64>,
 }
 
-/// Why a state is none.
+/// Reason why a state is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateError {
-    /// As many numbers as another mechanism has.
+    /// The number of values differs from that of the mechanism.
     #[error("at t = {time} s the state has {found} {what}, need {expected}")]
     Length {
-        /// When.
+        /// Time of the state (s).
         time: f64,
-        /// Coordinates or velocities.
+        /// "coordinates" or "velocities".
         what: &'static str,
-        /// How many there are.
+        /// Number of values given.
         found: usize,
-        /// How many there must be.
+        /// Number of values required.
         expected: usize,
     },
     /// A number is NaN or infinite.
     #[error("at t = {time} s number {index} of the {what} is {value}, need finite numbers")]
     NotFinite {
-        /// When.
+        /// Time of the state (s).
         time: f64,
-        /// Coordinates or velocities.
+        /// "coordinates" or "velocities".
         what: &'static str,
-        /// Which one, from 0.
+        /// Index of the value, from 0.
         index: usize,
-        /// The number.
+        /// The value.
         value: f64,
     },
     /// The time is NaN or infinite.
@@ -47,7 +47,7 @@ pub enum StateError {
     },
 }
 
-/// Checks sizes and numbers of a state.
+/// Checks the sizes of a state and that its numbers are finite.
 pub(crate) fn check(
     mechanism: &Mechanism,
     time: f64,
@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use crate::{AnalysisError, analyse, analyse_dropping, certify, generic};
 
-    /// Coordinates of another mechanism have no verdicts, and no panic.
+    /// A configuration with the wrong number of coordinates is an error, not a panic.
     #[test]
     fn only_a_configuration_is_analysed() {
         let description = Description {

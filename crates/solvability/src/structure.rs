@@ -1,13 +1,13 @@
-//! What the shape of a mechanism settles before any rank: reactions that are unique because of
-//! where they act. No verdict needs this; it says why some are no surprise.
+//! Reactions that are unique because of the structure of the mechanism, before any rank is decided.
+//! No verdict needs this; it explains some verdicts.
 
 use crate::pose::{dimensionless, uncertainty};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 use rank::{RankError, RowGroup, Structure};
 
-/// Groups of the structure are joints and drives in the order of their rows, blocks are bodies. The
-/// scratch must hold Φ and C at coordinates q.
+/// Analyses the structure: its groups are joints and drives in the order of their rows, its blocks
+/// are bodies. The scratch must hold Φ and C at coordinates q.
 ///
 /// # Errors
 /// If C is not finite.

@@ -1,12 +1,12 @@
-//! Facts and choices told apart by a change of units. A least norm adds newtons to newton metres,
-//! so it depends on the units in which the model is written; what the model determines does not.
-//! The distribution is made again from scratch in other units, and each number is converted back
-//! and compared.
+//! Distinguishes unique numbers from chosen ones by a change of units. A least norm adds newtons to
+//! newton metres, so it depends on the units of the model; a number determined by the model does
+//! not. The distribution is computed again in other units, and each number is converted back and
+//! compared.
 //!
-//! Where only forces mix, millimetres change nothing; so each joint in turn gets units of its own,
-//! too. And where no load acts, every least norm is zero; so the same is done under a load on all
-//! coordinates that has no symmetry. The test knows nothing of Z and its tolerances, so it checks
-//! the verdicts.
+//! If only forces are coupled, millimetres change nothing; so each joint in turn also gets units of
+//! its own. If no load acts, every least norm is zero; so the comparison is repeated under a load
+//! on all coordinates that has no symmetry. This test does not use Z or its tolerances, so it
+//! checks the verdicts independently.
 
 mod rewrite;
 
@@ -22,7 +22,7 @@ use crate::groups::{Configuration, LinearForm, RequestError, check_finite};
 use crate::matrices::Solvability;
 use rewrite::Rewriting;
 
-/// What a change of units shows.
+/// Result of a change of units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nature {
     /// The same in all units, to rounding.
@@ -39,50 +39,51 @@ pub struct UnitCheck {
     pub id: ConstraintId,
     /// The frame.
     pub frame: Frame,
-    /// The component in this frame: 0 and 1 forces, 2 the torque; names as [`Frame::components`]
-    /// has them.
+    /// The component in this frame: 0 and 1 are forces, 2 is the torque; named as in
+    /// [`Frame::components`].
     pub component: usize,
-    /// Its number in the least norm of N and N·m.
+    /// Its value in the least norm of N and N·m.
     pub value: f64,
     /// Its largest change, relative to the largest force or torque of the whole mechanism.
     pub change: f64,
-    /// What that means.
+    /// Whether the number is unique or chosen.
     pub nature: Nature,
 }
 
-/// Why numbers cannot be compared.
+/// Reason why the numbers cannot be compared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum UnitError {
     /// There is no distribution to compare.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-    /// An argument is wrong.
+    /// An argument is invalid.
     #[error(transparent)]
     Request(#[from] RequestError),
-    /// The matrix cannot be judged in other units.
+    /// The matrix cannot be analysed in other units.
     #[error(transparent)]
     Rank(#[from] RankError),
-    /// The rank depends on the units: no verdict can be trusted.
+    /// The rank depends on the units, so no verdict is reliable.
     #[error("the rank was decided as {rank}, but reads {other} where lengths are multiplied by {}, masses by {}, times by {}",
         units.length, units.mass, units.time)]
     RankChanges {
-        /// As decided.
+        /// Rank in the original units.
         rank: usize,
-        /// In other units.
+        /// Rank in other units.
         other: usize,
-        /// The units.
+        /// The other units.
         units: Units,
     },
 }
 
-/// The components of all reactions in all frames, at a state whose rank has been decided: which of
-/// them are facts, and which depend on the choice that a least norm makes. Of the decision only the
-/// rank and the residual of the constraints are used. Torques stand with the global frame.
+/// Compares the components of all reactions in all frames, at a state whose rank has been decided:
+/// which of them are unique, and which depend on the choice made by a least norm. Only the rank and
+/// the residual of the constraints are taken from the decision. Torques are listed with the global
+/// frame.
 ///
 /// # Errors
 /// - [`UnitError::Choice`]: there is no least norm.
-/// - [`UnitError::RankChanges`]: a reason to trust nothing.
+/// - [`UnitError::RankChanges`]: no verdict is reliable.
 /// - [`UnitError::Request`], [`UnitError::Rank`]: t, q or v do not fit the mechanism or are not
 ///   finite.
 pub fn check_units(
@@ -96,7 +97,7 @@ pub fn check_units(
     check_equations(&configuration, &Equations::of(mechanism, t, q, v)?)
 }
 
-/// The same by the equations of the configuration.
+/// Like [`check_units`], with the equations of the configuration.
 pub(crate) fn check_equations(
     configuration: &Configuration<'_>,
     real: &Equations,
@@ -105,7 +106,7 @@ pub(crate) fn check_equations(
     let numbers = Numbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
     if configuration.solvability.null_space().ncols() == 0 {
-        // One solution has nothing to choose.
+        // Starts from one solution of the equations.
         let lambda = real.multipliers(configuration.solvability.decision())?;
         for (check, form) in checks.iter_mut().zip(&numbers.forms) {
             check.value = form.value(&lambda);
@@ -149,7 +150,7 @@ pub(crate) fn check_equations(
     Ok(checks)
 }
 
-/// C in other units, judged anew.
+/// C in other units, with its rank decided again.
 struct Rewritten {
     units: Units,
     rewriting: Rewriting,
@@ -157,18 +158,18 @@ struct Rewritten {
 }
 
 impl Rewritten {
-    /// One solution in these units; the equations are in SI units.
+    /// One solution in these units; the given equations are in SI units.
     fn multipliers(&self, equations: &Equations) -> Result<Vec<f64>, ChoiceError> {
         let equations = self.rewriting.equations(equations);
         equations.multipliers(self.solvability.decision())
     }
 }
 
-/// The numbers that are compared, and the wrenches whose norm is least.
+/// The numbers that are compared, and the wrenches whose norm is minimised.
 struct Numbers<'a> {
     configuration: &'a Configuration<'a>,
     checks: Vec<UnitCheck>,
-    /// For each check.
+    /// The linear form of each check.
     forms: Vec<LinearForm>,
     wrenches: Vec<(ConstraintId, Dimension, LinearForm)>,
 }
@@ -213,7 +214,7 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// What is free in other units.
+    /// Decides the free directions in other units.
     fn rewritten(&self, equations: &Equations, units: Units) -> Result<Rewritten, UnitError> {
         let decided = self.configuration.solvability.decision();
         let kinds = self
@@ -239,8 +240,8 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// The numbers in SI units that the least norm in other units gives, from one solution there;
-    /// the reaction `alone` counts in units of its own.
+    /// The numbers in SI units that the least norm in other units gives, starting from one solution
+    /// in these units; the reaction `alone` has units of its own.
     fn least(
         &self,
         rewritten: &Rewritten,
@@ -262,7 +263,7 @@ impl<'a> Numbers<'a> {
         };
         let wrenches: Vec<_> = self.wrenches.iter().map(wrench).collect();
         let lambda = minimise(solvability, lambda_0, &wrenches)?;
-        // Divided by their own unit, numbers are in SI again.
+        // Each number is divided by its unit, which gives SI units.
         let numbers: Vec<f64> = self
             .forms
             .iter()
@@ -272,8 +273,8 @@ impl<'a> Numbers<'a> {
         Ok(numbers)
     }
 
-    /// The same mechanism under a load on every coordinate, without symmetry, and at rest: golden
-    /// fractions of 1 N, of 1 N at the arm of the mechanism's size for rotations.
+    /// The same mechanism at rest, under a load on every coordinate without symmetry: golden-ratio
+    /// fractions of 1 N, and for rotations of 1 N times the size of the mechanism.
     fn probing_load(&self, equations: &Equations) -> Equations {
         let golden = 0.618_033_988_749_894_9;
         let kinds = self
@@ -298,8 +299,8 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// The largest force: of the numbers, of the loads, and of inertia at these velocities, which
-    /// is what reactions are rounded against.
+    /// The largest force among the numbers, the loads and the inertia forces at these velocities;
+    /// the rounding of reactions is proportional to it.
     fn scale(&self, equations: &Equations, numbers: &[f64]) -> f64 {
         let largest = |x: &[f64]| x.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let size = self.configuration.reactions.size;
@@ -328,7 +329,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// A force of this size, or its torque at the arm of the mechanism's size.
+    /// A force of this size, or its torque with the size of the mechanism as arm.
     fn unit(&self, check: &UnitCheck, force: f64) -> f64 {
         match dimension(check.component) {
             Dimension::Force => force,
@@ -337,7 +338,7 @@ impl<'a> Numbers<'a> {
     }
 }
 
-/// Of a component of a wrench.
+/// Whether a component of a wrench is a force or a torque.
 fn dimension(component: usize) -> Dimension {
     match COMPONENTS[component] {
         "T" => Dimension::Torque,

@@ -10,15 +10,15 @@ pub enum Verdict {
     Unique,
     /// Free to change without any effect on the motion.
     NotUnique,
-    /// The numbers do not decide.
+    /// The numbers do not decide between the two.
     Undecided {
-        /// Why, with the numbers.
+        /// Reason, with the numbers.
         reason: String,
     },
 }
 
 impl Verdict {
-    /// Its word in results.
+    /// The word for the verdict in output files.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -40,15 +40,15 @@ impl Verdict {
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,
-    /// How far the reaction is from unique, dimensionless: 0 is unique.
+    /// Distance of the reaction from being unique, dimensionless; 0 for a unique reaction.
     pub margin: f64,
-    /// Whether it is unique within the tolerance that the scene states only: rounding of the data
+    /// Whether it is unique only within the tolerance that the scene states: rounding of the data
     /// does not explain the margin.
     pub within_tolerance: bool,
 }
 
 impl Judgement {
-    /// Without a stated tolerance.
+    /// A judgement without a stated tolerance.
     #[must_use]
     pub fn new(verdict: Verdict, margin: f64) -> Self {
         Self {
@@ -58,8 +58,8 @@ impl Judgement {
         }
     }
 
-    /// Judges a margin as [`rank::RankDecision::read_coefficient`] reads it; what reads as zero
-    /// does so within the tolerance of the scene only if it is above the rounding.
+    /// Converts a margin classified by [`rank::RankDecision::read_coefficient`]. A margin that
+    /// counts as zero counts so within the tolerance of the scene only if it is above the rounding.
     pub(crate) fn of(margin: f64, reading: CoefficientReading, is_above_rounding: bool) -> Self {
         let within_tolerance = is_above_rounding && reading == CoefficientReading::Zero;
         let verdict = match reading {
@@ -81,8 +81,8 @@ impl Judgement {
         }
     }
 
-    /// The judgement of data that are meant exactly: what vanishes has no margin, what does not has
-    /// one, however small.
+    /// The judgement for exact data: the margin is zero if the value vanishes, otherwise the given
+    /// margin, however small.
     pub(crate) fn exact(margin: f64, vanishes: bool) -> Self {
         if vanishes {
             Self::new(Verdict::Unique, 0.0)
@@ -91,7 +91,7 @@ impl Judgement {
         }
     }
 
-    /// The judgement where the rank itself is undecided.
+    /// The judgement if the rank itself is undecided.
     pub(crate) fn without_rank(margin: f64, doubt: &rank::Doubt) -> Self {
         let reason = format!("rank undecided: {doubt}");
         Self::new(Verdict::Undecided { reason }, margin)

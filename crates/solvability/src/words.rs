@@ -23,7 +23,7 @@ pub(crate) fn names(layout: &Layout, ids: &[ConstraintId]) -> Vec<String> {
     ids.iter().map(name).collect()
 }
 
-/// Rows of which a stated tolerance leaves open which depend on each other.
+/// A sentence on rows of which a stated tolerance leaves open which depend on each other.
 pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
     let layout = mechanism.layout();
     let touched = |id: &ConstraintId| {
@@ -41,8 +41,8 @@ pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
     )
 }
 
-/// A self-stress in the terms of joints and bodies, where its geometry allows; else in the terms of
-/// rows.
+/// Describes a self-stress in terms of joints and bodies if its geometry allows it, otherwise in
+/// terms of rows.
 pub(crate) fn of_stress(
     mechanism: &Mechanism,
     solvability: &Solvability,
@@ -102,7 +102,7 @@ pub(crate) fn of_stress(
     }
 }
 
-/// Names of the bodies that move, in order.
+/// Names of the bodies that are not the ground, in order.
 fn moving(mechanism: &Mechanism, bodies: &[BodyRef]) -> Vec<String> {
     let mut bodies = bodies.to_vec();
     bodies.sort_unstable();
@@ -121,7 +121,7 @@ fn against(bodies: &[String]) -> String {
 }
 
 /// Whether all are single velocity conditions on one body that do not depend on time: wheels and
-/// blades.
+/// knife edges.
 fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     ids.iter().all(|id| {
         let group = &layout.groups[id.0];
@@ -132,8 +132,8 @@ fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     })
 }
 
-/// What two rows share: forces that cancel, and whether the combination that this circuit leaves
-/// alone is determined.
+/// Describes what two rows share: forces that cancel, and whether the combination that this circuit
+/// leaves unchanged is determined.
 fn sum(mechanism: &Mechanism, solvability: &Solvability, circuit: &Circuit) -> String {
     let loads = Loads::of(mechanism, circuit).word();
     let cancel = format!("; {loads} {} on them cancel", ratio(mechanism, circuit));
@@ -160,8 +160,8 @@ fn sum(mechanism: &Mechanism, solvability: &Solvability, circuit: &Circuit) -> S
     }
 }
 
-/// What a circuit means for the one who reads it. Nothing is said of sums that would be unique:
-/// rows may take part in other circuits too.
+/// Explains the meaning of a circuit to the reader. Sums that might be unique are not mentioned,
+/// because the rows may take part in other circuits too.
 pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
     let layout = mechanism.layout();
     let labels: Vec<String> = circuit
@@ -186,7 +186,7 @@ pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
     }
 }
 
-/// What the multipliers of a circuit are: a row in metres has a force, one in radians a torque.
+/// Kind of the multipliers of a circuit: a row in metres has a force, a row in radians a torque.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Loads {
     Forces,
@@ -215,7 +215,7 @@ impl Loads {
         }
     }
 
-    /// What joints do to each other with them.
+    /// The verb for the action of joints on each other by these loads.
     fn act(self) -> &'static str {
         match self {
             Self::Forces => "press against each other",
@@ -230,8 +230,8 @@ fn in_ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
     format!("{loads} in the ratio {}", ratio(mechanism, circuit))
 }
 
-/// Coefficients with the signs that are mostly positive, without trailing zeros; with units where
-/// they are not all of one kind.
+/// Coefficients without trailing zeros, with the sign for which most are positive; with units if
+/// the rows have different kinds.
 fn ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
     let negative = circuit.coefficients.iter().filter(|c| **c < 0.0).count();
     let sign = if 2 * negative > circuit.coefficients.len() {
@@ -252,7 +252,7 @@ fn ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
     parts.join(" : ")
 }
 
-/// Four significant digits, a true minus sign.
+/// Formats a number with four significant digits and a true minus sign.
 pub(crate) fn short(x: f64) -> String {
     let size = x.abs();
     let text = match size {

@@ -1,7 +1,7 @@
-//! Questions about rows of which a left null space is known: all rows of a matrix, or those of one
-//! joint in a large one.
+//! Verdicts on rows whose left null space is known: all rows of a matrix, or those of one joint in
+//! a large mechanism.
 //!
-//! Not here: where the null space comes from.
+//! This module does not compute the null space.
 
 use crate::limits::ROUNDING_OF_MAP;
 use std::ops::Range;
@@ -13,47 +13,47 @@ use super::Mapped;
 use super::error::QueryError;
 use crate::verdict::Judgement;
 
-/// Rows, what spans their part of the left null space, and how well both are known.
+/// Rows, vectors that span their part of the left null space, and the accuracy of both.
 #[derive(Clone, Debug)]
 pub(crate) struct Basis {
-    /// The equilibrated rows, m × n. Columns in which no row has an entry may be left out.
+    /// The equilibrated rows, m × n. Columns without an entry may be omitted.
     pub(crate) c: Matrix,
     /// Their rows of an orthonormal basis of the left null space, or of random combinations of one,
     /// m × p.
     pub(crate) z: Matrix,
-    /// How well.
+    /// Accuracy of both.
     pub(crate) known: Known,
-    /// The left null space modulo primes, if the entries are meant exactly.
+    /// The left null space modulo primes, if the entries are exact.
     pub(crate) exact: Option<ExactNullSpace>,
 }
 
-/// What the evidence of a rank says of rows of C and Z.
+/// Accuracy of rows of C and Z according to the evidence of a rank.
 #[derive(Clone, Debug)]
 pub(crate) struct Known {
     /// Whether the rank is decided.
     pub(crate) status: RankStatus,
-    /// D_r
+    /// Row factors of the equilibration, D_r.
     pub(crate) row_factor: Vec<f64>,
-    /// How far each row of Z may be off (norm).
+    /// Uncertainty of each row of Z (norm).
     pub(crate) row_noise: Vec<f64>,
-    /// What of that is there without the tolerance that the scene states; empty where it states
-    /// none.
+    /// The part of it that does not come from the tolerance stated by the scene; empty if the scene
+    /// states none.
     pub(crate) row_rounding: Vec<f64>,
-    /// How far any coefficient may be off.
+    /// Uncertainty of any single coefficient.
     pub(crate) tolerance: f64,
-    /// What the rows of C are known to (Frobenius norm).
+    /// Uncertainty of the rows of C (Frobenius norm).
     pub(crate) spread: f64,
-    /// What an entry of C is known to.
+    /// Uncertainty of an entry of C.
     pub(crate) uncertainty: f64,
-    /// By what angle (rad) the force of each row turns within a stated tolerance, and by what
-    /// length (m) it shifts; nothing without one.
+    /// The angle (rad) by which the force of each row rotates within a stated tolerance, and the
+    /// length (m) by which it shifts; `None` without a tolerance.
     pub(crate) row_turn: Option<Vec<[f64; 2]>>,
-    /// How margins are read.
+    /// Rules by which margins are classified.
     pub(crate) readings: Readings,
 }
 
 impl Basis {
-    /// The multiplier of one row: unique iff `Z_i = 0`.
+    /// Verdict on the multiplier of one row: unique iff `Z_i = 0`.
     ///
     /// # Errors
     /// If there is no such row.
@@ -61,8 +61,8 @@ impl Basis {
         self.multipliers([i])
     }
 
-    /// All multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than [`Basis::group`]
-    /// where the rows depend on each other.
+    /// Verdict on all multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than
+    /// [`Basis::group`] if the rows depend on each other.
     ///
     /// # Errors
     /// If a row does not exist.
@@ -89,7 +89,8 @@ impl Basis {
         Ok(self.product(&self.set(rows)?))
     }
 
-    /// The reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖ (Frobenius).
+    /// Verdict on the reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖
+    /// (Frobenius).
     ///
     /// # Errors
     /// If a row does not exist.
@@ -98,7 +99,7 @@ impl Basis {
         rows: impl IntoIterator<Item = usize>,
     ) -> Result<Judgement, QueryError> {
         let rows = self.set(rows)?;
-        // Rows that cancel in C do so to what its entries are known to.
+        // Rows cancel in C only to the accuracy of its entries.
         let cancelled = rows.iter().map(|&i| norm(self.z.row(i)));
         let spread = self.known.spread * cancelled.fold(0.0, f64::hypot);
         let noise = self
@@ -108,8 +109,8 @@ impl Basis {
         Ok(self.judge(margin, noise, |z| z.wrench_vanishes(&rows)))
     }
 
-    /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is
-    /// relative to ‖ℓ‖, both for equilibrated rows.
+    /// Verdict on a linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin
+    /// is relative to ‖ℓ‖, both for equilibrated rows.
     ///
     /// # Errors
     /// If there are not m coefficients, or one is not finite.
@@ -136,15 +137,15 @@ impl Basis {
         Mapped::new(self, map, self.list(rows)?)
     }
 
-    /// The rank of some of the rows, from the dependencies of all: those that need no other row,
-    /// `z = 0` there, are as many as `p − rank Z_other`. `None` if the rank of all is
-    /// undecided, or that of Z_other unclear.
+    /// The rank of some of the rows, computed from the dependencies of all rows: the dependencies
+    /// that involve no other row (`z = 0` there) number `p − rank Z_other`. Returns `None` if the
+    /// rank of all rows is undecided, or that of Z_other unclear.
     pub(crate) fn rank_of(&self, rows: Range<usize>) -> Option<usize> {
         let other: Vec<usize> = (0..self.z.nrows()).filter(|i| !rows.contains(i)).collect();
         self.rank_without(&other)
     }
 
-    /// The same of all rows but these.
+    /// The rank of all rows except these.
     pub(crate) fn rank_without(&self, other: &[usize]) -> Option<usize> {
         if self.known.status != RankStatus::Decided {
             return None;
@@ -163,12 +164,12 @@ impl Basis {
         Some(self.z.nrows() - other.len() + tied - self.z.ncols())
     }
 
-    /// A map is known as well as the entries of C, which stand at the same poses.
+    /// Accuracy of a map: that of the entries of C, which are evaluated at the same poses.
     pub(super) fn rounding_of_map(&self) -> f64 {
         (rank::NOISE_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP)
     }
 
-    /// How many pivots are certainly not zero, if the others certainly are.
+    /// Number of pivots that are certainly not zero, provided that all others certainly are zero.
     pub(super) fn clear_rank(&self, qr: &PivotedQr, noise: f64) -> Result<usize, QueryError> {
         let mut rank = 0;
         for pivot in qr.r_diagonal().map(f64::abs) {
@@ -190,7 +191,7 @@ impl Basis {
         Ok(rank)
     }
 
-    /// Rows in the order given, all of which exist.
+    /// The rows in the given order, checked to exist.
     fn list(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
         let m = self.c.nrows();
         rows.into_iter()
@@ -204,7 +205,7 @@ impl Basis {
             .collect()
     }
 
-    /// The same, each row once.
+    /// The rows in ascending order, each once, checked to exist.
     fn set(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
         let mut rows = self.list(rows)?;
         rows.sort_unstable();
@@ -224,8 +225,8 @@ impl Basis {
         b
     }
 
-    /// Adds `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` to a row of p numbers; returns the norm that was divided by.
-    /// Nothing is added for w = 0.
+    /// Adds `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` to a row of p numbers and returns the norm. Adds nothing if w =
+    /// 0.
     pub(super) fn scaled_row(&self, w: &[f64], rows: &[usize], out: &mut [f64]) -> f64 {
         let weights = || {
             rows.iter()
@@ -243,8 +244,8 @@ impl Basis {
         size
     }
 
-    /// Noise of a combination of rows of Z with these weights; Z is `[−T̃, I]` in a basis that
-    /// makes no row longer.
+    /// Noise of a combination of rows of Z with these weights. Z is `[−T̃, I]` in a basis in which
+    /// no row is longer.
     fn noise(&self, weights: impl Iterator<Item = (usize, f64)>) -> Noise {
         let rounding = &self.known.row_rounding;
         weights.fold(Noise::default(), |noise, (i, weight)| Noise {
@@ -264,7 +265,7 @@ impl Basis {
         self.noise(rows.iter().zip(w).map(scaled))
     }
 
-    /// Judges a margin made of coefficients of Z with this noise.
+    /// Verdict on a margin that consists of coefficients of Z with this noise.
     pub(super) fn judge(
         &self,
         margin: f64,
@@ -282,17 +283,17 @@ impl Basis {
     }
 }
 
-/// How far a margin may be from its true value.
+/// Bounds on the error of a margin.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Noise {
-    /// As all that is known of the data says.
+    /// With all uncertainty of the data.
     pub(super) known: f64,
-    /// Without the tolerance that the scene states; infinite where it states none.
+    /// Without the tolerance stated by the scene; infinite if the scene states none.
     pub(super) rounding: f64,
 }
 
 impl Noise {
-    /// With one more source that only the stated tolerance has.
+    /// Adds a source of error that exists only within the stated tolerance.
     pub(super) fn within_tolerance(self, other: f64) -> Self {
         Self {
             known: self.known.hypot(other),
@@ -300,7 +301,7 @@ impl Noise {
         }
     }
 
-    /// With one more source.
+    /// Adds a source of error.
     fn with(self, other: f64) -> Self {
         Self {
             known: self.known.hypot(other),

@@ -1,37 +1,37 @@
-//! Questions that have no answer.
+//! Errors of requests to a matrix.
 
-/// A question that cannot be answered.
+/// Reason why a request cannot be answered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum QueryError {
-    /// A row that does not exist.
+    /// A row does not exist.
     #[error("row {row} does not exist, rows are 0..{rows}")]
     RowOutOfRange {
-        /// The row asked for.
+        /// The requested row.
         row: usize,
-        /// Rows of the matrix.
+        /// Number of rows of the matrix.
         rows: usize,
     },
-    /// Coefficients that do not fit the rows.
+    /// The number of coefficients differs from the number of rows.
     #[error("{found} coefficients for {expected} rows")]
     Length {
-        /// Coefficients given.
+        /// Number of coefficients.
         found: usize,
-        /// Rows they are for.
+        /// Number of rows.
         expected: usize,
     },
-    /// A component that the map does not have.
+    /// A component does not exist.
     #[error("component {component} does not exist, the map has {components}")]
     ComponentOutOfRange {
-        /// The component asked for.
+        /// The requested component.
         component: usize,
-        /// Rows of the map.
+        /// Number of rows of the map.
         components: usize,
     },
-    /// A coefficient that is no number.
+    /// A coefficient is not a finite number.
     #[error("coefficient {index} is {value}, need a finite number")]
     NonFinite {
-        /// Which one.
+        /// Index of the coefficient.
         index: usize,
         /// Its value.
         value: f64,
@@ -39,16 +39,16 @@ pub enum QueryError {
     /// The rank of the matrix is undecided.
     #[error("rank undecided: {0}")]
     Rank(rank::Doubt),
-    /// The number of unique directions is.
+    /// The number of unique directions is undecided.
     #[error(
         "unique directions: a margin of {margin:.3e} lies between {tolerance:.3e} (rounding) and {required:.3e} (certainly not zero)"
     )]
     Directions {
-        /// The margin in doubt.
+        /// The margin that is undecided.
         margin: f64,
-        /// Rounding and uncertainty reach up to here.
+        /// Largest margin that rounding and uncertainty explain.
         tolerance: f64,
-        /// Above this it would certainly not be zero.
+        /// Smallest margin that is certainly not zero.
         required: f64,
     },
 }

@@ -1,7 +1,6 @@
 //! A reaction `W·λ_X`: which of its components and directions are the same in all solutions.
 //!
-//! Not here: the rows themselves and their null space (`basis`), and where W comes from
-//! (`mechanism`).
+//! The rows and their null space come from `basis`, and W from `mechanism`.
 
 use crate::limits::{LARGEST_ROUNDING, LARGEST_TURN, ROUNDING_OF_MAP};
 use linalg::{Matrix, PivotedQr};
@@ -11,22 +10,22 @@ use super::basis::{Basis, Noise, check_coefficients, combination, norm};
 use super::error::QueryError;
 use crate::verdict::{Judgement, Verdict};
 
-/// Why a component is open that the data do not tell from zero.
+/// Reason why a component is undecided: within the data it cannot be distinguished from zero.
 const TURNED: &str = "the tolerance leaves open whether the force has this component";
 
-/// What the direction of a force, as far as it is known, makes of one of its components.
+/// Whether a component of a force is zero, given the uncertainty of the direction of the force.
 #[derive(Clone, Copy, Debug)]
 enum Beside {
-    /// As it stands.
+    /// The component is not zero.
     Some,
-    /// None within the tolerance: what it is, in the unit of margins.
+    /// The component is zero within the tolerance; `margin` is its margin without the tolerance.
     None { margin: f64 },
-    /// Some or none: too large to be none, and too small to be some.
+    /// Undecided: too large for zero, and too small to be certainly not zero.
     Open,
 }
 
-/// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null
-/// space.
+/// A map W (k × |X|) from the multipliers of rows X to components, with the image of the null space
+/// under W.
 #[derive(Clone, Debug)]
 pub(crate) struct Mapped<'a> {
     basis: &'a Basis,
@@ -34,13 +33,13 @@ pub(crate) struct Mapped<'a> {
     rows: Vec<usize>,
     /// `W·Z_X` with rows divided by their size.
     images: Matrix,
-    /// Norms of the rows of `W·D_r⁻¹`; zero where a row is rounding beside the others.
+    /// Norms of the rows of `W·D_r⁻¹`; zero if a row is only rounding relative to the others.
     sizes: Vec<f64>,
     /// The largest of them.
     largest: f64,
-    /// What the entries of W are known to within a stated tolerance.
+    /// Uncertainty of the entries of W within a stated tolerance.
     wobble: Option<Matrix>,
-    /// What a stated tolerance makes of each component by itself.
+    /// Whether each component is zero within a stated tolerance.
     beside: Vec<Beside>,
 }
 
@@ -77,9 +76,10 @@ impl<'a> Mapped<'a> {
         })
     }
 
-    /// The first components are those of a force, others of torques. Where its direction is known
-    /// to an angle, and its line to a length, so are the components; one of a force that is far
-    /// smaller beside the others is none.
+    /// Applies a stated tolerance to the components. The first `forces` components belong to a
+    /// force, the others are torques. The uncertainty of the direction of a force (an angle) and of
+    /// its line of action (a length) makes the components uncertain; a component that is much
+    /// smaller than the others within this uncertainty counts as zero.
     #[must_use]
     pub(crate) fn with_forces(mut self, forces: usize) -> Self {
         let (Some(turns), None) = (&self.basis.known.row_turn, &self.basis.exact) else {
@@ -104,7 +104,7 @@ impl<'a> Mapped<'a> {
         let whole = self.sizes[..forces].iter().copied().fold(0.0, f64::hypot);
         for i in 0..forces {
             let share = self.sizes[i] / whole;
-            // Of larger turns the first order says nothing.
+            // The first order is not valid for larger rotations.
             let is_near = turn >= LARGEST_TURN || share <= rank::BEYOND_DOUBT * turn;
             if share > rank::STATED_ZERO && is_near {
                 self.beside[i] = Beside::Open;
@@ -122,15 +122,16 @@ impl<'a> Mapped<'a> {
     /// Norm of row k of `W·Z_X`, relative to the largest row of W.
     fn margin(&self, k: usize) -> f64 {
         match self.largest {
-            // Zero over zero: a map of zeros has no reaction.
+            // Zero divided by zero: a map of zeros has no reaction.
             0.0 => 0.0,
             largest => norm(self.images.row(k)) * (self.sizes[k] / largest),
         }
     }
 
-    /// Component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest
-    /// row of W. A row that is rounding beside the others is zero, unless the entries are meant
-    /// exactly; one that counts as zero within a stated tolerance says so, with its margin.
+    /// Verdict on component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the
+    /// largest row of W. A row of W that is only rounding relative to the others counts as zero,
+    /// unless the entries are exact. If it counts as zero only within a stated tolerance, the
+    /// verdict says so and keeps its margin.
     ///
     /// # Errors
     /// If there is no such component.
@@ -153,7 +154,7 @@ impl<'a> Mapped<'a> {
                 within_tolerance: margin > noise.rounding,
                 ..judged
             },
-            // Unique by its multipliers or not at all.
+            // The component is unique if its multipliers are; otherwise it is undecided.
             Beside::Open => {
                 let noise = self.basis.noise_of_row(map, rows, self.largest);
                 match self.basis.judge(judged.margin, noise, vanishes) {
@@ -169,8 +170,8 @@ impl<'a> Mapped<'a> {
         })
     }
 
-    /// Whether component `k` is zero for all multipliers: row k of W is so small beside the largest
-    /// one that the component is unique for this reason alone.
+    /// Whether component `k` is zero for all multipliers: row k of W is so small relative to the
+    /// largest one that the component is unique for this reason alone.
     ///
     /// # Errors
     /// As [`Mapped::component`].
@@ -193,10 +194,10 @@ impl<'a> Mapped<'a> {
     }
 
     /// Directions in which the reaction is unique: a basis of the left null space of `W·Z_X`. Unit
-    /// vectors with k entries; the largest entry is positive.
+    /// vectors with k entries whose largest entry is positive.
     ///
     /// # Errors
-    /// Where the numbers do not decide how many there are.
+    /// If the number of directions is undecided.
     pub(crate) fn unique_directions(&self) -> Result<Vec<Vec<f64>>, QueryError> {
         if let RankStatus::Undecided(doubt) = self.basis.known.status {
             return Err(QueryError::Rank(doubt));
@@ -223,8 +224,8 @@ impl<'a> Mapped<'a> {
             .collect())
     }
 
-    /// The largest part of the reaction that counts as zero within a stated tolerance only for the
-    /// unique directions, in the unit of margins; zero where none does.
+    /// The largest part of the reaction, in the unit of margins, that had to count as zero within a
+    /// stated tolerance for the unique directions; zero if there is none.
     ///
     /// # Errors
     /// As [`Mapped::unique_directions`].
@@ -250,8 +251,8 @@ impl<'a> Mapped<'a> {
         Ok(left.fold(0.0, f64::max))
     }
 
-    /// Those of the unique directions that say something: perpendicular to the ones along which the
-    /// reaction is zero for all multipliers.
+    /// The unique directions along which a reaction is possible: perpendicular to the directions
+    /// along which it is zero for all multipliers.
     pub(crate) fn live_directions(&self, unique: &[Vec<f64>]) -> Vec<Vec<f64>> {
         if unique.is_empty() {
             return Vec::new();
@@ -271,13 +272,13 @@ impl<'a> Mapped<'a> {
         (0..live).map(|j| normalised(column(j), rounding)).collect()
     }
 
-    /// Parts of unit vectors up to here are rounding.
+    /// Components of unit vectors up to this size are rounding.
     fn nothing(&self) -> f64 {
         self.basis.known.tolerance.min(LARGEST_ROUNDING)
     }
 
-    /// Orthonormal basis of the left null space of W, one vector in each column. Whether a
-    /// component is nothing is told from rows of equal size.
+    /// Orthonormal basis of the left null space of W, one vector in each column. The rank is
+    /// determined from rows scaled to equal size.
     fn idle_directions(&self) -> Matrix {
         let k = self.sizes.len();
         let equal = Matrix::from_fn(k, self.rows.len(), |i, j| match self.sizes[i] {
@@ -295,7 +296,7 @@ impl<'a> Mapped<'a> {
         PivotedQr::of_columns(&idle).q_columns(0..k - rank)
     }
 
-    /// From components of equal size back to the units of the map.
+    /// Factor from components of equal size back to the units of the map.
     fn scale(&self, i: usize) -> f64 {
         match self.sizes[i] {
             0.0 => 1.0,

@@ -1,5 +1,5 @@
-//! Verdicts by hand, exact verdicts where numbers cannot tell, and questions that cannot be
-//! answered.
+//! Verdicts computed by hand, exact verdicts that rounding would leave undecided, and requests that
+//! are errors.
 
 use super::*;
 use crate::verdict::Verdict;
@@ -33,7 +33,7 @@ fn exact_verdicts_have_no_smallest_number() {
                 "ε = {epsilon:e}, row {row}"
             );
         }
-        // Forces along x and y: λ₀ + λ₂ and λ₁ + ε·λ₂.
+        // The forces along x and y: λ₀ + λ₂ and λ₁ + ε·λ₂.
         assert_eq!(
             s.combination(&[1.0, 0.0, 1.0, 0.0]).unwrap().verdict,
             Verdict::Unique
@@ -50,7 +50,7 @@ fn exact_verdicts_have_no_smallest_number() {
         );
         assert_eq!(s.group([0, 1, 2]).unwrap().verdict, Verdict::Unique);
         assert_eq!(s.group([1]).unwrap().verdict, Verdict::NotUnique);
-        // Of (λ₀, λ₁) the direction in which the self-stress (1, ε) does nothing.
+        // The direction in the plane of (λ₀, λ₁) in which the self-stress (1, ε) has no component.
         let directions = s.unique_directions(&Matrix::identity(2), [0, 1]).unwrap();
         assert_eq!(directions.len(), 1);
         assert!((directions[0][1] - 1.0).abs() < 1e-6, "{directions:?}");
@@ -59,7 +59,7 @@ fn exact_verdicts_have_no_smallest_number() {
     assert_eq!(s.row(1).unwrap(), Judgement::new(Verdict::Unique, 0.0));
 }
 
-/// Entries with rounding cannot tell ε = 1e-14 from zero, and say so.
+/// With rounded entries, ε = 1e-14 cannot be distinguished from zero, and the verdict is undecided.
 #[test]
 fn rounded_verdicts_are_undecided_near_zero() {
     let verdict = |epsilon: f64| {
@@ -75,7 +75,8 @@ fn rounded_verdicts_are_undecided_near_zero() {
     assert_eq!(verdict(1e-8), Verdict::NotUnique);
 }
 
-/// A residual of 1e-6 blurs the coefficients to 1e-4: nothing is called unique on such evidence.
+/// A residual of 1e-6 makes coefficients uncertain by 1e-4: nothing is called unique on such
+/// evidence.
 #[test]
 fn poor_evidence_calls_nothing_unique() {
     let s = Solvability::of(&bar(0.0), 1e-6).unwrap();
@@ -151,7 +152,7 @@ fn questions_that_cannot_be_answered_are_named() {
 fn empty_matrices() {
     for (m, n) in [(0, 0), (0, 3), (3, 0), (2, 2)] {
         let s = Solvability::of_exact(&Matrix::zeros(m, n)).unwrap();
-        // A row of zeros: its multiplier is anything, its reaction is nothing.
+        // A row of zeros: its multiplier is arbitrary, its reaction is zero.
         for i in 0..m {
             assert_eq!(s.row(i).unwrap().verdict, Verdict::NotUnique);
             assert_eq!(s.group([i]).unwrap().verdict, Verdict::Unique);
@@ -159,11 +160,11 @@ fn empty_matrices() {
     }
 }
 
-/// An edge in the plane has one multiplier and two components: along itself there is no force,
-/// which is no finding.
+/// A knife edge in the plane has one multiplier and two components: along the edge the force is
+/// always zero, which is not reported as a unique direction.
 #[test]
 fn directions_without_a_reaction_are_left_out() {
-    // Rows 0 and 1 are the same, row 2 stands alone.
+    // Rows 0 and 1 are the same, row 2 is independent.
     let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
     for s in [Solvability::of(&c, 0.0), Solvability::of_exact(&c)] {
         let s = s.unwrap();
@@ -182,8 +183,7 @@ fn directions_without_a_reaction_are_left_out() {
                 "{found:?}"
             );
         }
-        // Beside a multiplier that is unique there is a direction that says so; the last component
-        // has neither.
+        // A unique multiplier adds a live direction; the last component is zero and adds none.
         let map = Matrix::from_rows(&[[0.6, 0.0], [0.8, 0.0], [0.0, 1e-6], [0.0, 0.0]]);
         let (number, found) = live(&map, &[0, 2]);
         assert_eq!(number, 3);

@@ -1,24 +1,23 @@
-//! The smallest change of data that satisfies linear equations, where the change of the whole is
-//! that of the point, direction or number that changes most, each as a share of what it is known
-//! to.
+//! The smallest change of the data that satisfies linear equations. Its size is that of the point,
+//! direction or number that changes most, relative to the uncertainty of that datum.
 //!
 //! `s* = min max_P |x_P|` under `target + Σ_P a_P·x_P = 0`, by Lawson's iteration: least squares
-//! with weights that grow where the change is largest. Each iteration gives a bound from below, the
-//! weighted mean of the shares, and one from above, the largest share.
+//! with weights that grow where the change is largest. Each iteration gives a lower bound, the
+//! weighted mean of the relative changes, and an upper bound, the largest of them.
 //!
 //! Source: C. L. Lawson, Contributions to the theory of linear least maximum approximation, thesis,
-//! UCLA (1961); for vectors of several components the same weights serve all components of one.
+//! UCLA (1961); all components of a vector have the same weight.
 
 use crate::limits::{CONE_CLOSE, CONE_ITERATIONS, CONE_RESOLVED, LEAST_WEIGHT};
 use linalg::Lu;
 
-/// One equation. Changes are shares of what the data are known to.
+/// One equation. Changes are relative to the uncertainty of the data.
 #[derive(Clone, Debug)]
 pub(super) struct Equation {
-    /// What has to vanish.
+    /// The value that has to vanish.
     pub(super) target: f64,
-    /// Rounding of the target and of the coefficients: a change that the equation has for itself,
-    /// as large as a share of one.
+    /// Rounding of the target and of the coefficients: an additional change that only this equation
+    /// has, of relative size up to one.
     pub(super) rounding: f64,
     /// Coefficients of each point, direction or number.
     pub(super) parts: Vec<[f64; 2]>,
@@ -32,7 +31,7 @@ impl Equation {
     }
 }
 
-/// Bounds of the smallest largest share.
+/// Bounds on the smallest possible largest change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
     pub(super) low: f64,
@@ -40,14 +39,14 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Between them.
+    /// A value between the bounds.
     pub(super) fn middle(self) -> f64 {
         (self.low * self.high).sqrt()
     }
 }
 
-/// `s*` from below and above, close together unless the iteration is stuck; equations that no
-/// change of data can satisfy give a large one.
+/// Bounds `s*` from below and above; they are close together unless the iteration stalls. Equations
+/// that no change of data can satisfy give a large value.
 pub(super) fn least_change(equations: &[Equation]) -> Bounds {
     let e = equations.len();
     let blocks = equations.first().map_or(0, |first| first.parts.len());

@@ -1,23 +1,24 @@
-//! How positions and velocities follow the data where some rows hold, and what that makes of the
-//! way along a walk.
+//! How positions and velocities change with the data while some rows stay satisfied, and how this
+//! adds up along a walk.
 //!
-//! Where rows `C_K·x = y` hold, x follows y by `C_K⁺·y`, and a gradient g by x becomes one by y,
-//! `λ = C_K⁺ᵀ·g`, and one along the motions that the rows leave, `g − C_Kᵀ·λ`.
+//! If rows `C_K·x = y` stay satisfied, x follows y by `C_K⁺·y`. A gradient g with respect to x
+//! splits into one with respect to y, `λ = C_K⁺ᵀ·g`, and one along the motions that the rows leave
+//! free, `g − C_Kᵀ·λ`.
 //!
-//! A pose at the end of a walk follows the data along the whole way: each step goes along a
+//! A pose at the end of a walk depends on the data along the whole path: each step goes along a
 //! velocity v that the kept rows allow, `C_K·v = 0`, which changes by `δv = −C_K⁺·δ(C_K·v)`, so
-//! that `δq⁺ = δq + δv`, with `Φ_K(q⁺) = 0`. Nonholonomic rows lead by velocities alone: of the
-//! change that adds up they take nothing back. A gradient by the last pose is carried backwards to
-//! the data and to the pose where the walk began.
+//! that `δq⁺ = δq + δv`, with `Φ_K(q⁺) = 0`. Nonholonomic rows constrain velocities only, so
+//! changes along the path add up and are never corrected. A gradient with respect to the last pose
+//! is carried backwards to the data and to the pose at which the walk began.
 
 use crate::limits::FOLLOWED;
 use crate::pose::dimensionless;
 use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Scratch, System};
 
-/// Rows that hold, independent and scaled.
+/// Independent rows that stay satisfied, scaled.
 pub(super) struct Followed {
-    /// Of the mechanism, with the factor of each to its scaled form.
+    /// Rows of the mechanism, each with the factor to its scaled form.
     rows: Vec<(usize, f64)>,
     /// Factor of each column to its scaled form.
     columns: Vec<f64>,
@@ -25,14 +26,15 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    /// These rows of a scaled C.
+    /// Factors the selected rows of a scaled C.
     pub(super) fn new(scaled: &Matrix, rows: Vec<(usize, f64)>, columns: Vec<f64>) -> Self {
         let qr = PivotedQr::of_rows(scaled.clone());
         Self { rows, columns, qr }
     }
 
-    /// A gradient by coordinates as one by what the rows ask for, a value for each of so many rows
-    /// of the mechanism, and one along the motions that they leave (physical units).
+    /// Splits a gradient with respect to coordinates into one with respect to the values of the
+    /// rows, one number for each of `rows` rows of the mechanism, and one along the motions that
+    /// the rows leave free (physical units).
     pub(super) fn split(&self, gradient: &[f64], rows: usize) -> (Vec<f64>, Vec<f64>) {
         let mut answer: Vec<f64> = gradient
             .iter()
@@ -57,7 +59,7 @@ impl Followed {
         (lambda, free)
     }
 
-    /// The velocity nearest to this one that the rows allow.
+    /// The velocity closest to `v` that the rows allow.
     fn allowed(&self, v: &[f64]) -> Vec<f64> {
         let mut x: Vec<f64> = v.iter().zip(&self.columns).map(|(v, f)| v / f).collect();
         self.qr.q_transpose_mul(&mut x);
@@ -67,28 +69,28 @@ impl Followed {
     }
 }
 
-/// One step of a walk that nonholonomic rows lead.
+/// One step of a walk on nonholonomic rows.
 pub(super) struct Step {
-    /// Where it began, and its middle.
+    /// The first pose of the step, and its middle.
     first: Scratch,
     middle: Scratch,
-    /// Along what (physical units).
+    /// Displacement (physical units).
     moved: Vec<f64>,
-    /// The holonomic kept rows where it began, and all kept rows in the middle.
+    /// The holonomic kept rows at the first pose, and all kept rows in the middle.
     positions: Followed,
     velocities: Followed,
 }
 
-/// Substeps of a step, one number after the other until they agree.
+/// Numbers of substeps, tried one after the other until two results agree.
 const SUBSTEPS: [usize; 4] = [2, 4, 6, 8];
 
-/// What a walk is made on.
+/// The mechanism and the kept rows of a walk.
 #[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
     pub(super) mechanism: &'a Mechanism,
     /// Kept rows of the mechanism.
     pub(super) kept: &'a [usize],
-    /// Velocities that are one without dimensions.
+    /// Velocities that correspond to 1 without dimensions.
     pub(super) units: &'a [f64],
     /// Size of the mechanism (m).
     pub(super) size: f64,
@@ -114,13 +116,13 @@ impl Ground<'_> {
         self.kept.iter().copied().filter(|&i| i < m).collect()
     }
 
-    /// Whether velocities alone lead, of positions not implied by them.
+    /// Whether nonholonomic rows are kept, so that positions depend on the path.
     pub(super) fn is_led(&self) -> bool {
         self.kept.iter().any(|&i| i >= self.mechanism.layout().m)
     }
 
-    /// Where velocities that all kept rows allow lead, those nearest to `moved` at each place.
-    /// `None` if they change too fast to be followed.
+    /// The pose reached by velocities that all kept rows allow, at each place those closest to
+    /// `moved`. Returns `None` if they change too fast to be followed.
     ///
     /// Source: the modified midpoint rule, extrapolated; E. Hairer, S. P. Nørsett, G. Wanner,
     /// Solving Ordinary Differential Equations I, section II.9 (1993).
@@ -133,7 +135,7 @@ impl Ground<'_> {
             d.iter().zip(v).map(|(d, v)| d + h * v).collect()
         };
         let start = vec![0.0; moved.len()];
-        // One row of the scheme of Aitken and Neville, in the square of the substep.
+        // One row of the Aitken-Neville scheme, in the square of the substep.
         let mut row: Vec<Vec<f64>> = Vec::new();
         for (j, n) in SUBSTEPS.into_iter().enumerate() {
             let h = 1.0 / n as f64;
@@ -182,8 +184,9 @@ impl Ground<'_> {
 }
 
 impl Step {
-    /// A gradient by the pose after the step, along the motions that the rows leave there, becomes
-    /// one by the pose before it; what the data make of the step is added to theirs.
+    /// Carries a gradient back over the step: from one with respect to the pose after the step,
+    /// along the free motions there, to one with respect to the pose before it. The effect of the
+    /// data on the step is added to `data`.
     pub(super) fn carry_back(&self, mechanism: &Mechanism, pose: &mut Vec<f64>, data: &mut [f64]) {
         let rows = mechanism.layout().rows();
         let (lambda, _) = self.velocities.split(pose, rows);

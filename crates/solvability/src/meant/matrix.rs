@@ -1,9 +1,9 @@
-//! C of a mechanism as its data mean it: a force or a lever that is shorter than what it is known
-//! to is none.
+//! C of the intended mechanism: a force or lever arm that is shorter than its uncertainty counts as
+//! zero.
 //!
-//! Forces and levers are judged as vectors, never by their components, which depend on the axes:
-//! the block of a joint's force rows, or of its moment rows, in the columns of the translation or
-//! of the rotation of one body. Each of these has one scale.
+//! Forces and levers are compared as vectors, never by their components, which depend on the axes.
+//! A vector is the block of the force rows or of the moment rows of a joint, in the columns of the
+//! translation or of the rotation of one body. Each vector has one scale.
 
 use crate::pose::{COLUMNS, TRANSLATIONS, dimensionless};
 use std::ops::Range;
@@ -11,21 +11,22 @@ use std::ops::Range;
 use linalg::{DdMatrix, Matrix, Scaling, equilibrate_blocks};
 use model::{Known, Mechanism, Scratch, System};
 
-/// C without dimensions with what its entries are known to.
+/// C without dimensions, with the uncertainty of its entries.
 #[derive(Clone, Debug)]
 pub(crate) struct MeantMatrix {
-    /// (m + h) × n_v, forces and levers that are none set to zero.
+    /// (m + h) × n_v; forces and levers that count as zero are set to zero.
     pub(crate) c: Matrix,
-    /// What the entries are known to; zero where they are none.
+    /// Uncertainty of the entries; zero for entries that were set to zero.
     pub(crate) uncertainty: Matrix,
-    /// Entries that have been set to zero.
+    /// Places of the entries that have been set to zero.
     zeros: Vec<(usize, usize)>,
     row_blocks: Vec<usize>,
     col_blocks: Vec<usize>,
 }
 
 impl MeantMatrix {
-    /// At the pose of the scratch, where Φ and C have been evaluated, for a mechanism of this size.
+    /// Evaluates C at the pose of the scratch, in which Φ and C have been evaluated, for a
+    /// mechanism of this size.
     pub(crate) fn new(mechanism: &Mechanism, s: &Scratch, size: f64, known: Known) -> Self {
         let uncertainty = mechanism
             .layout()
@@ -34,7 +35,7 @@ impl MeantMatrix {
         Self::of(mechanism, dimensionless(mechanism, s, size), uncertainty)
     }
 
-    /// Of C without dimensions, and of what its entries are known to.
+    /// Starts from C without dimensions and the uncertainty of its entries.
     pub(crate) fn of(mechanism: &Mechanism, c: Matrix, uncertainty: Matrix) -> Self {
         let mut meant = Self {
             col_blocks: (0..c.ncols()).map(col_block).collect(),
@@ -53,8 +54,8 @@ impl MeantMatrix {
         meant
     }
 
-    /// Sets the forces and levers of these rows, which belong to one block, to zero where they are
-    /// none.
+    /// Sets the forces and levers of these rows, which belong to one block, to zero if they are
+    /// within their uncertainty.
     fn clear(&mut self, rows: Range<usize>) {
         let n = self.c.ncols();
         let mut first = 0;
@@ -72,7 +73,7 @@ impl MeantMatrix {
                 sum
             };
             let (force, known) = (size(&self.c), size(&self.uncertainty));
-            // Most bodies are not touched at all.
+            // For most bodies the block is exactly zero.
             if force <= known && known > 0.0 {
                 for i in rows.clone() {
                     for j in (first..end).filter(|&j| self.c[(i, j)] != 0.0) {
@@ -86,10 +87,10 @@ impl MeantMatrix {
         }
     }
 
-    /// One factor for the translation of each body, one for its rotation, one for the force rows of
-    /// each joint, one for its moment rows. A lever sets the scale of its body only where it is far
-    /// above what it is known to: what several roundings left of larger terms must never be scaled
-    /// up to size one, and the rank does not depend on scales.
+    /// Scaling with one factor for the translation of each body, one for its rotation, one for the
+    /// force rows of each joint, and one for its moment rows. A lever determines the scale of its
+    /// body only if it is far larger than its uncertainty: the rounding that is left of larger
+    /// terms must never be scaled up to size one. The rank does not depend on scales.
     pub(crate) fn scaling(&self) -> Scaling {
         let significant = |i: usize, j: usize| match self.c[(i, j)] {
             c if c.abs() > rank::SIGNIFICANT * self.uncertainty[(i, j)] => c,
@@ -99,7 +100,8 @@ impl MeantMatrix {
         equilibrate_blocks(&c, &self.row_blocks, &self.col_blocks)
     }
 
-    /// The same matrix in double-double, given all its entries: what is none here is none there.
+    /// The same matrix in double-double, given all its entries; entries set to zero here are set to
+    /// zero there.
     pub(crate) fn extended(&self, mut c: DdMatrix) -> DdMatrix {
         for &(i, j) in &self.zeros {
             c[(i, j)] = linalg::Dd::ZERO;
@@ -112,7 +114,7 @@ impl MeantMatrix {
         !self.zeros.is_empty()
     }
 
-    /// Some of the rows, ascending.
+    /// Selects some of the rows, ascending.
     pub(crate) fn select(&self, rows: &[usize]) -> Self {
         let place = |&(i, j): &(usize, usize)| Some((rows.binary_search(&i).ok()?, j));
         Self {
@@ -130,8 +132,8 @@ fn col_block(j: usize) -> usize {
     2 * (j / COLUMNS) + usize::from(j % COLUMNS >= TRANSLATIONS)
 }
 
-/// The block of each row: the force rows or the moment rows of its joint. Rows of a block stand
-/// side by side, or their block is another one.
+/// The block of each row: the force rows or the moment rows of its joint. The rows of a block are
+/// adjacent; rows of the same kind that are not adjacent form different blocks.
 fn row_blocks(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
     let mut blocks = Vec::with_capacity(layout.rows());

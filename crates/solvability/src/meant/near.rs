@@ -1,9 +1,9 @@
 //! By how many metres the data would have to be wrong for a lower rank, at one pose and at all
-//! poses of a walk, and the least rank that data within a stated tolerance have.
+//! poses of a walk; and the least rank of data within a stated tolerance.
 //!
-//! Rows that nearly depend on others at a pose are left out together, so that the mechanism walks
-//! away from the pose on rows that are independent beyond doubt. Where it comes to it shows which
-//! of them are independent in general: those are kept again, one rank after the other.
+//! Rows that nearly depend on others at a pose are dropped together, so that the mechanism moves
+//! away from the pose on rows that are certainly independent. The poses reached show which of the
+//! dropped rows are independent in general: these are kept again, one rank after the other.
 
 use crate::limits::{CLEAR_ENTRY, CURVED, PAIRS, WALKED};
 use linalg::{Matrix, PivotedQr, Scaling};
@@ -15,70 +15,71 @@ use super::pose::{Candidate, Gradient, Pose, most_independent_of};
 use super::share::{Question, StatedTolerance, equation, pairs, rounding};
 use super::walk::{Walk, walk};
 
-/// What the data would have to be wrong by (m; angles times the size) for one rank less.
+/// By how much the data would have to be wrong (m; angles times the size) for one rank less.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearness {
-    /// At this pose alone.
+    /// At this pose only.
     pub(crate) here: f64,
-    /// By one change of the data that serves all poses of a walk: from there on a row is redundant.
-    /// Infinite where none does.
+    /// By one change of the data for all poses of a walk: from this change on, a row is redundant.
+    /// Infinite if no change makes it redundant.
     pub(crate) everywhere: f64,
-    /// No change below this does, where nonholonomic rows lead: they hold no position, so that
-    /// other poses are reached from a start that is known to the same change only.
+    /// A lower bound on that change if nonholonomic rows are kept: they constrain no position, so
+    /// other poses are reached from a start that has the same uncertainty as the data. Equal to
     /// [`everywhere`](Self::everywhere) otherwise.
     pub(crate) at_least: f64,
-    /// Whether the walk found the poses that it takes to tell a redundancy from a singular pose.
+    /// Whether the walk found enough poses to distinguish a redundancy from a singular pose.
     pub(crate) is_walked: bool,
     /// Whether only angles change, because a tolerance is stated for them alone.
     pub(crate) by_angles: bool,
 }
 
-/// The least rank that data within a tolerance have.
+/// The least rank of data within a tolerance.
 pub(super) struct LeastRank {
     pub(super) rank: usize,
-    /// How near the data are to it, or to one rank less where it stays.
+    /// Distance of the data from this rank, or from one rank less if the rank does not drop.
     pub(super) nearness: Option<Nearness>,
     pub(super) certainty: Certainty,
 }
 
-/// Whether a rank is one less.
+/// Whether the rank is one less.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Certainty {
-    /// It is not.
+    /// Decided.
     Decided,
-    /// From a change of this length on (m), which is near the tolerance.
+    /// Undecided: the rank is one less from a change of this length on (m), which is close to the
+    /// tolerance.
     From(f64),
-    /// Nothing is known of other poses.
+    /// Undecided: other poses could not be examined.
     OtherPoses,
 }
 
-/// A lower rank, asked for at a pose.
+/// A lower rank, examined at a pose.
 struct Lower<'q> {
     question: &'q Question<'q>,
     blocks: Vec<DataBlock>,
-    /// C in one unit, with its factors.
+    /// C with one unit for all lengths, with its factors.
     scaled: Matrix,
     scaling: Scaling,
     dimensions: Scaling,
-    /// Rows that would be left, of those that are judged.
+    /// Rows that would be kept, numbered among the analysed rows.
     kept: Vec<usize>,
-    /// Changes are shares of this length (m), for each block of this change.
+    /// Unit of changes (m), and the corresponding change of each block.
     least: f64,
     known: Vec<f64>,
     by_angles: bool,
-    /// The change that one rank less takes at this pose alone (m).
+    /// The change that lowers the rank by one at this pose only (m).
     here: f64,
 }
 
 impl Question<'_> {
-    /// How near the data are to one rank less than `rank`, if that is nearer than `limit` (m).
+    /// The distance of the data from one rank less than `rank`, if it is at most `limit` (m).
     pub(super) fn nearness(&self, rank: usize, limit: f64) -> Option<Nearness> {
         let lower = self.lower(rank.checked_sub(1)?, limit)?;
         Some(lower.near(&lower.walked(), &lower.kept))
     }
 
-    /// The least rank up to `rank` of data within the tolerance, and how near they are to it, if
-    /// that is nearer than `limit` (m).
+    /// The least rank up to `rank` of data within the tolerance, and their distance from it if that
+    /// is at most `limit` (m).
     pub(super) fn least_rank(
         &self,
         rank: usize,
@@ -111,7 +112,7 @@ impl Question<'_> {
             } else {
                 asked.near(&asked.walked(), &asked.kept)
             };
-            // Rows that are kept again may be singular here, and leave no way.
+            // Rows that are kept again may be singular at this pose, so that no motion is possible.
             let is_unknown = !own.is_walked && share(own.everywhere) <= rank::BEYOND_DOUBT;
             let near = if is_unknown && lower > first {
                 asked.near(&away, &lowest.kept)
@@ -141,8 +142,8 @@ impl Question<'_> {
         stays(last)
     }
 
-    /// Rows that are not kept, those first that are most independent of the kept ones where the
-    /// walk leads.
+    /// The dropped rows, beginning with those that are most independent of the kept ones at the
+    /// last pose of the walk.
     fn most_independent(&self, lowest: &Lower<'_>, away: &Walk) -> Vec<usize> {
         let scaled = match away.farthest() {
             None => lowest.scaled.clone(),
@@ -154,15 +155,15 @@ impl Question<'_> {
         most_independent_of(&scaled, &lowest.kept)
     }
 
-    /// The rank `lower` on the rows that are most independent at this pose. `None` if it is farther
-    /// than `limit` (m).
+    /// Examines the rank `lower` on the rows that are most independent at this pose. Returns `None`
+    /// if its distance is above `limit` (m).
     fn lower(&self, lower: usize, limit: f64) -> Option<Lower<'_>> {
         let (scaled, _) = self.uniform(self.s);
         let order = PivotedQr::of_rows(scaled);
         self.lower_of(order.permutation()[..lower].to_vec(), limit)
     }
 
-    /// The rank of these rows.
+    /// Examines the rank with only these rows kept.
     fn lower_of(&self, kept: Vec<usize>, limit: f64) -> Option<Lower<'_>> {
         let stated = self.tolerance();
         let tolerance = stated.map(|stated| stated.metres);
@@ -181,11 +182,11 @@ impl Question<'_> {
         let parts = blocks.iter().zip(&unit);
         let parts = parts.map(|(block, unit)| block.change(&gradient.data, *unit));
         let least = weakest.abs() / parts.sum::<f64>();
-        // Without a datum that changes it, it stays.
+        // The rank stays if no datum changes it.
         if least.is_nan() || least > limit {
             return None;
         }
-        // Shares of what one entry alone would need, so that rounding is no obstacle.
+        // Relative to what a single entry would need, so that rounding does not interfere.
         let least = least.max(self.size * f64::EPSILON);
         let mut lower = Lower {
             question: self,
@@ -212,12 +213,12 @@ impl Lower<'_> {
         kept.iter().map(|&k| self.question.places[k]).collect()
     }
 
-    /// The walk on the rows that would be left.
+    /// The walk on the rows that would be kept.
     fn walked(&self) -> Walk {
         walk(self.question, &self.rows(&self.kept))
     }
 
-    /// How near the data are, at poses that the rows `held` hold.
+    /// The distance of the data, at poses at which the rows `held` are satisfied.
     fn near(&self, walked: &Walk, held: &[usize]) -> Nearness {
         let m = self.question.mechanism.layout().m;
         let is_led = self.rows(held).iter().any(|&row| row >= m);
@@ -243,10 +244,11 @@ impl Lower<'_> {
         }
     }
 
-    /// What has to vanish at the pose of the scratch, where a way has led on the rows `held`.
+    /// The equations that must hold at the pose of the scratch, reached by a path on the rows
+    /// `held`.
     fn at(&self, s: &Scratch, held: &[usize], way: &[&Step]) -> Vec<Asked> {
         let question = self.question;
-        // The scaling is that of the first pose: the equations have one unit.
+        // Uses the scaling of the first pose, so that all equations have the same unit.
         let scaled = self.scaling.apply(&question.dimensionless(s));
         let candidate = Candidate::of_rows(&scaled, self.kept.clone());
         let matrices = (&scaled, &self.dimensions, &self.scaling);
@@ -261,16 +263,16 @@ impl Lower<'_> {
         let is_first = std::ptr::eq(s, question.s);
         let noise = if is_first { rounding(&scaled) } else { WALKED };
         let mut asked = self.asked(&pose, way, noise);
-        // Rows that are kept but not held say nothing of poses where they miss: there the rank
-        // counts, which is nowhere larger where they hold, too.
+        // Rows that are kept but not held may be violated at other poses; there only the rank is
+        // examined, which is no larger where they are satisfied.
         if is_first || held == self.kept {
             asked.extend(self.misfits(&pose, noise));
         }
         asked
     }
 
-    /// Equations of lengths are those of entries, times the size. What nonholonomic rows lead
-    /// follows the data along the way, from the start on, which is known as the data are.
+    /// The equations for the entries. With nonholonomic rows the pose depends on the data along the
+    /// path, from the start on, which has the uncertainty of the data.
     fn asked(&self, pose: &Pose<'_>, way: &[&Step], noise: f64) -> Vec<Asked> {
         let question = self.question;
         let (blocks, known) = (&self.blocks[..], &self.known[..]);
@@ -289,7 +291,8 @@ impl Lower<'_> {
         pairs(pose).map(of_pair).collect()
     }
 
-    /// What depends on each other must hold together, too.
+    /// The equations for residuals: rows that depend on each other must also agree. Equations of
+    /// lengths are divided by the size.
     fn misfits(&self, pose: &Pose<'_>, noise: f64) -> Vec<Asked> {
         let question = self.question;
         let (blocks, known) = (&self.blocks[..], &self.known[..]);
@@ -307,8 +310,8 @@ impl Lower<'_> {
             .collect()
     }
 
-    /// The share of `least` by which the data have to change, where the second order of a change by
-    /// at most `share` of it is left open.
+    /// The fraction of `least` by which the data have to change, if the second-order terms of
+    /// changes up to `share` of it are left open.
     fn change(&self, poses: &[Vec<Asked>], share: f64, start: Start) -> f64 {
         let curved = CURVED * (self.least / self.question.size).powi(2) * share.min(1.0);
         let equations = poses.iter().flatten();
@@ -317,25 +320,25 @@ impl Lower<'_> {
     }
 }
 
-/// Whether the pose where a walk begins is known.
+/// Uncertainty of the pose at which a walk begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Start {
     Known,
-    /// To the change of the data.
+    /// The same as that of the data.
     AsData,
 }
 
-/// What has to vanish at a pose.
+/// An equation that must hold at a pose.
 struct Asked {
     equation: Equation,
-    /// Unit of the equation (m, or one for an entry).
+    /// Unit of the equation (m, or 1 for an entry).
     unit: f64,
-    /// Changes by where the bodies are at the start.
+    /// Coefficients of changes of the body positions at the start.
     by_start: Vec<[f64; 2]>,
 }
 
 impl Asked {
-    /// The equation with the second order of a change left open.
+    /// The equation with the second-order terms of a change left open.
     fn loose(&self, curved: f64, start: Start) -> Equation {
         let mut equation = self.equation.clone();
         equation.rounding = equation.rounding.max(curved * self.unit);

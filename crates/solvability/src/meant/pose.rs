@@ -1,11 +1,11 @@
-//! One pose of a mechanism: how near C is to a lower rank there, and how that hangs on the data.
+//! One pose of a mechanism: how close C is to a lower rank there, and how this depends on the data.
 //!
 //! With r' kept rows K, the rank is r' iff `S = C_D·V` vanishes, V the null space of C_K; with
 //! `U = [−Tᵀ; I]`, `T = C_D·C_K⁺`, it is `Uᵀ·C·V`, and changes with the data to first order by
-//! `Uᵀ·δC·V`. δC has two parts: that of the points and directions at the pose as it is, and that of
-//! the pose, which follows the data so that the kept rows of Φ are satisfied:
-//! `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, nothing along the motions that are left. Φ_K is not zero where
-//! rows contradict each other within a tolerance and the start shares what they miss.
+//! `Uᵀ·δC·V`. δC has two parts: the change of points and directions at a fixed pose, and the change
+//! of the pose, which follows the data so that the kept rows of Φ stay satisfied:
+//! `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, with no component along the free motions. Φ_K is not zero if
+//! rows contradict each other within a tolerance and the start distributes the residual among them.
 
 use crate::limits::{HOLONOMIC, RESOLVED};
 use linalg::{Matrix, PivotedQr, Scaling, small_svd};
@@ -13,27 +13,27 @@ use model::{Mechanism, Scratch, System};
 
 use super::follow::Followed;
 
-/// A pose and its candidate for a lower rank.
+/// A pose, with the rows and columns kept for a lower rank.
 pub(super) struct Pose<'a> {
     mechanism: &'a Mechanism,
     s: &'a Scratch,
-    /// Rows of the mechanism that the scaled C has.
+    /// Rows of the mechanism in the scaled C.
     places: &'a [usize],
-    /// Factor of each column and of each row from C to its scaled form.
+    /// Factors of columns and rows from C to its scaled form.
     columns: Vec<f64>,
     rows: Vec<f64>,
     /// The kept holonomic rows.
     positions: Followed,
-    /// What has to vanish for the lower rank, as `Uᵀ·C·V = diag(σ)`: left vectors by rows (scaled),
-    /// right vectors by rows (scaled), and σ.
+    /// The values that must vanish for the lower rank, `Uᵀ·C·V = diag(σ)`: left vectors as rows
+    /// (scaled), right vectors as rows (scaled), and σ.
     pub(super) left: Matrix,
     pub(super) right: Matrix,
     pub(super) sigma: Vec<f64>,
 }
 
-/// Rows and columns of a scaled C that are kept for a rank, with the rest.
+/// Rows and columns of a scaled C that are kept for a rank, and the remaining ones.
 pub(super) struct Candidate {
-    /// r' rows.
+    /// The r' kept rows.
     pub(super) kept: Vec<usize>,
     left: Matrix,
     right: Matrix,
@@ -41,24 +41,24 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    /// The motions that the kept rows leave, one in each row, the one that the other rows resist
-    /// most first.
+    /// The motions that the kept rows leave free, one in each row, the one that the other rows
+    /// resist most first.
     pub(super) fn into_free(self) -> Matrix {
         self.right
     }
 
-    /// The largest entry that has to vanish.
+    /// The largest entry that must vanish.
     pub(super) fn weakest(&self) -> f64 {
         self.sigma.first().copied().unwrap_or(0.0)
     }
 
-    /// The rows that are most independent, as many as the rank.
+    /// Keeps the most independent rows, as many as the rank.
     pub(super) fn of_rank(scaled: &Matrix, rank: usize) -> Self {
         let qr = PivotedQr::of_rows(scaled.clone());
         Self::of_rows(scaled, qr.permutation()[..rank].to_vec())
     }
 
-    /// These rows.
+    /// Keeps these rows.
     pub(super) fn of_rows(scaled: &Matrix, mut kept: Vec<usize>) -> Self {
         kept.sort_unstable();
         let (m, n, r) = (scaled.nrows(), scaled.ncols(), kept.len());
@@ -93,7 +93,7 @@ impl Candidate {
     }
 }
 
-/// The other rows of a scaled C, those first that are most independent of the kept ones.
+/// The other rows of a scaled C, the most independent of the kept ones first.
 pub(super) fn most_independent_of(scaled: &Matrix, kept: &[usize]) -> Vec<usize> {
     let own = PivotedQr::of_rows(scaled.select_rows(kept));
     let others: Vec<usize> = (0..scaled.nrows())
@@ -110,7 +110,8 @@ pub(super) fn most_independent_of(scaled: &Matrix, kept: &[usize]) -> Vec<usize>
     rest.permutation().iter().map(|&j| others[j]).collect()
 }
 
-/// An orthonormal basis that begins with singular vectors; those that are rounding are replaced.
+/// An orthonormal basis that begins with the given singular vectors; those that are only rounding
+/// are replaced.
 fn complete(columns: &Matrix, sigma: &[f64]) -> Matrix {
     let n = columns.nrows();
     let largest = sigma.iter().copied().fold(0.0, f64::max);
@@ -134,19 +135,21 @@ fn complete(columns: &Matrix, sigma: &[f64]) -> Matrix {
     all
 }
 
-/// How one entry of `Uᵀ·C·V` changes.
+/// Gradient of one entry of `Uᵀ·C·V`.
 pub(super) struct Gradient {
-    /// By the numbers of the constraints.
+    /// With respect to the numbers of the constraints.
     pub(super) data: Vec<f64>,
-    /// By the coordinates along the motions that the kept rows leave (physical units), n_v values.
+    /// With respect to the coordinates, along the motions that the kept rows leave free (physical
+    /// units), n_v values.
     pub(super) pose: Vec<f64>,
-    /// What the entry changes by where the pose moves onto the kept rows, the data as they are.
+    /// Change of the entry if the pose is moved onto the kept rows, with the data fixed.
     pub(super) onto_kept: f64,
 }
 
 impl<'a> Pose<'a> {
-    /// At the pose of the scratch, where C has been evaluated; `scaled` has the rows `places` of
-    /// it, scaled by `scaling` after `dimensions`. Positions follow the data on the kept rows.
+    /// Evaluates the pose of the scratch, in which C has been evaluated; `scaled` holds the rows
+    /// `places` of C, scaled by `dimensions` and then by `scaling`. Positions follow the data on
+    /// the kept rows.
     pub(super) fn new(
         mechanism: &'a Mechanism,
         s: &'a Scratch,
@@ -158,7 +161,8 @@ impl<'a> Pose<'a> {
         Self::held(mechanism, s, places, matrices, candidate, &held)
     }
 
-    /// The same where positions follow the data on other rows, which are independent.
+    /// Like [`Self::new`], with positions that follow the data on other rows, which are
+    /// independent.
     pub(super) fn held(
         mechanism: &'a Mechanism,
         s: &'a Scratch,
@@ -196,7 +200,7 @@ impl<'a> Pose<'a> {
         }
     }
 
-    /// `u_aᵀ·C·v_b` (scaled) where the kept rows are satisfied, and its gradient.
+    /// `u_aᵀ·C·v_b` (scaled) at satisfied kept rows, and its gradient.
     pub(super) fn entry(&self, a: usize, b: usize) -> (f64, Gradient) {
         let here = if a == b {
             self.sigma.get(a).copied().unwrap_or(0.0)
@@ -207,8 +211,8 @@ impl<'a> Pose<'a> {
         (here + gradient.onto_kept, gradient)
     }
 
-    /// `u_aᵀ·Φ` and its gradient by the numbers of the constraints. `None` if nonholonomic rows
-    /// take part: what they imply of velocities they do not imply of positions.
+    /// `u_aᵀ·Φ` and its gradient with respect to the numbers of the constraints. Returns `None` if
+    /// nonholonomic rows take part: a dependency of velocities implies nothing about positions.
     pub(super) fn misfit(&self, a: usize) -> Option<(f64, Vec<f64>)> {
         let u = self.spread(self.left.row(a));
         let (holonomic, others) = u.split_at(self.mechanism.layout().m);
@@ -228,7 +232,7 @@ impl<'a> Pose<'a> {
         Some((target, gradient))
     }
 
-    /// Weights of all rows of the mechanism, from scaled weights of those that are judged.
+    /// Weights of all rows of the mechanism, from scaled weights of the analysed rows.
     fn spread(&self, scaled: &[f64]) -> Vec<f64> {
         let mut u = vec![0.0; self.mechanism.layout().rows()];
         for ((&row, weight), factor) in self.places.iter().zip(scaled).zip(&self.rows) {
@@ -237,7 +241,7 @@ impl<'a> Pose<'a> {
         u
     }
 
-    /// The gradient of `uᵀ·C·v` (scaled), u by the rows that are judged.
+    /// The gradient of `uᵀ·C·v` (scaled); u has one entry for each analysed row.
     pub(super) fn gradient_between(&self, u: &[f64], v: &[f64]) -> Gradient {
         let scaled =
             |x: &[f64], by: &[f64]| -> Vec<f64> { x.iter().zip(by).map(|(x, f)| x * f).collect() };

@@ -1,8 +1,8 @@
-//! The rank that is read from C and from what its data are known to.
+//! The rank that follows from C and the uncertainty of its data.
 //!
-//! Singular values below what the entries are known to are zero; those far above are not. Between
-//! them the data decide: by what share of their uncertainty would they have to be wrong for the
-//! lower rank?
+//! Singular values below the uncertainty of the entries are zero; those far above are not. Between
+//! these bounds the data decide: by what fraction of their uncertainty would they have to be wrong
+//! for the lower rank?
 
 use crate::limits::{CLEAR_OF_NOISE, CLEAR_OF_ROUNDING, CONFIRMED, NEAR_TOLD};
 use linalg::singular_values;
@@ -12,17 +12,17 @@ use super::MeantMatrix;
 use super::near::{Certainty, Nearness};
 use super::share::{Question, StatedTolerance};
 
-/// What is read.
+/// The result.
 pub(crate) struct Reading {
     pub(crate) rank: RankReading,
-    /// How near the data are to one rank less, where that is near enough to be told.
+    /// Distance of the data from one rank less, if it is small enough to be reported.
     pub(crate) nearness: Option<Nearness>,
-    /// Whether the scene states what its data are known to.
+    /// Whether the scene states a tolerance.
     pub(crate) has_tolerance: bool,
 }
 
 impl MeantMatrix {
-    /// Rank, and what it was read by.
+    /// Reads the rank and records its evidence.
     pub(crate) fn read(&self, question: &Question<'_>) -> Reading {
         let (m, n) = (self.c.nrows(), self.c.ncols());
         let scaling = self.scaling();
@@ -37,14 +37,14 @@ impl MeantMatrix {
         let upper = above(noise);
         let clear = above(CLEAR_OF_ROUNDING.max(CLEAR_OF_NOISE * noise)).min(upper);
         let (mut rank, mut status) = (upper, RankStatus::Decided);
-        // The least rank that the data allow.
+        // Search for the least rank that the data allow.
         for lower in clear..upper {
             let share = question.share_of_rounding(&scaled, &scaling, lower);
             if share.high < (1.0 / rank::BEYOND_DOUBT) {
                 rank = lower;
                 break;
             }
-            // Digits behind a stated tolerance mean nothing: the walk decides.
+            // Rounding is irrelevant if a tolerance is stated: then the walk decides.
             if share.low <= rank::BEYOND_DOUBT && question.tolerance().is_none() {
                 status = RankStatus::Undecided(Doubt::WithinRounding {
                     lower,
@@ -93,8 +93,8 @@ impl MeantMatrix {
             }
             _ => {}
         }
-        // What is redundant within a tolerance is so where all lengths have one unit: a short lever
-        // must not be scaled up to size one.
+        // A redundancy within a tolerance refers to lengths in one common unit: a short lever must
+        // not be scaled up to size one.
         let (scaling, sigma) = match grounds {
             Grounds::WithinTolerance => {
                 let (scaled, scaling) = question.uniform(question.s);
@@ -109,8 +109,8 @@ impl MeantMatrix {
                 status,
                 scaling,
                 noise,
-                // What is not zero is the same in double-double, but for the digits that f64 has of
-                // it.
+                // A value that is not zero is the same in double-double, apart from the rounding in
+                // `f64`.
                 separation: sigma_r.map_or(0.0, |sigma_r| CONFIRMED * sigma_r),
                 grounds,
             },
@@ -120,8 +120,8 @@ impl MeantMatrix {
     }
 }
 
-/// It is open whether the rank is one less: from a change of this length on (m), or because nothing
-/// is known of other poses.
+/// The status "undecided whether the rank is one less": from a change of length `from` on (m), or
+/// because other poses could not be examined.
 fn open(
     question: &Question<'_>,
     stated: StatedTolerance,

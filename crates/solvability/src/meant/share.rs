@@ -1,5 +1,5 @@
-//! By what share of their uncertainty the data would have to be wrong for a lower rank, and what
-//! they make of dependencies.
+//! By what fraction of their uncertainty the data would have to be wrong for a lower rank, and how
+//! much dependencies change within the uncertainty.
 
 use crate::limits::{ENTRY_ROUNDINGS, PAIRS};
 use crate::pose::{COLUMNS, dimensionless};
@@ -10,31 +10,32 @@ use rank::RankDecision;
 use super::cone::{Bounds, Equation, least_change};
 use super::pose::{Candidate, Pose};
 
-/// A mechanism at a pose, some of whose rows are judged.
+/// A mechanism at a pose, with the rows that are analysed.
 pub(crate) struct Question<'a> {
     pub(crate) mechanism: &'a Mechanism,
-    /// Φ and C evaluated at q.
+    /// Scratch in which Φ and C have been evaluated at q.
     pub(crate) s: &'a Scratch,
     pub(crate) q: &'a [f64],
-    /// Rows of the mechanism that are judged, ascending.
+    /// Numbers of the analysed rows in the mechanism, ascending.
     pub(crate) places: &'a [usize],
     /// Size of the mechanism (m).
     pub(crate) size: f64,
 }
 
-/// What the scene states of its data.
+/// The tolerance that the scene states.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StatedTolerance {
-    /// The largest one of a point or a length; where none is stated, the largest one of an angle
-    /// times the size (m).
+    /// The largest tolerance of a point or a length; if none is stated, the largest tolerance of an
+    /// angle times the size (m).
     pub(super) metres: f64,
-    /// Whether it is that of an angle.
+    /// Whether it comes from an angle.
     pub(super) by_angles: bool,
 }
 
 impl Question<'_> {
-    /// The share of its rounding by which the datum that changes most would have to change for the
-    /// rank `lower`, at this pose; scaled is C of this question in this scaling after dimensions.
+    /// The fraction of its rounding by which the most changed datum would have to change for the
+    /// rank `lower` at this pose. `scaled` is C of this question, with dimensions removed and then
+    /// scaled by `scaling`.
     pub(super) fn share_of_rounding(
         &self,
         scaled: &Matrix,
@@ -63,7 +64,8 @@ impl Question<'_> {
         least_change(&equations)
     }
 
-    /// Changes of an entry by where each body stands and by how it is turned, of a length (m) each.
+    /// Coefficients of an entry with respect to the position and rotation of each body, for changes
+    /// of this length (m).
     pub(super) fn by_place(&self, gradient: &[f64], length: f64, by_angles: bool) -> Vec<[f64; 2]> {
         let place = if by_angles { 0.0 } else { length };
         let turn = length / self.size;
@@ -71,8 +73,8 @@ impl Question<'_> {
         gradient.chunks_exact(COLUMNS).flat_map(of_body).collect()
     }
 
-    /// Changes of where each body stands at the start, and of how it is turned, by what these are
-    /// rounded to.
+    /// Coefficients with respect to the position and rotation of each body at the start, for
+    /// changes of the size of their rounding.
     fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 2]> {
         let bodies = self
             .s
@@ -88,8 +90,8 @@ impl Question<'_> {
         of_body.collect()
     }
 
-    /// The largest tolerance that the scene states for a point or a length; for an angle if it
-    /// states none for lengths, which are then known to their rounding.
+    /// The largest tolerance that the scene states for a point or a length; or for an angle, if it
+    /// states none for lengths, whose uncertainty is then their rounding.
     pub(super) fn tolerance(&self) -> Option<StatedTolerance> {
         let blocks = self.mechanism.data().blocks(self.s);
         let largest = |unit: DataUnit| {
@@ -103,10 +105,10 @@ impl Question<'_> {
         }
     }
 
-    /// By how much some rows of the left null space of the scaled C change with data within what
-    /// they are known to, with the rank held: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`, for an orthonormal basis
-    /// Z, and for the dependency of each dropped row relative to its largest coefficient. One value
-    /// for each row, zero where nobody asked.
+    /// How much some rows of the left null space of the scaled C change within the uncertainty of
+    /// the data at fixed rank: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`, for an orthonormal basis Z, and for the
+    /// dependency of each dropped row relative to its largest coefficient. One value for each row,
+    /// zero for rows that are not listed in `asked`.
     pub(crate) fn rows_within_data(
         &self,
         scaled: &Matrix,
@@ -148,8 +150,9 @@ impl Question<'_> {
         known
     }
 
-    /// By what angle the force of each row turns with data within what they are known to, with the
-    /// pose that follows them; and by what length it shifts beside its place, which are two points.
+    /// The angle by which the force of each row rotates within the uncertainty of the data,
+    /// including the change of pose that follows from it, and the length by which its line of
+    /// action shifts, which is determined by two points.
     pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<[f64; 2]> {
         let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, decision.rank);
@@ -179,7 +182,7 @@ impl Question<'_> {
         (0..scaled.nrows()).map(|i| [of_row(i), shift]).collect()
     }
 
-    /// C with one unit for all lengths; rows have their largest entry near one.
+    /// C with one unit for all lengths; the largest entry of each row is near one.
     pub(super) fn uniform(&self, s: &Scratch) -> (Matrix, Scaling) {
         let c = self.dimensionless(s);
         let mut scaling = Scaling::identity(c.nrows(), c.ncols());
@@ -197,8 +200,9 @@ impl Question<'_> {
         dimensionless(self.mechanism, s, self.size).select_rows(self.places)
     }
 
-    /// What counts as one metre: of angles what moves a point at the size of the mechanism by that;
-    /// with a tolerance (m), each block its own beside it, and those that have none their rounding.
+    /// Change of a block that counts as one metre: for an angle, the angle that moves a point at
+    /// the size of the mechanism by that. With a tolerance (m), the tolerance of each block
+    /// relative to it; a block without tolerance changes by its rounding.
     pub(super) fn unit(&self, block: &DataBlock, tolerance: Option<f64>) -> f64 {
         match (tolerance, block.unit) {
             (Some(tolerance), _) => block.known_to() / tolerance,
@@ -208,7 +212,7 @@ impl Question<'_> {
     }
 }
 
-/// The dependency of each dropped row in the scaled rows, its largest coefficient one.
+/// The dependency of each dropped row in terms of the scaled rows, with largest coefficient 1.
 fn single(decision: &RankDecision) -> Matrix {
     let t = decision.equilibrated_dependence();
     let mut z = Matrix::zeros(decision.rank + decision.redundancy, decision.redundancy);
@@ -222,7 +226,7 @@ fn single(decision: &RankDecision) -> Matrix {
     z
 }
 
-/// The pairs of directions that are asked to vanish.
+/// The pairs of directions whose entries must vanish.
 pub(super) fn pairs(pose: &Pose<'_>) -> impl Iterator<Item = (usize, usize)> {
     let (left, right) = (pose.left.nrows().min(PAIRS), pose.right.nrows().min(PAIRS));
     (0..left).flat_map(move |a| (0..right).map(move |b| (a, b)))
@@ -232,7 +236,8 @@ pub(super) fn rounding(scaled: &Matrix) -> f64 {
     ENTRY_ROUNDINGS * f64::EPSILON * (scaled.nrows() as f64 * scaled.ncols() as f64).sqrt()
 }
 
-/// What has to vanish, with the changes of blocks by what they are known to.
+/// The equation for a value that must vanish; the coefficients are for changes of blocks by their
+/// uncertainty.
 pub(super) fn equation(
     target: f64,
     gradient: &[f64],

@@ -1,9 +1,9 @@
-//! Which rows belong to a dependency beyond doubt, where the data are known to a stated tolerance.
+//! Which rows certainly belong to a dependency, if the data have a stated tolerance.
 //!
 //! A dependency `row s = Σ t_k·row k` over independent rows K that contain all of its other rows
-//! has one coefficient for each row of K: those of its own rows are not zero, all others are. With
-//! the rank held it changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`, z the dependency itself. A
-//! coefficient that this leaves between zero and not zero, or puts on the other side, leaves open
+//! has one coefficient for each row of K, which is zero for rows outside the dependency. With the
+//! rank held it changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`, z the dependency itself. If such
+//! a change makes a coefficient zero, or a zero coefficient different from zero, it is undecided
 //! which rows depend on each other.
 
 use linalg::{Matrix, PivotedQr};
@@ -13,7 +13,7 @@ use rank::{Circuit, CoefficientReading, RankDecision};
 use super::pose::{Candidate, Pose, most_independent_of};
 use super::share::Question;
 
-/// A dependency over independent rows that contain its other rows.
+/// A dependency expressed in independent rows that contain its other rows.
 struct Fundamental {
     /// Independent rows, ascending, as many as the rank.
     kept: Vec<usize>,
@@ -26,8 +26,8 @@ struct Fundamental {
 }
 
 impl Fundamental {
-    /// Of a dependency of the scaled C; `None` where its rows without the largest are not
-    /// independent in f64.
+    /// Factors a dependency of the scaled C. Returns `None` if its rows without the one of largest
+    /// coefficient are not independent in `f64`.
     fn new(scaled: &Matrix, decision: &RankDecision, circuit: &Circuit) -> Option<Self> {
         let rank = decision.rank;
         let size = |(&row, z): (&usize, &f64)| (z / decision.scaling.row_factor(row)).abs();
@@ -71,7 +71,7 @@ impl Fundamental {
 }
 
 impl Question<'_> {
-    /// Rows of the dependencies that the data, known to a stated tolerance, leave open; ascending.
+    /// Rows of the dependencies that are undecided because of a stated tolerance; ascending.
     pub(crate) fn open_rows(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<usize> {
         if decision.redundancy == 0 || !decision.is_decided() {
             return Vec::new();

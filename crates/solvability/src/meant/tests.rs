@@ -1,6 +1,6 @@
-//! Mechanisms near a lower rank, with what their data would have to be wrong by. Sources of the
-//! numbers: the same program of cones solved by another method (linear programming over
-//! coordinates, poses by finite differences), and by hand where it says so.
+//! Mechanisms near a lower rank, with the change of data that lowers it. Sources of the numbers:
+//! the same cone program solved by another method (linear programming over coordinates, poses by
+//! finite differences), or by hand if a test says so.
 
 use joints::{Distance, Revolute};
 use model::{Body, BodyRef, Description, Function, Mechanism};
@@ -17,8 +17,8 @@ fn bar(name: &str, [x, y]: [f64; 2], angle: f64) -> Body {
     }
 }
 
-/// Three parallel cranks of half a metre under one coupler, the ground pin of the third off by this
-/// much along the base; the crank has its hole there.
+/// Three parallel cranks of half a metre on one coupler; the ground pin of the third is displaced
+/// by `off` along the base, and the hole of the crank is at the pin.
 fn three_cranks(off: f64) -> Description {
     let angle = 0.7_f64;
     let (c, s) = (0.5 * angle.cos(), 0.5 * angle.sin());
@@ -44,8 +44,8 @@ fn three_cranks(off: f64) -> Description {
     d
 }
 
-/// A four-bar near its dead centre, crank and coupler in line but for `angle`, the rocker held by a
-/// bar across it.
+/// A four-bar near its dead centre: crank and coupler enclose only `angle`, and the rocker is held
+/// by a bar across it.
 fn held_four_bar(angle: f64) -> Description {
     let (a, b, c, g) = (0.2_f64, 0.5, 0.4, 0.6);
     let turn = (((a + b) * (a + b) + g * g - c * c) / (2.0 * (a + b) * g)).acos() + angle;
@@ -99,8 +99,8 @@ fn lower_rank(analysis: &Analysis) -> [Option<f64>; 2] {
     [certificate.lower_rank_here, certificate.lower_rank_from]
 }
 
-/// At all poses the misfit has to go, and the eight points between the first and the third crank
-/// share it: an eighth each.
+/// The misfit has to vanish at all poses, and the eight points between the first and the third
+/// crank share it: an eighth each.
 #[test]
 fn a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on() {
     assert_eq!(analysed(&three_cranks(0.0)).decision.rank, 11);
@@ -144,7 +144,7 @@ fn within(mut description: Description, tolerance: f64) -> Description {
 }
 
 /// The third crank is redundant from a twentieth of a millimetre on; a third of that and three
-/// times that are beyond doubt.
+/// times that are decided.
 #[test]
 fn a_tolerance_decides_what_is_redundant() {
     for (tolerance, rank) in [(1.2e-5, Some(12)), (5e-5, None), (1e-3, Some(11))] {
@@ -161,7 +161,7 @@ fn a_tolerance_decides_what_is_redundant() {
     let certificate = analysis.evidence().certificate.clone();
     let certificate = certificate.expect("certified");
     assert_eq!(certificate.grounds, rank::Grounds::WithinTolerance);
-    // Without a misfit all bearings share their load, and so they do here.
+    // Without a misfit all bearings share their load, as they do here.
     for reaction in &analysis.reactions {
         assert_eq!(
             reaction.wrench.verdict,
@@ -182,9 +182,9 @@ fn a_tolerance_drops_no_row_for_a_pose() {
     }
 }
 
-/// A truss whose five bars on one line are `off` it by so much, and two oblique ones. One of the
-/// three bars at the hinge of a body has its hole beside the others by the same: of seven rows one
-/// is redundant wherever the points are, and one more where they are in line.
+/// A truss whose five bars on one line are displaced from it by `off`, and two oblique bars. One of
+/// the three bars at the hinge of a body has its hole displaced by the same length. Of the seven
+/// rows, one is redundant for all positions of the points, and one more if they are in line.
 #[test]
 fn rows_that_are_nearly_redundant_at_a_pose_are_left_out_together() {
     let truss = |off: f64| {
@@ -224,7 +224,7 @@ fn rows_that_are_nearly_redundant_at_a_pose_are_left_out_together() {
     }
 }
 
-/// A door on three hinges, the third off the axis of the others by half a millimetre.
+/// A door on three hinges; the third is half a millimetre off the axis of the others.
 fn door(off: f64) -> Description {
     let mut d = Description::new("door");
     let leaf = d.body(Body {
@@ -252,8 +252,8 @@ fn a_door_turns_within_its_tolerance() {
     assert_eq!((turns.decision.rank, turns.mobility()), (2, 1));
 }
 
-/// Two parallel hydraulic cylinders that turn an arm about its hinge, their axes in the directions
-/// that they have with so many digits: what one pushes the other may take back.
+/// Two parallel hydraulic cylinders that rotate an arm about its hinge. The directions of their
+/// axes are rounded to `digits` digits: one cylinder may pull back what the other pushes.
 fn cylinders(digits: Option<i32>) -> Description {
     let mut d = Description::new("cylinders");
     let angle = 0.6_f64;
@@ -309,8 +309,8 @@ fn cylinders(digits: Option<i32>) -> Description {
     d
 }
 
-/// One mechanism, whatever digits its axes are typed with: verdicts of all joints are those of the
-/// exact one, and where the digits leave a share of the free force to a slide, its margin is told.
+/// The mechanism has the same verdicts for any number of digits of its axes: those of the exact
+/// mechanism. If the digits leave a slide a fraction of the free force, its margin is reported.
 #[test]
 fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     let verdicts = |analysis: &Analysis| -> Vec<&'static str> {
@@ -335,8 +335,8 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     };
     let exact = analysed(&cylinders(None));
     let exact = verdicts(&exact);
-    // Joints in order, then the drives: the force in both cylinders, from which the slides keep
-    // out.
+    // Joints in order, then the drives: the force is in both cylinders, and the slides do not carry
+    // any of it.
     let [u, n] = ["unique", "not_unique"];
     assert_eq!(exact, [n, n, u, n, n, u, n, n, n]);
     for (digits, least, most) in [
@@ -356,7 +356,7 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
             assert_eq!(slide.within_tolerance, slide.margin > 1e-9, "{digits:?}");
         }
     }
-    // Digits that are meant leave the slides a share of the free force.
+    // With digits that are exact, the slides carry a fraction of the free force.
     for tolerance in [None, Some(1e-8)] {
         let mut meant = cylinders(Some(4));
         meant.tolerance.length = tolerance;
@@ -371,9 +371,9 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
 }
 
 /// Two slides between the ground and one body, whose forces act on lines this far apart, in a scene
-/// of two metres: `n_B − n_A` turns the body by that lever, which the angles carry. A lever that is
-/// none within the tolerance is left out with its size; one that may be none leaves open whether
-/// the angles belong to the forces; a large one is told.
+/// of two metres: `n_B − n_A` rotates the body by that lever, which the angle rows balance. A lever
+/// that is zero within the tolerance is left out and its size reported; if it may be zero, it is
+/// undecided whether the angle rows belong to the dependency; a large one is part of it.
 #[test]
 fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
     let judged = |apart: f64, tolerance: f64| {
@@ -405,9 +405,9 @@ fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
     assert_eq!(judged(0.02, 1e-5), (vec![2, 3], false, 0.0));
 }
 
-/// Two equal bars, one metre long, whose direction is this far from the y-axis: neither force is
-/// unique. Along x it is none within the tolerance where it is far below both that and a
-/// thousandth, and some where it is far above.
+/// Two equal bars, one metre long, whose direction differs from the y-axis by this angle: neither
+/// force is unique. The x component counts as zero within the tolerance if it is far below both the
+/// tolerance and a thousandth, and as not zero if it is far above.
 #[test]
 fn a_component_that_is_none_within_the_tolerance_says_so() {
     let judged = |across: f64, tolerance: f64| {
@@ -438,7 +438,7 @@ fn a_component_that_is_none_within_the_tolerance_says_so() {
         none.verdict.is_unique() && none.within_tolerance,
         "{none:?}"
     );
-    // One of two equal forces, whose sum is given: half of both, 1/√2 of a unit vector.
+    // One of two equal forces with a given sum: half of both, 1/√2 of a unit vector.
     assert!(
         (none.margin / 1e-4 - 0.5_f64.sqrt()).abs() < 0.01,
         "{none:?}"
@@ -450,8 +450,8 @@ fn a_component_that_is_none_within_the_tolerance_says_so() {
     }
 }
 
-/// Two edges of one axle that are parallel but for a thousandth: within a centimetre one of them is
-/// redundant, and neither force is unique.
+/// Two knife edges on one axle that are parallel to within a thousandth: within a tolerance of a
+/// centimetre one of them is redundant, and neither force is unique.
 #[test]
 fn edges_of_one_axle_share_their_force_within_a_tolerance() {
     let d = axle(1e-3);
@@ -468,7 +468,7 @@ fn edges_of_one_axle_share_their_force_within_a_tolerance() {
     }
 }
 
-/// A cart on two edges of one axle, whose directions differ by this angle.
+/// A cart on two knife edges on one axle, whose directions differ by this angle.
 fn axle(angle: f64) -> Description {
     let mut d = Description::new("cart");
     let cart = d.body(Body::new("cart", 10.0, 1.0));
@@ -480,8 +480,8 @@ fn axle(angle: f64) -> Description {
     d
 }
 
-/// Both directions have to be perpendicular to the axle, so one turns by all of the difference.
-/// Nothing is stated of lengths, which keep their rounding.
+/// Both directions have to be perpendicular to the axle, so one of them rotates by the whole
+/// difference. No tolerance of lengths is stated, so they keep their rounding.
 #[test]
 fn an_angle_tolerance_counts_alone() {
     let judged = |tolerance: model::Tolerance| {
@@ -524,7 +524,7 @@ fn an_angle_tolerance_counts_alone() {
         "{text}"
     );
 
-    // A length says the same of angles, divided by the size.
+    // A tolerance of length is equivalent to one of angles, divided by the size.
     let length = model::Tolerance {
         length: Some(1e-3),
         angle: None,
@@ -538,8 +538,8 @@ fn an_angle_tolerance_counts_alone() {
     assert_eq!(judged(both).decision.rank, 1);
 }
 
-/// A bar between two pins on the ground, one 0.05 mm too far: nothing satisfies all rows, but data
-/// within 0.1 mm would.
+/// A bar between two pins on the ground, one of them 0.05 mm too far away: no configuration
+/// satisfies all rows, but data within 0.1 mm would.
 #[test]
 fn data_that_contradict_each_other_within_the_tolerance_are_assembled() {
     let clamped = |tolerance: Option<f64>| {
@@ -567,7 +567,7 @@ fn data_that_contradict_each_other_within_the_tolerance_are_assembled() {
         );
     }
     let (residual, analysis) = clamped(Some(1e-4)).expect("it is assembled");
-    // Both pins miss by half.
+    // The residual of both pins is half of the misfit.
     assert!((residual - 2.5e-5).abs() < 1e-8, "{residual:e}");
     assert!(analysis.decision.is_decided());
     assert_eq!(

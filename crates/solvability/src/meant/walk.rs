@@ -1,5 +1,5 @@
-//! Poses that a mechanism reaches on its kept rows: what is redundant is so at all of them, what is
-//! singular is so at one.
+//! Poses that a mechanism reaches on its kept rows: a redundancy exists at all of them, a
+//! singularity at one only.
 
 use crate::limits::{
     OTHER_DIRECTIONS, WALK_CORRECTED, WALK_POSES, WALK_REACH, WALK_SMALL_STEPS, WALK_STEPS,
@@ -14,17 +14,17 @@ use super::share::Question;
 
 /// Poses of a mechanism.
 pub(super) struct Walk {
-    /// Steps to each side of the first pose, where nonholonomic rows lead.
+    /// Steps to each side of the first pose, if nonholonomic rows are kept.
     sides: [Vec<Step>; 2],
     /// Coordinates of each pose, its side, and the number of steps that lead there.
     stops: Vec<(Vec<f64>, usize, usize)>,
-    /// Whether these are all that were wanted, or there is nothing that moves.
+    /// Whether all requested poses were reached, or nothing can move.
     pub(super) is_complete: bool,
 }
 
 impl Walk {
-    /// Coordinates of each pose, and the steps that lead there, the last one first; none where
-    /// holonomic rows lead, which hold all poses as they are.
+    /// Coordinates of each pose, and the steps that lead to it, the last one first; no steps if
+    /// only holonomic rows are kept, because these determine every pose directly.
     pub(super) fn poses(&self) -> impl Iterator<Item = (&[f64], impl Iterator<Item = &Step>)> {
         let stops = self.stops.iter();
         stops.map(|(q, side, steps)| (&**q, self.sides[*side][..*steps].iter().rev()))
@@ -37,7 +37,7 @@ impl Walk {
 }
 
 /// Up to six poses on both sides of the pose of the question, on the kept rows of Φ, along
-/// velocities that all kept rows allow: mainly the one that the kept rows alone set free.
+/// velocities that all kept rows allow: mainly the velocity that only the dropped rows prevent.
 pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
     let (mechanism, size) = (question.mechanism, question.size);
     let ground = Ground {
@@ -81,7 +81,8 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
     }
 }
 
-/// One step, to be followed where nonholonomic rows lead; `None` where it leads nowhere.
+/// One step, which is recorded if nonholonomic rows are kept. Returns `None` if the step cannot be
+/// made.
 fn step(
     ground: &Ground<'_>,
     (side, stride): (f64, f64),
@@ -92,7 +93,7 @@ fn step(
     let s = crate::pose::evaluated(mechanism, ground.t, q);
     let free = free_directions(&dimensionless(mechanism, &s, ground.size), ground.kept);
     let direction = match heading.take() {
-        // What is free of the last step.
+        // The projection of the last step onto the free directions.
         Some(last) => free.transpose_times(&free.times(&last)),
         None => mixed(&free, side),
     };
@@ -129,7 +130,7 @@ fn free_directions(c: &Matrix, kept: &[usize]) -> Matrix {
     Candidate::of_rows(c, kept.to_vec()).into_free()
 }
 
-/// The first direction with a little of the others, so that no freedom stands still.
+/// The first direction with a small part of the others, so that every freedom moves.
 fn mixed(free: &Matrix, side: f64) -> Vec<f64> {
     let share = |k: usize| match k {
         0 => side,

@@ -1,4 +1,4 @@
-//! Which rows may be deleted without a change of motion: sets of those of the parts.
+//! Which rows may be deleted without a change of motion: combinations of such sets of the parts.
 
 use std::borrow::Cow;
 
@@ -10,34 +10,33 @@ use crate::groups::RequestError;
 use crate::make_unique::{Allowed, Proposals, make_unique};
 use crate::parts::ListedRows;
 
-/// Why it cannot be told what may be deleted.
+/// Reason why it cannot be determined what may be deleted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EliminationError {
-    /// In a part.
+    /// The error of a part.
     #[error(transparent)]
     Deletion(#[from] DeletionError),
     /// A part is too large.
     #[error(transparent)]
     Request(#[from] RequestError),
-    /// Every part has its number of sets, but their product is larger than any number that is
-    /// counted with.
+    /// The number of sets, a product over the parts, is too large to be counted.
     #[error(
         "{parts} parts of the mechanism have their own sets, and the product of their numbers is more than 3.4e38"
     )]
     TooMany {
-        /// Parts with dependent rows.
+        /// Number of parts with dependent rows.
         parts: usize,
     },
 }
 
 impl Questions<'_> {
-    /// The number of sets of rows that can be deleted without a change of motion, as many rows as
-    /// the degree of redundancy.
+    /// The number of sets of rows that can be deleted without a change of motion; each set has as
+    /// many rows as the degree of redundancy.
     ///
     /// # Errors
-    /// If the rank of a part or one of its sets is undecided, a part is too large, or they are too
-    /// many.
+    /// If the rank of a part or one of its sets is undecided, a part is too large, or the number of
+    /// sets is too large.
     pub fn eliminations(&self) -> Result<u128, EliminationError> {
         let mut product = 1_u128;
         for k in self.redundant() {
@@ -49,7 +48,7 @@ impl Questions<'_> {
         Ok(product)
     }
 
-    /// Parts of which something has to be said before anything may be deleted.
+    /// Parts that have dependent rows or an undecided rank.
     fn redundant(&self) -> impl Iterator<Item = usize> {
         let parts = self.parts().iter().enumerate();
         parts
@@ -60,8 +59,8 @@ impl Questions<'_> {
             .map(|(k, _)| k)
     }
 
-    /// The first of these sets, rows from 0: those of the parts combine like the digits of a
-    /// number.
+    /// The first of these sets, rows from 0. The sets of the parts are combined like the digits of
+    /// a number.
     ///
     /// # Errors
     /// If the rank of a part or one of its sets is undecided, or a part is too large.
@@ -85,12 +84,12 @@ impl Questions<'_> {
         Ok(sets)
     }
 
-    /// The smallest deletions that make a reaction unique without a change of motion. They are in
-    /// its part.
+    /// The smallest deletions that make a reaction unique without a change of motion; they are in
+    /// the part of the reaction.
     ///
     /// # Errors
-    /// If the rank of the part or an answer is undecided, a row that is allowed does not exist, or
-    /// the part is too large.
+    /// If the rank of the part or an answer is undecided, an allowed row does not exist, or the
+    /// part is too large.
     pub fn make_unique(
         &self,
         id: ConstraintId,

@@ -45,8 +45,8 @@ fn combinations(decision: &rank::RankDecision) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Perceptron: as long as some y has `yᵀ·G·y` too small, G moves towards the matrices that are
-/// positive there.
+/// Perceptron: while there is a y with too small `yᵀ·G·y`, G moves towards the matrices that are
+/// positive for this y.
 fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
     let mut w: Vec<f64> = matrices
         .iter()
@@ -72,13 +72,13 @@ fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
     false
 }
 
-/// A unit vector u with `uᵀ·G·u ≤ 0`, from `G = L·D·Lᵀ`; nothing if G is positive definite.
+/// A unit vector u with `uᵀ·G·u ≤ 0`, from `G = L·D·Lᵀ`. Returns `None` if G is positive definite.
 fn not_positive(mut g: Matrix) -> Option<Vec<f64>> {
     let n = g.nrows();
     for j in 0..n {
         let pivot = g[(j, j)];
         if pivot <= 0.0 || pivot.is_nan() {
-            // Lᵀ·u = e_j has uᵀ·G·u = d_j; the factors of L stand below the diagonal.
+            // Lᵀ·u = e_j has uᵀ·G·u = d_j; the factors of L are stored below the diagonal.
             let mut u = vec![0.0; n];
             u[j] = 1.0;
             for i in (0..j).rev() {

@@ -6,7 +6,7 @@ use linalg::{Matrix, least_squares_step};
 
 use super::forms::Forms;
 
-/// Branches listed at most: as many as there are for simple solutions.
+/// Largest number of branches listed: the number of solutions if all are simple.
 fn most(forms: &Forms) -> usize {
     (1 << forms.y()) - 1
 }
@@ -34,9 +34,9 @@ pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
     found
 }
 
-/// A unit vector; the starts do not repeat.
+/// A unit vector as starting point; no two starts are the same.
 fn starting_point(n: usize, start: usize) -> Vec<f64> {
-    // Square roots of primes: their multiples are spread evenly in all directions together.
+    // Square roots of primes: their multiples are evenly distributed in all directions together.
     const PRIMES: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
     let place = (start + 1) as f64;
     unit(
@@ -51,7 +51,7 @@ fn starting_point(n: usize, start: usize) -> Vec<f64> {
 
 fn unit(mut a: Vec<f64>) -> Vec<f64> {
     let size = a.iter().map(|a| a * a).sum::<f64>().sqrt();
-    // The first entry that matters is positive.
+    // The sign is chosen so that the first non-zero entry is positive.
     let sign = a
         .iter()
         .find(|a| a.abs() > OTHER_BRANCH * size)
@@ -60,7 +60,7 @@ fn unit(mut a: Vec<f64>) -> Vec<f64> {
     a
 }
 
-/// The solution that the iteration reaches from a.
+/// The solution to which the iteration converges from a.
 fn solve(forms: &Forms, mut a: Vec<f64>) -> Option<Vec<f64>> {
     let (n, equations) = (forms.len(), forms.matrices.len() + 1);
     let weights = vec![1.0; n];
@@ -75,12 +75,12 @@ fn solve(forms: &Forms, mut a: Vec<f64>) -> Option<Vec<f64>> {
             }
         }
         let met = residual.iter().all(|r| r.abs() <= BRANCH_RESIDUAL);
-        // The last row keeps the length.
+        // The last row keeps the length fixed.
         jacobian.row_mut(equations - 1).copy_from_slice(&a);
         let step = least_squares_step(&jacobian, &residual, &weights, f64::EPSILON).ok()?;
         a.iter_mut().zip(&step).for_each(|(a, d)| *a += d);
         a = unit(a);
-        // The step after a residual of rounding makes the solution one.
+        // One more step after the residual has reached rounding.
         if met {
             return Some(a);
         }

@@ -1,8 +1,9 @@
 //! The second-order equations as quadratic forms `aᵀ·M_s·a = 0`, one for each self-stress.
 //!
 //! Γ is quadratic in the velocities and in the rate of time, 1. With `v = x₀·v_in + N·(x₁, y)` it
-//! becomes homogeneous: `a = (x₀, x₁, y)`, x₀ the rate of time (only where something is driven), x₁
-//! the regular motions and y the new ones. Both are orthonormal in dimensionless velocities.
+//! becomes homogeneous: `a = (x₀, x₁, y)`, with x₀ the rate of time (only if there are functions of
+//! time), x₁ the regular motions and y the new ones. Both are orthonormal in dimensionless
+//! velocities.
 
 use crate::limits::{FORM_ROUNDING, KERNEL_MAX, REGULAR};
 use crate::pose::{dimensionless, evaluated, velocity_units};
@@ -15,18 +16,19 @@ use super::undetermined::Undetermined;
 
 /// The forms, divided by their largest coefficient.
 pub(super) struct Forms {
-    /// Number of x, the motion itself.
+    /// Number of coordinates x, those of the motion itself.
     x: usize,
     /// Symmetric, (x + y) × (x + y), with zeros in the block of x.
     pub(super) matrices: Vec<Matrix>,
-    /// Rows: the velocity of each coordinate of a.
+    /// Rows: the velocity that belongs to each coordinate of a.
     basis: Vec<Vec<f64>>,
     /// Whether the first coordinate is the rate of time.
     driven: bool,
 }
 
 impl Forms {
-    /// The forms at a state; `regular` may be any velocities that span the regular motions.
+    /// The forms at a state; the columns of `regular` may be any velocities that span the regular
+    /// motions.
     pub(super) fn new(
         mechanism: &Mechanism,
         t: f64,
@@ -101,7 +103,7 @@ impl Forms {
         self.driven
     }
 
-    /// The velocity of a solution: with the true rate of time, or as fast as the motion.
+    /// The velocity of a solution: scaled to the true rate of time, or to the speed of the motion.
     pub(super) fn velocity(&self, a: &[f64]) -> Vec<f64> {
         let scale = if self.driven { 1.0 / a[0] } else { 1.0 };
         let mut sum = vec![0.0; self.basis[0].len()];
@@ -113,7 +115,7 @@ impl Forms {
         sum
     }
 
-    /// Extracts the forms from values of Γ; returns the size of the terms they are sums of.
+    /// Extracts the forms from values of Γ; returns the size of the terms that are summed.
     fn evaluate(
         &mut self,
         mechanism: &Mechanism,
@@ -129,7 +131,7 @@ impl Forms {
         };
         let first = usize::from(self.driven);
         let mut terms = 0.0_f64;
-        // z·Γ at the origin plus a sum of motions.
+        // z·Γ at zero velocity plus a sum of motions.
         let mut values = |motions: &[(usize, f64)]| -> Vec<f64> {
             let mut v = origin.clone();
             for &(i, sign) in motions {
@@ -177,7 +179,7 @@ impl Forms {
         terms
     }
 
-    /// Divides by the largest coefficient, and checks that the motion itself is a solution.
+    /// Divides by the largest coefficient and checks that the motion itself is a solution.
     fn normalise(&mut self, terms: f64) -> Result<(), Undetermined> {
         let largest = self
             .matrices
@@ -210,7 +212,7 @@ impl Forms {
     }
 }
 
-/// Orthonormal coordinates of which the first ones span the columns, and how many these are.
+/// Orthonormal coordinates, the first of which span the columns, and their number.
 fn split(columns: &Matrix) -> Result<(Matrix, usize), Undetermined> {
     let decision = rank::decide(columns, REGULAR).map_err(Undetermined::Regular)?;
     match decision.status {
@@ -222,7 +224,7 @@ fn split(columns: &Matrix) -> Result<(Matrix, usize), Undetermined> {
     }
 }
 
-/// Basis of the left null space, for the rows of C as they stand.
+/// Basis of the left null space, for the unscaled rows of C.
 fn self_stresses(decision: &RankDecision) -> Vec<Vec<f64>> {
     let z = rank::orthonormal(decision);
     let of = |j: usize| (0..z.nrows()).map(move |i| (i, j));

@@ -1,5 +1,5 @@
-//! The equations of motion of joined bodies at one instant, solved, and the gradients of reactions
-//! by all data.
+//! The solved equations of motion of connected bodies at one instant, and the gradients of
+//! reactions with respect to all data.
 
 use crate::limits::{LOAD_ROUNDING, MOVED, PIECE, SAME_EFFECT};
 use crate::pose::{COLUMNS, velocity_units};
@@ -15,11 +15,11 @@ use super::joined::Joined;
 use super::{Datum, Sensitivity};
 use crate::choices::ChoiceError;
 
-/// Angle between the directions of successive unit loads (rad): the golden one, which comes near no
-/// simple fraction of a turn.
+/// Angle between the directions of successive unit loads (rad): the golden angle, which is far from
+/// every simple fraction of a turn.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// The equations of joined bodies at one instant, solved.
+/// The solved equations of connected bodies at one instant.
 pub(super) struct Instant<'a> {
     mechanism: &'a Mechanism,
     s: model::Scratch,
@@ -28,22 +28,22 @@ pub(super) struct Instant<'a> {
     saddle: KeptRowSaddle,
     lambda: Vec<f64>,
     slopes: Slopes<'a>,
-    /// Points, directions and numbers, and how far each is moved.
+    /// Points, directions and numbers, with the displacement of each.
     blocks: Vec<(DataBlock, f64)>,
     /// Largest applied or inertial load (N; torques divided by the size).
     load: f64,
     work: Work,
 }
 
-/// How the equations change with the pose, the velocities and the data.
+/// Derivatives of the equations with respect to pose, velocities and data.
 struct Slopes<'a> {
     derivatives: model::Derivatives,
-    /// Those of the applied forces; none where unit loads are asked.
+    /// Derivatives of the applied forces; empty for unit loads.
     force_dq: &'a [(usize, usize, f64)],
     force_dv: &'a [(usize, usize, f64)],
     by_data: DataGradients,
-    /// Kept rows of C, where anything depends on velocities, and kept rows of Φ, with columns in
-    /// velocity units, factored.
+    /// Factored kept rows of C, if anything depends on velocities, and of Φ, with columns in
+    /// velocity units.
     c: Option<Follow>,
     phi_q: Follow,
 }
@@ -76,7 +76,7 @@ impl Work {
 }
 
 impl<'a> Instant<'a> {
-    /// At time t, with independent rows `kept`.
+    /// Solves the equations at time t with independent rows `kept`.
     pub(super) fn new(
         joined: &'a Joined<'a>,
         t: f64,
@@ -105,8 +105,8 @@ impl<'a> Instant<'a> {
         let (mut force_dq, mut force_dv) = (&joined.force_dq[..], &joined.force_dv[..]);
         let mut load = largest_load(mechanism, &joined.force, &a, size);
         if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
-            // At rest, with equal masses: neither speed nor mass has a measure where there is no
-            // load.
+            // At rest and with equal masses: without a load there is no reference for speed or
+            // mass.
             v = Cow::Owned(vec![0.0; n]);
             mechanism.twist(&v, &mut s);
             gamma.fill(0.0);
@@ -171,7 +171,7 @@ impl<'a> Instant<'a> {
         let mut reaction = 0.0_f64;
         let mut gradient = vec![0.0; n];
         for component in group.components() {
-            // Torques count as forces at the size of the mechanism.
+            // Torques are divided by the size of the mechanism to compare with forces.
             let unit = if component == 2 { 1.0 / self.size } else { 1.0 };
             let row = map.row(component);
             let terms = row.iter().zip(&self.lambda[group.rows.clone()]);
@@ -198,7 +198,7 @@ impl<'a> Instant<'a> {
             .iter()
             .position(|change| SAME_EFFECT * change >= largest);
         let by = first.filter(|_| largest > 0.0).map(|k| &self.blocks[k]);
-        // Not a number where the equations are at their limit.
+        // NaN if the equations are too nearly singular.
         let is_known = changes.iter().all(|change| change.is_finite());
         let reference = reaction.max(self.load);
         Ok(Sensitivity {
@@ -229,14 +229,14 @@ impl<'a> Instant<'a> {
         }
         let slopes = &self.slopes;
         let d = &slopes.derivatives;
-        // By velocities, which follow the data and the pose.
+        // Through the velocities, which follow the data and the pose.
         if let Some(c) = &slopes.c {
             w.by_pose.fill(0.0);
             add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
             add_transposed(slopes.force_dv.iter().copied(), &w.y, 1.0, &mut w.by_pose);
             c.multipliers(&mut w.by_pose, &mut w.w_v);
         }
-        // By the pose, which follows the data.
+        // Through the pose, which follows the data.
         w.by_pose.fill(0.0);
         add_transposed(slopes.force_dq.iter().copied(), &w.y, 1.0, &mut w.by_pose);
         add_transposed(d.reaction_dq.iter(), &w.y, -1.0, &mut w.by_pose);
@@ -250,7 +250,7 @@ impl<'a> Instant<'a> {
     }
 }
 
-/// Rows that stay satisfied: what follows a change of the data by the smallest motion.
+/// Rows that stay satisfied by the smallest motion if the data change.
 struct Follow {
     rows: Vec<usize>,
     units: Vec<f64>,
@@ -258,7 +258,7 @@ struct Follow {
 }
 
 impl Follow {
-    /// The first of some rows, which are these of the mechanism.
+    /// Factors the first rows of `first`; `rows` are their numbers in the mechanism.
     fn new(first: &Matrix, rows: Vec<usize>, units: &[f64]) -> Self {
         let scaled = |i: usize, j: usize| first[(i, j)] * units[j];
         Self {
@@ -268,8 +268,9 @@ impl Follow {
         }
     }
 
-    /// `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that answers a change δr of the rows; all rows
-    /// of the mechanism, of which the others are left as they are. Overwrites g.
+    /// Computes `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that compensates a change δr of the
+    /// rows. `w` covers all rows of the mechanism; entries of other rows are left unchanged.
+    /// Overwrites g.
     fn multipliers(&self, g: &mut [f64], w: &mut [f64]) {
         g.iter_mut()
             .zip(&self.units)

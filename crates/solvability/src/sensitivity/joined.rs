@@ -1,7 +1,8 @@
-//! Bodies that joints connect, asked set by set: a machine answers the same alone and among others.
+//! Bodies connected by joints, examined set by set, so that a machine has the same result alone and
+//! among others.
 //!
-//! Springs connect nothing here. What they carry is a load, and how it changes where the bodies of
-//! a set move belongs to the set; the bodies at their other ends stay where they are.
+//! Springs do not connect sets. The force of a spring is a load, and its change with the bodies of
+//! a set belongs to the set; the bodies at the other end are kept fixed.
 
 use crate::pose::COLUMNS;
 use std::borrow::Cow;
@@ -16,22 +17,23 @@ type Entry = (usize, usize, f64);
 
 /// A set of bodies with the joints between them, and the forces on it.
 pub(super) struct Joined<'a> {
-    /// Without forces, unless it is the whole.
+    /// The mechanism of the set; without forces, unless it is the whole mechanism.
     pub(super) mechanism: &'a Mechanism,
-    /// Where it is in the whole.
+    /// Joints, bodies and rows of the set in the whole mechanism.
     pub(super) extent: &'a Extent,
-    /// Its coordinates and velocities.
+    /// Coordinates and velocities of the set.
     pub(super) q: Cow<'a, [f64]>,
     pub(super) v: Cow<'a, [f64]>,
-    /// Applied forces, and their derivatives by its own coordinates and velocities.
+    /// Applied forces, and their derivatives with respect to the coordinates and velocities of the
+    /// set.
     pub(super) force: Cow<'a, [f64]>,
     pub(super) force_dq: Cow<'a, [Entry]>,
     pub(super) force_dv: Cow<'a, [Entry]>,
 }
 
 impl Joined<'_> {
-    /// A part of them with its own joints at a solution of all: what the other joints do to its
-    /// bodies is a load that stays as it is.
+    /// A part of the set with its own joints, given a solution of the whole set: the forces of the
+    /// other joints on its bodies become constant loads.
     pub(super) fn of_part<'b>(
         &self,
         part: &'b Mechanism,
@@ -69,12 +71,12 @@ impl Joined<'_> {
     }
 }
 
-/// The sets of bodies of a mechanism that its joints and drives connect.
+/// The sets of bodies that joints and drives connect.
 struct Sets {
     partition: Partition,
-    /// The set of each group; none of those that move no body.
+    /// The set of each group; `None` for groups that move no body.
     of_group: Vec<Option<usize>>,
-    /// The set of each body, and its place there.
+    /// The set of each body, and its index in that set.
     of_body: Vec<(usize, usize)>,
     count: usize,
 }
@@ -102,7 +104,7 @@ impl Sets {
         }
         let partition = match &members[..] {
             [one] if one.len() == groups.len() => Partition::One,
-            // Bodies of no joint have no reaction.
+            // Bodies without joints have no reactions.
             _ => Partition::Several(members.into_iter().filter(|m| !m.is_empty()).collect()),
         };
         Self {
@@ -113,7 +115,7 @@ impl Sets {
         }
     }
 
-    /// The entries of a derivative of forces that are a set's own, numbered there.
+    /// Splits the entries of a derivative of forces by set, numbered within each set.
     fn entries(&self, all: &model::Sparse) -> Vec<Vec<Entry>> {
         let mut own = vec![Vec::new(); self.count];
         for (row, column, value) in all.iter() {
@@ -128,8 +130,8 @@ impl Sets {
     }
 }
 
-/// What `f` makes of each set of bodies that joints and drives connect, at time t, coordinates q
-/// and velocities v, on the threads of the pool of `rayon` from which this is called.
+/// Applies `f` to each set of bodies connected by joints and drives, at time t, coordinates q and
+/// velocities v, on the `rayon` thread pool of the caller.
 pub(super) fn each_joined<T: Send>(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),

@@ -1,4 +1,4 @@
-//! Sensitivities by hand and by differences.
+//! Sensitivities computed by hand and by differences.
 
 use crate::limits::MOVED;
 use joints::{KnifeEdge, Line, PointOnLine, Revolute, RevoluteAngleDrive};
@@ -10,7 +10,7 @@ mod parts;
 
 use super::*;
 
-/// Sensitivities of all reactions, which are unique.
+/// Sensitivities of all reactions, all of which are unique.
 fn known(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Vec<Sensitivity> {
     let analysis = crate::analyse(mechanism, t, q).expect("finite");
     let all = analysis.sensitivities(mechanism, q, v).expect("fits");
@@ -18,8 +18,8 @@ fn known(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Vec<Sensitivity
     each.map(|s| s.expect("unique")).collect()
 }
 
-/// A beam of 2 m and 10 N between a pin and a roller, its mass centre a quarter from the pin: the
-/// roller carries W·c/L.
+/// A beam of 2 m and 10 N between a pin and a roller, its mass centre at a quarter of the length
+/// from the pin: the roller carries W·c/L.
 fn beam() -> Mechanism {
     let mut d = Description::new("beam");
     d.gravity = [0.0, -10.0];
@@ -41,8 +41,8 @@ fn beam() -> Mechanism {
     Mechanism::build(&d).expect("it builds")
 }
 
-/// dR/dL = −W·c/L², dR/da = −W·(L − c)/L² where the pin moves along the beam: 3/8 of the weight for
-/// each metre, and the point moves by 0.2 mm.
+/// dR/dL = −W·c/L², dR/da = −W·(L − c)/L² if the pin moves along the beam: 3/8 of the weight per
+/// metre, and the point moves by 0.2 mm.
 #[test]
 fn a_beam_by_hand() {
     let mechanism = beam();
@@ -57,7 +57,7 @@ fn a_beam_by_hand() {
     }
 }
 
-/// Numbers of a crank of 0.3 m with a rod of 0.8 m, whose end runs on an oblique line; each pair is
+/// Numbers of a crank of 0.3 m with a rod of 0.8 m whose end moves on an oblique line; each pair is
 /// a point or a direction.
 const POINTS: [[f64; 2]; 6] = [
     [0.02, -0.01], // A on the ground
@@ -71,8 +71,7 @@ const POINTS: [[f64; 2]; 6] = [
 /// Direction of the line (rad).
 const LINE: f64 = 0.2;
 
-/// The crank is driven, from a start that is turned a little further, so that the pose is
-/// determined at each time.
+/// A driven crank; its start is rotated by `turned`, so that the pose is determined at each time.
 fn slider_crank(points: [[f64; 2]; 6], line: f64, turned: f64) -> Mechanism {
     let mut d = Description::new("slider-crank");
     d.gravity = [0.3, -9.81];
@@ -138,7 +137,7 @@ fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]
         .flat_map(|b| [b.position[0], b.position[1], b.angle])
         .collect();
     for step in 0..40 {
-        // The drive is followed, so that no other branch is met.
+        // The drive is followed in small steps, so that the branch does not change.
         mechanism.pose(t * (f64::from(step) / 20.0).min(1.0), &q, &mut s);
         mechanism.phi(&mut s);
         mechanism.c(&mut s);
@@ -168,9 +167,9 @@ fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]
     (q, v, each)
 }
 
-/// The largest change of each reaction by one pair of numbers that moves by 1e-4 of the size, or a
-/// direction that turns by 1e-4 rad, in the norm of all of its derivatives: by central differences
-/// of mechanisms built with other numbers. At rest, and moving.
+/// The largest change of each reaction due to one pair of numbers that moves by 1e-4 of the size,
+/// or a direction that rotates by 1e-4 rad, as the norm of all its derivatives. The reference uses
+/// central differences of mechanisms built with other numbers, at rest and moving.
 #[test]
 fn sensitivities_are_those_of_mechanisms_built_with_other_numbers() {
     const H: f64 = 1e-6;
@@ -207,7 +206,7 @@ fn sensitivities_are_those_of_mechanisms_built_with_other_numbers() {
                 *largest = largest.max(MOVED * norm(by));
             }
         }
-        // Weights, and what the bodies are accelerated with.
+        // The reference load: weights, and inertia forces of the bodies.
         let reference = |reaction: f64| reaction.max(load(&mechanism, t, &q, &v, size));
         for (k, sensitivity) in found.iter().enumerate() {
             let expected = largest[k] / reference(norm(nominal[k]));
@@ -240,8 +239,8 @@ fn load(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64], size: f64) -> f64 {
     load
 }
 
-/// A body between two edges whose normals differ by a small angle: without weight a unit load is
-/// asked, and the reactions go with its inverse.
+/// A body between two edges whose normals differ by a small angle: without weight, a unit load is
+/// used, and the reactions are proportional to the inverse of the angle.
 #[test]
 fn without_any_load_unit_loads_are_asked() {
     let told = |angle: f64| {
@@ -259,8 +258,8 @@ fn without_any_load_unit_loads_are_asked() {
     };
     for angle in [1e-2, 1e-4] {
         let change = told(angle);
-        // A direction that turns by 1e-4 rad, or a point that moves by 1e-4, changes the angle of
-        // 1e-2 or 1e-4 by its share.
+        // A direction that rotates by 1e-4 rad, or a point that moves by 1e-4, changes the angle of
+        // 1e-2 or 1e-4 by the fraction 1e-4/angle.
         let share = 1e-4 / angle;
         assert!(
             change
@@ -272,7 +271,7 @@ fn without_any_load_unit_loads_are_asked() {
     assert!(told(0.5).iter().all(|c| *c < 1e-3));
 }
 
-/// Where the rank is undecided or a reaction is not unique, nothing is said.
+/// No sensitivity is given if the rank is undecided or a reaction is not unique.
 #[test]
 fn nothing_is_said_of_reactions_that_are_not_unique() {
     let mut d = Description::new("door");
@@ -312,7 +311,7 @@ fn nothing_is_said_of_reactions_that_are_not_unique() {
     );
     assert_eq!(all.fragile().count(), 0);
     let pin = all.each[2].as_ref().expect("known");
-    // The component is told in numbers of the whole.
+    // The joint is numbered in the whole mechanism.
     assert_eq!(pin.by.map(|by| by.joint), Some(ConstraintId(2)));
 }
 

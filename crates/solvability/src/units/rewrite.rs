@@ -1,7 +1,7 @@
-//! The equations of a mechanism written anew in other units.
+//! The equations of a mechanism rewritten in other units.
 //!
-//! With `v'_j = s_j·v_j`, time in units of 1/τ s, a row written as `ρ_i` times its former numbers,
-//! and power in units of 1/w W:
+//! With `v'_j = s_j·v_j`, time in units of 1/τ s, a row multiplied by `ρ_i`, and power in units of
+//! 1/w W:
 //!
 //! ```text
 //! C'_ij = ρ_i·C_ij/s_j     a'_j = s_j·a_j/τ      Γ'_i = ρ_i·Γ_i/τ
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! They satisfy `M'·a' + C'ᵀ·λ' = Q'` and `C'·a' = Γ'` iff the unprimed ones satisfy theirs. So
-//! scaling rows and columns is the same as writing the model anew in other units. ρ is free: rows
-//! with translations are written in the unit of velocity, the others in that of angular velocity.
+//! scaling rows and columns is the same as rewriting the model in other units. ρ is arbitrary: rows
+//! with translations use the unit of velocity, the others that of angular velocity.
 
 use linalg::Matrix;
 use model::ColumnKind;
@@ -61,7 +61,7 @@ impl Units {
         ..Self::SI
     };
 
-    /// Per N, or per N·m.
+    /// Units per N, or per N·m.
     #[must_use]
     pub fn of(self, dimension: Dimension) -> f64 {
         let force = self.mass * self.length / (self.time * self.time);
@@ -71,12 +71,12 @@ impl Units {
         }
     }
 
-    /// Per W.
+    /// Units per W.
     fn power(self) -> f64 {
         self.of(Dimension::Torque) / self.time
     }
 
-    /// Per m/s, or per rad/s.
+    /// Units per m/s, or per rad/s.
     fn velocity(self, kind: ColumnKind) -> f64 {
         match kind {
             ColumnKind::Translation => self.length / self.time,
@@ -88,9 +88,9 @@ impl Units {
 /// Factors of columns and rows.
 pub(super) struct Rewriting {
     units: Units,
-    /// s
+    /// Column factors s.
     columns: Vec<f64>,
-    /// ρ
+    /// Row factors ρ.
     rows: Vec<f64>,
 }
 
@@ -112,7 +112,7 @@ impl Rewriting {
         }
     }
 
-    /// M', Q', C', Γ'.
+    /// The equations in other units: M', Q', C', Γ'.
     pub(super) fn equations(&self, old: &Equations) -> Equations {
         let (time, power) = (self.units.time, self.units.power());
         let of_columns = |x: &[f64], f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {

@@ -1,4 +1,4 @@
-//! Walks away from a pose: what they hold, and how they follow the data.
+//! Walks away from a pose: which rows they satisfy, and how they change with the data.
 
 use joints::{Direction, KnifeEdge, Revolute, Translational};
 use model::start::{assemble, scene_size};
@@ -6,7 +6,7 @@ use model::{Body, BodyRef, DataUnit, Description, Mechanism, StartOptions, Syste
 
 use super::*;
 
-/// A walk from where the bodies are described.
+/// A walk from the described positions of the bodies.
 fn walked(description: &Description, kept: &[usize]) -> (Mechanism, Vec<f64>, Walk) {
     let mut mechanism = Mechanism::build(description).expect("it builds");
     let start = assemble(&mut mechanism, &StartOptions::default()).expect("it assembles");
@@ -24,9 +24,9 @@ fn walked(description: &Description, kept: &[usize]) -> (Mechanism, Vec<f64>, Wa
     (mechanism, q, walk)
 }
 
-/// Two sliders of a tonne on the axes, joined by a rod of four metres and a gram: its middle goes
-/// round a circle of two metres. A step along the tangent misses by what only the sliders can mend;
-/// in the mass metric the rod would rather turn.
+/// Two sliders of a tonne on the axes, connected by a rod of four metres and one gram: the middle
+/// of the rod moves on a circle of two metres. A step along the tangent has a residual that only
+/// the sliders can correct; with masses as weights the rod would rotate instead.
 #[test]
 fn a_long_arm_of_a_light_body_is_no_obstacle() {
     let (length, turn) = (4.0_f64, -0.7_f64);
@@ -70,9 +70,9 @@ fn a_long_arm_of_a_light_body_is_no_obstacle() {
     }
 }
 
-/// Two bodies with a hinge at (3, 1), each on two edges whose normals meet in the origin: both turn
-/// about it as one, although no row holds their positions. Steps that leave the circles let the two
-/// centres drift apart, where the hinge locks.
+/// Two bodies with a hinge at (3, 1), each on two knife edges whose normals meet in the origin:
+/// both rotate about it as one, although no row constrains their positions. If steps left the
+/// circles, the two centres would drift apart and the hinge would lock.
 #[test]
 fn what_edges_lead_stays_on_its_way() {
     let mut d = Description::new("carts");
@@ -98,7 +98,7 @@ fn what_edges_lead_stays_on_its_way() {
         s_j: local(carts[1].1),
     };
     d.joint("hinge", &[carts[0].0, carts[1].0], pin);
-    // Both rows of the hinge and three edges: the fourth follows.
+    // Both rows of the hinge and three edges are kept: the fourth edge follows.
     let (_, start, walk) = walked(&d, &[0, 1, 2, 3, 4]);
     assert!(walk.is_complete);
     for (q, _) in walk.poses() {
@@ -115,8 +115,8 @@ fn what_edges_lead_stays_on_its_way() {
     }
 }
 
-/// A cart on one edge goes straight on: where its direction, or the cart at the start, is turned by
-/// α, it comes s·α beside after s metres.
+/// A cart on one edge moves straight ahead: if the direction of the edge, or the cart at the start,
+/// is rotated by α, the cart is displaced sideways by s·α after s metres.
 #[test]
 fn what_the_data_make_of_the_way_adds_up() {
     let mut d = Description::new("cart");

@@ -1,13 +1,13 @@
-//! A machine says the same of itself alone, among others, elsewhere, and beside what no joint
-//! connects to it.
+//! A machine has the same sensitivities alone, among others, at another place, and next to bodies
+//! that no joint connects to it.
 
 use joints::{PointOnLine, Revolute, RevoluteAngleDrive, SpringDamper};
 use model::{Body, BodyRef, Description, Function, Mechanism};
 
 use super::super::*;
 
-/// A crank with a rod whose end runs on an oblique line, at a place of its own; its crank is driven
-/// with this motion. Returns its crank.
+/// Adds a driven crank with a rod whose end moves on an oblique line, at the given place and with
+/// the given motion. Returns the crank.
 fn add_machine(d: &mut Description, name: &str, [x, y]: [f64; 2], motion: &[f64]) -> BodyRef {
     let crank = d.body(Body {
         position: [x + 0.12, y + 0.08],
@@ -66,7 +66,7 @@ fn spring(s_i: [f64; 2], s_j: [f64; 2]) -> SpringDamper {
     }
 }
 
-/// The mechanism at its start.
+/// The mechanism with coordinates and velocities at its start.
 fn assembled(d: &Description) -> (Mechanism, Vec<f64>, Vec<f64>) {
     let mut mechanism = Mechanism::build(d).expect("it builds");
     let options = model::StartOptions {
@@ -80,13 +80,13 @@ fn assembled(d: &Description) -> (Mechanism, Vec<f64>, Vec<f64>) {
     (mechanism, start.q, v.expect("no row is redundant").v)
 }
 
-/// Sensitivities of all reactions there.
+/// Sensitivities of all reactions at the start.
 fn started(d: &Description) -> Vec<Sensitivity> {
     let (mechanism, q, v) = assembled(d);
     super::known(&mechanism, 0.0, &q, &v)
 }
 
-/// A start is assembled to about this share.
+/// Relative accuracy of an assembled start.
 const ASSEMBLED: f64 = 1e-8;
 
 fn agree(found: &[Sensitivity], alone: &[Sensitivity], what: &str) {
@@ -101,7 +101,7 @@ fn agree(found: &[Sensitivity], alone: &[Sensitivity], what: &str) {
     }
 }
 
-/// Under weights and moving, and without any load at rest.
+/// Cases: under weights and moving, and without any load at rest.
 const CASES: [([f64; 2], &[f64]); 2] = [([0.3, -9.81], &[0.0, 3.0, 4.0]), ([0.0; 2], &[0.0])];
 
 #[test]
@@ -122,7 +122,7 @@ fn machines_of_a_fleet_are_asked_alone() {
                 .map(|k| [3.0 - 2.0 * f64::from(k), 1.5 * f64::from(k)])
                 .collect();
             let mut d = fleet(&places);
-            // What no joint holds is nobody's size and nobody's load.
+            // A body without joints does not change the size or the load of others.
             d.body(Body {
                 position: [50.0, 80.0],
                 ..Body::new("stone", 1e6, 1e6)
@@ -138,7 +138,8 @@ fn machines_of_a_fleet_are_asked_alone() {
     }
 }
 
-/// A spring is a load: that of a neighbour is the one of a wall at the same place.
+/// A spring is a load: a spring to a neighbour is equivalent to a spring to a wall at the same
+/// place.
 #[test]
 fn a_spring_to_a_neighbour_is_one_to_a_wall() {
     for (gravity, motion) in CASES {
@@ -148,7 +149,7 @@ fn a_spring_to_a_neighbour_is_one_to_a_wall() {
         let second = add_machine(&mut two, "second", [0.0, 2.0], &[0.0]);
         two.force("spring", &[first, second], spring([0.05, 0.0], [0.0; 2]));
         let neighbour = started(&two);
-        // Where the second crank stands once assembled, the spring holds on to a wall.
+        // The wall is at the place of the second crank after assembly.
         let (_, q, _) = assembled(&two);
         two.forces.clear();
         let wall = spring([0.05, 0.0], [q[6], q[7]]);

@@ -1,15 +1,15 @@
-//! More joined rows than dense matrices are made of: each part on common cycles is asked by its own
+//! A set with too many rows for dense matrices: each part on common cycles is examined with its own
 //! data.
 
 use joints::PointForce;
 
 use super::*;
 
-/// Bars of 0.1 m and 0.01 kg that hang in a row from the beam, at rest.
+/// Number of bars of 0.1 m and 0.01 kg that hang in a row from the beam, at rest.
 const LINKS: usize = 320;
 
-/// The beam of 2 m between a pin and a roller with its own 10 N in the middle, and what hangs from
-/// a point 1.5 m from the pin: a row of bars, or their weight as a force.
+/// The beam of 2 m between a pin and a roller with its own 10 N in the middle, loaded at a point
+/// 1.5 m from the pin by a row of hanging bars or by their weight as a force.
 fn loaded_beam(links: bool) -> Mechanism {
     let mut d = Description::new("beam");
     d.gravity = [0.0, -10.0];
@@ -49,7 +49,7 @@ fn loaded_beam(links: bool) -> Mechanism {
     Mechanism::build(&d).expect("it builds")
 }
 
-/// What hangs from the beam is its load, whoever hangs there.
+/// What hangs from the beam is its load, whether bars or a force.
 #[test]
 fn a_part_is_asked_under_what_the_rest_does_to_it() {
     let sensitivities = |mechanism: &Mechanism| {
