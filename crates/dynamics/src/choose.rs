@@ -1,4 +1,4 @@
-//! Which method suits a motion where none is asked for.
+//! Chooses the method of a run if none is given.
 
 use linalg::{Matrix, SaddleError};
 
@@ -10,9 +10,9 @@ use crate::plan::Decided;
 use crate::prepare::Prepared;
 use crate::run::Reduced;
 
-/// The method of a run: the one asked for, or Dormand–Prince 8(5,3), or Radau IIA where forces make
-/// the motion stiff at its start. Where nothing is free there is no equation for an implicit method
-/// to solve.
+/// The method of a run: the given one, or Dormand–Prince 8(5,3), or Radau IIA if forces make the
+/// motion stiff at its start. A mechanism without a degree of freedom leaves an implicit method no
+/// equation to solve.
 ///
 /// # Errors
 /// If the motion has no Jacobian at the start.
@@ -73,10 +73,11 @@ fn fastest_rate(prepared: &Prepared) -> Result<f64, MotionFault> {
     Ok(spectral_radius(reduced.jacobian()))
 }
 
-/// By growth of a vector under the matrix: the geometric mean, which complex pairs have too.
+/// Estimated from the growth of a vector under the matrix: the geometric mean also serves for
+/// complex pairs.
 fn spectral_radius(a: &Matrix) -> f64 {
     let k = a.nrows();
-    // No eigenvector is orthogonal to this but by chance.
+    // It is improbable that an eigenvector is orthogonal to this vector.
     let mut x: Vec<f64> = (0..k).map(|i| 1.0 + 0.1 * (i as f64).sin()).collect();
     let mut logs = 0.0;
     for iteration in 0..POWER_ITERATIONS {
@@ -101,7 +102,7 @@ mod tests {
 
     use super::*;
 
-    /// What one step of a second makes of 1 where y' = −z·y.
+    /// Growth factor of one step of 1 s for y' = −z·y, starting from 1.
     fn growth(z: f64) -> f64 {
         let options = Options {
             tolerance: Tolerance::Uniform {
@@ -129,7 +130,7 @@ mod tests {
 
     #[test]
     fn the_fastest_rate_is_found_also_of_oscillations() {
-        // ẍ = −k·x beside a slow decay: |λ| = √k.
+        // ẍ = −k·x next to a slow decay: |λ| = √k.
         let k = 1e10;
         let a = Matrix::from_rows(&[[0.0, 1.0, 0.0], [-k, 0.0, 0.0], [0.0, 0.0, -3.0]]);
         let found = spectral_radius(&a);

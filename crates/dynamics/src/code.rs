@@ -1,11 +1,12 @@
-//! What a run asks of straight-line code that was generated for one mechanism. Not here: how such
-//! code is made, and when a run may use it ([`Prepared::code_for`](crate::Prepared::code_for)).
+//! What a run needs from straight-line code that was generated for one mechanism. How such code is
+//! generated is described elsewhere; when a run may use it is decided by
+//! [`Prepared::code_for`](crate::Prepared::code_for).
 //!
-//! Code keeps the rows that it was generated for and eliminates in an order that was chosen
-//! offline, so it cannot find new pivots. It says how good its pivots are instead: its *health*,
-//! the smallest pivot as a signed share of the smallest |pivot| of the same place that its
-//! generator saw. 1 is as good; 0 or less has passed a singular pivot; NaN never counts as healthy.
-//! Whoever calls it has to look.
+//! Generated code has fixed kept rows and a fixed order of elimination, so it cannot choose new
+//! pivots. Instead it reports the quality of its pivots, its *health*: the smallest ratio of a
+//! pivot, with its sign, to the smallest |pivot| that the generator found at the same place. 1
+//! means as good as for the generator; 0 or less means that a singular pivot has been passed; NaN
+//! is never healthy. The caller has to check the health.
 
 mod belongs;
 
@@ -19,13 +20,13 @@ pub use belongs::{CodeMismatch, NoCode};
 pub struct Facts {
     /// Name of the scene.
     pub name: Cow<'static, str>,
-    /// Coordinates.
+    /// Number of coordinates.
     pub n_q: usize,
-    /// Velocities.
+    /// Number of velocities.
     pub n_v: usize,
-    /// Holonomic rows.
+    /// Number of holonomic rows.
     pub m: usize,
-    /// Nonholonomic rows.
+    /// Number of nonholonomic rows.
     pub h: usize,
     /// Kept rows of C, from 0, ascending.
     pub kept: Cow<'static, [usize]>,
@@ -33,7 +34,7 @@ pub struct Facts {
     pub position_kept: Cow<'static, [usize]>,
     /// Times at which a function of time is not smooth (s), ascending.
     pub break_times: Cow<'static, [f64]>,
-    /// Operations of each function, in words.
+    /// Operation counts of each function, as text.
     pub operations: Cow<'static, str>,
 }
 
@@ -45,7 +46,7 @@ pub struct Facts {
 /// use dynamics::{Facts, MotionOptions, RowChoice, SceneCode, prepare, simulate};
 /// use model::{Body, Description, Mechanism, StartOptions};
 ///
-/// /// A stone that falls: nothing holds it.
+/// /// A falling stone without constraints.
 /// struct Stone(Facts);
 ///
 /// impl SceneCode for Stone {
@@ -78,8 +79,8 @@ pub struct Facts {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// No function allocates or panics on slices of the sizes below; any numbers
-/// may come, and the health tells what the result is worth.
+/// No function allocates, or panics on slices of the lengths below. The arguments may be any
+/// numbers; the health states whether the result can be used.
 ///
 /// | argument | length | meaning |
 /// | --- | --- | --- |
@@ -89,26 +90,26 @@ pub struct Facts {
 /// | `phi` | m | Φ(q, t) of all holonomic rows |
 /// | `residual`, `lambda` | m + h | C·v − b, and multipliers, of all rows |
 pub trait SceneCode: Send + Sync {
-    /// What it was generated for.
+    /// The facts for which it was generated.
     fn facts(&self) -> &Facts;
 
-    /// `a` from `M·a + C_Kᵀ·λ_K = Q`, `C_K·a = Γ_K`; the health.
+    /// Computes `a` from `M·a + C_Kᵀ·λ_K = Q`, `C_K·a = Γ_K`; returns the health.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64;
 
-    /// The λ of these equations, 0 for dropped rows; the health.
+    /// Computes λ of these equations, 0 for dropped rows; returns the health.
     fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64;
 
-    /// Φ of all holonomic rows.
+    /// Computes Φ of all holonomic rows.
     fn phi(&self, t: f64, q: &[f64], phi: &mut [f64]);
 
-    /// `C·v − b` of all rows.
+    /// Computes `C·v − b` of all rows.
     fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]);
 
-    /// The smallest `dq` in the mass metric with `Φq·dq = −phi` on the kept rows of Φq; the health
-    /// of their pivots.
+    /// Computes the smallest `dq` in the mass metric with `Φq·dq = −phi` on the kept rows of Φq;
+    /// returns the health of their pivots.
     fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64;
 
-    /// The smallest `dv` in the mass metric with `C·dv = −residual` on the kept rows of C; the
-    /// health.
+    /// Computes the smallest `dv` in the mass metric with `C·dv = −residual` on the kept rows of C;
+    /// returns the health.
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64;
 }

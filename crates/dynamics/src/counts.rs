@@ -1,22 +1,22 @@
-//! What tests count, to prove that work that a plan leaves out is not done. Costs nothing
-//! elsewhere.
+//! Counts of work that tests compare, to prove that work which a plan omits is not done. Without
+//! tests it costs nothing.
 
-/// Work that is noted.
+/// Kinds of work that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Counted {
-    /// Storage for linear systems of implicit methods is made.
+    /// Allocating storage for the linear systems of implicit methods.
     LinearSystems,
-    /// Multipliers are solved for at a row of output.
+    /// Solving for multipliers at a row of output.
     Multipliers,
-    /// A dropped row is compared with its limit.
+    /// Comparing a dropped row with its limit.
     Monitors,
-    /// Coefficients of dropped rows are solved for, to see whether others should be kept.
+    /// Solving for the coefficients of dropped rows, to decide whether other rows should be kept.
     Coefficients,
-    /// Accelerations are solved for on kept rows.
+    /// Solving for accelerations on kept rows.
     Accelerations,
 }
 
-/// Notes one piece of work.
+/// Counts one piece of work.
 #[inline]
 pub(crate) fn note(work: Counted) {
     #[cfg(test)]
@@ -26,11 +26,11 @@ pub(crate) fn note(work: Counted) {
 
 #[cfg(test)]
 thread_local! {
-    /// How often each kind of work was done on this thread.
+    /// Number of times each kind of work was done on this thread.
     static COUNTS: std::cell::RefCell<[usize; 5]> = const { std::cell::RefCell::new([0; 5]) };
 }
 
-/// Pieces of work that `run` does on this thread, by kind.
+/// Counts the work that `run` does on this thread, by kind.
 #[cfg(test)]
 pub(crate) fn counted(run: impl FnOnce()) -> impl Fn(Counted) -> usize {
     let before = COUNTS.with_borrow(|counts| *counts);

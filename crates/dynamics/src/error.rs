@@ -1,4 +1,4 @@
-//! Why a motion stops, or does not begin.
+//! Reasons why a motion stops or does not begin.
 
 mod rows;
 
@@ -10,7 +10,7 @@ use solvability::{AnalysisError, Contradiction, StateError};
 
 pub use rows::DropError;
 
-/// Why the equations cannot be solved at one instant. A shorter step may avoid it.
+/// Reason why the equations cannot be solved at one instant. A shorter step may avoid it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionFault {
@@ -20,13 +20,13 @@ pub enum MotionFault {
          the mechanism passes a singular configuration"
     )]
     RankLost {
-        /// When.
+        /// Time (s).
         time: f64,
         /// The row whose pivot vanished.
         row: RowLabel,
         /// The pivot.
         pivot: f64,
-        /// What it is compared with.
+        /// The value with which it is compared.
         scale: f64,
     },
     /// The independent coordinates no longer determine the others.
@@ -35,28 +35,28 @@ pub enum MotionFault {
          one at their choice"
     )]
     IndependentCoordinates {
-        /// When.
+        /// Time (s).
         time: f64,
         /// The row that cannot be solved.
         row: RowLabel,
-        /// Its pivot relative to the one at the choice.
+        /// Its pivot relative to the pivot at the choice of the coordinates.
         pivot: f64,
     },
     /// The linear system of an implicit step has no solution.
     #[error("at t = {time} s the iteration matrix of the step is singular: {source}")]
     IterationMatrix {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Why.
+        /// Cause.
         source: SingularPivot,
     },
-    /// A motion that moves no mass.
+    /// A motion that moves no mass is possible.
     #[error(
         "at t = {time} s a motion without mass or inertia is possible: body `{body}` can move its {coordinate} freely; \
          give it mass or inertia, or constrain it"
     )]
     Massless {
-        /// When.
+        /// Time (s).
         time: f64,
         /// The body that moves most.
         body: String,
@@ -66,26 +66,26 @@ pub enum MotionFault {
     /// A value is NaN or infinite.
     #[error("at t = {time} s {what} is not finite")]
     NotFinite {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Which value.
+        /// Name of the value.
         what: String,
     },
-    /// Positions could not be brought back onto the constraints.
+    /// Positions could not be moved back onto the constraints.
     #[error(
         "at t = {time} s row {row} misses by {residual:.3e} after {iterations} corrections, {}",
         above(*residual, *tolerance)
     )]
     OffConstraints {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// The row that misses most.
+        /// The row with the largest residual.
         row: RowLabel,
-        /// By how much.
+        /// Its residual.
         residual: f64,
-        /// What is allowed.
+        /// The largest residual allowed.
         tolerance: f64,
-        /// Corrections made.
+        /// Number of corrections made.
         iterations: usize,
     },
     /// A dropped row is no longer implied by the kept ones.
@@ -95,27 +95,28 @@ pub enum MotionFault {
         above(*residual, *tolerance)
     )]
     DroppedRow {
-        /// When.
+        /// Time (s).
         time: f64,
         /// The row.
         row: RowLabel,
-        /// Positions or velocities.
+        /// "position" or "velocity".
         level: &'static str,
         /// Its residual.
         residual: f64,
-        /// What is allowed.
+        /// The largest residual allowed.
         tolerance: f64,
     },
-    /// Redundant drives ask for different motions from a time after the start on, or one of them
-    /// for what joints forbid.
+    /// From a time after the start on, redundant drives prescribe different motions, or one of them
+    /// prescribes what joints forbid.
     #[error("at t = {time} s redundant rows part: {contradiction}")]
     Drives {
-        /// When the rows were seen to differ.
+        /// Time at which the rows were found to differ (s).
         time: f64,
-        /// What they ask for, where they differ clearly.
+        /// The contradiction at a time at which they differ clearly.
         contradiction: Box<Contradiction>,
     },
-    /// A row that is dropped because the start is singular holds no more beside it.
+    /// A row that was dropped because the start is singular does not hold at neighbouring
+    /// configurations.
     #[error(
         "at t = {time} s the dropped row {row} is violated by {residual:.3e}: it contradicts the kept rows. It is redundant at the start only, which \
          is a singular configuration (its degree of redundancy is {redundancy}, elsewhere {elsewhere}): begin at another one, or correct the joint \
@@ -124,45 +125,45 @@ pub enum MotionFault {
     SingularStart {
         /// Degree of redundancy at the start.
         redundancy: usize,
-        /// The same at other configurations.
+        /// Degree of redundancy at other configurations.
         elsewhere: usize,
-        /// When the row was seen to be violated.
+        /// Time at which the row was found to be violated (s).
         time: f64,
         /// The row.
         row: RowLabel,
         /// Its residual.
         residual: f64,
     },
-    /// Newton's method for dependent coordinates went to a configuration far away: another branch,
-    /// or another turn.
+    /// Newton's method for dependent coordinates converged to a configuration far away: another
+    /// branch, or another revolution.
     #[error(
         "at t = {time} s the dependent coordinates could only be found {by:.2} (lengths of the mechanism, or radians) from where the \
          step expects them, at the {coordinate} of `{body}`"
     )]
     FarCompletion {
-        /// When.
+        /// Time (s).
         time: f64,
         /// The body that moved most.
         body: String,
         /// Its coordinate.
         coordinate: &'static str,
-        /// By how much: lengths as share of the mechanism's size, angles in radians.
+        /// Distance: lengths as a fraction of the size of the mechanism, angles in radians.
         by: f64,
     },
-    /// A row of output is not where its step leads.
+    /// A row of output is far from the path of its step.
     #[error(
         "the row at t = {time} s lies {by:.2} (lengths of the mechanism, or radians) from where the step around it leads, at the {coordinate} of \
          `{body}`, or has other velocities: near a singular configuration the method's output between steps may lead to another branch; use another method, \
          or a smaller max_step"
     )]
     FarRow {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// The body that lies farthest off.
+        /// The body with the largest distance.
         body: String,
         /// Its coordinate.
         coordinate: &'static str,
-        /// By how much: lengths as share of the mechanism's size, angles in radians.
+        /// Distance: lengths as a fraction of the size of the mechanism, angles in radians.
         by: f64,
     },
     /// A constraint jumps.
@@ -171,84 +172,84 @@ pub enum MotionFault {
          of time that is continuous, or a short ramp"
     )]
     PositionJump {
-        /// When.
+        /// Time (s).
         time: f64,
         /// The row.
         row: RowLabel,
-        /// By how much.
+        /// Size of the jump.
         jump: f64,
     },
-    /// No step gets over a singular configuration.
+    /// No step passes a singular configuration.
     #[error(
         "between t = {from} s and t = {to} s the mechanism is in or passes a singular configuration that it does not leave \
          smoothly: the constraints do not determine how it goes on"
     )]
     SingularPassage {
-        /// The last time before it.
+        /// The last time reached before it (s).
         from: f64,
-        /// The first time after it.
+        /// The first time tried after it (s).
         to: f64,
     },
-    /// The kept rows became dependent and no others can be chosen.
+    /// The kept rows became dependent, and no others can be chosen.
     #[error(
         "at t = {time} s the kept rows are nearly dependent and no others can be chosen: {what}"
     )]
     NoRows {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Why.
+        /// Cause.
         what: String,
     },
     /// The saddle equations were refused for another reason.
     #[error("at t = {time} s: {source}")]
     Saddle {
-        /// When.
+        /// Time (s).
         time: f64,
-        /// Why.
+        /// Cause.
         source: SaddleError,
     },
 }
 
-/// Why there is no motion, or only a part of it.
+/// Reason why there is no motion, or only a part of it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// The options of the run are no options.
+    /// An option of the run is invalid.
     #[error("{name} is {value}, need {expected}")]
     Option {
-        /// Which number.
+        /// Name of the option.
         name: &'static str,
-        /// The number.
+        /// Its value.
         value: f64,
-        /// What is needed.
+        /// The values that are allowed.
         expected: &'static str,
     },
-    /// Two options that do not go together.
+    /// Two options that cannot be combined.
     #[error("{chosen} does not go with {with}: {why}")]
     Combination {
-        /// One.
+        /// The first option.
         chosen: &'static str,
-        /// The other.
+        /// The second option.
         with: &'static str,
-        /// Why not.
+        /// Reason.
         why: &'static str,
     },
     /// No consistent start.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// The constraint matrix of the start cannot be judged.
+    /// The constraint matrix at the start cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// The start is no state of the mechanism.
+    /// The start is not a valid state of the mechanism.
     #[error(transparent)]
     State(#[from] StateError),
-    /// Redundant rows ask for different motions.
+    /// Redundant rows require different motions.
     #[error(transparent)]
     Contradiction(#[from] Contradiction),
     /// The rank of the start is undecided.
     #[error("the rank of the start is undecided, so no rows can be chosen: {}", undecided(.0))]
     RankUndecided(Doubt),
-    /// Kept rows that only differ by what no motion can be computed with.
+    /// The kept rows are independent, but too nearly dependent to compute a motion.
     #[error(
         "at the start the rows {} depend on each other but for {sigma:.1e}, need {required:.1e} to move: velocities would be known to {:.1e} of \
          their size only. Correct the misalignment, or delete one of them",
@@ -257,30 +258,29 @@ pub enum MotionError {
     Inseparable {
         /// The rows.
         rows: Vec<String>,
-        /// The smallest singular value of the kept rows, as bodies feel it.
+        /// The smallest singular value of the kept rows, in units of the bodies.
         sigma: f64,
-        /// What is needed.
+        /// The smallest value allowed.
         required: f64,
     },
-    /// The rows asked to be dropped cannot be.
+    /// The rows that were to be dropped cannot be dropped.
     #[error(transparent)]
     Rows(#[from] DropError),
     /// The equations could not be solved at the start.
     #[error(transparent)]
     Fault(#[from] MotionFault),
-    /// A reaction is wanted of a joint or drive that does not exist.
+    /// A reaction is requested of a joint or drive that does not exist.
     #[error("the reaction of `{name}` is wanted, but no joint or drive has this name")]
     NoReaction {
         /// The name.
         name: String,
     },
-    /// One of several components that do not feel each other stopped; the others were stopped
-    /// there.
+    /// One of several independent components stopped; the others were stopped at the same time.
     #[error("{component}: {source}")]
     Component {
         /// Its bodies.
         component: String,
-        /// Why it stopped.
+        /// Cause.
         source: Box<MotionError>,
     },
     /// The operating system refused a thread for a component.
@@ -288,7 +288,7 @@ pub enum MotionError {
     Thread {
         /// Its bodies.
         component: String,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// The integration stopped.
@@ -296,7 +296,7 @@ pub enum MotionError {
     Integration(Box<IntegrationError<MotionFault>>),
 }
 
-/// A doubt in the words of one who writes scenes: what can be changed there.
+/// Explains an undecided rank to the author of a scene, with what can be changed there.
 fn undecided(doubt: &Doubt) -> String {
     match *doubt {
         Doubt::NoClearGap {
@@ -326,8 +326,8 @@ fn undecided(doubt: &Doubt) -> String {
     }
 }
 
-/// What a residual was compared with. A run goes on up to the last state that is allowed, so both
-/// may look the same.
+/// States the limit with which a residual was compared. A run continues up to the last allowed
+/// state, so both numbers may look the same.
 fn above(residual: f64, tolerance: f64) -> String {
     let [found, allowed] = [residual, tolerance].map(|x| format!("{x:.3e}"));
     if found == allowed {

@@ -1,24 +1,24 @@
-//! What happened during a run that the reader should know.
+//! Events during a run that are reported to the user.
 
 /// One event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// When (s).
+    /// Time (s).
     pub time: f64,
-    /// What.
+    /// Kind of event.
     pub kind: EventKind,
     /// Degree of redundancy before.
     pub redundancy_before: usize,
     /// Degree of redundancy after.
     pub redundancy_after: usize,
-    /// Rows dropped from now on, from 0.
+    /// Rows dropped after the event, from 0.
     pub dropped: Vec<usize>,
-    /// In words.
+    /// Description.
     pub text: String,
 }
 
 impl Event {
-    /// An event at which the degree of redundancy stays, with the rows dropped from then on.
+    /// An event that does not change the degree of redundancy, with the rows dropped after it.
     pub(crate) fn at(time: f64, kind: EventKind, dropped: &[usize], text: String) -> Self {
         Self {
             time,
@@ -39,16 +39,16 @@ pub enum EventKind {
     RowsExchanged,
     /// A singular configuration was passed: the rank dropped for an instant.
     SingularPassage,
-    /// A rate jumped, and velocities with it.
+    /// A rate, and with it the velocities, jumped.
     Impulse,
-    /// Generated code was not sure: the equations are interpreted from here on.
+    /// Generated code was no longer reliable: the equations are interpreted from here on.
     CodeLeft,
     /// Generated code is used again.
     CodeUsed,
 }
 
 impl EventKind {
-    /// Its name in results.
+    /// Its name in output files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -4,16 +4,16 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`options`] | what a run is asked to do |
+//! | [`options`] | options of a run |
 //! | [`mod@prepare`] | consistent start, decided rank, kept rows |
-//! | [`code`] | what a run asks of code generated for one mechanism |
-//! | [`plan`] | what a run does and leaves out, with reasons |
+//! | [`code`] | what a run needs from code generated for one mechanism |
+//! | [`plan`] | what a run does and omits, with reasons |
 //! | `solve` | accelerations and multipliers at a state: dense, sparse, refined, generated |
 //! | `manifold` | moves states onto the constraints and along them; the only writer of q and v |
-//! | `watch` | judges the ends of steps: pivots, exchange of rows, singular passages, code |
-//! | [`motion`] | the three of them for one mechanism |
+//! | `watch` | checks the ends of steps: pivots, exchange of rows, singular passages, code |
+//! | [`motion`] | these three for one mechanism |
 //! | [`run`] | a run: integration, projected output, energy balance |
-//! | [`events`] | what happened on the way |
+//! | [`events`] | events during a run |
 //! | `limits` | every threshold, with its reason |
 
 mod choose;

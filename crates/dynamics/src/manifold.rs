@@ -1,6 +1,6 @@
-//! The constraint manifold: moves q and v onto it, along it and back to it, and tells what they
-//! miss. Nothing else writes accepted coordinates and velocities, neither on kept rows nor on
-//! generated code. Not here: whether a step may end there ([`crate::watch`]).
+//! The constraint manifold: moves q and v onto it and along it, and computes residuals. No other
+//! module writes accepted coordinates and velocities, neither for kept rows nor for generated code.
+//! Whether a step may end at a state is decided in [`crate::watch`].
 
 mod coordinates;
 mod dropped;

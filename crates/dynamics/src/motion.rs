@@ -1,8 +1,7 @@
-//! The motion of a mechanism on kept rows: its equations (`solve`), its constraints
-//! (`manifold`) and what is watched (`watch`), put together for whoever evaluates
-//! states. Kept rows may become nearly dependent although the rank stays (an edge turns until it no
-//! longer carries what a dropped row carried): then, at an accepted and polished point, other rows
-//! are kept, which changes no motion.
+//! The motion of a mechanism on kept rows: combines its equations (`solve`), its constraints
+//! (`manifold`) and the monitors (`watch`). Kept rows may become nearly dependent although the rank
+//! stays the same, for example if a knife edge rotates. Then other rows are kept from an accepted
+//! and polished point on, which does not change the motion.
 
 use std::sync::Arc;
 
@@ -24,12 +23,12 @@ pub struct KeptRowMotion<'m> {
     pub(crate) equations: KeptEquations<'m>,
     pub(crate) manifold: Manifold,
     pub(crate) watch: Watch,
-    /// Generated code, if there is some that may be used.
+    /// Generated code, if there is some that can be used.
     pub(crate) code: Option<Handover>,
 }
 
 impl<'m> KeptRowMotion<'m> {
-    /// The motion of a prepared mechanism on kept rows, with projection and by the interpreter.
+    /// The motion of a prepared mechanism on kept rows, with projection and without generated code.
     ///
     /// # Errors
     /// If more rows are kept than there are velocities.
@@ -37,8 +36,8 @@ impl<'m> KeptRowMotion<'m> {
         Self::interpreted(prepared, &MotionOptions::to(0.0))
     }
 
-    /// The motion of a prepared mechanism with the method and stabilisation of a run; on generated
-    /// code, if there is some for it.
+    /// The motion of a prepared mechanism with the method and stabilisation of a run; with
+    /// generated code, if there is some for it.
     ///
     /// # Errors
     /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit
@@ -82,7 +81,7 @@ impl<'m> KeptRowMotion<'m> {
         self.equations.at.mechanism
     }
 
-    /// Results of the last evaluation: poses, forces, …
+    /// Results of the last evaluation, such as poses and forces.
     #[must_use]
     pub fn scratch(&self) -> &Scratch {
         &self.equations.at.s
@@ -95,14 +94,14 @@ impl<'m> KeptRowMotion<'m> {
         self.equations.velocity.pivot_ratio()
     }
 
-    /// From now on the motion is one of independent coordinates, chosen at q, which must lie on the
+    /// Switches the motion to independent coordinates, chosen at q, which must satisfy the
     /// constraints at t.
     ///
     /// ```
     /// use dynamics::{KeptRowMotion, RowChoice, prepare};
     /// use joints::Angle;
     /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
-    /// // A body that does not turn: x and y are independent, its angle is not.
+    /// // A body that does not rotate: x and y are independent, its angle is not.
     /// let level = Description {
     ///     bodies: vec![Body { name: "crate".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
     ///     joints: vec![Joint::new("level", &[BodyRef::Ground, BodyRef::Body(0)], Angle { angle_0: 0.0 })],
@@ -113,7 +112,7 @@ impl<'m> KeptRowMotion<'m> {
     /// let mut motion = KeptRowMotion::new(&prepared)?;
     /// motion.use_independent_coordinates(0.0, &prepared.q)?;
     /// assert_eq!(motion.independent(), Some((&[0, 1][..], &[0, 1][..])));
-    /// // A wrong angle in y is a guess only: ẏ = [q̇; v̇] is that of the completed state.
+    /// // A wrong angle in y is a guess only: ẏ = [q̇; v̇] belongs to the completed state.
     /// let mut dy = [0.0; 6];
     /// motion.derivative(0.0, &[5.0, 6.0, 0.3, 7.0, 8.0, 0.2], &mut dy)?;
     /// assert_eq!(dy, [7.0, 8.0, 0.0, 0.0, 0.0, 0.0]);
@@ -121,7 +120,7 @@ impl<'m> KeptRowMotion<'m> {
     /// ```
     ///
     /// # Errors
-    /// If the kept rows are dependent there.
+    /// If the kept rows are dependent at this configuration.
     pub fn use_independent_coordinates(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
         self.equations.at.pose(t, q);
         let (q, v) = (q.to_vec(), vec![0.0; self.mechanism().layout().n_v]);
@@ -129,26 +128,27 @@ impl<'m> KeptRowMotion<'m> {
             .choose_coordinates(&mut self.equations, Origin { t, q, v })
     }
 
-    /// Independent coordinates and velocities, ascending, where the motion is one of these alone.
+    /// Independent coordinates and velocities, ascending. Returns `None` if the motion uses all
+    /// coordinates.
     #[must_use]
     pub fn independent(&self) -> Option<(&[usize], &[usize])> {
         let coordinates = self.manifold.coordinates.as_ref();
         coordinates.map(|c| (&c.z[..], &c.u[..]))
     }
 
-    /// Whether generated code evaluates at present.
+    /// Whether generated code is in use.
     pub(crate) fn is_on_code(&self) -> bool {
         self.code.as_ref().is_some_and(Handover::is_in_use)
     }
 
-    /// Takes the start as the first accepted state.
+    /// Accepts the start as the first state.
     pub(crate) fn begin(&mut self, t: f64, q: &mut [f64]) -> Result<(), MotionFault> {
         self.manifold.settle(&mut self.equations, t, q)?;
         self.watch.passage.take(&mut self.equations.velocity, t);
         Ok(())
     }
 
-    /// Chooses other independent coordinates where they are due, if a step has begun.
+    /// Chooses new independent coordinates if they are needed and a step has begun.
     pub(crate) fn begin_step(
         &mut self,
         has_begun: impl Fn(f64) -> bool,
@@ -159,7 +159,7 @@ impl<'m> KeptRowMotion<'m> {
         };
         let equations = &mut self.equations;
         equations.at.pose_and_phi(origin.t, &origin.q);
-        // Whether other rows are due is judged without a partition.
+        // Whether other rows are needed is decided without a partition.
         for rows in [&mut equations.velocity, &mut equations.position] {
             rows.forget_partition();
             rows.factor(&equations.at)?;
@@ -172,10 +172,10 @@ impl<'m> KeptRowMotion<'m> {
         self.manifold.choose_coordinates(equations, origin)
     }
 
-    /// `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`.
+    /// Computes `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`.
     ///
     /// # Errors
-    /// If the equations have no (unique) solution here.
+    /// If the equations have no unique solution at this state.
     pub fn acceleration(
         &mut self,
         t: f64,
@@ -206,8 +206,8 @@ impl<'m> KeptRowMotion<'m> {
         self.manifold.project(&mut self.equations, t, (q, v))
     }
 
-    /// Multipliers of all rows: those of dropped rows are zero by decree, and all are NaN where the
-    /// kept rows are dependent at just this instant, so that no multipliers belong to them.
+    /// Multipliers of all rows. Those of dropped rows are set to zero. All are NaN if the kept rows
+    /// are dependent at exactly this instant, because then no multipliers belong to them.
     ///
     /// # Errors
     /// As [`KeptRowMotion::acceleration`].
@@ -222,7 +222,7 @@ impl<'m> KeptRowMotion<'m> {
         let state = State { t, q, v };
         let code = self.code.as_mut().and_then(Handover::in_use);
         if code.is_some_and(|code| code.multipliers(state, lambda).is_ok()) {
-            // Reactions are read from the pose.
+            // Reactions need the pose.
             self.equations.at.pose(t, q);
             return Ok(());
         }
@@ -231,8 +231,8 @@ impl<'m> KeptRowMotion<'m> {
         found
     }
 
-    /// `ẏ = f(t, y)` of `y = [q; v]`, or `[q; v; W]` with the work W of drives and applied forces.
-    /// On independent coordinates the dependent entries of y do not matter.
+    /// Evaluates `ẏ = f(t, y)` for `y = [q; v]`, or `[q; v; W]` with the work W of drives and
+    /// applied forces. With independent coordinates the dependent entries of y have no effect.
     ///
     /// # Errors
     /// As [`KeptRowMotion::acceleration`]; [`MotionFault::OffConstraints`],
@@ -270,8 +270,8 @@ impl<'m> KeptRowMotion<'m> {
         Ok(())
     }
 
-    /// The same at a state that a projection has just moved onto the constraints, where the rows
-    /// are factored.
+    /// Like [`Self::derivative`], at a state that a projection has just moved onto the constraints
+    /// and at which the rows are factored.
     ///
     /// # Errors
     /// As [`KeptRowMotion::derivative`].
@@ -291,19 +291,19 @@ impl<'m> KeptRowMotion<'m> {
         Ok(())
     }
 
-    /// Accelerations of a stage by the interpreter.
+    /// Accelerations of a stage, computed without generated code.
     fn interpret(&mut self, state: State<'_>, a: &mut [f64]) -> Result<(), MotionFault> {
         self.equations.factor_at(state.t, state.q)?;
         self.solve_factored(state.v, a)
     }
 
-    /// The same where the pose is taken and the rows are factored.
+    /// The same if the pose is evaluated and the rows are factored.
     pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
         self.watch.passage.see(&self.equations.velocity);
         self.equations.solve_factored(v, a)
     }
 
-    /// Multipliers of all rows for accelerations a, found by the last evaluation.
+    /// Multipliers of all rows for the accelerations a of the last evaluation.
     pub(crate) fn multipliers_for(
         &mut self,
         a: &[f64],
@@ -313,14 +313,14 @@ impl<'m> KeptRowMotion<'m> {
         self.equations.multipliers_for(a, lambda)
     }
 
-    /// q and v of y.
+    /// The parts q and v of y.
     pub(crate) fn parts<'y>(&self, y: &'y [f64]) -> (&'y [f64], &'y [f64]) {
         let layout = self.mechanism().layout();
         let (q, rest) = y.split_at(layout.n_q);
         (q, &rest[..layout.n_v])
     }
 
-    /// q, v and the work, where y has it; or their rates.
+    /// The parts q, v and, if y has it, the work; or their rates.
     pub(crate) fn parts_mut<'y>(
         &self,
         y: &'y mut [f64],
@@ -331,10 +331,10 @@ impl<'m> KeptRowMotion<'m> {
         (q, v, work.first_mut())
     }
 
-    /// Moves the end of a step to t that passed its error test onto the constraints, or says what
-    /// it misses, and keeps other rows if the present ones have become nearly dependent there.
-    /// `has_to_end`: the step ends at t wherever that is. What happened is told once the step
-    /// stands.
+    /// Moves the end of a step that passed its error test onto the constraints, or computes its
+    /// residuals, and keeps other rows if the present ones have become nearly dependent there. If
+    /// `has_to_end` is true, the step ends at t whatever the configuration. Events are reported
+    /// once the step is accepted.
     pub(crate) fn end_step(
         &mut self,
         t: f64,
@@ -362,7 +362,7 @@ impl<'m> KeptRowMotion<'m> {
         }
         let corrections = manifold.settle_completed(equations, t, (&mut *q, &mut *v))?;
         watch.judge_place(equations, t, has_to_end).stands()?;
-        // On independent coordinates rows are exchanged when the next step begins.
+        // With independent coordinates, rows are exchanged when the next step begins.
         if GUARDED
             && manifold.coordinates.is_none()
             && let Some(rows) = watch.judge_rows(equations, q).stands()?
@@ -376,7 +376,8 @@ impl<'m> KeptRowMotion<'m> {
         Ok(manifold.finish(equations, v, corrections)?)
     }
 
-    /// The same where states are left as they are: kept rows are still watched.
+    /// Like [`Self::end_step`], for states that are not projected: kept rows are monitored
+    /// nevertheless.
     fn end_unprojected_step(
         &mut self,
         t: f64,
@@ -389,7 +390,7 @@ impl<'m> KeptRowMotion<'m> {
         if !watch.may_exchange(equations) {
             return Ok(found);
         }
-        // Ranks are decided on the constraints only.
+        // Ranks are decided only at configurations on the constraints.
         let mut polished = q.to_vec();
         self.manifold.settle(equations, t, &mut polished)?;
         if let Some(rows) = watch.judge_rows(equations, &polished).stands()? {
@@ -398,7 +399,7 @@ impl<'m> KeptRowMotion<'m> {
         Ok(inspect(equations, t, q, v)?)
     }
 
-    /// Takes the state just evaluated as that of an accepted step to t.
+    /// Accepts the state just evaluated as the end of a step to t.
     pub(crate) fn accept(&mut self, t: f64, may_have_passed: bool) -> Option<Event> {
         let is_worn = are_worn(&self.equations);
         if let Some(coordinates) = &mut self.manifold.coordinates {
@@ -407,8 +408,8 @@ impl<'m> KeptRowMotion<'m> {
         self.watch.accept(&mut self.equations, t, may_have_passed)
     }
 
-    /// Ends a row of output: projects it, or says what it misses. Dropped rows are checked either
-    /// way.
+    /// Finishes a row of output: projects it, or computes its residuals. Dropped rows are checked
+    /// in both cases.
     ///
     /// # Errors
     /// As [`KeptRowMotion::project`].
@@ -454,8 +455,8 @@ impl<'m> KeptRowMotion<'m> {
     }
 }
 
-/// q̇ and, where there is room for it, the power of drives and applied forces at a state with
-/// acceleration a.
+/// Computes q̇ and, if there is space for it, the power of drives and applied forces at a state
+/// with acceleration a.
 fn rates(
     mechanism: &Mechanism,
     (q, v, a): (&[f64], &[f64], &[f64]),

@@ -1,4 +1,4 @@
-//! What a run is asked to do.
+//! Options of a run.
 
 #[cfg(test)]
 mod tests;
@@ -11,7 +11,7 @@ use crate::error::MotionError;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// Dormand–Prince 8(5,3), or Radau IIA where forces make the motion stiff at its start.
+    /// Dormand–Prince 8(5,3), or Radau IIA if forces make the motion stiff at its start.
     #[default]
     Auto,
     /// Dormand–Prince 5(4), the method of MATLAB's `ode45`.
@@ -25,7 +25,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// All that can be asked for.
+    /// All methods that can be requested.
     pub const ALL: &[Self] = &[
         Self::Auto,
         Self::Dop853,
@@ -53,11 +53,12 @@ impl Method {
     }
 }
 
-/// What every run does about redundant rows: r independent ones are kept, the others only
-/// monitored. Its name in results; reactions that are not unique belong to it.
+/// Treatment of redundant rows in every run: r independent rows are kept, the others are only
+/// monitored. This is its name in results; reactions that are not unique depend on it.
 pub const FORMULATION: &str = "kept-rows";
 
-/// Where an option of a run has gone that is none any more, by the name of its key and its value.
+/// Explains where a former option has moved, given the name of its key and its value. Returns
+/// `None` if it is a valid option.
 ///
 /// ```
 /// let words = dynamics::options::moved("method", "gbs").unwrap();
@@ -89,19 +90,19 @@ pub fn moved(key: &str, value: &str) -> Option<String> {
     ))
 }
 
-/// How drift off the constraints is prevented.
+/// Method that prevents drift from the constraints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stabilisation {
     /// Position and velocity are projected in the mass metric after each step.
     #[default]
     Projection,
-    /// None. Residuals show the drift.
+    /// No stabilisation. Residuals show the drift.
     None,
 }
 
 impl Stabilisation {
-    /// All that can be asked for.
+    /// All methods that can be requested.
     pub const ALL: &[Self] = &[Self::Projection, Self::None];
 
     /// Its name in scenes and results.
@@ -120,11 +121,11 @@ pub enum RowChoice {
     /// The rank decision chooses well-conditioned ones.
     #[default]
     Automatic,
-    /// All but these rows, counted from 0.
+    /// All rows except these, counted from 0.
     Drop(Vec<usize>),
 }
 
-/// What a run is asked to do.
+/// Options of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionOptions {
     /// Last time (s); the first is 0.
@@ -135,19 +136,19 @@ pub struct MotionOptions {
     pub rtol: f64,
     /// Absolute tolerance of the step control.
     pub atol: f64,
-    /// Largest step (s); infinite where error control alone decides.
+    /// Largest step (s); infinite if error control alone decides.
     pub max_step: f64,
-    /// Accepted and rejected steps of a component at most.
+    /// Largest number of accepted and rejected steps of a component.
     pub max_steps: u64,
     /// Integrator.
     pub method: Method,
     /// Treatment of drift.
     pub stabilisation: Stabilisation,
-    /// Rows to keep: what [`crate::prepare()`] is given. A run has the rows of its
+    /// Rows to keep, as passed to [`crate::prepare()`]. A run uses the rows of its
     /// [`crate::Prepared`].
     pub rows: RowChoice,
-    /// Components that compute at the same time, where there are several; all of them if nothing is
-    /// said. Results do not depend on it.
+    /// Number of components that compute at the same time if there are several; `None` allows all
+    /// of them. Results do not depend on it.
     pub threads: Option<NonZeroUsize>,
 }
 
@@ -169,11 +170,11 @@ impl MotionOptions {
         }
     }
 
-    /// Whether these options can be those of a run.
+    /// Checks the options of a run.
     ///
     /// # Errors
     /// - [`MotionError::Option`]: one is not finite or out of range.
-    /// - [`MotionError::Combination`]: method and stabilisation do not go together.
+    /// - [`MotionError::Combination`]: method and stabilisation cannot be combined.
     pub fn check(&self) -> Result<(), MotionError> {
         let numbers = [
             ("t_end", self.t_end, self.t_end >= 0.0, "a finite time ≥ 0"),
@@ -222,7 +223,7 @@ impl MotionOptions {
         self.check_combination()
     }
 
-    /// Whether method and stabilisation go together.
+    /// Checks that method and stabilisation can be combined.
     fn check_combination(&self) -> Result<(), MotionError> {
         let projects = self.stabilisation == Stabilisation::Projection;
         if self.method.needs_independent_coordinates() && !projects {

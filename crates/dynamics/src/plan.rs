@@ -1,6 +1,6 @@
-//! What a run does and what it leaves out, decided once from a prepared mechanism, its options and
-//! the output that is wanted. Each decision has its reason and what it saves; a run does what its
-//! plan says ([`crate::simulate`]). Not here: how anything is computed.
+//! What a run does and what it omits, decided once from a prepared mechanism, its options and the
+//! requested output. Each decision has its reason and states what it saves; a run follows its plan
+//! ([`crate::simulate`]). The computations themselves are in other modules.
 
 mod component;
 mod decided;
@@ -25,14 +25,14 @@ pub use decisions::Decisions;
 pub use saving::{Cost, Saving};
 pub use sizes::Sizes;
 
-/// What of a motion is wanted. What is not is not computed.
+/// The requested output of a motion. Other values are not computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wanted {
-    /// Whether rows of output are: states on the constraints at the times of output.
+    /// Which rows of output are requested.
     pub rows: Rows,
-    /// Whether accelerations are, at these rows.
+    /// Whether accelerations are requested at these rows.
     pub accelerations: bool,
-    /// Whose reactions are, at these rows.
+    /// Joints and drives whose reactions are requested at these rows.
     pub reactions: Reactions,
 }
 
@@ -50,17 +50,17 @@ impl Default for Wanted {
 /// Which rows of output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rows {
-    /// At 0, every output step, and the end.
+    /// At time 0, at every output step, and at the end.
     #[default]
     Every,
-    /// The same times, but states as they are interpolated within steps: off the constraints by
-    /// about the tolerance of the run. For who moves them there anyway.
+    /// At the same times, but states as interpolated within steps, which violate the constraints by
+    /// about the tolerance of the run. For callers that project them anyway.
     Interpolated,
-    /// At 0 and the end.
+    /// At time 0 and at the end.
     Ends,
 }
 
-/// Whose reactions.
+/// Which reactions are requested.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Reactions {
     /// Those of all joints and drives.
@@ -68,7 +68,7 @@ pub enum Reactions {
     All,
     /// Those of these joints and drives.
     Of(Vec<String>),
-    /// Nobody's.
+    /// No reactions.
     None,
 }
 
@@ -78,7 +78,7 @@ pub enum Reactions {
 /// use dynamics::{MotionOptions, Plan, RowChoice, Wanted, prepare};
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
-/// // Two pendulums on one ground do not feel each other.
+/// // Two pendulums on one ground are independent of each other.
 /// let body = |name: &str| Body { name: name.into(), mass: 1.0, inertia: 1.0, ..Body::default() };
 /// let pin = |name: &str, k| {
 ///     Joint::new(name, &[BodyRef::Ground, BodyRef::Body(k)], Revolute { s_i: [0.0; 2], s_j: [0.0, 1.0] })
@@ -101,25 +101,25 @@ pub enum Reactions {
 pub struct Plan<'a> {
     prepared: &'a Prepared,
     options: MotionOptions,
-    /// Whether the mechanism is taken apart.
+    /// Whether the mechanism is split into components.
     pub apart: Decided<bool>,
-    /// Whether code that was generated for the mechanism is used.
+    /// Whether code generated for the mechanism is used.
     pub code: Decided<bool>,
     /// Which rows of output are computed.
     pub rows: Decided<Rows>,
-    /// Whether accelerations are computed there.
+    /// Whether accelerations are computed at these rows.
     pub accelerations: Decided<bool>,
-    /// Its components, or the whole as the only one.
+    /// Its components, or the whole mechanism as the only one.
     pub components: Vec<ComponentPlan<'a>>,
 }
 
 impl<'a> Plan<'a> {
-    /// Decides everything that can be decided before the motion begins.
+    /// Makes all decisions that are possible before the motion begins.
     ///
     /// # Errors
-    /// - [`MotionError::Option`], [`MotionError::Combination`]: the options are none.
-    /// - [`MotionError::NoReaction`]: a reaction is wanted of a joint that does not exist.
-    /// - [`MotionError::Fault`]: the motion cannot be judged at its start.
+    /// - [`MotionError::Option`], [`MotionError::Combination`]: the options are invalid.
+    /// - [`MotionError::NoReaction`]: a reaction is requested of a joint that does not exist.
+    /// - [`MotionError::Fault`]: the motion cannot be evaluated at its start.
     pub fn new(
         prepared: &'a Prepared,
         options: &MotionOptions,
@@ -152,19 +152,19 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// What is to move.
+    /// The prepared mechanism.
     #[must_use]
     pub fn prepared(&self) -> &'a Prepared {
         self.prepared
     }
 
-    /// What was asked; methods are those of the components.
+    /// The options of the run; the methods are those of the components.
     #[must_use]
     pub fn options(&self) -> &MotionOptions {
         &self.options
     }
 
-    /// All decisions, those of the whole first.
+    /// All decisions, those of the whole mechanism first.
     #[must_use]
     pub fn lines(&self) -> Vec<Line<'_>> {
         let of_whole = [
@@ -186,7 +186,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// For each joint and drive, whether its reaction is wanted.
+/// Whether the reaction of each joint and drive is requested.
 fn wanted_groups(prepared: &Prepared, reactions: &Reactions) -> Result<Vec<bool>, MotionError> {
     let groups = &prepared.mechanism.layout().groups;
     let names = match reactions {
@@ -200,10 +200,10 @@ fn wanted_groups(prepared: &Prepared, reactions: &Reactions) -> Result<Vec<bool>
     }
 }
 
-/// Whether a run of the whole is one on generated code.
+/// Decides whether a run of the whole mechanism uses generated code.
 fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, MotionError> {
     let interpreted = |why: NoCode| Ok(Decided::new(false, "interpreted", why.to_string()));
-    // What has no code need not choose a method for the whole.
+    // Without generated code, no method needs to be chosen for the whole mechanism.
     if let Err(why @ NoCode::None) = prepared.code_for(options) {
         return interpreted(why);
     }

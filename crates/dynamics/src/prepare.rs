@@ -26,27 +26,26 @@ pub struct Prepared {
     pub q: Vec<f64>,
     /// Velocities at t = 0.
     pub v: Vec<f64>,
-    /// What was asked of the rows.
+    /// The requested choice of rows.
     pub choice: RowChoice,
     /// Rank and kept rows of C.
     pub decision: RowDecision,
-    /// Rank and kept rows of Φq alone: what holds the configuration.
+    /// Rank and kept rows of Φq alone, which determine the configuration.
     pub position_decision: RowDecision,
-    /// The decisions of the start part by part, which its verdicts are read from; `None` for a
+    /// The decisions at the start, part by part, from which its verdicts are read; `None` for a
     /// component of another mechanism.
     pub decided: Option<Arc<Rows>>,
     /// How the configuration was assembled.
     pub assembly: Assembly,
-    /// Velocities at the start minus the given ones; zero where none is given.
+    /// Velocities at the start minus the given ones; zero for velocities that are not given.
     pub velocity_correction: Vec<f64>,
-    /// Code generated for this mechanism on these rows, if there is some: see
-    /// [`Prepared::with_code`].
+    /// Code generated for this mechanism on these rows, if any: see [`Prepared::with_code`].
     pub(crate) code: Option<Arc<dyn SceneCode>>,
 }
 
 impl Prepared {
-    /// Bytes that a run takes at most, about, beside the mechanism itself: solvers, stages, rows of
-    /// output. An estimate from patterns alone.
+    /// Estimated upper bound (bytes) on the memory of a run, not counting the mechanism itself:
+    /// solvers, stages, rows of output. It uses sparsity patterns only.
     #[must_use]
     pub fn memory(&self) -> usize {
         let levels = [&self.decision, &self.position_decision].map(|d| d.kept.as_slice());
@@ -59,12 +58,12 @@ impl Prepared {
         solve::is_sparse(&self.mechanism, self.assembly.size, rows)
     }
 
-    /// See [`solve::is_far`].
+    /// Whether the size is far from a metre, see [`solve::is_far`].
     pub(crate) fn is_far(&self) -> bool {
         solve::is_far(self.assembly.size)
     }
 
-    /// See [`solve::mass_spread`].
+    /// Spread of the masses, see [`solve::mass_spread`].
     pub(crate) fn mass_spread(&self) -> f64 {
         solve::mass_spread(&self.mechanism, self.assembly.size)
     }
@@ -82,11 +81,11 @@ impl Prepared {
 ///
 /// # Errors
 /// - [`MotionError::Start`]: no consistent configuration or velocities.
-/// - [`MotionError::Contradiction`]: redundant rows ask for different positions, velocities or
+/// - [`MotionError::Contradiction`]: redundant rows require different positions, velocities or
 ///   accelerations.
 /// - [`MotionError::Inseparable`]: independent rows differ by too little to move on.
-/// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the ones
-///   asked for.
+/// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the
+///   requested ones.
 pub fn prepare(
     mut mechanism: Mechanism,
     start: &StartOptions,
@@ -100,7 +99,7 @@ pub fn prepare(
     mechanism.c(&mut s);
     let found = rows_of(&mechanism, 0.0, &assembly.q)?;
     if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
-        // What no motion has is said first: it is wrong also where the mechanism is only judged.
+        // Report what prevents any motion first, since it is also an error of the analysis.
         return Err(if found.are_certified() {
             start_velocity(&mechanism, start, &found, &assembly.q, &found.all.kept)
                 .err()
@@ -135,7 +134,7 @@ pub fn prepare(
     })
 }
 
-/// Why no rows can be kept, if none can.
+/// Returns the reason why no rows can be kept, if none can.
 fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
     if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
         let largest = nearly
@@ -159,14 +158,14 @@ fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionErr
         })
 }
 
-/// Velocities of an assembled start, see [`consistent_velocity`], and what stands against
-/// accelerations there: redundant rows may allow the velocities but no motion that begins with
-/// them. Rows that contradict each other whatever is given, as drives may, are named before given
-/// velocities that contradict them.
+/// Velocities of an assembled start, see [`consistent_velocity`], and a contradiction of
+/// accelerations there, if any: redundant rows may allow the velocities but no motion that begins
+/// with them. Rows that contradict each other for any initial velocities, such as those of drives,
+/// are reported before given velocities that contradict them.
 ///
 /// # Errors
-/// - [`MotionError::Start`]: no motion has the given velocities.
-/// - [`MotionError::Contradiction`]: redundant rows ask for different positions or velocities.
+/// - [`MotionError::Start`]: the given velocities are impossible.
+/// - [`MotionError::Contradiction`]: redundant rows require different positions or velocities.
 pub fn start_velocity(
     mechanism: &Mechanism,
     start: &StartOptions,

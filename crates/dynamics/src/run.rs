@@ -1,5 +1,5 @@
-//! A run as planned: integration of q̇ = T·v and the solved accelerations, projection after each
-//! step, projected rows of output, and the balance of energy.
+//! A run according to its plan: integration of q̇ = T·v and the solved accelerations, projection
+//! after each step, projected rows of output, and the energy balance.
 
 use std::ops::ControlFlow;
 
@@ -28,11 +28,11 @@ pub use reduced::Reduced;
 pub use sample::Sample;
 pub use summary::{ComponentSummary, Failure, Summary};
 
-/// Runs a prepared mechanism from t = 0 and shows rows at 0, every output step and the end: its
-/// plan with everything wanted.
+/// Runs a prepared mechanism from t = 0 and passes rows at 0, at every output step and at the end
+/// to `row`: a plan with all output.
 ///
 /// # Errors
-/// With the summary of what was reached; rows shown before stand.
+/// A failure contains the summary of the part that was completed; rows passed before remain valid.
 pub fn simulate(
     prepared: &Prepared,
     options: &MotionOptions,
@@ -44,10 +44,11 @@ pub fn simulate(
 }
 
 impl Plan<'_> {
-    /// Runs it from t = 0 and shows its rows.
+    /// Runs the plan from t = 0 and passes its rows to `row`.
     ///
     /// # Errors
-    /// With the summary of what was reached; rows shown before stand.
+    /// A failure contains the summary of the part that was completed; rows passed before remain
+    /// valid.
     pub fn simulate(
         &self,
         row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
@@ -55,7 +56,7 @@ impl Plan<'_> {
         self.simulate_watched(&|_| ControlFlow::Continue(()), row)
     }
 
-    /// The same, watched between rows, too.
+    /// Like [`Plan::simulate`]; `watch` is also called between rows, at each accepted step.
     ///
     /// # Errors
     /// As [`Plan::simulate`].

@@ -1,6 +1,6 @@
-//! Accelerations and multipliers at one state: by kept rows, dense or sparse, plain or refined, or
-//! by generated code. Not here: how a state gets onto the constraints ([`crate::manifold`]), and
-//! what becomes of a step ([`crate::watch`]).
+//! Accelerations and multipliers at one state: on kept rows, dense or sparse, plain or refined, or
+//! by generated code. Moving states onto the constraints is in [`crate::manifold`], the acceptance
+//! of steps in [`crate::watch`].
 
 mod dense;
 mod equations;
@@ -26,14 +26,14 @@ pub(crate) struct State<'a> {
     pub(crate) v: &'a [f64],
 }
 
-/// What solves `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ` at a state.
+/// Solves `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ` at a state.
 pub(crate) trait Accelerations {
-    /// Why there is no solution.
+    /// Reason why there is no solution.
     type Fault;
 
-    /// v̇, n_v.
+    /// Computes v̇, n_v values.
     fn accelerations(&mut self, state: State<'_>, a: &mut [f64]) -> Result<(), Self::Fault>;
 
-    /// λ of all rows, 0 for dropped ones.
+    /// Computes λ of all rows, 0 for dropped ones.
     fn multipliers(&mut self, state: State<'_>, lambda: &mut [f64]) -> Result<(), Self::Fault>;
 }

@@ -1,6 +1,6 @@
-//! The watch over a motion: pivots, kept rows that become nearly dependent, singular passages, and
-//! generated code that is not sure. It judges states at the ends of steps and changes none; what
-//! comes next is a [`Next`]. Not here: what dropped rows miss ([`crate::manifold`]).
+//! Monitors of a motion: pivots, kept rows that become nearly dependent, singular passages, and
+//! unreliable generated code. They check states at the ends of steps without changing them; the
+//! result is a [`Next`]. Residuals of dropped rows are computed in [`crate::manifold`].
 
 mod exchange;
 mod handover;

@@ -1,6 +1,6 @@
-//! Does code belong to a mechanism, and may a run use it? Decided by numbers, never by names:
-//! sizes, rows and break times have to be equal, and values have to agree where the motion starts
-//! and around it.
+//! Checks whether generated code belongs to a mechanism and whether a run may use it. Numbers
+//! decide, never names: sizes, rows and break times must be equal, and values must agree at the
+//! start of the motion and around it.
 
 use std::sync::Arc;
 
@@ -14,20 +14,20 @@ use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::prepare::Prepared;
 
-/// Why code does not belong to a mechanism.
+/// Reason why code does not belong to a mechanism.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodeMismatch {
-    /// It was generated for something of another size.
+    /// It was generated for a mechanism of another size.
     #[error("the code `{name}` has {found} {what}, the mechanism {expected}")]
     Size {
-        /// Of the code.
+        /// Name of the code.
         name: String,
-        /// What was counted.
+        /// The size that differs.
         what: &'static str,
-        /// In the code.
+        /// Value in the code.
         found: usize,
-        /// In the mechanism.
+        /// Value in the mechanism.
         expected: usize,
     },
     /// It keeps other rows.
@@ -37,9 +37,9 @@ pub enum CodeMismatch {
         from_one(expected)
     )]
     Rows {
-        /// Of the code.
+        /// Name of the code.
         name: String,
-        /// Positions or velocities.
+        /// "position" or "velocity".
         level: &'static str,
         /// Rows of the code, from 0.
         found: Vec<usize>,
@@ -49,11 +49,11 @@ pub enum CodeMismatch {
     /// Its functions of time have other break times.
     #[error("the code `{name}` has break times at {found:?} s, the mechanism at {expected:?} s")]
     BreakTimes {
-        /// Of the code.
+        /// Name of the code.
         name: String,
-        /// In the code (s).
+        /// Break times in the code (s).
         found: Vec<f64>,
-        /// In the mechanism (s).
+        /// Break times in the mechanism (s).
         expected: Vec<f64>,
     },
     /// A value differs.
@@ -61,30 +61,30 @@ pub enum CodeMismatch {
         "at t = {time} s the code `{name}` gives {what}[{index}] = {found:.9e}, the mechanism {expected:.9e}"
     )]
     Value {
-        /// Of the code.
+        /// Name of the code.
         name: String,
-        /// Which function.
+        /// The function whose value differs.
         what: &'static str,
         /// Component, from 0.
         index: usize,
-        /// When (s).
+        /// Time (s).
         time: f64,
         /// Value of the code.
         found: f64,
         /// Value of the mechanism.
         expected: f64,
     },
-    /// It is not sure of itself at the start.
+    /// Its health is too low at the start.
     #[error(
         "the code `{name}` has a health of {health:.3} at the start, need {LEAVE}: it was generated for other configurations"
     )]
     Unhealthy {
-        /// Of the code.
+        /// Name of the code.
         name: String,
         /// Its health.
         health: f64,
     },
-    /// The mechanism itself has no values there.
+    /// The mechanism itself cannot be evaluated at this state.
     #[error(transparent)]
     MotionFault(#[from] MotionFault),
 }
@@ -94,40 +94,40 @@ fn from_one(rows: &[usize]) -> String {
     rows.join(", ")
 }
 
-/// Why a run does not use generated code.
+/// Reason why a run does not use generated code.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoCode {
-    /// There is none.
+    /// There is no generated code.
     #[error("none was given")]
     None,
-    /// The method asks for more than accelerations.
+    /// The method needs more than accelerations.
     #[error("the method {0} asks for more than accelerations")]
     Method(&'static str),
     /// States are not projected.
     #[error("code is watched by its projections, the stabilisation is {0}")]
     Stabilisation(&'static str),
-    /// Plain solutions may miss digits, and code has no others.
+    /// Masses differ so much that solutions have to be refined, which generated code does not do.
     #[error(
         "masses and inertias differ by a factor of {spread:.1e}, from {GRADED_MASSES:.0e} on solutions are refined, which code does not do"
     )]
     Refinement {
-        /// The heaviest divided by the lightest.
+        /// The largest mass divided by the smallest.
         spread: f64,
     },
-    /// The same for another reason.
+    /// The size of the mechanism is so far from a metre that solutions have to be refined.
     #[error("solutions of a mechanism of {size:.1e} m are refined, which code does not do")]
     Size {
-        /// Its size (m).
+        /// Size of the mechanism (m).
         size: f64,
     },
 }
 
 impl Prepared {
-    /// The same with code generated for it, which runs then use where they can.
+    /// Adds code generated for this mechanism; runs then use it if they can.
     ///
     /// # Errors
-    /// [`CodeMismatch`], if the code is that of another mechanism or of other rows.
+    /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
     pub fn with_code(self, code: Arc<dyn SceneCode>) -> Result<Self, CodeMismatch> {
         check_facts(&self, &*code)?;
         check_values(&self, &*code)?;
@@ -137,7 +137,7 @@ impl Prepared {
         })
     }
 
-    /// The code that a run with these options uses, or why it uses none.
+    /// The code that a run with these options uses, or the reason why it uses none.
     ///
     /// # Errors
     /// [`NoCode`]
@@ -208,7 +208,7 @@ fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMism
     }
 }
 
-/// Values of code and interpreter at one instant.
+/// Values from the code and from the interpreter at one instant.
 struct Comparison<'a> {
     name: &'a str,
     time: f64,
@@ -218,7 +218,7 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// Whether component i may differ by `SAME_VALUES·size(i)`.
+    /// Checks that each component i differs by at most `SAME_VALUES·size(i)`.
     fn check(&self, size: impl Fn(usize) -> f64) -> Result<(), CodeMismatch> {
         let differs = |i: &usize| {
             let by = (self.found[*i] - self.expected[*i]).abs();
@@ -238,7 +238,7 @@ impl Comparison<'_> {
     }
 }
 
-/// Times between the break times, and the start.
+/// The start, and times between the break times.
 fn times(mechanism: &Mechanism) -> Vec<f64> {
     let breaks = &mechanism.layout().break_times;
     let first = std::iter::once(0.0).chain(breaks.iter().copied().filter(|t| *t > 0.0));
@@ -260,7 +260,7 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
     compare(&mut motion, code, (0.0, &prepared.q, &prepared.v))?;
     let times = times(&prepared.mechanism);
     for k in 0..CODE_STATES.max(times.len()) {
-        // No symmetry of a mechanism is one of these numbers.
+        // Numbers that coincide with no symmetry of a mechanism.
         let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
         let away = |by: f64| -> Vec<f64> {
             let unit = |j: usize| model::space::unit(j, prepared.assembly.size);
@@ -278,8 +278,8 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
     Ok(())
 }
 
-/// Compares Φ, C·v − b, accelerations and multipliers; the last two only where both are sure of
-/// them.
+/// Compares Φ, C·v − b, accelerations and multipliers; the last two only if both sides have good
+/// pivots.
 fn compare(
     motion: &mut KeptRowMotion<'_>,
     code: &dyn SceneCode,

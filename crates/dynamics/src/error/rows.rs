@@ -1,49 +1,49 @@
-//! Why rows cannot be dropped as asked, in the numbers of users: rows count from 1.
+//! Reasons why rows cannot be dropped as requested. Messages count rows from 1, as users do.
 
 use model::RowLabel;
 use rank::KeptRowsError;
 
-/// Why rows cannot be dropped as asked.
+/// Reason why rows cannot be dropped as requested.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DropError {
-    /// Nothing is redundant.
+    /// No row is redundant.
     #[error("no row can be dropped: the degree of redundancy is 0, and all rows are needed")]
     NotRedundant,
-    /// Another number of rows than are redundant.
+    /// The number of rows differs from the degree of redundancy.
     #[error("{} dropped, but the degree of redundancy is {redundancy}: drop exactly {redundancy}", rows_are(*.dropped))]
     Count {
-        /// How many were asked for.
+        /// Number of rows to be dropped.
         dropped: usize,
-        /// p
+        /// Degree of redundancy p.
         redundancy: usize,
     },
-    /// A row that does not exist.
+    /// A row does not exist.
     #[error("row {} cannot be dropped: rows are 1 to {rows}", row + 1)]
     OutOfRange {
         /// The row, from 0.
         row: usize,
-        /// How many there are.
+        /// Number of rows.
         rows: usize,
     },
-    /// A row named twice.
+    /// A row is listed twice.
     #[error("row {row} is listed twice")]
     Twice {
         /// The row.
         row: RowLabel,
     },
-    /// The others depend on each other.
+    /// The other rows depend on each other.
     #[error(
         "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
          {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop one row of each"
     )]
     Dependent {
-        /// Smallest singular value of the kept rows, rows and columns scaled alike.
+        /// Smallest singular value of the kept rows, with rows and columns scaled.
         smallest_singular_value: f64,
-        /// What is needed.
+        /// The smallest value allowed.
         required: f64,
     },
-    /// The constraint matrix of the start cannot be judged.
+    /// The constraint matrix at the start cannot be analysed.
     #[error(transparent)]
     Kept(KeptRowsError),
 }

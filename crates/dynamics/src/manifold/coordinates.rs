@@ -1,12 +1,12 @@
 //! Independent coordinates z and velocities u: the rows determine the others, and the motion is an
-//! ordinary differential equation of z and u alone. y keeps all coordinates: `f(y) = F(P·y)`, where
+//! ordinary differential equation of z and u alone. y holds all coordinates: `f(y) = F(P·y)`, where
 //! P completes a state from its independent entries, so that results, projections and output do not
-//! know of the partition. Steps of explicit methods need no projection; implicit methods have a
+//! depend on the partition. Steps of explicit methods need no projection; implicit methods have a
 //! Jacobian without constraints ([`crate::run`]).
 //!
-//! The partition stays for a step and its dense output, because f must not change within them.
-//! Where its pivots have fallen it is chosen again at the accepted state, when the next step
-//! begins. Near a singular configuration there is none, and a step that needs one is refused.
+//! The partition stays fixed during a step and its dense output, because f must not change within
+//! them. If its pivots have become small, a new one is chosen at the accepted state when the next
+//! step begins. Near a singular configuration there is none, and a step that needs one is refused.
 
 use model::{Mechanism, System};
 
@@ -16,9 +16,9 @@ use crate::error::MotionFault;
 use crate::limits::{FAR_AT_REST, FAR_COMPLETION, FAR_IN_A_STEP, FAR_WAY};
 use crate::solve::{Evaluation, KeptEquations};
 
-/// A partition, and the state completed last.
+/// A partition, and the last completed state.
 pub(crate) struct IndependentCoordinates {
-    /// Columns of Φq along which coordinates are independent.
+    /// Columns of Φq whose coordinates are independent.
     pub(crate) z: Vec<usize>,
     /// Independent velocities.
     pub(crate) u: Vec<usize>,
@@ -26,13 +26,13 @@ pub(crate) struct IndependentCoordinates {
     pub(crate) v: Vec<f64>,
     /// The last accepted state.
     accepted: Origin,
-    /// How many partitions there were before.
+    /// Number of earlier partitions.
     pub(crate) generation: u64,
-    /// Where this one was chosen.
+    /// The state at which this partition was chosen.
     pub(crate) origin: Origin,
-    /// Where another one is due.
+    /// The state at which a new partition is to be chosen, if one is needed.
     renewal: Option<Origin>,
-    /// A configuration before it was completed, n_q, and a correction, n_v.
+    /// Scratch: a configuration before it was completed, n_q, and a correction, n_v.
     guess: Vec<f64>,
     storage: Storage,
 }
@@ -46,19 +46,19 @@ pub(crate) struct Origin {
 }
 
 impl IndependentCoordinates {
-    /// Partitions the rows at the pose of the scratch, which is that of the origin.
+    /// Partitions the rows at the pose of the scratch, which must be that of `origin`.
     pub(super) fn new(
         equations: &mut KeptEquations<'_>,
         origin: Origin,
         before: Option<&Self>,
     ) -> Result<Self, MotionFault> {
         let at = &equations.at;
-        // Far from the origin places are known to fewer digits than angles.
+        // Far from the origin of the frame, positions have fewer accurate digits than angles.
         let place = |j: usize| at.mechanism.space().position(&origin.q, j).abs();
         let far = |j: usize| (place(j) / model::space::unit(j, at.size)).max(1.0);
         let z = equations.position.partition(at, far)?;
         let u = equations.velocity.partition(at, |_| 1.0)?;
-        // Rows that were asked for are only solved on, at single instants.
+        // Rows requested by the user are used at single instants only, without a partition.
         if let Some(requested) = &mut equations.requested_rows {
             requested.forget_partition();
         }
@@ -76,9 +76,10 @@ impl IndependentCoordinates {
         })
     }
 
-    /// Completes a state: from the state completed last or, if that was too far away, from the one
-    /// accepted last, or from what the integrator carries. Where nothing is free that comes first,
-    /// because nothing else tells how far the motion has gone.
+    /// Completes a state. Starts from the last completed state; if that is too far away, from the
+    /// last accepted one, or from the dependent entries of the integrator. If there is no free
+    /// coordinate, the entries of the integrator come first, because only they show how far the
+    /// motion has advanced.
     pub(crate) fn complete(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -108,12 +109,12 @@ impl IndependentCoordinates {
         {
             return Ok(());
         }
-        // Where it failed is no place to begin from.
+        // A failed completion is no starting point.
         self.q.copy_from_slice(&self.accepted.q);
         near
     }
 
-    /// Overwrites dependent coordinates and velocities; factors there.
+    /// Overwrites dependent coordinates and velocities; leaves the rows factored at the result.
     fn complete_from_here(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -139,17 +140,17 @@ impl IndependentCoordinates {
         velocity.complete(at, &mut self.v)
     }
 
-    /// The longest way along a column of C from the last accepted state to time t at the velocities
-    /// there, in its unit.
+    /// The longest displacement along a column of C between the last accepted state and time t at
+    /// the velocities of that state, in units of the mechanism.
     fn way_to(&self, t: f64, at: &Evaluation<'_>) -> f64 {
         let velocities = self.accepted.v.iter().enumerate();
         let rates = velocities.map(|(j, v)| v.abs() / model::space::unit(j, at.size));
         rates.fold(0.0, f64::max) * (t - self.accepted.t).abs()
     }
 
-    /// Takes the independent entries of a state. The others stay those of the state completed last:
-    /// what an integrator carries for them may be off by as much as a step, and Newton's method
-    /// would go from there to another branch or another turn.
+    /// Takes the independent entries of a state. The others stay those of the last completed state:
+    /// the values that an integrator carries for them may be wrong by as much as a step, and
+    /// Newton's method would converge to another branch or another revolution from there.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
         mechanism.space().take(&mut self.q, q, &self.z);
         for &i in &self.u {
@@ -157,8 +158,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// Whether an evaluated state (q, v) at the end of a step is where the velocities at both ends
-    /// lead: on another branch or another turn it is not.
+    /// Checks that an evaluated state (q, v) at the end of a step lies on the path that the
+    /// velocities at both ends imply; a state on another branch or another revolution does not.
     ///
     /// # Errors
     /// [`MotionFault::FarCompletion`]
@@ -187,8 +188,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// Takes the state just evaluated, which has been accepted at t; a worn partition is renewed
-    /// from there when the next step begins.
+    /// Accepts the state just evaluated, at time t. If the partition is worn, a new one is chosen
+    /// from this state when the next step begins.
     pub(crate) fn accept(&mut self, t: f64, is_worn: bool) {
         self.accepted.t = t;
         self.accepted.q.copy_from_slice(&self.q);
@@ -198,8 +199,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// Where another partition is due, if a step has begun: whether one has is seen from the time
-    /// of the accepted state.
+    /// The state at which a new partition is to be chosen, if a step has begun; `has_begun` decides
+    /// this from the time of the accepted state.
     pub(crate) fn due(&self, has_begun: impl Fn(f64) -> bool) -> Option<Origin> {
         let due = self.renewal.as_ref();
         due.filter(|origin| has_begun(origin.t)).cloned()

@@ -1,5 +1,5 @@
-//! Dropped rows: what the kept ones imply of them, and what all rows miss by. Their residual after
-//! projection is a free certificate of redundancy.
+//! Dropped rows: whether the kept rows imply them, and the residuals of all rows. The residual of a
+//! dropped row after projection certifies the redundancy at no extra cost.
 
 use model::System;
 
@@ -10,19 +10,19 @@ use crate::guards::GUARDED;
 use crate::limits::{AT_REST, DROPPED_MISFIT, NEAREST_PIVOT, POSITION_MISFIT, STALLED_ROUNDINGS};
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
-/// What a projection found and did.
+/// Result of a projection.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
-    /// Corrections of the position made.
+    /// Number of corrections of the position.
     pub iterations: usize,
-    /// Largest |Φ| afterwards, all rows.
+    /// Largest |Φ| of all rows afterwards.
     pub position_residual: f64,
-    /// Largest |C·v − b| afterwards, all rows.
+    /// Largest |C·v − b| of all rows afterwards.
     pub velocity_residual: f64,
 }
 
-/// Residuals of all rows at a projected state, the kept ones being off by `left`; dropped rows
-/// refused above the limit. `horizon`: how long the run lasts (s).
+/// Residuals of all rows at a projected state, whose kept rows have residuals `left`. Returns an
+/// error if a dropped row is above its limit. `horizon` is the duration of the run (s).
 pub(super) fn monitor(
     equations: &mut KeptEquations<'_>,
     v: &[f64],
@@ -47,7 +47,7 @@ pub(super) fn monitor(
     let residual = |i: usize| at.velocity_residual(i, v).abs();
     let scale = |i: usize| at.velocity_scale(i, v);
     let share = dropped_misfit(rows);
-    // Most rows agree to rounding of their own terms.
+    // Most rows agree to the rounding of their own terms.
     if rows
         .dropped
         .iter()
@@ -55,8 +55,8 @@ pub(super) fn monitor(
     {
         return Ok(found);
     }
-    // Off the constraints by rounding of its coordinates, the rows agree to the same share. Kept
-    // rows are solved to rounding of the fastest of them, so that the others are no better.
+    // The rows cannot agree better than the rounding of the coordinates allows. Kept rows are
+    // solved to the rounding of the fastest of them, so dropped rows are no more accurate.
     let rounding = at.mechanism.scales(&at.s).relative_residual(at.size);
     let all = 0..at.mechanism.layout().rows();
     let fastest = all.map(scale).fold(0.0, f64::max);
@@ -72,8 +72,8 @@ pub(super) fn monitor(
     Ok(found)
 }
 
-/// Dropped rows of Φ at the pose of the scratch, on the kept ones: on another configuration of
-/// these they do not hold.
+/// Checks the dropped rows of Φ at the pose of the scratch: on another branch of the kept rows they
+/// do not hold.
 pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), MotionFault> {
     let (at, rows) = (&equations.at, &mut equations.position);
     let level = Level {
@@ -87,14 +87,14 @@ pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), M
     level.check(rows, at)
 }
 
-/// What rows dropped from these may miss by, as share of their terms: rounding of the kept rows
-/// reaches them through the inverse of the pivots, near a singular configuration more than
-/// elsewhere.
+/// Allowed residual of rows that depend on these, as a fraction of their terms: rounding of the
+/// kept rows is multiplied by the inverse of the pivots, so it is larger near a singular
+/// configuration.
 fn dropped_misfit(rows: &KeptRows) -> f64 {
     DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0)
 }
 
-/// The largest row of C for motions of the size of the mechanism.
+/// The largest value of a row of C for motions of the size of the mechanism.
 fn size_of_rows(at: &Evaluation<'_>) -> f64 {
     let layout = at.mechanism.layout();
     let of_row = |i: usize| {
@@ -105,18 +105,18 @@ fn size_of_rows(at: &Evaluation<'_>) -> f64 {
     (0..layout.rows()).map(of_row).fold(0.0, f64::max)
 }
 
-/// Positions or velocities of rows: what row i misses by, and the size of its terms.
+/// Residuals of rows at the level of positions or velocities, and the sizes of their terms.
 struct Level<R, S, F> {
     name: &'static str,
-    /// What dropped rows may miss by, as share of the terms.
+    /// Allowed residual of dropped rows, as a fraction of the terms.
     share: f64,
     residual: R,
     scale: S,
-    /// The same share whatever rounding of the kept rows explains: beyond it the row is not known
-    /// to hold.
+    /// Largest allowed fraction, however much rounding of the kept rows explains: beyond it, it is
+    /// not known whether the row holds.
     most: f64,
-    /// What they may miss by however small the terms are: as positions may, velocities may part by
-    /// what moves the mechanism by no more than a small share of its size while the run lasts,
+    /// Allowed residual, however small the terms are. Velocities may differ, like positions, by
+    /// what moves the mechanism by no more than a small fraction of its size during the run,
     /// however slow the motion is.
     floor: F,
 }
@@ -127,13 +127,13 @@ where
     S: Fn(usize) -> f64,
     F: Fn() -> f64,
 {
-    /// Refuses the first dropped row that the kept ones do not imply.
+    /// Returns an error for the first dropped row that the kept ones do not imply.
     fn check(&self, rows: &mut KeptRows, at: &Evaluation<'_>) -> Result<(), MotionFault> {
         for k in 0..rows.dropped.len() {
             note(Counted::Monitors);
             let i = rows.dropped[k];
             let residual = (self.residual)(i);
-            // Most rows agree to rounding of their own terms.
+            // Most rows agree to the rounding of their own terms.
             if residual <= self.share * (self.scale)(i) {
                 continue;
             }

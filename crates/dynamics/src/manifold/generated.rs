@@ -1,4 +1,4 @@
-//! Projection by generated code: its own residuals and corrections, on the same Newton iteration.
+//! Projection by generated code: its residuals and corrections in the common Newton iteration.
 
 use model::{Mechanism, System};
 
@@ -12,25 +12,25 @@ use crate::limits::{
 };
 use crate::solve::{Doubt, GeneratedCode, KeptEquations};
 
-/// What a projection by code needs beside the code.
+/// Storage for a projection by generated code.
 pub(crate) struct CodeProjection {
-    /// Rows of Φ and of C that the code keeps.
+    /// Whether the code keeps each row of Φ and of C.
     keeps_position: Vec<bool>,
     keeps: Vec<bool>,
-    /// For each row columns of C and what its entries there are at most.
+    /// For each row, the columns of C with bounds on the entries in them.
     bounds: Vec<Vec<(usize, f64)>>,
-    /// Sizes of the terms of each row, and what they miss by.
+    /// Sizes of the terms of each row, and the residuals.
     sizes: Vec<f64>,
     phi: Vec<f64>,
     residual: Vec<f64>,
     dq: Vec<f64>,
     dv: Vec<f64>,
-    /// A state before it was projected.
+    /// The state before the projection.
     before: (Vec<f64>, Vec<f64>),
 }
 
 impl CodeProjection {
-    /// For code on the rows of these equations, with C at the pose of the scratch.
+    /// Storage for code on the rows of these equations, with C at the pose of the scratch.
     pub(crate) fn new(equations: &KeptEquations<'_>, q: &[f64]) -> Self {
         let at = &equations.at;
         let layout = at.mechanism.layout();
@@ -49,7 +49,8 @@ impl CodeProjection {
         }
     }
 
-    /// Moves q and v onto the constraints and checks all rows; in doubt they are as before.
+    /// Moves q and v onto the constraints and checks all rows; leaves them unchanged if the result
+    /// is not reliable.
     pub(crate) fn project(
         &mut self,
         GeneratedCode(code): &GeneratedCode,
@@ -107,7 +108,8 @@ impl CodeProjection {
     }
 }
 
-/// Code corrects each level once at least: it has no first look at what its rows miss.
+/// Generated code corrects each level at least once, because it does not compute residuals
+/// beforehand.
 fn limits(most: usize) -> Limits {
     Limits {
         corrections: [1, most],
@@ -176,7 +178,7 @@ impl Level for Velocities<'_> {
             for (size, bounds) in all.sizes.iter_mut().zip(&all.bounds) {
                 *size = bounds.iter().map(|&(j, c)| c * self.v[j].abs()).sum();
             }
-            // Rows of bodies at rest feel the rounding of others.
+            // Rows of bodies at rest contain the rounding of others.
             let least = CODE_AT_REST * largest(&all.sizes);
             for size in &mut all.sizes {
                 *size = size.max(least);
@@ -196,8 +198,8 @@ impl Level for Velocities<'_> {
     }
 }
 
-/// The row that misses most of those that are kept, in roundings of its terms; infinitely many
-/// where that is not a number. Before a correction nobody asks.
+/// The kept row with the largest residual, in roundings of its terms (infinite if the residual is
+/// not a number). Before the first correction the value is not used.
 fn worst_kept(corrections: usize, x: &[f64], keeps: &[bool], sizes: &[f64]) -> (usize, f64) {
     if corrections == 0 {
         return (0, f64::INFINITY);
@@ -214,8 +216,8 @@ fn worst_kept(corrections: usize, x: &[f64], keeps: &[bool], sizes: &[f64]) -> (
     (row, share / f64::EPSILON)
 }
 
-/// Dropped rows that miss what the kept ones imply: beside the largest row, because rounding of all
-/// of them reaches these.
+/// Checks that dropped rows hold. Residuals are compared with the largest row, because rounding of
+/// all rows affects them.
 fn check_dropped(x: &[f64], keeps: &[bool], sizes: &[f64]) -> Result<(), Doubt> {
     if !GUARDED {
         return Ok(());

@@ -1,5 +1,5 @@
-//! Positions and velocities of kept rows as levels of Newton's method: positions by several
-//! corrections, velocities by one linear solve and what rounding left of it.
+//! Positions and velocities of kept rows as levels of Newton's method: positions need several
+//! corrections, velocities one linear solve and corrections of its rounding.
 
 use model::System;
 
@@ -13,9 +13,9 @@ use crate::solve::{KeptEquations, KeptRows};
 /// Which coordinates a correction moves.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Moves {
-    /// All, by the smallest correction in the mass metric.
+    /// All coordinates, by the smallest correction in the mass metric.
     AllCoordinates,
-    /// Those that the rows have been partitioned to determine.
+    /// The dependent coordinates of the partition.
     DependentCoordinates,
 }
 
@@ -31,8 +31,8 @@ struct Positions<'a, 'm> {
 pub(super) struct Storage {
     /// A correction, n_v.
     pub(super) delta: Vec<f64>,
-    /// Sizes of the terms of the kept rows of Φ where it began: a correction changes them by
-    /// rounding or a small share.
+    /// Sizes of the terms of the kept rows of Φ at the first configuration: corrections change them
+    /// only slightly.
     scales: Vec<f64>,
 }
 
@@ -60,7 +60,7 @@ impl Level for Positions<'_, '_> {
         }
         let mut worst = (0, 0.0_f64);
         for (k, &i) in position.kept.iter().enumerate() {
-            // A row left out is as good as its dependence allows.
+            // A row left out of the solve cannot be corrected further.
             if phi[i] == 0.0 || corrections > 0 && !position.uses(k) {
                 continue;
             }
@@ -93,7 +93,7 @@ impl Level for Positions<'_, '_> {
     }
 }
 
-/// Moves q onto the kept rows of Φ; how many corrections that took.
+/// Moves q onto the kept rows of Φ; returns the number of corrections.
 pub(super) fn correct_position(
     equations: &mut KeptEquations<'_>,
     (t, q): (f64, &mut [f64]),
@@ -135,7 +135,7 @@ struct Velocities<'a, 'm> {
     equations: &'a mut KeptEquations<'m>,
     v: &'a mut [f64],
     delta: &'a mut [f64],
-    /// What the rows miss by at most.
+    /// Largest residual of the rows afterwards.
     left: f64,
 }
 
@@ -168,8 +168,8 @@ impl Level for Velocities<'_, '_> {
     }
 }
 
-/// Moves v onto the kept rows of C where they are factored at a settled position; what they miss by
-/// at most afterwards.
+/// Moves v onto the kept rows of C, which are factored at a settled position; returns their largest
+/// residual afterwards.
 pub(super) fn correct_velocity(
     equations: &mut KeptEquations<'_>,
     v: &mut [f64],
@@ -196,7 +196,7 @@ pub(super) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
 }
 
-/// Roundings below which rows count as satisfied.
+/// Number of roundings below which rows count as satisfied.
 fn enough(rows: &KeptRows) -> f64 {
     if rows.relative_pivot() < WEAK {
         FEW_ROUNDINGS

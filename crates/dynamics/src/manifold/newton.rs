@@ -1,36 +1,37 @@
-//! Newton's method on one level of rows, positions or velocities, by whatever corrects them.
+//! Newton's method on one level of rows, positions or velocities. The level supplies residuals and
+//! corrections.
 
 use crate::limits::CONVERGENCE;
 
 /// One level of a state that is moved onto the constraints.
 pub(super) trait Level {
-    /// Why it cannot be corrected.
+    /// Reason why the level cannot be corrected.
     type Fault;
 
-    /// What the kept rows miss by after so many corrections: the row that misses most, in roundings
-    /// of its terms.
+    /// Residual of the kept rows after this number of corrections: the worst row, and its residual
+    /// in roundings of its terms.
     fn misses(&mut self, corrections: usize) -> (usize, f64);
 
-    /// Makes one correction; whether the last one has gained a digit.
+    /// Makes one correction; `converges` states whether the last one gained a digit.
     fn correct(&mut self, converges: bool) -> Result<(), Self::Fault>;
 }
 
-/// When to stop.
+/// Stopping rules.
 pub(super) struct Limits {
-    /// Corrections at least and at most.
+    /// Smallest and largest number of corrections.
     pub(super) corrections: [usize; 2],
-    /// Rows count as satisfied below so many roundings of their terms.
+    /// Rows count as satisfied below this number of roundings of their terms.
     pub(super) enough: f64,
-    /// The same where a further correction does not help.
+    /// The same, if a further correction does not help.
     pub(super) stalled: f64,
 }
 
-/// Where it stopped.
+/// State of the iteration at its end.
 pub(super) struct End {
     pub(super) corrections: usize,
-    /// The row that misses most.
+    /// The row with the largest residual.
     pub(super) worst: usize,
-    /// Whether it counts as satisfied.
+    /// Whether this row counts as satisfied.
     pub(super) is_reached: bool,
 }
 
@@ -41,7 +42,8 @@ pub(super) fn correct<L: Level>(level: &mut L, limits: &Limits) -> Result<End, L
     let mut corrections = 0;
     loop {
         let (worst, roundings) = level.misses(corrections);
-        // Rounding may leave a little more: a stalled iteration close to it is done too.
+        // Rounding may leave slightly more: an iteration that stalls near this limit has also
+        // converged.
         let is_stalled = roundings >= 0.5 * best && roundings <= limits.stalled;
         let is_reached = corrections >= least && (roundings <= limits.enough || is_stalled);
         if is_reached || corrections == most || roundings.is_nan() {
@@ -65,7 +67,7 @@ mod tests {
     use super::*;
     use crate::limits::{ROUNDINGS, STALLED_ROUNDINGS};
 
-    /// A row whose misfit each correction multiplies by a factor, down to a floor.
+    /// A row whose residual each correction multiplies by a factor, down to a floor.
     struct Shrinking {
         misfit: f64,
         factor: f64,
@@ -106,12 +108,13 @@ mod tests {
         assert_eq!(run(5.0, 0.1, 0.0, [0, 20]), (0, true));
         assert_eq!(run(5.0, 0.1, 0.0, [1, 20]), (1, true));
         assert_eq!(run(1e4, 0.1, 0.0, [0, 20]), (3, true));
-        // A floor of 30 roundings is as good as rows get, one of 100 is not.
+        // A floor of 30 roundings is accepted, one of 100 is not.
         assert_eq!(run(1e4, 0.1, 30.0, [0, 20]), (4, true));
         assert_eq!(run(1e4, 0.1, 100.0, [0, 20]), (20, false));
         assert_eq!(run(f64::NAN, 0.1, 0.0, [0, 20]), (0, false));
     }
-    /// A row whose misfit falls by a share each time; notes whether factors may serve again.
+    /// A row whose residual falls by a constant factor; records whether old factors may be used
+    /// again.
     struct Falling {
         misfit: f64,
         share: f64,
@@ -132,8 +135,8 @@ mod tests {
         }
     }
 
-    /// A factorisation costs about ten corrections: it pays where one more digit takes more than
-    /// one of them.
+    /// A factorisation costs about ten corrections, so it pays off if one more digit takes more
+    /// than one of them.
     #[test]
     fn factors_serve_as_long_as_a_correction_gains_a_digit() {
         for (share, serves) in [(0.09, true), (0.11, false)] {
@@ -148,7 +151,7 @@ mod tests {
                 stalled: 0.0,
             };
             let Ok(_) = correct(&mut level, &limits);
-            // The first correction finds out whether those of the state before serve.
+            // The first correction shows whether the factors of the earlier state can be used.
             assert_eq!(level.served, [true, serves, serves], "share {share}");
         }
     }

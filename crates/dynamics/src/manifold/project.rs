@@ -1,5 +1,5 @@
-//! Projection onto the constraints, positions first, both levels by the smallest correction in the
-//! mass metric; or no projection, and what a state then misses.
+//! Projection onto the constraints: positions first, both levels by the smallest correction in the
+//! mass metric. Without projection it computes the residuals of a state.
 
 use model::System;
 
@@ -10,13 +10,13 @@ use crate::error::MotionFault;
 use crate::options::Stabilisation;
 use crate::solve::{Evaluation, KeptEquations};
 
-/// The way of a motion along its constraints.
+/// Treatment of states relative to the constraints.
 pub(crate) struct Manifold {
-    /// Independent coordinates, where the motion is one of these alone.
+    /// Independent coordinates, if the motion uses them.
     pub(crate) coordinates: Option<IndependentCoordinates>,
     stabilisation: Stabilisation,
-    /// How long the run lasts (s); infinite where nobody has said, and where it takes no time:
-    /// nothing may part then.
+    /// Duration of the run (s). Infinite if it is not given or zero; then no difference of
+    /// velocities is allowed.
     horizon: f64,
     storage: Storage,
 }
@@ -31,13 +31,13 @@ impl Manifold {
         }
     }
 
-    /// Whether states are moved onto the constraints. On independent coordinates they always are.
+    /// Whether states are moved onto the constraints; always true with independent coordinates.
     pub(crate) fn projects(&self) -> bool {
         self.coordinates.is_some() || self.stabilisation == Stabilisation::Projection
     }
 
-    /// From now on the motion is one of independent coordinates, chosen at the pose of the scratch,
-    /// which is that of the origin.
+    /// Switches the motion to independent coordinates, chosen at the pose of the scratch, which
+    /// must be that of `origin`.
     pub(crate) fn choose_coordinates(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -48,7 +48,7 @@ impl Manifold {
         Ok(())
     }
 
-    /// Moves q onto the constraints and factors there; how many corrections that took.
+    /// Moves q onto the constraints and factors the rows there; returns the number of corrections.
     pub(crate) fn settle(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -61,8 +61,8 @@ impl Manifold {
         Ok(corrections)
     }
 
-    /// Completes a state on independent coordinates and settles its position. What the corrections
-    /// leave to do after a completion is rounding.
+    /// Completes a state on independent coordinates and settles its position. After a completion
+    /// the corrections remove only rounding.
     pub(crate) fn settle_completed(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -77,7 +77,7 @@ impl Manifold {
         self.settle(equations, t, q)
     }
 
-    /// Moves v onto the constraints at a settled position and looks at all residuals.
+    /// Moves v onto the constraints at a settled position and checks all residuals.
     pub(crate) fn finish(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -99,7 +99,7 @@ impl Manifold {
         self.finish(equations, v, iterations)
     }
 
-    /// Moves a stage onto the constraints; dropped rows are not looked at.
+    /// Moves a stage onto the constraints without checking dropped rows.
     pub(crate) fn approach(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -110,8 +110,8 @@ impl Manifold {
         correct_velocity(equations, v, &mut self.storage).map(drop)
     }
 
-    /// What a projection changes in [q; v] of a state that is left as it is; allocates. Dropped
-    /// rows are checked all the same.
+    /// The change that a projection would make to [q; v] of a state that is left unprojected;
+    /// allocates. Dropped rows are checked nevertheless.
     pub(crate) fn missed_correction(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -126,7 +126,7 @@ impl Manifold {
     }
 }
 
-/// Factors at a state as it is, and finds the residuals of all rows there.
+/// Factors the rows at a state without changing it, and computes the residuals of all rows.
 pub(crate) fn inspect(
     equations: &mut KeptEquations<'_>,
     t: f64,

@@ -1,8 +1,8 @@
-//! Numbers that no run can have are refused by name, before anything is computed.
+//! Invalid numbers are refused with the name of the option, before anything is computed.
 
 use super::MotionOptions;
 
-/// What a run over 10 s says of changed options.
+/// Message for changed options of a run over 10 s.
 fn said(change: impl Fn(&mut MotionOptions)) -> Result<(), String> {
     let mut options = MotionOptions::to(10.0);
     change(&mut options);

@@ -1,4 +1,4 @@
-//! The plan of one component: bodies that feel each other.
+//! The plan of one component: a set of bodies that affect each other.
 
 use model::{Mechanism, Places};
 
@@ -9,27 +9,27 @@ use crate::limits::NAMED;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
-/// What is done for a component, and what is not.
+/// What is computed for a component, and what is omitted.
 pub struct ComponentPlan<'a> {
-    /// Its bodies in words.
+    /// Its bodies, as text.
     pub name: String,
-    /// How large it is.
+    /// Its sizes.
     pub sizes: Sizes,
-    /// What was decided.
+    /// The decisions about it.
     pub decisions: Decisions,
     whose: Whose<'a>,
 }
 
 /// A prepared mechanism.
 enum Whose<'a> {
-    /// The whole.
+    /// The whole mechanism.
     Whole(&'a Prepared),
-    /// A part, and where it is.
+    /// A part, and its places in the whole.
     Part(Box<(Prepared, Places)>),
 }
 
 impl<'a> ComponentPlan<'a> {
-    /// The whole as one component, with reactions of the wanted groups.
+    /// The whole mechanism as one component, with the reactions of the requested groups.
     pub(super) fn whole(
         prepared: &'a Prepared,
         options: &MotionOptions,
@@ -39,7 +39,7 @@ impl<'a> ComponentPlan<'a> {
         Self::of(Whose::Whole(prepared), options, reactions)
     }
 
-    /// A part; `wanted` are the groups of the whole.
+    /// A part; `wanted` covers the groups of the whole mechanism.
     pub(super) fn part(
         (prepared, places): (Prepared, Places),
         options: &MotionOptions,
@@ -74,7 +74,7 @@ impl<'a> ComponentPlan<'a> {
         self.whose.prepared()
     }
 
-    /// Where it is in the whole; nothing if it is the whole.
+    /// Its places in the whole mechanism; `None` if it is the whole.
     #[must_use]
     pub fn places(&self) -> Option<&Places> {
         match &self.whose {
@@ -93,7 +93,7 @@ impl Whose<'_> {
     }
 }
 
-/// The bodies of a mechanism in words.
+/// The bodies of a mechanism as text.
 fn name(mechanism: &Mechanism) -> String {
     let names: Vec<&str> = mechanism.bodies().iter().map(|b| b.name.as_str()).collect();
     match names.len() {

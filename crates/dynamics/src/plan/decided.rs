@@ -9,22 +9,22 @@ pub struct Decided<T> {
     pub value: T,
     /// The same in a few words.
     pub taken: String,
-    /// Why.
+    /// Its reason.
     pub reason: String,
-    /// What it saves, where that can be counted.
+    /// What it saves, if that can be counted.
     pub saves: Option<Saving>,
 }
 
 /// A decision as a line of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line<'p> {
-    /// The component that it is of; nothing if it is of the whole.
+    /// The component; `None` if the decision is about the whole mechanism.
     pub component: Option<&'p str>,
-    /// What was to be decided.
+    /// The question that is decided.
     pub decision: &'static str,
-    /// What was decided.
+    /// The decision.
     pub taken: &'p str,
-    /// Why.
+    /// Its reason.
     pub reason: &'p str,
     /// What it saves.
     pub saves: Option<Saving>,
@@ -41,13 +41,13 @@ impl<T> Decided<T> {
         }
     }
 
-    /// The same with what it saves: so many of so many, if any.
+    /// Adds what the decision saves, if anything: `left_out` items of `of`.
     pub(super) fn saving(self, left_out: u64, of: u64, what: Cost) -> Self {
         let saves = (left_out > 0).then_some(Saving { left_out, of, what });
         Self { saves, ..self }
     }
 
-    /// A line of the whole.
+    /// A line about the whole mechanism.
     pub(super) fn line(&self, decision: &'static str) -> Line<'_> {
         Line {
             component: None,

@@ -1,5 +1,5 @@
-//! The decisions about one component: each from a fact of its mechanism or its options, by the same
-//! question that the code asks which obeys it.
+//! The decisions about one component. Each follows from a fact of its mechanism or its options, by
+//! the same test that the code uses which carries it out.
 
 use linalg::GRADED_MASSES;
 use model::{System, Work};
@@ -14,23 +14,23 @@ use crate::motion::KeptRowMotion;
 use crate::options::{FORMULATION, Method, MotionOptions};
 use crate::prepare::Prepared;
 
-/// What was decided for one component.
+/// The decisions about one component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decisions {
     /// Its integrator.
     pub method: Decided<Method>,
-    /// Whether there is storage for linear systems of the integrator; it is made by the first step
-    /// that needs it.
+    /// Whether the integrator needs storage for linear systems; the first step that uses it
+    /// allocates it.
     pub linear_systems: Decided<bool>,
-    /// Rows and columns of what is eliminated densely.
+    /// Rows and columns of the matrix that is eliminated densely.
     pub elimination: Decided<[usize; 2]>,
     /// Whether solutions are refined from the start on.
     pub refinement: Decided<bool>,
-    /// Degrees of freedom; without one the motion is a function of time.
+    /// Degrees of freedom; if there are none, the motion is a function of time.
     pub mobility: Decided<usize>,
-    /// Rows that have a velocity level only.
+    /// Rows that exist at velocity level only.
     pub nonholonomic: Decided<usize>,
-    /// Dropped rows: monitored, and exchanged for kept ones where these become nearly dependent.
+    /// Dropped rows: monitored, and exchanged for kept ones if these become nearly dependent.
     pub dropped: Decided<usize>,
     /// Rows whose b and Φt are evaluated.
     pub of_time: Decided<usize>,
@@ -38,7 +38,7 @@ pub struct Decisions {
     pub entries: Decided<usize>,
     /// Rows whose Γ is evaluated.
     pub gamma: Decided<usize>,
-    /// Bodies whose sine and cosine change.
+    /// Bodies whose angle changes, so that sine and cosine are evaluated.
     pub turning: Decided<usize>,
     /// Applied forces.
     pub forces: Decided<usize>,
@@ -73,7 +73,7 @@ impl Decisions {
         })
     }
 
-    /// One line for each.
+    /// One line for each decision.
     #[must_use]
     pub fn lines(&self) -> Vec<Line<'_>> {
         vec![
@@ -96,8 +96,8 @@ impl Decisions {
 
 fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
     let (n, w) = (sizes.velocities, 2 * sizes.mobility());
-    // Derivatives along each independent entry, of [q; v]; the real system, and the complex one as
-    // a real one of twice the order.
+    // Derivatives of [q; v] along each independent entry; the real system, and the complex one as a
+    // real one of twice the order.
     let reduced = (2 * w * 2 * n + w * w + 4 * w * w) as u64;
     let (value, taken, why, left_out) = match method {
         Method::Radau5 => (true, "on independent coordinates", "is implicit", 0),
@@ -116,7 +116,7 @@ fn elimination_of(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[u
         return Decided::new([rows, n], format!("sparse, {rows} × {n}"), reason);
     }
     let all = elimination(&prepared.mechanism, rows);
-    // Of the whole saddle matrix, by LU.
+    // Cost of eliminating the whole saddle matrix by LU.
     let order = (n + rows) as u64;
     let whole = order * order * order / 3;
     let reason = format!(
@@ -184,7 +184,7 @@ fn mobility(
     Decided::new(value, taken, reason)
 }
 
-/// A number in words, or none; each with its reason.
+/// A decision about a number that may be zero, with a reason for either case.
 fn counted(value: usize, [none, some]: [&str; 2], what: &str) -> Decided<usize> {
     match value {
         0 => Decided::new(0, "none", none),
@@ -230,7 +230,8 @@ fn of_time(sizes: &Sizes, work: &Work) -> Decided<usize> {
     Decided::new(value, taken, reason).saving(all - value as u64, all, Cost::TimeRows)
 }
 
-/// So many of all are evaluated; why all, or why not the others.
+/// A decision on how many of all items are evaluated, with a reason why all are, or why the others
+/// are not.
 fn evaluated(
     (value, all): (usize, usize),
     why_all: &str,

@@ -1,19 +1,19 @@
-//! What a decision saves, in numbers that can be counted.
+//! What a decision saves, as a count.
 
 use std::fmt;
 
-/// So many of so many are left out.
+/// A number of items that are omitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Saving {
-    /// How many are left out.
+    /// Number of omitted items.
     pub left_out: u64,
-    /// Of how many.
+    /// Number of all items.
     pub of: u64,
-    /// Of what.
+    /// Kind of the items.
     pub what: Cost,
 }
 
-/// What can be left out.
+/// Work that can be omitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
     /// Rows of output: accurate dense output, projection.
@@ -37,7 +37,7 @@ pub enum Cost {
 }
 
 impl Cost {
-    /// What it is, and how often.
+    /// Its name, with how often it is done.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,19 +1,19 @@
-//! How large a component is.
+//! Sizes of a component.
 
 use model::System;
 
 use crate::prepare::Prepared;
 
-/// How large a component is.
+/// Sizes of a component.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
-    /// Bodies.
+    /// Number of bodies.
     pub bodies: usize,
-    /// Velocities n_v.
+    /// Number of velocities n_v.
     pub velocities: usize,
-    /// Holonomic rows m.
+    /// Number of holonomic rows m.
     pub holonomic: usize,
-    /// Nonholonomic rows h.
+    /// Number of nonholonomic rows h.
     pub nonholonomic: usize,
     /// Rank r of C.
     pub rank: usize,
@@ -31,7 +31,7 @@ impl Sizes {
         }
     }
 
-    /// All rows.
+    /// Number of all rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.holonomic + self.nonholonomic

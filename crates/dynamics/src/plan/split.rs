@@ -1,5 +1,5 @@
-//! Taking a prepared mechanism apart into prepared components. Each has its share of the rows that
-//! were decided at the start of the whole.
+//! Splits a prepared mechanism into prepared components. Each takes its part of the rows that were
+//! decided at the start of the whole mechanism.
 
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};
@@ -11,10 +11,10 @@ use crate::limits::MOST_COMPONENTS;
 use crate::options::RowChoice;
 use crate::prepare::Prepared;
 
-/// A prepared part and where it is in the whole.
+/// A prepared part and its places in the whole mechanism.
 type PreparedPart = (Prepared, Places);
 
-/// Whether the mechanism is taken apart, and its components; none where it stays whole.
+/// Whether the mechanism is split, and its components; empty if it is not split.
 pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart>), MotionError> {
     let sets = whole.mechanism.components();
     let n = sets.len();
@@ -42,21 +42,21 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
     Ok((decided, parts))
 }
 
-/// The mechanism stays whole.
+/// The decision that the mechanism is not split.
 pub(super) fn stays(reason: String) -> (Decided<bool>, Vec<PreparedPart>) {
     let decided = Decided::new(false, "solved as one", reason);
     (decided, Vec::new())
 }
 
-/// Multiply-adds of a dense elimination of r rows of n velocities, of which there may be fewer, and
-/// of what is left.
+/// Multiply-adds of a dense elimination of r rows (or fewer) of n velocities and of the remaining
+/// matrix.
 pub(super) fn elimination(mechanism: &Mechanism, r: usize) -> u64 {
     let (n, r) = (mechanism.layout().n_v as u64, r as u64);
     let (k, free) = (r.min(n), n.saturating_sub(r));
     2 * r * n * k + 2 * k * k * k / 3 - (r + n) * k * k + free * free * n + free * free * free / 6
 }
 
-/// A part with the start and the rows of the whole.
+/// A part with the start and the rows of the whole mechanism.
 fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
     let Part { mechanism, places } = part;
     let (q, v) = (
@@ -94,13 +94,13 @@ fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
     (own, places)
 }
 
-/// Those of some rows of the whole that belong to a part, counted there.
+/// The rows of the whole mechanism that belong to a part, numbered in the part.
 fn own_rows(rows: &[usize], places: &Places) -> Vec<usize> {
     let own = |row: &usize| places.rows.binary_search(row).ok();
     rows.iter().filter_map(own).collect()
 }
 
-/// What of a list of the whole belongs to a part.
+/// The entries of a list of the whole mechanism that belong to a part.
 fn pick<T: Copy>(x: &[T], places: &[usize]) -> Vec<T> {
     places.iter().map(|&k| x[k]).collect()
 }

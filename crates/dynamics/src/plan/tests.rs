@@ -1,4 +1,5 @@
-//! What a plan leaves out is not done, and components that are run apart move as they do alone.
+//! Tests that work omitted by a plan is not done, and that components run separately move as they
+//! do alone.
 
 mod driven;
 mod watched;

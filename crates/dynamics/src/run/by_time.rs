@@ -1,6 +1,5 @@
-//! Where nothing is free, the state is a function of time: stages are moved onto the constraints,
-//! and in a step none is evaluated twice at a time. For mechanisms with a freedom there is nothing
-//! of this.
+//! The state as a function of time, for mechanisms without a degree of freedom: stages are moved
+//! onto the constraints, and in a step no time is evaluated twice.
 
 use crate::error::MotionFault;
 use crate::limits::REMEMBERED;
@@ -11,20 +10,20 @@ use crate::prepare::Prepared;
 #[derive(Default)]
 pub(super) struct ByTime {
     times: Vec<f64>,
-    /// One after the other.
+    /// The derivatives, one after the other.
     derivatives: Vec<f64>,
 }
 
 impl ByTime {
-    /// Room for derivatives in a run that evaluates them as functions of time. Where a run is on
-    /// code, the interpreter is called near singular configurations only, and there the integrator
-    /// leads.
+    /// Storage for a run that evaluates derivatives as functions of time, otherwise `None`. It is
+    /// not used with generated code: there the interpreter is called near singular configurations
+    /// only, and the integrator determines the state.
     pub(super) fn for_run(prepared: &Prepared, options: &MotionOptions) -> Option<Self> {
         let is_interpreted = prepared.code_for(options).is_err();
         (is_interpreted && prepared.is_function_of_time(options)).then(Self::default)
     }
 
-    /// The derivative at time t: the known one, or what `evaluate` writes.
+    /// The derivative at time t: the stored one, or the result of `evaluate`.
     pub(super) fn recall(
         &mut self,
         t: f64,
@@ -43,7 +42,7 @@ impl ByTime {
         Ok(())
     }
 
-    /// The derivative at the end of a step, if a stage lay there; from then on all is forgotten.
+    /// Takes the derivative at the end of a step if a stage was at this time; clears the storage.
     pub(super) fn take(&mut self, t: f64, dy: &mut [f64]) -> bool {
         let is_known = self.copy(t, dy);
         self.forget();
@@ -58,7 +57,7 @@ impl ByTime {
         true
     }
 
-    /// Forgets all, where the state jumps.
+    /// Clears the storage, because the state jumps.
     pub(super) fn forget(&mut self) {
         self.times.clear();
         self.derivatives.clear();

@@ -1,4 +1,4 @@
-//! The run of one component of a plan: its integration, its rows, and why it stopped.
+//! The run of one component of a plan: its integration, its rows, and the reason if it stops.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -20,15 +20,15 @@ use crate::options::{Method, MotionOptions};
 use crate::plan::{self, Plan};
 use crate::prepare::Prepared;
 
-/// Sees each row. Behind a pointer, so that a run is compiled once, here, and not again for each of
-/// its callers.
+/// Receives each row. A trait object, so that a run is compiled once, here, and not for each
+/// caller.
 pub(super) type ShowRow<'r> =
     dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + 'r;
 
-/// Sees the time (s) of each accepted step of each component, and may end the run there.
+/// Receives the time (s) of each accepted step of each component, and may end the run.
 pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
 
-/// A run that has not begun.
+/// The failure of a run that has not begun.
 pub(super) fn not_begun(error: MotionError) -> Box<Failure> {
     let summary = Summary::default();
     Box::new(Failure { error, summary })
@@ -117,14 +117,15 @@ pub(super) fn run_component(
     Err(Box::new(Failure { error, summary }))
 }
 
-/// Whether a dropped row was violated because drives contradict each other or ask for what joints
-/// forbid: then they are named, whichever row was dropped.
+/// If drives contradict each other or prescribe what joints forbid, names these drives as the cause
+/// of a violated dropped row, whichever row was dropped.
 fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow { time, .. }) = &error else {
         return error;
     };
     let mechanism = &prepared.mechanism;
-    // What has hardly begun to differ differs clearly later.
+    // Drives that barely differ at this time are compared at a later one, where they differ
+    // clearly.
     match contradicting_drives_along(mechanism, &prepared.q, t_end).unwrap_or_default() {
         Some(contradiction) => MotionFault::Drives {
             time: *time,
@@ -135,8 +136,8 @@ fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError
     }
 }
 
-/// Whether a dropped row was violated because it is redundant at the start alone: then nothing
-/// contradicts it.
+/// Checks whether a violated dropped row is redundant at the start only; then it does not
+/// contradict any other row.
 fn at_singular_start(prepared: &Prepared, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow {
         time,
@@ -165,7 +166,7 @@ fn at_singular_start(prepared: &Prepared, error: MotionError) -> MotionError {
 fn output_times(plan: &Plan<'_>) -> OutputTimes {
     let t_end = plan.options().t_end;
     match plan.rows.value {
-        // A run that takes no time has one row.
+        // A run of zero duration has one row.
         _ if t_end <= 0.0 => OutputTimes::At(vec![0.0]),
         plan::Rows::Ends => OutputTimes::At(vec![0.0, t_end]),
         plan::Rows::Every | plan::Rows::Interpolated => {
@@ -174,7 +175,7 @@ fn output_times(plan: &Plan<'_>) -> OutputTimes {
     }
 }
 
-/// A run on its way: the equations, the rows that are still to be shown, and why it was stopped.
+/// A run in progress: the equations, the remaining rows, and the error if it has been stopped.
 struct Run<'r, 'm> {
     equations: RunEquations<'m>,
     rows: Rows,
@@ -208,7 +209,7 @@ impl<'m> Run<'_, 'm> {
             }
         };
         if rows.start(equations, y0, &mut show).is_break() {
-            // Nothing is integrated; what follows is the result of no time.
+            // No time is integrated; the rest is the result at the start.
             let nowhere = Interval::new(interval.t0, interval.t0);
             return integrate(method, equations, &nowhere, y0, settings, |_| {
                 ControlFlow::Break(())
@@ -235,7 +236,7 @@ impl<'m> Run<'_, 'm> {
     }
 }
 
-/// The cause behind a collapsed step, if it is ours.
+/// The fault behind a collapsed step, if it comes from the equations.
 fn named(error: IntegrationError<MotionFault>) -> MotionError {
     match error {
         IntegrationError::StepSizeCollapsed {

@@ -1,9 +1,9 @@
-//! The balance of energy of a run: kinetic energy and potential of the weight against the work that
-//! was measured.
+//! The energy balance of a run: kinetic energy and potential of the weight, compared with the
+//! measured work.
 
 use model::Mechanism;
 
-/// Energy at the start, and how far the balance has been off.
+/// Energy at the start, and the largest gap of the balance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EnergyBalance {
     start: f64,

@@ -1,5 +1,5 @@
-//! The differential equation of a run: y = [q; v], and the work of drives and applied forces where
-//! there are any. Steps are projected; where a rate jumps, so do the velocities.
+//! The differential equation of a run: y = [q; v], and the work of drives and applied forces if
+//! there are any. Steps are projected; if a rate jumps, the velocities jump as well.
 
 use std::ops::ControlFlow;
 
@@ -19,31 +19,31 @@ use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 use crate::watch::{Next, Now, are_delicate};
 
-/// The equations of a run with what is noted on the way.
+/// The equations of a run, with its record.
 pub(super) struct RunEquations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
     pub(super) record: Record,
-    /// What is wanted at rows of output.
+    /// Output requested at rows.
     wanted: AtRows,
-    /// Of implicit methods, from their first step on.
+    /// Linear systems of implicit methods, allocated by their first step.
     reduced: Option<Reduced>,
     t_end: f64,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
-    /// Whether stages of the present step were evaluated by code that has been left since: it
-    /// begins again.
+    /// Whether stages of the present step were evaluated by generated code that is no longer in
+    /// use; then the step begins again.
     is_void: bool,
-    /// Derivatives by time, where nothing is free.
+    /// Derivatives as functions of time, for a mechanism without degrees of freedom.
     by_time: Option<ByTime>,
     /// The last accepted step.
     last: Span,
-    /// The state before a projection; a stage on the constraints.
+    /// Scratch: the state before a projection; a stage on the constraints.
     before: Vec<f64>,
     stage: Vec<f64>,
 }
 
 impl<'m> RunEquations<'m> {
-    /// The equations of a motion that has begun at its start, where the rows are factored.
+    /// The equations of a motion at its start, at which the rows are factored.
     pub(super) fn new(
         motion: KeptRowMotion<'m>,
         prepared: &Prepared,
@@ -77,23 +77,23 @@ impl<'m> RunEquations<'m> {
         self.stage.clone()
     }
 
-    /// Whether stages are functions of time. On the way to a singular configuration, where branches
-    /// meet, the integrator leads them.
+    /// Whether stages are functions of time. Near a singular configuration, at which branches meet,
+    /// the stages follow the integrator instead.
     fn is_by_time(&self) -> bool {
         self.by_time.is_some() && self.motion.watch.delicate().is_none()
     }
 
     /// Whether the next stages have to be moved onto the constraints: near singular configurations,
-    /// and where they become functions of time by that. On independent coordinates all of them lie
-    /// there; without projection none shall.
+    /// and if this makes them functions of time. With independent coordinates all stages satisfy
+    /// the constraints; without projection none are moved.
     fn wants_care(&self) -> bool {
         let motion = &self.motion;
         let off = motion.manifold.projects() && motion.independent().is_none();
         off && (self.is_by_time() || are_delicate(&motion.equations.velocity))
     }
 
-    /// The work is measured, not controlled: its error has no weight. It still counts as a
-    /// component of the mean, which makes the control looser by the factor √((n + 1)/n).
+    /// The work is computed without error control: its error has no weight. It still counts as a
+    /// component of the mean, which loosens the control by the factor √((n + 1)/n).
     pub(super) fn tolerance(&self, options: &MotionOptions) -> Tolerance {
         let (rtol, atol) = (options.rtol, options.atol);
         let moving = self.motion.parts(&self.stage);
@@ -107,7 +107,7 @@ impl<'m> RunEquations<'m> {
         Tolerance::PerComponent { rtol, atol }
     }
 
-    /// Projects a row of output, where states are projected, and shows it. At a break time it is
+    /// Projects a row of output, if states are projected, and passes it on. At a break time it is
     /// the state just before.
     pub(super) fn show(
         &mut self,
@@ -121,7 +121,8 @@ impl<'m> RunEquations<'m> {
             t
         };
         let (q, v, _) = self.motion.parts_mut(y);
-        // On independent coordinates only these are interpolated, and code knows its own.
+        // With independent coordinates only these are interpolated, and generated code uses its own
+        // coordinates.
         let is_whole = self.motion.independent().is_none() && !self.motion.is_on_code();
         let found = if self.wanted.on_constraints || !is_whole {
             Some(self.motion.end_row(t_before, (q, v))?)
@@ -158,20 +159,20 @@ impl<'m> RunEquations<'m> {
         })
     }
 
-    /// The motion with its linear systems.
+    /// The motion and its linear systems.
     fn implicit(&mut self) -> (&mut KeptRowMotion<'m>, &mut Reduced) {
         let new = || Reduced::new(&self.motion);
         let reduced = self.reduced.get_or_insert_with(new);
         (&mut self.motion, reduced)
     }
 
-    /// Takes an accepted step, for the rows in it.
+    /// Takes an accepted step, for the rows within it.
     pub(super) fn take_step(&mut self, times: [f64; 2], ends: [&[f64]; 4]) {
         self.last.take(times, ends);
     }
 
-    /// Why steps have collapsed at time t, if it is known: a singular configuration nearby, or a
-    /// dropped row.
+    /// The reason why steps have collapsed at time t, if it is known: a singular configuration
+    /// nearby, or a dropped row.
     pub(super) fn cause(
         &mut self,
         error: &IntegrationError<MotionFault>,
@@ -179,8 +180,8 @@ impl<'m> RunEquations<'m> {
     ) -> Option<MotionFault> {
         let motion = &mut self.motion;
         match error {
-            // Error control fails beside a singular configuration because accelerations are
-            // rounding there.
+            // Error control fails near a singular configuration because accelerations are rounding
+            // there.
             IntegrationError::StepSizeCollapsed { .. }
                 if are_delicate(&motion.equations.velocity) =>
             {
@@ -191,8 +192,8 @@ impl<'m> RunEquations<'m> {
         }
     }
 
-    /// If code was left: the interpreter goes on from the last accepted state as if it had led
-    /// there.
+    /// If generated code was left, the interpreter continues from the last accepted state as if it
+    /// had computed that state.
     fn note_departure(&mut self) {
         let motion = &mut self.motion;
         if let Some(code) = &mut motion.code
@@ -205,7 +206,7 @@ impl<'m> RunEquations<'m> {
         }
     }
 
-    /// f(t, y) by the interpreter.
+    /// Evaluates f(t, y) without generated code.
     fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
         if !self.is_careful {
             self.motion.derivative(t, y, dy)?;
@@ -226,7 +227,7 @@ impl<'m> RunEquations<'m> {
         times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
     }
 
-    /// Ends a step that passed its error test, if it may stand.
+    /// Ends a step that passed its error test, if it can be accepted.
     fn end(&mut self, step: &StepInfo<'_>, y: &mut [f64], dy: &mut [f64]) -> Result<StepEnd, Next> {
         self.before.copy_from_slice(y);
         let known = self.by_time.as_mut();
@@ -276,7 +277,7 @@ impl<'m> RunEquations<'m> {
                 coordinates.check_travel(&equations.at, (step.t_rhs, q, v))?;
             }
         }
-        // From here on the step stands.
+        // From here on the step is accepted.
         self.record.note(mechanism, (q, v, work(q, v, y)), found);
         let now = now(mechanism, step.t, y, dy);
         if let Some(code) = motion.code.as_mut().filter(|_| on_code) {
@@ -299,7 +300,8 @@ impl<'m> RunEquations<'m> {
         })
     }
 
-    /// Looks ahead from an accepted, interpreted state, and back to code.
+    /// Predicts singular configurations from an accepted, interpreted state, and returns to
+    /// generated code if possible.
     fn look_ahead(&mut self, now: Now<'_>, step: f64, may_have_passed: bool) {
         let motion = &mut self.motion;
         let (equations, watch) = (&motion.equations, &mut motion.watch);
@@ -320,13 +322,13 @@ fn now<'a>(mechanism: &Mechanism, t: f64, y: &'a [f64], dy: &'a [f64]) -> Now<'a
     Now { t, q, v, a }
 }
 
-/// Work of drives and applied forces (J), where y carries it.
+/// Work of drives and applied forces (J), if y contains it.
 fn work(q: &[f64], v: &[f64], y: &[f64]) -> f64 {
     y.get(q.len() + v.len()).copied().unwrap_or(0.0)
 }
 
-/// A row of output y = [q; v; …] has finite numbers: between the finite ends of a step, sums may
-/// leave their range.
+/// Checks that a row of output y = [q; v; …] has finite numbers: even between finite ends of a
+/// step, sums may overflow.
 fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), MotionFault> {
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
     let y = &y[..n_q + n_v];
@@ -399,7 +401,7 @@ impl Ode for RunEquations<'_> {
         delicate.map(|(t, slack)| Delicate { t, slack })
     }
 
-    /// Rates that jump make the velocities jump, by an impulse of the constraints.
+    /// If rates jump, an impulse of the constraints makes the velocities jump.
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), MotionFault> {
         self.by_time.iter_mut().for_each(ByTime::forget);
         let (q, v, work) = self.motion.parts_mut(y);

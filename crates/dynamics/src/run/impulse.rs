@@ -1,6 +1,6 @@
-//! Where a drive changes its rate at once, an impulse of the constraints changes the velocities: by
-//! the smallest change in the mass metric that the new rates allow. A drive that jumps itself would
-//! need an infinite force and is refused.
+//! If a drive changes its rate instantaneously, an impulse of the constraints changes the
+//! velocities by the smallest change in the mass metric that satisfies the new rates. A jump of the
+//! prescribed position itself would need an infinite force and is refused.
 
 use model::System;
 
@@ -10,17 +10,17 @@ use crate::limits::{NO_JUMP, REMAINS, WIDE};
 use crate::motion::KeptRowMotion;
 use crate::solve::Evaluation;
 
-/// What a jump of the rates has done.
+/// Effect of a jump of the rates.
 pub(crate) struct Impulse {
     /// Work of the impulse (J).
     pub(crate) energy: f64,
     pub(crate) event: Event,
 }
 
-/// Takes the velocities just behind a break time from those just before, at t just behind it.
+/// Computes the velocities just after a break time from those just before; t is just after it.
 ///
 /// # Errors
-/// [`MotionFault::PositionJump`] if a constraint asks for another position; as
+/// [`MotionFault::PositionJump`] if a constraint requires another position; otherwise as
 /// [`crate::KeptRowMotion::project`].
 pub(super) fn cross_break(
     motion: &mut KeptRowMotion<'_>,
@@ -29,7 +29,7 @@ pub(super) fn cross_break(
 ) -> Result<Option<Impulse>, MotionFault> {
     let at = &mut motion.equations.at;
     let (mechanism, layout) = (at.mechanism, at.mechanism.layout());
-    // What a state misses already, where it is not projected, is no jump.
+    // Residuals that a state without projection already has are not jumps.
     let before = t.next_down();
     let [phi, rate] = change(at, [before.next_down(), t], q, v);
     let wide = WIDE * f64::EPSILON * before.abs().max(f64::MIN_POSITIVE);
@@ -75,8 +75,8 @@ pub(super) fn cross_break(
     Ok(Some(Impulse { energy, event }))
 }
 
-/// By how much Φ and C·v − b of a state change from one time to another, where only functions of
-/// time change.
+/// Change of Φ and C·v − b of a fixed state between two times, which comes from functions of time
+/// only.
 fn change(at: &mut Evaluation<'_>, times: [f64; 2], q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
     let [[phi_from, rate_from], [phi, rate]] = times.map(|t| {
         at.pose_and_phi(t, q);

@@ -1,5 +1,5 @@
-//! Records the singular configurations that the steps of a run have passed: when, by how many rows
-//! the rank drops, and whether the motion is unique there.
+//! Records the singular configurations that the steps of a run have passed: their times, by how
+//! much the rank drops, and whether the motion is unique there.
 
 use integrators::Step;
 use model::System;
@@ -9,21 +9,21 @@ use super::equations::RunEquations;
 use crate::limits::{BESIDE, JUDGED_MOST, MOST_PASSAGES, PASSAGE_STATES};
 use crate::watch::{Search, Singular};
 
-/// Looks for singular configurations in an accepted step, if it is suspect.
+/// Searches an accepted step for singular configurations, if it may contain one.
 pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
     if !step.ode().motion.watch.is_suspect {
         return;
     }
     for singular in found(step) {
-        // Passages of one kind are of one kind also later.
+        // Passages with the same drop of rank have the same result.
         if step
             .ode()
             .record
             .uniqueness_of(singular.dependent)
             .is_none()
         {
-            // Second order is not asked where it has no answer, or where that takes longer than the
-            // run.
+            // The second-order test is skipped if it is not applicable, or if it takes longer than
+            // the run.
             let motion = &step.ode().motion;
             let layout = motion.mechanism().layout();
             let mobility = layout.n_v - motion.equations.velocity.kept.len();
@@ -50,8 +50,8 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
     }
 }
 
-/// The singular configurations within a step, in order: where one is found, both sides of it are
-/// looked at, too.
+/// The singular configurations within a step, in order. After one is found, both sides of it are
+/// searched as well.
 fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
     let noise = step.ode().motion.watch.nearest();
     let mut search = Search::new(&step.ode().motion.equations);
@@ -85,7 +85,7 @@ fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
     found
 }
 
-/// What second order says of the passage within a step.
+/// Result of the second-order test of a passage within a step.
 fn judge(step: &mut Step<'_, RunEquations<'_>>) -> Option<String> {
     let mechanism = step.ode().motion.mechanism();
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
@@ -97,7 +97,7 @@ fn judge(step: &mut Step<'_, RunEquations<'_>>) -> Option<String> {
     let passages = singular_passages(
         mechanism,
         |t| {
-            // Outside the step nothing is asked for.
+            // The test evaluates only times within the step.
             let _ = step.interpolate_accurately(t, &mut y);
             State {
                 q: y[..n_q].to_vec(),

@@ -1,4 +1,4 @@
-//! So many threads may compute at the same time; the others wait for one to pause.
+//! Limits the number of threads that compute at the same time; the others wait for one to pause.
 
 use std::num::NonZeroUsize;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -10,7 +10,7 @@ pub(super) struct Permits {
 }
 
 impl Permits {
-    /// So many, or as many as anybody may want.
+    /// A given number of permits, or unlimited.
     pub(super) fn new(n: Option<NonZeroUsize>) -> Self {
         Self {
             free: Mutex::new(n.map_or(usize::MAX / 2, NonZeroUsize::get)),
@@ -28,7 +28,7 @@ impl Permits {
         permit
     }
 
-    /// A count stays right whoever panicked.
+    /// The count stays valid even if a thread has panicked.
     fn free(&self) -> MutexGuard<'_, usize> {
         self.free.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -41,7 +41,7 @@ pub(super) struct Permit<'p> {
 }
 
 impl Permit<'_> {
-    /// Does what may have to wait for others, without the permit.
+    /// Runs `wait`, which may wait for other threads, without holding the permit.
     pub(super) fn leave_for<T>(&mut self, wait: impl FnOnce() -> T) -> T {
         self.give_back();
         let found = wait();

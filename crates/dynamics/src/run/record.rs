@@ -1,4 +1,4 @@
-//! What is noted of a run on the way: residuals, energy, pivots and events.
+//! Record of a run: residuals, energy, pivots and events.
 
 use model::Mechanism;
 
@@ -15,12 +15,12 @@ pub(super) struct Record {
     max_velocity_residual: f64,
     pub(super) min_pivot_ratio: f64,
     pub(super) events: Vec<Event>,
-    /// By the number of dependent rows, whether the motion is unique in a passage.
+    /// Whether the motion is unique at a passage, by the number of dependent rows.
     pub(super) uniqueness: Vec<(usize, String)>,
 }
 
 impl Record {
-    /// At the start of a run.
+    /// The record at the start of a run.
     pub(super) fn new(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Self {
         Self {
             energy: EnergyBalance::new(mechanism, q, v),
@@ -32,7 +32,7 @@ impl Record {
         }
     }
 
-    /// Notes residuals and energy of a state, and the work until then (J).
+    /// Records residuals and energy of a state, and the work up to it (J).
     pub(super) fn note(
         &mut self,
         mechanism: &Mechanism,
@@ -46,13 +46,13 @@ impl Record {
         }
     }
 
-    /// What is known of passages where so many rows are dependent.
+    /// The recorded uniqueness of passages with this number of dependent rows.
     pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {
         let known = self.uniqueness.iter().find(|(d, _)| *d == dependent);
         known.map(|(_, words)| words.as_str())
     }
 
-    /// The summary without what the integrator counts.
+    /// The summary, without the counts of the integrator.
     pub(super) fn summary(&self) -> Summary {
         let (gap, kinetic) = (self.energy.largest_gap(), self.energy.largest_kinetic());
         Summary {

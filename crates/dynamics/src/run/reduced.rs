@@ -1,8 +1,8 @@
 //! The Jacobian of the motion on independent coordinates, and the linear systems of implicit
 //! methods.
 //!
-//! `f(y) = F(P·y)` depends on w = [z; u] only, so `∂f/∂y = D·S`, where S reads w from y (where q̇ =
-//! v it picks entries) and D has a column for each entry of w. By implicit differentiation, with
+//! `f(y) = F(P·y)` depends on w = [z; u] only, so `∂f/∂y = D·S`, where S reads w from y (if q̇ = v
+//! it selects entries) and D has a column for each entry of w. By implicit differentiation, with
 //! the factors that solve the equations of motion themselves:
 //!
 //! | | equation |
@@ -11,12 +11,12 @@
 //! | velocities | `C·dv = −∂(C·v − b)/∂q·dq`, dv given on u |
 //! | accelerations | `M·da + Cᵀ·dλ = ∂(Q − Cᵀ·λ)/∂q·dq + ∂Q/∂v·dv`, `C·da = −∂(C·a − Γ)/∂q·dq + ∂Γ/∂v·dv` |
 //!
-//! `(σ·I − D·S)·x = r` needs a factorisation of the order of w alone, `(σ·I − S·D)·x_w = r_w`. The
-//! dependent entries of x serve as a guess for completions only, so they follow from x_w as those
-//! of dq and dv do. The rest of the solution, `σ·x = r + D·x_w`, would let Newton's method see
-//! stiff forces off the slow motion through all levers of the mechanism, and stop it although w has
-//! converged. Along the normals of the coordinates, in which no pose changes, f does not depend on
-//! y and no lever leads: there `σ·x = r` it is.
+//! `(σ·I − D·S)·x = r` needs only a factorisation of the order of w, `(σ·I − S·D)·x_w = r_w`. The
+//! dependent entries of x are only a guess for completions, so they follow from x_w as those of dq
+//! and dv do. If they were computed from the exact solution, `σ·x = r + D·x_w`, Newton's method
+//! would see the stiff forces outside the slow motion through all levers of the mechanism, and
+//! would fail to converge although w has converged. Along the normals of the coordinates, along
+//! which no pose changes, f does not depend on y; there the exact solution `σ·x = r` is used.
 
 use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
@@ -55,7 +55,7 @@ pub struct Reduced {
     partition: Partition,
     /// Row j: column j of D.
     columns: Matrix,
-    /// S·D
+    /// The product S·D.
     on_w: Matrix,
     /// Row j: change of y with w_j along the constraints, without the work.
     tangents: Matrix,
@@ -65,29 +65,29 @@ pub struct Reduced {
     storage: Storage,
 }
 
-/// How w is read from y, for one choice of independent coordinates.
+/// How w is read from y for one choice of independent coordinates.
 #[derive(Default)]
 struct Partition {
     generation: u64,
-    /// Columns of C along which coordinates are independent, and those whose velocities are.
+    /// Columns of C whose coordinates are independent, and those whose velocities are.
     z: Vec<usize>,
     u: Vec<usize>,
-    /// Row j of S: entry j of w, as places in y with their coefficients.
+    /// Row j of S: entry j of w, as indices into y with coefficients.
     reads: Vec<Vec<(usize, f64)>>,
-    /// Directions of y in which no pose changes.
+    /// Directions of y along which no pose changes.
     normals: Vec<Vec<(usize, f64)>>,
-    /// Place of the work in y.
+    /// Index of the work in y.
     work: Option<usize>,
 }
 
-/// `σ·I − S·D` for a real σ and a complex one.
+/// `σ·I − S·D` for a real σ and a complex one, factored.
 struct Shifted {
     real: Lu,
-    /// Of the real form [αI − S·D, −βI; βI, αI − S·D].
+    /// Factors of the real form [αI − S·D, −βI; βI, αI − S·D].
     complex: Lu,
     shift: f64,
     complex_shift: [f64; 2],
-    /// Solutions on w, real and imaginary parts.
+    /// Solutions for w, real and imaginary parts.
     w: Vec<f64>,
 }
 
@@ -102,7 +102,7 @@ struct Storage {
 }
 
 impl Shifted {
-    /// For so many entries of w.
+    /// Storage for k entries of w.
     fn new(k: usize) -> Self {
         Self {
             real: Lu::new(k),
@@ -115,7 +115,7 @@ impl Shifted {
 }
 
 impl Reduced {
-    /// Storage for a motion; nothing is linearised yet.
+    /// Allocates storage for a motion; nothing is linearised yet.
     #[must_use]
     pub fn new(motion: &KeptRowMotion<'_>) -> Self {
         note(Counted::LinearSystems);
@@ -140,8 +140,8 @@ impl Reduced {
         }
     }
 
-    /// Takes the Jacobian at t and y, which is completed first. A motion on all coordinates gets
-    /// independent ones here.
+    /// Evaluates the Jacobian at t and y, which is completed first. A motion on all coordinates is
+    /// switched to independent ones.
     ///
     /// # Errors
     /// As [`KeptRowMotion::derivative`].
@@ -180,8 +180,8 @@ impl Reduced {
         Ok(())
     }
 
-    /// Linearises and factors again where the partition has changed as the step began: f is another
-    /// function of y then, although the motion is the same.
+    /// Linearises and factors again if the partition changed at the beginning of the step: then f
+    /// is another function of y, although the motion is the same.
     ///
     /// # Errors
     /// As [`Reduced::linearise`] and [`Reduced::factor`].
@@ -251,7 +251,7 @@ impl Reduced {
         };
     }
 
-    /// Column j of D.
+    /// Computes column j of D.
     fn differentiate(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -307,7 +307,7 @@ impl Reduced {
         velocity.solve(at, Some(force), da)?;
         mechanism.rate(&coordinates.q, dv, d_rate);
         if let Some(d_work) = d_work.first_mut() {
-            // The power (M·a − weight)·v, changed with v, and with a.
+            // Derivative of the power (M·a − weight)·v with respect to v and to a.
             let a = &dy[layout.n_q..layout.n_q + layout.n_v];
             let inertia = mechanism.mass().iter().zip(&*da).zip(&coordinates.v);
             *d_work =
@@ -343,8 +343,8 @@ impl Reduced {
         Ok(())
     }
 
-    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ, r in `x` on entry; dependent entries follow the
-    /// independent ones.
+    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ; `x` holds r on entry. Dependent entries follow
+    /// from the independent ones.
     pub fn solve(&mut self, x: &mut [f64]) {
         let Self {
             partition, shifted, ..
@@ -368,7 +368,7 @@ impl Reduced {
         }
     }
 
-    /// The same for the complex σ.
+    /// Like [`Self::solve`], for the complex σ.
     pub fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
         let Self {
             partition, shifted, ..
@@ -423,7 +423,7 @@ impl Reduced {
     }
 }
 
-/// An entry of w from a vector like y.
+/// Reads an entry of w from a vector like y.
 fn read(terms: &[(usize, f64)], x: &[f64]) -> f64 {
     terms.iter().map(|&(place, factor)| factor * x[place]).sum()
 }

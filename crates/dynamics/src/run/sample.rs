@@ -1,60 +1,60 @@
-//! One row of output: a state, and what follows from it on demand.
+//! One row of output: a state, and values computed from it on request.
 
 use model::{Mechanism, Reaction, System};
 
 use crate::error::MotionFault;
 use crate::motion::KeptRowMotion;
 
-/// One row of output: a state on the constraints, and what follows from it on demand.
+/// One row of output: a state on the constraints, and values computed from it on request.
 pub struct Sample<'s, 'm> {
     /// Time (s).
     pub t: f64,
-    /// Coordinates. At a break time all values are those just before.
+    /// Coordinates. At a break time all values are those just before it.
     pub q: &'s [f64],
     /// Velocities.
     pub v: &'s [f64],
-    /// Work of drives and applied forces since the start (J), the weight left out.
+    /// Work of drives and applied forces since the start (J), without the weight.
     pub work: f64,
     pub(super) source: Source<'s, 'm>,
 }
 
-/// What the rest is computed by.
+/// Source of the other values.
 pub(super) enum Source<'s, 'm> {
     /// The motion of all bodies.
     Motion(OfMotion<'s, 'm>),
-    /// Motions of components, which have computed it already.
+    /// Motions of components, which have already computed the values.
     Several(&'s Values),
 }
 
-/// A motion, and what is wanted of it.
+/// A motion, and the output requested from it.
 pub(super) struct OfMotion<'s, 'm> {
-    /// The time of the row, or the last number before a break time.
+    /// The time of the row, or the last floating-point number before a break time.
     pub(super) t_before: f64,
     pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
     pub(super) known: Known,
 }
 
-/// How far the equations of a row have been solved: once, whatever is asked of it.
+/// How far the equations of a row have been solved; they are solved at most once.
 pub(super) enum Known {
     Nothing,
     /// Rows are factored at the pose of the scratch, which is that of the row.
     Factored,
-    /// Accelerations, from the last evaluation of the motion.
+    /// The accelerations are known from the last evaluation of the motion.
     Solved(Vec<f64>),
 }
 
-/// What is wanted at rows of output of a component.
+/// Output requested at the rows of a component.
 #[derive(Clone, Debug)]
 pub(super) struct AtRows {
     /// Whether states are moved onto the constraints.
     pub(super) on_constraints: bool,
     pub(super) accelerations: bool,
-    /// Joints and drives whose reactions are wanted, ascending.
+    /// Joints and drives whose reactions are requested, ascending.
     pub(super) reactions: Vec<usize>,
 }
 
-/// Values at a row, of a component or of the whole.
+/// Values at a row, of a component or of the whole mechanism.
 #[derive(Clone)]
 pub(super) struct Values {
     pub(super) acceleration: Result<Vec<f64>, MotionFault>,
@@ -63,7 +63,7 @@ pub(super) struct Values {
 }
 
 impl Sample<'_, '_> {
-    /// All that is wanted of the row.
+    /// All requested values of the row.
     pub(super) fn values(&mut self) -> Values {
         match &mut self.source {
             Source::Motion(source) => source.values(self.q, self.v),
@@ -71,10 +71,10 @@ impl Sample<'_, '_> {
         }
     }
 
-    /// Accelerations, NaN where the plan leaves them out; allocates.
+    /// Accelerations, NaN if the plan omits them; allocates.
     ///
     /// # Errors
-    /// If the equations have no unique solution here.
+    /// If the equations have no unique solution at this state.
     pub fn acceleration(&mut self) -> Result<Vec<f64>, MotionFault> {
         match &mut self.source {
             Source::Motion(source) => source.acceleration(self.q, self.v),
@@ -82,11 +82,11 @@ impl Sample<'_, '_> {
         }
     }
 
-    /// Multipliers of all rows as [`KeptRowMotion::multipliers`] gives them, NaN for rows of joints
-    /// and drives whose reactions the plan leaves out; allocates.
+    /// Multipliers of all rows as in [`KeptRowMotion::multipliers`]; NaN for rows of joints and
+    /// drives whose reactions the plan omits; allocates.
     ///
     /// # Errors
-    /// If the equations have no unique solution here.
+    /// If the equations have no unique solution at this state.
     pub fn multipliers(&mut self) -> Result<Vec<f64>, MotionFault> {
         match &mut self.source {
             Source::Motion(source) => source.multipliers(self.q, self.v),
@@ -94,12 +94,12 @@ impl Sample<'_, '_> {
         }
     }
 
-    /// Reactions of all joints and drives in the order of their rows; those that the plan leaves
-    /// out are NaN. Those of non-unique joints belong to the choice of this run (its kept rows) and
-    /// to no other; allocates.
+    /// Reactions of all joints and drives in the order of their rows; NaN for those that the plan
+    /// omits. Reactions that are not unique belong to the choice of this run (its kept rows) and to
+    /// no other; allocates.
     ///
     /// # Errors
-    /// If the equations have no unique solution here.
+    /// If the equations have no unique solution at this state.
     pub fn reactions(&mut self) -> Result<Vec<Reaction>, MotionFault> {
         match &mut self.source {
             Source::Motion(source) => source.reactions(self.q, self.v),
@@ -156,7 +156,7 @@ impl OfMotion<'_, '_> {
         Ok(self.reactions_of(&lambda))
     }
 
-    /// Those of the multipliers that were just solved for.
+    /// Reactions of the given multipliers.
     fn reactions_of(&self, lambda: &[f64]) -> Vec<Reaction> {
         let mechanism = self.motion.mechanism();
         let s = self.motion.scratch();

@@ -1,7 +1,7 @@
-//! Components that do not feel each other, run at the same time: each on its own thread with its
-//! own method, steps, events and break times. Each computes what the plan wants at its rows and
-//! runs ahead of the others by some rows at most; rows are shown once all have reached them. Not
-//! here: who belongs to which component (`plan::split`).
+//! Independent components, run at the same time: each on its own thread with its own method, steps,
+//! events and break times. Each computes the output that the plan requests and runs ahead of the
+//! others by a limited number of rows; a row is passed on once all components have reached it. How
+//! bodies are assigned to components is decided in `plan::split`.
 
 use std::ops::ControlFlow;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -18,7 +18,7 @@ use crate::error::{MotionError, MotionFault};
 use crate::limits::AHEAD;
 use crate::plan::Plan;
 
-/// A row of a component with all that is wanted of it.
+/// A row of a component with all requested values.
 struct Row {
     t: f64,
     q: Vec<f64>,
@@ -27,7 +27,7 @@ struct Row {
     values: Values,
 }
 
-/// A component on its thread, as seen from the rows.
+/// A component on its thread, as seen by the thread that collects rows.
 struct Link<'p> {
     places: &'p Places,
     rows: Receiver<Row>,
@@ -35,7 +35,7 @@ struct Link<'p> {
 
 type Integrated = Result<Summary, Box<Failure>>;
 
-/// Runs all components of a plan and shows their rows together.
+/// Runs all components of a plan and passes on their combined rows.
 pub(super) fn run(plan: &Plan<'_>, watch: &Watch<'_>, row: &mut ShowRow<'_>) -> Integrated {
     let clock = Instant::now();
     let whole = Places::default();
@@ -68,21 +68,21 @@ pub(super) fn run(plan: &Plan<'_>, watch: &Watch<'_>, row: &mut ShowRow<'_>) -> 
             Some(error) => Some(error),
             None => show(plan, &links, row).map(Into::into),
         };
-        // Nobody listens any more: who is ahead stops at its next row.
+        // Closes the channels: components that are ahead stop at their next row.
         drop(links);
         (handles.into_iter().map(joined).collect::<Vec<_>>(), stopped)
     });
     conclude(plan, outcomes, stopped, clock.elapsed().as_secs_f64())
 }
 
-/// The result of a thread; a panic of it is one of ours.
+/// The result of a thread; a panic in it is passed on.
 fn joined(handle: ScopedJoinHandle<'_, Integrated>) -> Integrated {
     handle
         .join()
         .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
-/// Tells a row, as long as somebody listens.
+/// Sends a row, as long as the receiver exists.
 fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> {
     let row = Row {
         t: sample.t,
@@ -97,8 +97,8 @@ fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> 
     }
 }
 
-/// Shows rows as long as all components reach them and more are wanted. Why it was stopped by a
-/// row, if it was.
+/// Passes on rows as long as all components reach them and the caller continues. Returns the fault
+/// of a row, if one stopped the run.
 fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<MotionFault> {
     let mechanism = &plan.prepared().mechanism;
     let layout = mechanism.layout();
@@ -114,7 +114,7 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
             reactions: Ok(nobody.clone()),
         };
         for Link { places, rows } in links {
-            // One that has ended has no more rows.
+            // A component that has ended has no more rows.
             let Ok(own) = rows.recv() else { return None };
             assert!(
                 time.is_none_or(|known| known == own.t),
@@ -145,7 +145,7 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
     }
 }
 
-/// Puts values of a part to their places in the whole; the first failure stands for all.
+/// Collects values of all parts into the whole; the first failure is returned.
 fn gather<T: Copy>(
     own: Result<Vec<T>, MotionFault>,
     places: &[usize],
@@ -158,14 +158,14 @@ fn gather<T: Copy>(
     }
 }
 
-/// Puts values of a part to their places in the whole.
+/// Copies values of a part to their places in the whole.
 fn spread<T: Copy>(own: &[T], places: &[usize], whole: &mut [T]) {
     for (x, &place) in own.iter().zip(places) {
         whole[place] = *x;
     }
 }
 
-/// The outcome of the whole from those of its components.
+/// The outcome of the whole mechanism from those of its components.
 fn conclude(
     plan: &Plan<'_>,
     outcomes: Vec<Integrated>,
@@ -186,7 +186,7 @@ fn conclude(
             let component = component.name.clone();
             earliest = Some((summary.t, MotionError::Component { component, source }));
         }
-        // Where a thread was refused there are fewer outcomes than components.
+        // If a thread was refused, there are fewer outcomes than components.
         components.push(ComponentSummary {
             name: component.name.clone(),
             places: component.places().cloned().unwrap_or_default(),

@@ -1,6 +1,6 @@
-//! Is a row of output where the step around it leads? Between the ends of a step nothing is checked
-//! by the error test: near a singular configuration dense output, or the completion of its
-//! independent entries, may be on another branch, on the constraints all the same.
+//! Checks that a row of output lies on the path of its step. The error test checks only the ends of
+//! a step: near a singular configuration, dense output or the completion of its independent entries
+//! may be on another branch, although it satisfies the constraints.
 
 use model::{Mechanism, System};
 
@@ -12,7 +12,7 @@ use crate::limits::{LED, LED_AT_REST, PEAK};
 pub(super) struct Span {
     times: [f64; 2],
     ends: [Vec<f64>; 4],
-    /// What rows of this step are compared with, from its first row on.
+    /// Sizes with which rows of this step are compared, computed at its first row.
     sizes: Option<Sizes>,
     led: Vec<f64>,
 }
@@ -20,10 +20,10 @@ pub(super) struct Span {
 /// Sizes of a step.
 #[derive(Clone, Copy)]
 struct Sizes {
-    /// The longest way along a column of C, in its unit.
+    /// The longest displacement along a column of C, in units of the mechanism.
     way: f64,
-    /// Momentum, in the metric of the masses: what the velocities of the step are, and what going
-    /// that way evenly would need.
+    /// Momentum in the mass metric: that of the velocities at the ends of the step, and that of a
+    /// uniform motion over the same displacement.
     speed: f64,
     mean: f64,
 }
@@ -39,7 +39,7 @@ impl Span {
         }
     }
 
-    /// Checks a projected row y = [q; v; …] at time t, lengths measured by `size`.
+    /// Checks a projected row y = [q; v; …] at time t; lengths are divided by `size`.
     ///
     /// # Errors
     /// [`MotionFault::FarRow`]
@@ -130,7 +130,7 @@ mod tests {
 
     use super::*;
 
-    /// A free body of one kilogram and one kg·m², measured by metres.
+    /// A free body of one kilogram and one kg·m²; lengths in metres.
     fn body() -> Mechanism {
         let one = Body {
             name: "one".into(),
@@ -145,8 +145,8 @@ mod tests {
         Mechanism::build(&description).unwrap()
     }
 
-    /// Whether a row at half a second with coordinate x and velocity v along x may be shown, if a
-    /// step of a second leads from x = 0 to `way` with the velocities `speed` at both ends.
+    /// Whether a row at 0.5 s with coordinate x and velocity v along x is accepted, if a step of 1
+    /// s leads from x = 0 to `way` with the velocities `speed` at both ends.
     fn is_shown([x, v]: [f64; 2], way: f64, speed: f64) -> bool {
         let state = |x: f64, v: f64| [x, 0.0, 0.0, v, 0.0, 0.0];
         let mut span = Span::default();
@@ -158,19 +158,19 @@ mod tests {
         span.check(&body(), 1.0, 0.5, &state(x, v)).is_ok()
     }
 
-    /// The cubic leads to half the way.
+    /// The cubic is at half of the displacement.
     #[test]
     fn rows_lie_where_their_step_leads() {
-        // By a quarter of the way.
+        // Deviation by less than a quarter of the displacement.
         assert!(is_shown([0.5 + 0.2, 1.0], 1.0, 1.0));
         assert!(!is_shown([0.5 + 0.3, 1.0], 1.0, 1.0));
-        // At rest by a thousandth of the size.
+        // At rest, deviation by less than a thousandth of the size.
         assert!(is_shown([0.8e-3, 0.0], 0.0, 0.0));
         assert!(!is_shown([1.5e-3, 0.0], 0.0, 0.0));
     }
 
-    /// A way of a metre in a second, in three coordinates evenly: √3 kg·m/s, three times this is
-    /// 5.2 kg·m/s.
+    /// A displacement of one metre in a second, uniformly in three coordinates: √3 kg·m/s; three
+    /// times this is 5.2 kg·m/s.
     #[test]
     fn a_drive_that_rests_at_both_ends_of_a_step_may_be_fast_between() {
         assert!(is_shown([0.5, 5.0], 1.0, 0.0));

@@ -1,4 +1,4 @@
-//! Numbers of a run, and of one whose components were run apart.
+//! Numbers of a run, and of a run with separate components.
 
 use model::Places;
 
@@ -12,69 +12,68 @@ use crate::options::Method;
 pub struct Summary {
     /// Last time reached (s).
     pub t: f64,
-    /// The integrator: the one asked for, or the one chosen; `auto` where components have different
-    /// ones.
+    /// The integrator, given or chosen; `auto` if components have different ones.
     pub method: Method,
     /// Accepted steps.
     pub steps: u64,
     /// Rejected steps.
     pub rejected: u64,
-    /// Evaluations of accelerations: rejected steps, start, projections and output included.
+    /// Evaluations of accelerations, including rejected steps, start, projections and output.
     pub evaluations: u64,
     /// Projections of steps.
     pub projections: u64,
     /// Factorisations of iteration matrices of implicit methods.
     pub factorisations: u64,
-    /// Time of the integration alone (s).
+    /// Wall-clock time of the integration alone (s).
     pub wall_seconds: f64,
     /// Largest |Φ| at accepted steps and written rows.
     pub max_position_residual: f64,
     /// Largest |C·v − b| at accepted steps and written rows.
     pub max_velocity_residual: f64,
     /// Largest |E − E₀ − work of drives and applied forces| relative to the largest kinetic energy.
-    /// Of components run apart, at least that: the sum of their largest gaps relative to the
-    /// largest of their largest kinetic energies.
+    /// For components run separately it is an upper bound: the sum of their largest gaps relative
+    /// to the largest of their kinetic energies.
     pub energy_balance: f64,
     /// Largest |E − E₀ − work| (J).
     pub energy_gap: f64,
-    /// Largest kinetic energy (J); of components run apart the largest of theirs.
+    /// Largest kinetic energy (J); for components run separately, the largest of theirs.
     pub largest_kinetic_energy: f64,
-    /// Smallest pivot ratio of the kept rows at the start and at accepted steps that were
-    /// interpreted.
+    /// Smallest pivot ratio of the kept rows at the start and at accepted steps evaluated without
+    /// generated code.
     pub min_pivot_ratio: f64,
-    /// What happened on the way.
+    /// Events of the run.
     pub events: Vec<Event>,
-    /// Components that were run apart; none where all bodies were one.
+    /// Components that were run separately; empty if the mechanism was not split.
     pub components: Vec<ComponentSummary>,
 }
 
-/// Numbers of a component that was run apart.
+/// Numbers of a component that was run separately.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ComponentSummary {
     /// Its bodies.
     pub name: String,
-    /// Where it is in the whole.
+    /// Its places in the whole mechanism.
     pub places: Places,
-    /// Its numbers; rows and degrees of redundancy are its own.
+    /// Its numbers; rows and degrees of redundancy are those of the component.
     pub summary: Summary,
 }
 
-/// A run that stopped early, with what was reached.
+/// A run that stopped early, with the numbers up to there.
 #[derive(Debug, thiserror::Error)]
 #[error("{error}")]
 #[non_exhaustive]
 pub struct Failure {
-    /// Why it stopped.
+    /// Reason why it stopped.
     pub error: MotionError,
-    /// What was reached.
+    /// The numbers up to there.
     pub summary: Summary,
 }
 
 impl Summary {
-    /// The numbers of the whole: sums of work, the worst residuals, all events by their times. It
-    /// has reached what all components have. `dropped` are the rows that each component dropped at
-    /// the start, counted there.
+    /// The numbers of the whole mechanism: sums of work, the largest residuals, all events in the
+    /// order of time. The time reached is the smallest of the components. `dropped` are the rows
+    /// that each component dropped at the start, numbered in the component.
     pub(super) fn of_components(
         components: Vec<ComponentSummary>,
         dropped: &[&[usize]],
@@ -109,8 +108,8 @@ impl Summary {
     }
 }
 
-/// Events of components in the order of time, with the rows and the degree of redundancy that the
-/// whole has then.
+/// Events of components in the order of time, with the rows and the degree of redundancy of the
+/// whole mechanism at that time.
 fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
     let of_whole = |k: usize, rows: &[usize]| -> Vec<usize> {
         rows.iter().map(|&i| components[k].places.rows[i]).collect()
@@ -176,8 +175,8 @@ mod tests {
 
     #[test]
     fn events_of_components_are_told_with_the_rows_of_the_whole() {
-        // Rows 0, 2, 4 of which the second is dropped at first, and rows 1, 3 of which the first
-        // is.
+        // Rows 0, 2, 4, of which the second is dropped first, and rows 1, 3, of which the first is
+        // dropped first.
         let components = vec![
             component(
                 &[0, 2, 4],
@@ -195,7 +194,7 @@ mod tests {
         assert_eq!(told, [(0.5, &[0, 1][..]), (1.0, &[0, 3]), (1.5, &[3, 4])]);
         let redundancy = |e: &Event| [e.redundancy_before, e.redundancy_after];
         assert!(whole.events.iter().all(|e| redundancy(e) == [2, 2]));
-        // All have reached what the slower one has; the balance is a bound.
+        // The time reached is that of the slower component; the balance is a bound.
         assert_eq!((whole.t, whole.steps), (1.0, 20));
         assert_eq!(whole.energy_balance, (0.25 + 0.25) / 2.0);
     }

@@ -29,7 +29,8 @@ impl Dense {
         })
     }
 
-    /// Factors at these entries of C; rows whose pivots are at most `floor` of them are left out.
+    /// Factors the rows with these entries of C; rows whose relative pivots are at most `floor` are
+    /// skipped.
     pub(super) fn factor_above(
         &mut self,
         floor: f64,
@@ -42,20 +43,20 @@ impl Dense {
     }
 }
 
-/// Where the entries of kept rows go, and by which unit they are multiplied.
+/// Where the entries of kept rows are written, and the units by which they are multiplied.
 #[derive(Clone)]
 struct Gather {
-    /// The first entries of their places.
+    /// Entries that are written first to their place.
     first: Vec<Entry>,
-    /// What is added to them: a joint may reach a coordinate twice.
+    /// Entries that are added to a place: a joint may contribute twice to a coordinate.
     more: Vec<Entry>,
 }
 
 #[derive(Clone, Copy)]
 struct Entry {
-    /// In the matrix of kept rows, row-major.
+    /// Index in the matrix of kept rows, row-major.
     place: usize,
-    /// Among the entries of C.
+    /// Index among the entries of C.
     entry: usize,
     unit: f64,
 }
@@ -77,7 +78,7 @@ impl Gather {
         Self { first, more }
     }
 
-    /// Columns in which the rows have entries.
+    /// Columns in which each row has entries.
     fn columns(&self, r: usize, n: usize) -> Vec<Vec<usize>> {
         let mut columns = vec![Vec::new(); r];
         for entry in &self.first {
@@ -86,7 +87,7 @@ impl Gather {
         columns
     }
 
-    /// The rows, from the entries of C; other places stay zero.
+    /// Writes the rows from the entries of C; other places stay zero.
     fn take(&self, entries: &[f64], c: &mut Matrix) {
         let c = c.as_mut_slice();
         for entry in &self.first {

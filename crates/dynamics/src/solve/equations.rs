@@ -1,9 +1,9 @@
 //! The equations of motion on kept rows.
 //!
-//! The rank is never re-decided at a stage, where the state is off the constraints by δ and a
-//! singular value that is exactly zero reads as about δ. Positions and velocities have rows of
-//! their own: a holonomic row may be dropped because knife edges imply its velocity; nothing
-//! implies its position, and without it the configuration would drift.
+//! The rank is never decided at a stage: there the state violates the constraints by δ, and a
+//! singular value that is exactly zero appears as about δ. Positions and velocities have separate
+//! kept rows: a holonomic row may be dropped at velocity level because knife edges imply its
+//! velocity, but nothing implies its position, and without it the configuration would drift.
 
 use model::System;
 
@@ -13,16 +13,16 @@ use super::{Accelerations, State};
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
 
-/// A mechanism with its kept rows. All storage is made here.
+/// A mechanism with its kept rows. All storage is allocated here.
 pub(crate) struct KeptEquations<'m> {
     pub(crate) at: Evaluation<'m>,
     /// Independent rows of C.
     pub(crate) velocity: KeptRows,
     /// Independent rows of Φq.
     pub(crate) position: KeptRows,
-    /// Rows that the user asked for, while they are nearly dependent and others are kept.
+    /// Rows requested by the user, while they are nearly dependent and others are kept.
     pub(crate) requested_rows: Option<KeptRows>,
-    /// An acceleration, n_v.
+    /// Scratch: an acceleration, n_v.
     a: Vec<f64>,
 }
 
@@ -38,13 +38,13 @@ impl<'m> KeptEquations<'m> {
         }
     }
 
-    /// Takes a configuration and factors the rows of C there.
+    /// Evaluates a configuration and factors the rows of C there.
     pub(crate) fn factor_at(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
         self.at.pose(t, q);
         self.velocity.factor(&self.at)
     }
 
-    /// Accelerations where the pose is taken and the rows are factored.
+    /// Accelerations, if the pose is evaluated and the rows are factored.
     pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
         note(Counted::Accelerations);
         self.at.gamma_and_force(v);
@@ -54,8 +54,8 @@ impl<'m> KeptEquations<'m> {
     }
 
     /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are
-    /// zero. NaN where kept ones are dependent at just this instant, so that no multipliers belong
-    /// to them.
+    /// zero. NaN if kept rows are dependent at exactly this instant, because then no multipliers
+    /// belong to them.
     pub(crate) fn multipliers_for(
         &mut self,
         a: &[f64],
@@ -73,7 +73,7 @@ impl<'m> KeptEquations<'m> {
         Ok(())
     }
 
-    /// Exchanges the kept rows and the ones asked for, if others are kept.
+    /// Exchanges the kept rows and the requested ones, if others are kept.
     pub(crate) fn swap_requested_rows(&mut self) {
         if let Some(requested) = &mut self.requested_rows {
             std::mem::swap(requested, &mut self.velocity);
@@ -89,7 +89,7 @@ impl Accelerations for KeptEquations<'_> {
         self.solve_factored(state.v, a)
     }
 
-    /// On the rows asked for.
+    /// Multipliers on the requested rows.
     fn multipliers(&mut self, state: State<'_>, lambda: &mut [f64]) -> Result<(), MotionFault> {
         self.swap_requested_rows();
         let mut a = std::mem::take(&mut self.a);

@@ -1,15 +1,15 @@
-//! A mechanism with what its kernels found at one state.
+//! A mechanism with the results of its kernels at one state.
 
 use model::{Mechanism, RowLabel, Scratch, System};
 
 use crate::error::MotionFault;
 
-/// A mechanism, and the results of its kernels at the state evaluated last.
+/// A mechanism, and the results of its kernels at the last evaluated state.
 #[derive(Clone)]
 pub(crate) struct Evaluation<'m> {
     pub(crate) mechanism: &'m Mechanism,
     pub(crate) s: Scratch,
-    /// Length by which positions are measured (m).
+    /// Size of the mechanism, the unit of positions (m).
     pub(crate) size: f64,
 }
 
@@ -19,39 +19,39 @@ impl<'m> Evaluation<'m> {
         Self { mechanism, s, size }
     }
 
-    /// Takes a configuration, and C there.
+    /// Evaluates a configuration and C.
     pub(crate) fn pose(&mut self, t: f64, q: &[f64]) {
         self.mechanism.pose(t, q, &mut self.s);
         self.mechanism.c(&mut self.s);
     }
 
-    /// The same with Φ.
+    /// Evaluates a configuration, C and Φ.
     pub(crate) fn pose_and_phi(&mut self, t: f64, q: &[f64]) {
         self.mechanism.pose(t, q, &mut self.s);
         self.mechanism.phi(&mut self.s);
         self.mechanism.c(&mut self.s);
     }
 
-    /// b at the configuration taken.
+    /// Evaluates b at the present configuration.
     pub(crate) fn b(&mut self) {
         if self.mechanism.layout().rheonomic {
             self.mechanism.b(&mut self.s);
         }
     }
 
-    /// Γ and Q at the configuration taken.
+    /// Evaluates Γ and Q at the present configuration.
     pub(crate) fn gamma_and_force(&mut self, v: &[f64]) {
         self.mechanism.twist(v, &mut self.s);
         self.mechanism.gamma(&mut self.s);
         self.mechanism.force(&mut self.s);
     }
 
-    /// C·v − b of row i.
+    /// Residual C·v − b of row i.
     pub(crate) fn velocity_residual(&self, i: usize, v: &[f64]) -> f64 {
         self.mechanism.layout().velocity_residual(&self.s, i, v)
     }
 
-    /// The same with the size of its terms.
+    /// Residual C·v − b of row i, and the size of its terms.
     pub(crate) fn velocity_residual_and_scale(&self, i: usize, v: &[f64]) -> (f64, f64) {
         let (mut sum, mut size) = (0.0, 0.0);
         for (column, c) in self.mechanism.layout().row(&self.s, i) {
@@ -77,7 +77,7 @@ impl<'m> Evaluation<'m> {
         self.mechanism.layout().labels[i].clone()
     }
 
-    /// The fault with the name of the force that has no value, if there is one.
+    /// The fault, replaced by one with the name of a force that has no value, if there is one.
     pub(super) fn named(&mut self, fault: MotionFault) -> MotionFault {
         match fault {
             MotionFault::NotFinite { time, what } => {
@@ -89,7 +89,8 @@ impl<'m> Evaluation<'m> {
         }
     }
 
-    /// Completed coordinates lie so far from where they are expected, most at a column of C.
+    /// The fault of completed coordinates that are too far from the expected ones; `column` of C
+    /// has the largest distance.
     pub(crate) fn far_completion(&self, time: f64, (column, by): (usize, f64)) -> MotionFault {
         let (body, coordinate) = self.mechanism.coordinate(column);
         let body = body.to_owned();

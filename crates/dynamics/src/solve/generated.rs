@@ -1,4 +1,4 @@
-//! Accelerations and multipliers by generated code, which says how sure it is of them.
+//! Accelerations and multipliers by generated code, with a check of their reliability.
 
 use std::sync::Arc;
 
@@ -10,16 +10,16 @@ use crate::limits::LEAVE;
 /// Code that was generated for a mechanism.
 pub(crate) struct GeneratedCode(pub(crate) Arc<dyn SceneCode>);
 
-/// Why code is not sure.
+/// Reason why a result of generated code is not reliable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Doubt {
     /// A pivot is small, or has changed its sign.
     Health { health: f64 },
     /// A result is NaN or infinite.
     NotFinite,
-    /// A kept row misses after all corrections.
+    /// A kept row is still violated after all corrections.
     OffConstraints { row: usize, by: f64 },
-    /// A dropped row is not implied.
+    /// A dropped row is not implied by the kept rows.
     DroppedRow { row: usize, by: f64 },
 }
 
@@ -42,7 +42,7 @@ impl std::fmt::Display for Doubt {
 }
 
 impl Doubt {
-    /// What the health of a result and its numbers say of it; NaN is never healthy.
+    /// Checks the health of a result and that its numbers are finite; NaN is never healthy.
     pub(crate) fn of(health: f64, results: &[f64]) -> Result<(), Self> {
         if !GUARDED {
             return Ok(());

@@ -1,9 +1,9 @@
-//! Independent rows of C with everything that solving on them needs.
+//! Independent rows of C with everything needed to solve with them.
 //!
-//! They are factored in units of the mechanism ([`super::units`]). Otherwise a pivot of a rotation,
-//! a length, would be compared with one of a translation, which has no unit: pivots would fall and
-//! determinants change their signs where nothing happens but that metres are large or small.
-//! Callers see their own units only.
+//! They are factored in units of the mechanism ([`super::units`]). Otherwise the pivot of a
+//! rotation, a length, would be compared with one of a translation, which has no dimension: pivots
+//! would become small and determinants change sign only because of the unit of length. Callers see
+//! SI units only.
 
 use linalg::{PivotedQr, SaddleError};
 use model::System;
@@ -21,23 +21,23 @@ use crate::limits::PIVOT_SINGULAR;
 pub(crate) struct KeptRows {
     /// Rows of C, ascending.
     pub(crate) kept: Vec<usize>,
-    /// The others of the same level.
+    /// The other rows of the same level.
     pub(crate) dropped: Vec<usize>,
     /// Right-hand side, one value for each kept row.
     pub(crate) rhs: Vec<f64>,
-    /// Multipliers, as they were found last.
+    /// Multipliers of the last solution.
     pub(crate) lambda: Vec<f64>,
-    /// What coordinates count in those units, and the masses there, n_v each.
+    /// Units of the coordinates, and the masses in these units, n_v each.
     units: Vec<f64>,
     mass: Vec<f64>,
-    /// A force and a motion in those units, n_v each.
+    /// A force and a motion in these units, n_v each.
     force: Vec<f64>,
     motion: Vec<f64>,
-    /// The rows in those units, and their factors.
+    /// The rows in these units, and their factors.
     solver: Solver,
-    /// Whether the mechanism is so large or small that solutions are refined.
+    /// Whether the size of the mechanism is so far from a metre that solutions are refined.
     is_far: bool,
-    /// Pivot ratio when these rows were chosen: what later ones are compared with.
+    /// Pivot ratio at the time when these rows were chosen; later ones are compared with it.
     reference_pivot: Option<f64>,
     /// The same for the present partition, if there is one.
     partition: Option<PartitionPivot>,
@@ -48,7 +48,7 @@ pub(crate) struct KeptRows {
 struct PartitionPivot(Option<f64>);
 
 impl KeptRows {
-    /// Storage for the rows of a decision.
+    /// Allocates storage for the rows of a decision.
     pub(crate) fn new(at: &Evaluation<'_>, rows: &RowDecision) -> Result<Self, MotionFault> {
         let units = units(at.mechanism, at.size);
         let (n, r) = (units.len(), rows.kept.len());
@@ -72,8 +72,8 @@ impl KeptRows {
         })
     }
 
-    /// Factors at the entries of C in the scratch. Rows that are dependent for an instant are left
-    /// out, but not at the first time.
+    /// Factors the rows with the entries of C in the scratch. Rows that are dependent for an
+    /// instant are skipped, but not in the first factorisation.
     pub(crate) fn factor(&mut self, at: &Evaluation<'_>) -> Result<(), MotionFault> {
         let reference = self.reference();
         self.factor_above(PIVOT_SINGULAR, at)?;
@@ -99,7 +99,8 @@ impl KeptRows {
         Ok(())
     }
 
-    /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
+    /// Like [`KeptRows::factor`], skipping rows whose pivot relative to the reference is below
+    /// `floor`.
     pub(crate) fn factor_above(
         &mut self,
         share: f64,
@@ -111,9 +112,9 @@ impl KeptRows {
         factored.map_err(|e| self.fault(at, e))
     }
 
-    /// Solves from now on for the coordinates that these rows determine best at the entries of C in
-    /// the scratch, as multiples of what each is known to; factors there, and returns the others,
-    /// ascending.
+    /// Chooses the coordinates that these rows determine best with the entries of C in the scratch,
+    /// each relative to its accuracy; from now on the rows are solved for these. Leaves the rows
+    /// factored and returns the other coordinates, ascending.
     pub(crate) fn partition(
         &mut self,
         at: &Evaluation<'_>,
@@ -143,7 +144,7 @@ impl KeptRows {
         Ok(free)
     }
 
-    /// Every factorisation chooses again what it solves for.
+    /// Removes the partition: every factorisation chooses again for which coordinates it solves.
     pub(crate) fn forget_partition(&mut self) {
         if let Ok(it) = self.solver.dense() {
             it.saddle.forget_partition();
@@ -151,12 +152,12 @@ impl KeptRows {
         self.partition = None;
     }
 
-    /// Pivot ratio of the partition at its choice, if there is one.
+    /// Pivot ratio of the partition when it was chosen, if there is one.
     pub(crate) fn partition_pivot(&self) -> Option<f64> {
         self.partition.and_then(|p| p.0)
     }
 
-    /// Pivot ratio that the present ones are compared with.
+    /// Pivot ratio with which the present ones are compared.
     fn reference(&self) -> Option<f64> {
         match self.partition {
             Some(partition) => partition.0,
@@ -164,15 +165,15 @@ impl KeptRows {
         }
     }
 
-    /// Takes a right-hand side: `of` row i of C for each kept row.
+    /// Sets the right-hand side: `of(i)` for each kept row i of C.
     pub(crate) fn take_rhs(&mut self, mut of: impl FnMut(usize) -> f64) {
         for (rhs, &i) in self.rhs.iter_mut().zip(&self.kept) {
             *rhs = of(i);
         }
     }
 
-    /// Overwrites the dependent entries of x so that `C·x = rhs`; of a row left out there would be
-    /// none.
+    /// Overwrites the dependent entries of x so that `C·x = rhs`. Not possible if a row was
+    /// skipped.
     pub(crate) fn complete(
         &mut self,
         at: &Evaluation<'_>,
@@ -192,7 +193,7 @@ impl KeptRows {
         self.written(at, completed, x)
     }
 
-    /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` for x with the factored matrix. Without a force x
+    /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` for x with the factored matrix. Without a force, x
     /// is the smallest motion in the mass metric.
     pub(crate) fn solve(
         &mut self,
@@ -210,8 +211,8 @@ impl KeptRows {
         self.written(at, solved, x)
     }
 
-    /// Accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined where plain
-    /// ones may miss digits.
+    /// Computes accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined if
+    /// plain ones may lose digits.
     pub(super) fn accelerate(
         &mut self,
         at: &Evaluation<'_>,
@@ -226,12 +227,13 @@ impl KeptRows {
         self.written(at, solved, a)
     }
 
-    /// Whether accelerations and their multipliers are refined at the last factorisation.
+    /// Whether accelerations and their multipliers are refined with the last factorisation.
     pub(crate) fn are_refined(&self) -> bool {
         self.is_far || self.solver.wants_refinement()
     }
 
-    /// The λ that belongs to the accelerations a just found; refined, they have come with them.
+    /// Computes the λ that belongs to the accelerations a just computed; refined solutions already
+    /// include it.
     pub(super) fn find_multipliers(
         &mut self,
         at: &Evaluation<'_>,
@@ -250,13 +252,13 @@ impl KeptRows {
             .multipliers(&self.force, &self.motion, &mut self.lambda)
     }
 
-    /// The largest coefficient by which a kept row enters a dropped one, at the entries of C in the
-    /// scratch where the rows are freshly factored: rounding of the kept rows reaches the dropped
-    /// ones multiplied by it.
+    /// The largest coefficient of a kept row in a dropped one, with the entries of C in the
+    /// scratch, at which the rows must be factored: rounding of the kept rows is multiplied by it
+    /// in the dropped ones.
     pub(crate) fn largest_coefficient(&mut self, at: &Evaluation<'_>) -> f64 {
         note(Counted::Coefficients);
-        // Large mechanisms have thousands of dropped rows, each implied by a few rows of its own:
-        // two sums of all of them with random signs stand for them.
+        // Large mechanisms have thousands of dropped rows, each implied by a few rows: instead of
+        // all of them, two sums with random signs are used.
         let samples = if self.solver.brings_multipliers() {
             2
         } else {
@@ -277,9 +279,10 @@ impl KeptRows {
         largest
     }
 
-    /// Size of row i, a dropped one, and of what the kept rows contribute to it: with
-    /// `c_i = Σ T_ik·c_k` the sum of `scale(i)` and `|T_ik|·scale(k)`. Rounding of these terms is
-    /// what such a row may miss by. Needs the factorisation at the entries of C in the scratch.
+    /// Size of the dropped row i and of the contributions of the kept rows to it: with
+    /// `c_i = Σ T_ik·c_k` the sum of `scale(i)` and `|T_ik|·scale(k)`. The residual of the row may
+    /// be as large as the rounding of these terms. Needs the factorisation with the entries of C in
+    /// the scratch.
     pub(crate) fn implied_scale(
         &mut self,
         at: &Evaluation<'_>,
@@ -292,8 +295,8 @@ impl KeptRows {
         Ok(scale(i) + terms.sum::<f64>())
     }
 
-    /// Leaves the coefficients of the kept rows in a dropped one as multipliers: a row that the
-    /// kept ones imply, as a force, moves nothing, `M·0 + C_Kᵀ·λ = c_Dᵀ`.
+    /// Stores the coefficients of the kept rows in a dropped one as multipliers: as a force, a row
+    /// that the kept ones imply moves nothing, `M·0 + C_Kᵀ·λ = c_Dᵀ`.
     fn imply(&mut self, at: &Evaluation<'_>, dropped: usize) -> Result<(), SaddleError> {
         self.motion.fill(0.0);
         at.mechanism
@@ -305,7 +308,7 @@ impl KeptRows {
         self.solve_for_multipliers()
     }
 
-    /// The same for the sum of all dropped rows with random signs.
+    /// Like [`Self::imply`], for the sum of all dropped rows with random signs.
     fn imply_sum(&mut self, at: &Evaluation<'_>, seed: u64) -> Result<(), SaddleError> {
         self.motion.fill(0.0);
         self.force.fill(0.0);
@@ -318,14 +321,12 @@ impl KeptRows {
         self.solve_for_multipliers()
     }
 
-    /// Compares pivots from now on with what those of other rows were compared with: this place may
-    /// be a singular one.
+    /// Takes the reference pivot of other rows, because the present configuration may be singular.
     pub(crate) fn compare_as(&mut self, others: &Self) {
         self.reference_pivot = others.reference_pivot;
     }
 
-    /// Rows of the last factorisation that are dependent for an instant and were left out: their
-    /// number.
+    /// Number of rows that were dependent for an instant and skipped in the last factorisation.
     pub(crate) fn n_left_out(&self) -> usize {
         self.solver.n_left_out()
     }
@@ -340,8 +341,8 @@ impl KeptRows {
         self.solver.pivot_ratio()
     }
 
-    /// Smallest pivot relative to that when the rows were chosen, whatever they are solved for;
-    /// infinite without rows.
+    /// Smallest pivot relative to the one when the rows were chosen, whatever coordinates are
+    /// solved for; infinite without rows.
     pub(crate) fn relative_pivot(&self) -> f64 {
         match self.reference_pivot {
             Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
@@ -349,12 +350,13 @@ impl KeptRows {
         }
     }
 
-    /// Writes a frame of the motions that the factored rows allow, in units of the mechanism.
+    /// Writes a basis of the motions that the factored rows allow, in units of the mechanism.
     pub(crate) fn null_frame(&self, frame: &mut Vec<f64>) {
         self.solver.null_frame(frame);
     }
 
-    /// Sign of the determinant of the factored rows bordered by a frame, 0 where that is not known.
+    /// Sign of the determinant of the factored rows bordered by a basis of motions; 0 if it is not
+    /// known.
     pub(crate) fn orientation(&mut self, frame: &[f64]) -> f64 {
         self.solver.orientation(frame)
     }
@@ -371,7 +373,7 @@ impl KeptRows {
         }
     }
 
-    /// Writes the motion just solved for.
+    /// Writes the motion just computed.
     fn written(
         &self,
         at: &Evaluation<'_>,
@@ -385,7 +387,7 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Why a solve at the instant of the scratch failed.
+    /// The fault for a failed solve at the instant of the scratch.
     fn fault(&self, at: &Evaluation<'_>, e: SaddleError) -> MotionFault {
         let time = at.s.t;
         match e {
@@ -425,7 +427,7 @@ impl KeptRows {
     }
 }
 
-/// A sign, as good as random.
+/// A pseudo-random sign.
 fn sign_of(k: usize, seed: u64) -> f64 {
     let mixed = (k as u64)
         .wrapping_add(seed << 40)

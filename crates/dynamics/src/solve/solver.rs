@@ -1,8 +1,9 @@
 //! One of two solvers of kept rows: dense for small mechanisms, sparse for large ones.
 //!
 //! The dense one eliminates C itself, row by row, with a new choice of coordinates each time: it
-//! knows the sign of a bordered determinant, takes independent coordinates, and masses may vanish.
-//! The sparse one eliminates the Schur complement of the masses in an order that is chosen once.
+//! computes the sign of a bordered determinant, supports independent coordinates, and allows zero
+//! masses. The sparse one eliminates the Schur complement of the masses in an order that is chosen
+//! once.
 
 use linalg::{GRADED_MASSES, SaddleError};
 use model::{Mechanism, System};
@@ -19,7 +20,7 @@ pub(super) enum Solver {
     Sparse(Box<Sparse>),
 }
 
-/// What both kinds have.
+/// Calls the same method of either solver.
 macro_rules! each {
     ($solver:expr, $it:ident => $value:expr) => {
         match $solver {
@@ -29,9 +30,9 @@ macro_rules! each {
     };
 }
 
-/// Whether so many kept rows of a mechanism of this size (m) are solved sparsely: there are many of
-/// them, every coordinate has a mass, and masses do not differ so much that solutions have to be
-/// refined, unless there are too many rows for anything else.
+/// Whether this number of kept rows of a mechanism of this size (m) is solved sparsely: if there
+/// are many of them, every coordinate has a mass, and solutions need no refinement because of
+/// different masses; or if there are too many rows for a dense solver.
 pub(crate) fn is_sparse(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     is_sparse_in(mechanism, &units(mechanism, size), rows)
 }
@@ -43,8 +44,8 @@ fn is_sparse_in(mechanism: &Mechanism, units: &[f64], rows: usize) -> bool {
         && (rows > REFINED_MOST || !is_graded())
 }
 
-/// Bytes that a motion takes at most, about: solvers of these levels of kept rows, stages, and rows
-/// of output.
+/// Estimated upper bound (bytes) on the memory of a motion: solvers of these levels of kept rows,
+/// stages, and rows of output.
 pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) -> usize {
     let layout = mechanism.layout();
     let of_level = |kept: &[usize]| {
@@ -98,7 +99,7 @@ impl Solver {
         }
     }
 
-    /// The same with λ, refined in double-double where that is possible.
+    /// Like [`Self::motion`], with λ, refined in double-double if possible.
     pub(super) fn refined(
         &mut self,
         force: &[f64],
@@ -120,7 +121,7 @@ impl Solver {
         }
     }
 
-    /// λ of a motion x.
+    /// Computes λ of a motion x.
     pub(super) fn multipliers(
         &mut self,
         force: &[f64],
@@ -133,7 +134,7 @@ impl Solver {
         }
     }
 
-    /// Whether solutions come with their multipliers.
+    /// Whether solutions include their multipliers.
     pub(super) fn brings_multipliers(&self) -> bool {
         matches!(self, Self::Sparse(_))
     }
@@ -154,7 +155,7 @@ impl Solver {
         each!(self, it => it.saddle.uses(k))
     }
 
-    /// Takes the coordinates of the last factorisation first in the next ones; the sparse order is
+    /// Uses the coordinates of the last factorisation first in the next ones; the sparse order is
     /// always the same.
     pub(super) fn keep_order(&mut self) {
         if let Self::Dense(it) = self {
@@ -162,7 +163,7 @@ impl Solver {
         }
     }
 
-    /// The dense solver, which alone knows of independent coordinates.
+    /// The dense solver, which alone supports independent coordinates.
     pub(super) fn dense(&mut self) -> Result<&mut Dense, SaddleError> {
         match self {
             Self::Dense(it) => Ok(it),
@@ -170,8 +171,7 @@ impl Solver {
         }
     }
 
-    /// Writes a frame of the motions that the factored rows allow; nothing where they are solved
-    /// sparsely.
+    /// Writes a basis of the motions that the factored rows allow; empty for the sparse solver.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
         frame.clear();
         if let Self::Dense(it) = self {
@@ -180,8 +180,8 @@ impl Solver {
         }
     }
 
-    /// Sign of the determinant of the factored rows bordered by a frame, 0 for a frame of another
-    /// size and where they are solved sparsely.
+    /// Sign of the determinant of the factored rows bordered by a basis of motions; 0 for a basis
+    /// of another size and for the sparse solver.
     pub(super) fn orientation(&mut self, frame: &[f64]) -> f64 {
         match self {
             Self::Dense(it) if frame.len() == it.n_free() * it.saddle.n_coordinates() => {

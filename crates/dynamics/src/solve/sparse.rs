@@ -7,7 +7,7 @@ use model::{Mechanism, System};
 #[derive(Clone)]
 pub(super) struct Sparse {
     pub(super) c: SparseMatrix,
-    /// Where each entry goes among the values, which entry of C it is, and its unit.
+    /// For each entry: its index among the values, its index among the entries of C, and its unit.
     entries: Vec<(u32, u32, f64)>,
     pub(super) saddle: SchurSaddle,
 }
@@ -32,7 +32,8 @@ impl Sparse {
         }
     }
 
-    /// Factors at these entries of C; rows of which at most the share `floor` is left are left out.
+    /// Factors the rows with these entries of C; rows whose relative pivots are at most `floor` are
+    /// skipped.
     pub(super) fn factor_above(
         &mut self,
         floor: f64,
@@ -48,13 +49,13 @@ impl Sparse {
     }
 }
 
-/// Kept rows with zeros for entries.
+/// The sparsity pattern of the kept rows, with zeros as entries.
 fn rows_of(mechanism: &Mechanism, kept: &[usize]) -> SparseMatrix {
     let layout = mechanism.layout();
     let pattern = &layout.pattern;
     let row =
         |&i: &usize| (pattern.start[i]..pattern.start[i + 1]).map(|at| (pattern.column[at], 0.0));
-    // Columns of a pattern are below n_v; without entries there is nothing to solve.
+    // The columns of a pattern are always below n_v; without entries there is nothing to solve.
     SparseMatrix::from_rows(layout.n_v, kept.iter().map(row))
         .unwrap_or_else(|_| unreachable!("columns of a pattern are below {}", layout.n_v))
 }
@@ -65,7 +66,7 @@ fn structure(mechanism: &Mechanism, c: &SparseMatrix) -> SchurStructure {
     SchurStructure::new(c, &blocks)
 }
 
-/// Bytes of the solver of these rows.
+/// Memory of the solver of these rows (bytes).
 pub(super) fn memory(mechanism: &Mechanism, kept: &[usize]) -> usize {
     let c = rows_of(mechanism, kept);
     let entries = c.nnz() * (size_of::<(usize, f64)>() + size_of::<(u32, u32, f64)>());

@@ -1,5 +1,5 @@
-//! Exchange of kept rows that have become nearly dependent although the rank stays, at accepted and
-//! polished points only. The motion is the same.
+//! Exchange of kept rows that have become nearly dependent although the rank stays the same, at
+//! accepted and polished points only. The motion does not change.
 
 use model::System;
 use solvability::{AnalysisError, RowDecision, decide_holonomic_rows, decide_rows};
@@ -12,21 +12,21 @@ use crate::limits::WORTH_EXCHANGE;
 use crate::options::RowChoice;
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
-/// Rows that are to be kept from an accepted point on.
+/// Rows to be kept from an accepted point on.
 pub(crate) struct Exchange {
     position: Option<KeptRows>,
     velocity: Option<Velocity>,
 }
 
 enum Velocity {
-    /// The ones asked for, which are independent again.
+    /// The rows requested by the user, which are independent again.
     Requested,
-    /// Others than now; whether those of now were asked for.
+    /// Other rows than the present ones; the flag states whether the present ones were requested.
     Others(Box<KeptRows>, bool),
 }
 
 impl Exchange {
-    /// Looks at the pivots of a settled position at coordinates q, where the rows are factored.
+    /// Checks the pivots at a settled position with coordinates q, at which the rows are factored.
     pub(super) fn due(
         equations: &mut KeptEquations<'_>,
         choice: &RowChoice,
@@ -51,8 +51,8 @@ impl Exchange {
         Ok(is_due.then_some(Self { position, velocity }))
     }
 
-    /// Keeps the rows; whether other rows hold the position, which is to be settled again, and what
-    /// is told.
+    /// Keeps the rows. Returns whether other rows determine the position, which then has to be
+    /// settled again, and the event.
     pub(crate) fn keep(
         self,
         equations: &mut KeptEquations<'_>,
@@ -93,15 +93,15 @@ impl Exchange {
     }
 }
 
-/// Whether [`Exchange::due`] has something to decide at freshly factored rows.
+/// Whether [`Exchange::due`] has a decision to make for freshly factored rows.
 pub(super) fn may_be_due(equations: &mut KeptEquations<'_>, choice: &RowChoice) -> bool {
     equations.requested_rows.is_some()
         || position_wants_exchange(equations)
         || want_exchange(equations, choice)
 }
 
-/// Rows that imply the others better than the kept ones do at a settled row of output: between two
-/// steps that keep rows which suit both, the mechanism may pass where they do not.
+/// Rows that imply the others better than the kept ones do, at a settled row of output: between two
+/// steps, the mechanism may pass configurations for which the kept rows are not suitable.
 pub(super) fn better_for_row(
     equations: &mut KeptEquations<'_>,
     choice: &RowChoice,
@@ -119,9 +119,9 @@ fn requested_rows_recovered(equations: &mut KeptEquations<'_>) -> bool {
     requested.is_some_and(|rows| rows.factor(&equations.at).is_ok() && are_recovered(rows))
 }
 
-/// Freshly factored kept rows of a new decision, if they have the rank of the old ones and imply
-/// the dropped ones by smaller coefficients. Another rank is that of a singular configuration
-/// nearby, not of the motion.
+/// Freshly factored kept rows of a new decision, if they have the same rank as the old ones and
+/// imply the dropped ones with smaller coefficients. A different rank belongs to a singular
+/// configuration nearby, not to the motion.
 fn better(
     at: &Evaluation<'_>,
     decision: Result<RowDecision, AnalysisError>,

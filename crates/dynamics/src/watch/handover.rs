@@ -1,10 +1,11 @@
-//! The handover between generated code and the interpreter. Code is used as long as it is sure of
-//! itself at every stage and step; whatever it is not sure of is left to the interpreter, which
-//! begins again at the last accepted state. Nothing here ends a run. Not here: whether code belongs
-//! to a mechanism ([`crate::code`]).
+//! Switching between generated code and the interpreter. Generated code is used as long as its
+//! results are reliable at every stage and step; otherwise the interpreter continues from the last
+//! accepted state. Nothing here ends a run. Whether code belongs to a mechanism is checked in
+//! [`crate::code`].
 //!
-//! The interpreter sleeps while code is used. It wakes up at the last two accepted states, because
-//! it foresees singular configurations from the pivots of two.
+//! The interpreter is idle while generated code is used. When it takes over, it first evaluates the
+//! last two accepted states, because it predicts singular configurations from the pivots of two
+//! states.
 
 use std::sync::Arc;
 
@@ -21,18 +22,18 @@ use crate::limits::{PATIENCE, RETURN, SAME_ACCELERATIONS};
 use crate::manifold::{CodeProjection, Correction, Manifold};
 use crate::solve::{Accelerations, Doubt, GeneratedCode, KeptEquations, State};
 
-/// What evaluates at present.
+/// What evaluates the equations at present.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
     /// The code.
     Code,
-    /// The interpreter, which has not woken up yet.
+    /// The interpreter, which has not yet seen the last accepted states.
     Waking,
-    /// The interpreter, for so many accepted steps.
+    /// The interpreter, for this number of accepted steps.
     Interpreter(u64),
 }
 
-/// A state of an accepted step.
+/// The state at the end of an accepted step.
 #[derive(Clone, Debug, Default)]
 struct Accepted {
     t: f64,
@@ -60,28 +61,29 @@ pub(crate) struct Handover {
     code: GeneratedCode,
     projection: CodeProjection,
     phase: Phase,
-    /// Evaluations of the code since the last accepted step.
+    /// Evaluations by generated code since the last accepted step.
     evaluations: u64,
-    /// Accepted steps before it may come back.
+    /// Number of accepted steps before generated code may be used again.
     patience: u64,
-    /// The last two accepted states of the code, the last one first, and how many there are.
+    /// The last two states accepted with generated code, the last one first, and their number.
     accepted: [Accepted; 2],
     n_accepted: usize,
     departure: Option<Departure>,
-    /// Accelerations of code that may come back, n_v.
+    /// Scratch: accelerations of generated code that may be used again, n_v.
     found: Vec<f64>,
 }
 
-/// Code was left.
+/// The switch from generated code to the interpreter.
 pub(crate) struct Departure {
-    /// Where the interpreter goes on.
+    /// The event that reports it.
     pub(crate) event: Event,
-    /// Whether stages of the present step are the code's, so that the step has to begin again.
+    /// Whether stages of the present step were evaluated by generated code, so that the step has to
+    /// begin again.
     pub(crate) is_within_step: bool,
 }
 
 impl Handover {
-    /// Uses code from the state q at time t on.
+    /// Uses generated code from the state q at time t on.
     pub(crate) fn new(
         code: Arc<dyn SceneCode>,
         equations: &mut KeptEquations<'_>,
@@ -102,18 +104,18 @@ impl Handover {
         }
     }
 
-    /// The code, if it evaluates at present.
+    /// The generated code, if it is in use.
     pub(crate) fn in_use(&mut self) -> Option<&mut GeneratedCode> {
         (self.phase == Phase::Code).then_some(&mut self.code)
     }
 
-    /// Whether it does.
+    /// Whether generated code is in use.
     pub(crate) fn is_in_use(&self) -> bool {
         self.phase == Phase::Code
     }
 
-    /// Accelerations for an evaluation of a run; `false` if the interpreter has to answer. Code
-    /// that is not sure is left.
+    /// Accelerations for an evaluation of a run. Returns `false` if the interpreter has to compute
+    /// them. Generated code that is not reliable is left.
     pub(crate) fn evaluate(
         &mut self,
         state: State<'_>,
@@ -135,7 +137,8 @@ impl Handover {
         }
     }
 
-    /// Moves a state onto the constraints by the code in use; in doubt it is as before.
+    /// Moves a state onto the constraints by the code in use; leaves the state unchanged if the
+    /// result is not reliable.
     pub(crate) fn project(
         &mut self,
         equations: &KeptEquations<'_>,
@@ -146,7 +149,7 @@ impl Handover {
         self.projection.project(&self.code, mechanism, t, state)
     }
 
-    /// Takes an accepted state of the code.
+    /// Takes a state accepted with generated code.
     pub(crate) fn accept(&mut self, now: Now<'_>) {
         if GUARDED {
             self.accepted.swap(0, 1);
@@ -156,7 +159,7 @@ impl Handover {
         }
     }
 
-    /// Velocities have jumped at t: states before tell nothing of what follows.
+    /// Velocities have jumped at t: earlier states cannot be used for predictions.
     pub(crate) fn restart(&mut self, equations: &mut KeptEquations<'_>, watch: &mut Watch, t: f64) {
         if self.is_in_use() {
             self.n_accepted = 0;
@@ -164,13 +167,13 @@ impl Handover {
         }
     }
 
-    /// Told once when code was left.
+    /// Returns the departure once after generated code was left.
     pub(crate) fn take_departure(&mut self) -> Option<Departure> {
         self.departure.take()
     }
 
-    /// Looks ahead from the last two states that the code has accepted, for steps like that between
-    /// them.
+    /// Predicts singular configurations from the last two states accepted with generated code, for
+    /// steps of the same length.
     pub(crate) fn look_ahead(&self, equations: &KeptEquations<'_>, watch: &mut Watch) {
         let [Accepted { t, q, v, a }, before] = &self.accepted;
         match self.n_accepted {
@@ -179,8 +182,8 @@ impl Handover {
         }
     }
 
-    /// Goes back to code at an accepted, interpreted state far from singular configurations, if it
-    /// is as good as before there and has been left long enough ago.
+    /// Returns to generated code at an accepted, interpreted state far from singular
+    /// configurations, if its health has recovered and enough steps have passed.
     pub(crate) fn come_back(
         &mut self,
         equations: &KeptEquations<'_>,
@@ -225,7 +228,7 @@ impl Handover {
         Some(Event::at(t, EventKind::CodeUsed, dropped, text))
     }
 
-    /// Leaves the code at an evaluation or a projection at time t.
+    /// Leaves generated code at an evaluation or a projection at time t.
     pub(crate) fn leave(
         &mut self,
         t: f64,
@@ -248,7 +251,8 @@ impl Handover {
         });
     }
 
-    /// Lets the interpreter see the last accepted states of the code, if it has not yet.
+    /// Passes the last accepted states of generated code to the interpreter, if this has not been
+    /// done.
     pub(crate) fn wake_up(
         &mut self,
         equations: &mut KeptEquations<'_>,

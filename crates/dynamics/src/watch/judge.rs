@@ -1,9 +1,10 @@
-//! What the end of a step is judged by, and what is known of singular configurations on the way.
+//! Decides whether a step may end, and keeps what is known of singular configurations on the way.
 //!
-//! Near one, stages are moved onto the constraints before they are evaluated, and steps are chosen
-//! such that it falls between two stages. A step must not end where a projection could not tell
-//! the branches apart, and one that goes over it stands only if its correction is small beside
-//! the distance of the branches and its velocities go on from those before.
+//! Near a singular configuration, stages are moved onto the constraints before they are evaluated,
+//! and steps are chosen such that the configuration lies between two stages. A step must not end so
+//! close to it that a projection could not distinguish the branches. A step over it is accepted
+//! only if its correction is small relative to the distance of the branches and its velocities
+//! continue those before it.
 
 use model::System;
 
@@ -21,20 +22,20 @@ use crate::limits::{
 use crate::options::{MotionOptions, RowChoice};
 use crate::solve::{KeptEquations, KeptRows};
 
-/// What comes after a look at the end of a step.
+/// Result of the checks at the end of a step.
 pub(crate) enum Next {
-    /// It may stand.
+    /// The step is accepted.
     Accept,
-    /// It begins again, shorter.
+    /// The step is repeated with a smaller length.
     Reject,
-    /// It may stand on other rows.
+    /// The step is accepted with other kept rows.
     Keep(Box<Exchange>),
-    /// It is refused; where no shorter one stands the run stops there.
+    /// The step is refused; if no shorter step is accepted, the run stops with this fault.
     Stop(MotionFault),
 }
 
 impl Next {
-    /// What is to be kept from here on, if the step may stand.
+    /// The exchange of rows to carry out if the step is accepted, or the result that refuses it.
     pub(crate) fn stands(self) -> Result<Option<Box<Exchange>>, Self> {
         match self {
             Self::Accept => Ok(None),
@@ -50,19 +51,19 @@ impl From<MotionFault> for Next {
     }
 }
 
-/// What a motion is watched for.
+/// State of the monitors of a motion.
 pub(crate) struct Watch {
     choice: RowChoice,
     pub(crate) passage: Passage,
-    /// What happened at the last accepted steps and has not been told.
+    /// An event of the last accepted steps that has not been reported.
     pending: Option<Event>,
     rtol: f64,
     t_end: f64,
     /// Whether the last accepted step may have passed a singular configuration.
     pub(crate) is_suspect: bool,
-    /// When the motion is expected to pass one.
+    /// Expected time of the next singular configuration.
     pub(super) delicate: Option<f64>,
-    /// When a step was refused last because of a dropped row, and which.
+    /// The last time at which a step was refused because of a dropped row, with the fault.
     contradicted: Option<(f64, MotionFault)>,
 }
 
@@ -80,25 +81,25 @@ impl Watch {
         }
     }
 
-    /// Share of the reference to which a pivot falls that vanishes, as well as this run knows;
-    /// steps must not end nearer to a singular configuration, but where they have to.
+    /// Relative pivot below which this run treats a pivot as zero; steps must not end closer to a
+    /// singular configuration, unless they have to end there.
     pub(crate) fn nearest(&self) -> f64 {
         (NEAREST_TOLERANCES * self.rtol).clamp(NEAREST, NEAREST_MAX)
     }
 
-    /// Share of the reference pivots below which reactions are not told.
+    /// Relative pivot below which reactions are not reported.
     pub(crate) fn blind(&self) -> f64 {
         (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX)
     }
 
-    /// When the motion is expected to pass a singular configuration, and by which factor steps over
-    /// it may miss their tolerance.
+    /// Expected time of a singular configuration, and the factor by which steps over it may exceed
+    /// their tolerance.
     pub(crate) fn delicate(&self) -> Option<(f64, f64)> {
         self.delicate.map(|t| (t, (PASSED / self.rtol).max(1.0)))
     }
 
-    /// Whether the end of a step at t is a place where it must not end, at freshly factored rows.
-    /// Steps have to end at break times and at the end of the run, wherever that is.
+    /// Refuses the end of a step at t if it is too close to a singular configuration; rows must be
+    /// freshly factored. Break times and the end of the run are always allowed as ends of steps.
     pub(crate) fn judge_place(
         &self,
         equations: &KeptEquations<'_>,
@@ -113,7 +114,7 @@ impl Watch {
         }
     }
 
-    /// Which rows to keep at a settled position, where the rows are factored.
+    /// Decides which rows to keep at a settled position, at which the rows are factored.
     pub(crate) fn judge_rows(&self, equations: &mut KeptEquations<'_>, q: &[f64]) -> Next {
         match Exchange::due(equations, &self.choice, q) {
             Ok(Some(exchange)) => Next::Keep(Box::new(exchange)),
@@ -122,12 +123,12 @@ impl Watch {
         }
     }
 
-    /// Whether [`Watch::judge_rows`] has something to decide at freshly factored rows.
+    /// Whether [`Watch::judge_rows`] has a decision to make for freshly factored rows.
     pub(crate) fn may_exchange(&self, equations: &mut KeptEquations<'_>) -> bool {
         exchange::may_be_due(equations, &self.choice)
     }
 
-    /// Rows that suit a row of output better than those of the steps around it.
+    /// Rows that are more suitable for a row of output than those of the surrounding steps.
     pub(crate) fn rows_for_output(
         &self,
         equations: &mut KeptEquations<'_>,
@@ -136,20 +137,20 @@ impl Watch {
         exchange::better_for_row(equations, &self.choice, q)
     }
 
-    /// What is told once the step stands.
+    /// Stores an event that is reported once the step is accepted.
     pub(crate) fn tell_later(&mut self, event: Option<Event>) {
         self.pending = event.or(self.pending.take());
     }
 
-    /// Notes a step to t that was refused because of a dropped row.
+    /// Records a step to t that was refused because of a dropped row.
     pub(crate) fn note_refused(&mut self, t: f64, fault: &MotionFault) {
         if matches!(fault, MotionFault::DroppedRow { .. }) {
             self.contradicted = Some((t, fault.clone()));
         }
     }
 
-    /// The dropped row because of which steps have collapsed at time t: the ever smaller ones on
-    /// this side of a contradiction are good, and say nothing of it.
+    /// The dropped row that made steps collapse at time t. The small steps accepted before a
+    /// contradiction are valid and do not show it.
     pub(crate) fn contradiction(&mut self, t: f64) -> Option<MotionFault> {
         let (end, fault) = self.contradicted.take()?;
         (end - t <= JUST_AHEAD * self.t_end).then_some(fault)
@@ -165,8 +166,9 @@ impl Watch {
         is_foreseen || GUARDED && self.passage.is_suspect(&mut equations.velocity)
     }
 
-    /// Judges a step to t that may have passed a singular configuration by its correction, in the
-    /// norm of the step: other branches are as far away as the place where it ends.
+    /// Checks the correction of a step to t that may have passed a singular configuration, in the
+    /// norm of the step: other branches are as far away as the end of the step is from the
+    /// configuration.
     pub(crate) fn judge_correction(
         &self,
         equations: &KeptEquations<'_>,
@@ -181,9 +183,9 @@ impl Watch {
         }
     }
 
-    /// Judges the velocities and accelerations at the end of a step: behind a singular
-    /// configuration they go on from where the motion came near it; as long as it is near, that
-    /// remains to be seen.
+    /// Checks the velocities and accelerations at the end of a step: after a singular configuration
+    /// they must continue those before it. While the motion is still close to it, the check is
+    /// postponed.
     pub(crate) fn judge_motion(
         &mut self,
         equations: &KeptEquations<'_>,
@@ -199,15 +201,15 @@ impl Watch {
         Next::Accept
     }
 
-    /// Notes an accepted state far from singular configurations.
+    /// Records an accepted state far from singular configurations.
     pub(crate) fn enter(&mut self, equations: &KeptEquations<'_>, now: Now<'_>) {
         if GUARDED && !are_delicate(&equations.velocity) {
             self.passage.enter(now);
         }
     }
 
-    /// Takes the state just evaluated as that of an accepted step; what happened since the last
-    /// one.
+    /// Takes the state just evaluated as the end of an accepted step; returns the event since the
+    /// last one.
     pub(crate) fn accept(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -219,14 +221,15 @@ impl Watch {
         self.pending.take()
     }
 
-    /// Looks ahead from an accepted state for so many steps like the last one.
+    /// Predicts singular configurations from an accepted state, for several steps like the last
+    /// one.
     pub(crate) fn look_ahead(&mut self, equations: &KeptEquations<'_>, now: Now<'_>, step: f64) {
         let t_last = now.t + FORESIGHT * step;
         let expected = self.passage.expected().filter(|&e| e <= t_last);
         self.delicate = expected.and_then(|expected| search::foresee(equations, now, expected));
     }
 
-    /// Refuses a step over a singular configuration to t.
+    /// The fault for a step to t over a singular configuration that is refused.
     pub(crate) fn no_way_over(&self, t: f64) -> MotionFault {
         MotionFault::SingularPassage {
             from: self.passage.since(),

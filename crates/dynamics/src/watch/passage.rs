@@ -1,15 +1,15 @@
-//! Does a step pass a singular configuration? There the kept rows are dependent for an instant:
-//! branches of the motion may meet, and a step may land on another one with every residual at
-//! rounding.
+//! Detects whether a step passes a singular configuration. There the kept rows are dependent for an
+//! instant: branches of the motion may meet, and a step may end on another branch with every
+//! residual at rounding.
 //!
-//! What determines the accelerations there is a quotient of two numbers that both vanish: at the
-//! distance σ, a share of the reference pivots, a stage off the constraints by δ is wrong by δ/σ
-//! and rounding by eps/σ². So, near a singular configuration, stages are moved onto the constraints
-//! before they are evaluated, steps are chosen such that it falls between two stages
-//! ([`Passage::expected`]), and rows below 1e-6 are left out of a solve. A step must not end where
-//! a projection could not tell the branches apart, and one that goes over a singular configuration
-//! stands only if its correction is small beside the distance of the branches: the motion goes on
-//! as smoothly as it came.
+//! The accelerations there are a quotient of two numbers that both vanish: at the distance σ, a
+//! relative pivot, a constraint violation δ of a stage causes an error δ/σ, and rounding causes
+//! eps/σ². So near a singular configuration stages are moved onto the constraints before they are
+//! evaluated, steps are chosen such that the configuration lies between two stages
+//! ([`Passage::expected`]), and rows with relative pivots below 1e-6 are skipped in a solve. A step
+//! must not end so close that a projection could not distinguish the branches, and a step over a
+//! singular configuration is accepted only if its correction is small relative to the distance of
+//! the branches: the run continues on the smooth branch.
 
 use crate::guards::GUARDED;
 use crate::limits::{KINK, SUSPECT};
@@ -24,19 +24,18 @@ pub(crate) struct Now<'a> {
     pub(crate) a: &'a [f64],
 }
 
-/// A frame of the motions that were possible at the last accepted step, and the sign of the
-/// determinant of the kept rows bordered by it; and how near to a singular configuration the stages
-/// since then came.
+/// A basis of the motions that were possible at the last accepted step, the sign of the determinant
+/// of the kept rows bordered by it, and the smallest pivot of the stages since then.
 #[derive(Default)]
 pub(crate) struct Passage {
     frame: Vec<f64>,
     sign: f64,
     t: f64,
-    /// Relative pivot there, and its rate since the step before.
+    /// Relative pivot at this step, and its rate since the step before.
     pivot: f64,
     rate: f64,
     lowest: Option<f64>,
-    /// The last accepted state whose pivots were not yet small.
+    /// The last accepted state whose pivots were not small.
     entry: Option<Entry>,
 }
 
@@ -53,12 +52,12 @@ impl Passage {
         self.t
     }
 
-    /// When the pivots of the last two accepted steps, continued as a straight line, vanish.
+    /// The time at which the pivots vanish, extrapolated linearly from the last two accepted steps.
     pub(super) fn expected(&self) -> Option<f64> {
         (self.rate < 0.0).then(|| self.t - self.pivot / self.rate)
     }
 
-    /// Notes the pivots of a stage.
+    /// Records the pivots of a stage.
     pub(crate) fn see(&mut self, rows: &KeptRows) {
         if !GUARDED {
             return;
@@ -67,15 +66,15 @@ impl Passage {
         self.lowest = Some(self.lowest.map_or(pivot, |lowest| lowest.min(pivot)));
     }
 
-    /// Whether the determinant of freshly factored rows has another sign than at the last accepted
-    /// step.
+    /// Whether the determinant of freshly factored rows has changed its sign since the last
+    /// accepted step.
     pub(super) fn is_beyond(&self, rows: &mut KeptRows) -> bool {
         self.sign * rows.orientation(&self.frame) < 0.0
     }
 
-    /// Whether velocities v at time t, with accelerations a and the weights `mass`, follow from
-    /// those with which the motion came near a singular configuration. On another branch they have
-    /// another direction. Asked where the rows are sound again.
+    /// Whether velocities v at time t, with accelerations a and the weights `mass`, continue those
+    /// before the singular configuration. On another branch they have another direction. Called
+    /// once the rows have good pivots again.
     pub(super) fn is_continued_by(&self, Now { t, v, a, .. }: Now<'_>, mass: &[f64]) -> bool {
         let Some(entry) = &self.entry else {
             return true;
@@ -91,7 +90,7 @@ impl Passage {
         kink <= KINK * (speed + change)
     }
 
-    /// Takes an accepted state as the last one before rows become delicate.
+    /// Takes an accepted state as the last one before pivots become small.
     pub(super) fn enter(&mut self, Now { t, v, a, .. }: Now<'_>) {
         let entry = self.entry.get_or_insert_with(|| Entry {
             t,
@@ -103,7 +102,7 @@ impl Passage {
         entry.a.copy_from_slice(a);
     }
 
-    /// Forgets it, where velocities jump for another reason.
+    /// Forgets this state, because velocities jump for another reason.
     pub(crate) fn forget_entry(&mut self) {
         self.entry = None;
     }

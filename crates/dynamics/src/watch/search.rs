@@ -1,5 +1,5 @@
-//! When does a step pass a singular configuration, and how many rows are dependent there? Looked
-//! for in the dense output of an accepted step that was suspect.
+//! Searches the dense output of an accepted step for singular configurations: their time, and the
+//! number of dependent rows.
 
 use model::System;
 use solvability::along::search::{minimum, root};
@@ -13,9 +13,9 @@ use crate::solve::{Evaluation, KeptEquations, KeptRows};
 /// A singular configuration within a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Singular {
-    /// When (s).
+    /// Time (s).
     pub(crate) t: f64,
-    /// Kept rows that are dependent there, and in what is told of it the rank that is lost.
+    /// Number of kept rows that are dependent there; in a reported event, the loss of rank.
     pub(crate) dependent: usize,
 }
 
@@ -25,8 +25,8 @@ fn steepest(pivots: &[f64]) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-/// When a motion that is at `now`, the last accepted state, will be singular, if its pivots vanish
-/// about when that is expected.
+/// The time at which a motion that is at `now`, the last accepted state, will be singular, if its
+/// pivots vanish near the expected time.
 pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64) -> Option<f64> {
     let noise = VANISHES * equations.velocity.relative_pivot();
     let mut way = vec![0.0; now.v.len()];
@@ -47,14 +47,14 @@ pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64
     }
 }
 
-/// Looks for singular configurations on kept rows.
+/// Searches for singular configurations on kept rows.
 pub(crate) struct Search<'m> {
     at: Evaluation<'m>,
     rows: KeptRows,
 }
 
 impl<'m> Search<'m> {
-    /// On the present rows, with storage of its own.
+    /// Uses the present rows, with separate storage.
     pub(crate) fn new(equations: &KeptEquations<'m>) -> Self {
         Self {
             at: equations.at.clone(),
@@ -62,8 +62,8 @@ impl<'m> Search<'m> {
         }
     }
 
-    /// Whether the pivots fall or the bordered determinant has changed its sign at one of a few
-    /// places, at a price of a factorisation for each until they do; in doubt they do.
+    /// Whether the pivots fall, or the bordered determinant has changed its sign, at one of a few
+    /// times. Each time costs a factorisation until one does. Returns `true` in case of doubt.
     fn is_promising(
         &mut self,
         [now, end]: [f64; 2],
@@ -97,9 +97,9 @@ impl<'m> Search<'m> {
         factored.ok().map(|()| self.rows.relative_pivot())
     }
 
-    /// The singular configuration between t0 and t1, if there is one: where the sign of the
-    /// bordered determinant changes, or where the smallest pivot falls below `noise` of its
-    /// reference and rises again. `state` gives the coordinates on the way.
+    /// The singular configuration between t0 and t1, if there is one: at a change of sign of the
+    /// bordered determinant, or where the smallest relative pivot falls below `noise` and rises
+    /// again. `state` returns the coordinates at a time.
     pub(crate) fn find(
         &mut self,
         [t0, t1]: [f64; 2],
@@ -120,7 +120,7 @@ impl<'m> Search<'m> {
         }
         let flip = signs.windows(2).position(|w| w[0] * w[1] < 0.0);
         let t = match flip {
-            // The pivot with the sign of the determinant crosses zero nearly as a straight line.
+            // The pivot with the sign of the determinant crosses zero nearly linearly.
             Some(k) => {
                 let ends = [pivots[k], -pivots[k + 1]];
                 let signed = |t: f64| {
@@ -152,8 +152,8 @@ impl<'m> Search<'m> {
         })
     }
 
-    /// By how much the rank of all rows falls where that of the kept ones does: rows that are kept
-    /// may become dependent where others take their place. In doubt by as much.
+    /// By how much the rank of all rows drops if that of the kept ones does: kept rows may become
+    /// dependent while others replace them. In case of doubt, by as much.
     pub(crate) fn rank_lost(
         &mut self,
         Singular { t, dependent }: Singular,
@@ -173,7 +173,8 @@ impl<'m> Search<'m> {
         }
     }
 
-    /// What is told of it; `uniqueness` says in words whether the motion is unique there.
+    /// The event that reports the configuration; `uniqueness` states whether the motion is unique
+    /// there.
     pub(crate) fn event(&self, singular: Singular, uniqueness: &str) -> Event {
         let redundancy = self.rows.dropped.len();
         let Singular { t, dependent } = singular;

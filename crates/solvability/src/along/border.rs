@@ -1,20 +1,20 @@
-//! A signed function of time that vanishes where kept rows lose their rank: the determinant of
-//! these rows, bordered by a frozen frame of the motions that they allow at one instant. Rows and
-//! frame are frozen, so it is as smooth as the motion.
+//! A signed function of time that vanishes if the kept rows lose their rank: the determinant of
+//! these rows, bordered by a fixed basis of the motions that they allow at one instant. Rows and
+//! basis stay fixed, so the function is as smooth as the motion.
 
 use linalg::{Determinant, KeptRowSaddle, Lu, Matrix, PivotedQr};
 
-/// Rows and frame of one instant.
+/// The kept rows, and the basis fixed at one instant.
 pub(super) struct Border {
     kept: Vec<usize>,
-    /// Rows: the frame.
+    /// Rows: the basis vectors.
     frame: Matrix,
-    /// The determinant at the instant.
+    /// The determinant at that instant.
     reference: Determinant,
 }
 
 impl Border {
-    /// Freezes these rows of `c` and a frame of their null space.
+    /// Fixes these rows of `c` and a basis of their null space.
     pub(super) fn new(c: &Matrix, kept: &[usize]) -> Self {
         let mut border = Self {
             kept: kept.to_vec(),
@@ -25,14 +25,15 @@ impl Border {
         border
     }
 
-    /// The determinant at another instant, relative to that where it was frozen: 1 there. Rows that
-    /// are dependent to working precision give zero.
+    /// The determinant at another instant, relative to its value at the first instant. Zero if the
+    /// rows are dependent to working precision.
     pub(super) fn value(&self, c: &Matrix) -> f64 {
         let now = self.determinant(c);
         now.sign * self.reference.sign * (now.log - self.reference.log).exp()
     }
 
-    /// Volume of the frame in the null space of the same rows elsewhere: 1 where it has not turned.
+    /// Overlap of the fixed basis with the null space of the same rows at another instant, as a
+    /// volume: 1 if the null space has not rotated.
     pub(super) fn overlap(&self, c: &Matrix) -> f64 {
         let common = self.frame.product(&null_space(c, &self.kept).transpose());
         let mut lu = Lu::new(common.nrows());
@@ -62,7 +63,7 @@ fn null_space(c: &Matrix, kept: &[usize]) -> Matrix {
 mod tests {
     use super::*;
 
-    /// A row that turns, bordered by what it allowed at angle 0.4: the determinant is the cosine of
+    /// A rotating row, bordered by its null space at angle 0.4: the determinant is the cosine of
     /// the angle between them.
     #[test]
     fn a_turning_row() {
@@ -73,7 +74,7 @@ mod tests {
             assert!((border.value(&c(angle)) - expected).abs() < 1e-15);
             assert!((border.overlap(&c(angle)) - expected.abs()).abs() < 1e-15);
         }
-        // Two rows that become parallel: the sine.
+        // Two rows that become parallel: the determinant is the sine of their angle.
         let c = |angle: f64| Matrix::from_rows(&[[1.0, 0.0], [angle.cos(), angle.sin()]]);
         let border = Border::new(&c(0.5), &[0, 1]);
         assert!((border.value(&c(-0.25)) + 0.25_f64.sin() / 0.5_f64.sin()).abs() < 1e-15);

@@ -311,8 +311,8 @@ fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f
     larger.fold(0.0, f64::max)
 }
 
-/// The length to which a workshop works where it makes the bodies of a joint (m): several times
-/// their reach; without an end where that is not known.
+/// The length to which manufacturing accuracy refers for the bodies of a joint (m): several times
+/// their reach; infinite if the reach is not known.
 fn piece(mechanism: &Mechanism, group: usize) -> f64 {
     let bodies = mechanism.layout().groups[group].bodies.iter();
     let reach = bodies
@@ -324,7 +324,7 @@ fn piece(mechanism: &Mechanism, group: usize) -> f64 {
     }
 }
 
-/// What would stop the fastest body within the size of the mechanism (N).
+/// The force (N) that would stop the fastest body within the size of the mechanism.
 fn largest_stop(mechanism: &Mechanism, v: &[f64], size: f64) -> f64 {
     let kinds = mechanism.layout().column_kinds();
     let of = |((m, v), kind): ((&f64, &f64), &ColumnKind)| {

@@ -5,8 +5,8 @@ use super::*;
 const RADIUS: f64 = 0.5;
 const RATE: f64 = 4.0;
 
-/// A Scotch yoke: a crank with a pin in the slot of a slider on the ground. With the angle ω·t of
-/// the crank the slider is at r·cos ω·t. It is damped so heavily that the motion would be stiff if
+/// A Scotch yoke: a crank with a pin in the slot of a slider on the ground. If the crank has the
+/// angle ω·t, the slider is at r·cos ω·t. The damping is so large that the motion would be stiff if
 /// anything were free.
 fn yoke(d: &mut Description) {
     let (crank, slider) = (BodyRef::Body(0), BodyRef::Body(1));
@@ -61,8 +61,8 @@ fn yoke(d: &mut Description) {
 #[test]
 fn it_is_evaluated_once_at_each_time_of_a_step() {
     let p = scene(yoke);
-    // One evaluation of a step falls on a time that has been seen: the last stage lies where the
-    // step ends.
+    // One evaluation of a step is at a time that has already been evaluated: the last stage is at
+    // the end of the step.
     for (method, again) in [(Method::Dop853, 1), (Method::Dopri5, 1)] {
         let options = MotionOptions { method, ..to(3.0) };
         let wanted = Wanted {

@@ -1,4 +1,4 @@
-//! A constraint that tells how often each of its kernels was called, and with which sines.
+//! A constraint that counts the calls of each of its kernels and records the sines passed to them.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
@@ -17,21 +17,21 @@ pub(super) struct Calls {
     pub(super) gamma: usize,
     pub(super) wrench: usize,
     pub(super) derivatives: usize,
-    /// Bits of all sines of the last slot.
+    /// Bits of all sines passed for the last slot.
     pub(super) sines: BTreeSet<u64>,
 }
 
-/// Where calls are noted.
+/// Shared record of the calls.
 pub(super) type Notes = Arc<Mutex<Calls>>;
 
-/// A constraint and its notes.
+/// A constraint and its record.
 #[derive(Clone)]
 struct Watched {
     inner: Box<dyn PlaneConstraint>,
     notes: Notes,
 }
 
-/// Watches a joint from now on.
+/// Replaces a joint by a watched one.
 pub(super) fn watch(joint: &mut Joint) -> Notes {
     let notes = Notes::default();
     joint.element = Box::new(Watched {
@@ -41,7 +41,7 @@ pub(super) fn watch(joint: &mut Joint) -> Notes {
     notes
 }
 
-/// What was noted, and nothing any more.
+/// Takes the record and resets it.
 pub(super) fn take(notes: &Notes) -> Calls {
     std::mem::take(&mut notes.lock().expect("nobody panicked"))
 }
