@@ -17,8 +17,8 @@ use crate::prepare::Prepared;
 use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, State};
 use crate::watch::{Handover, Next, Watch, are_worn};
 
-/// A mechanism on kept rows. All storage is made here; accelerations and projections allocate
-/// nothing.
+/// A mechanism on kept rows. All storage is allocated here; accelerations and projections do not
+/// allocate.
 pub struct KeptRowMotion<'m> {
     pub(crate) equations: KeptEquations<'m>,
     pub(crate) manifold: Manifold,

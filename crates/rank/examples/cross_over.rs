@@ -1,5 +1,5 @@
 //! One acceleration by the dense and by the sparse solver, on kept rows of growing mechanisms: from
-//! how many rows on is sparse faster?
+//! how many rows on is the sparse solver faster?
 //!
 //! `cargo run --release -p pfaff-rank --example cross_over`
 #![allow(
@@ -16,7 +16,7 @@ use rank::{Sketch, decide_sparse};
 #[path = "../tests/mechanisms/mod.rs"]
 mod mechanisms;
 
-/// Least seconds of some runs.
+/// Smallest time of several runs (s).
 fn least(mut run: impl FnMut()) -> f64 {
     const RUNS: usize = 200;
     let times = (0..RUNS).map(|_| {

@@ -32,7 +32,7 @@ fn write(known: &Known, directory: &Path) -> std::io::Result<()> {
     file.flush()
 }
 
-/// Runs one matrix; the seconds of everything, and what to say of it.
+/// Runs one matrix; returns the total time (s) and a line of text.
 fn run(known: &Known) -> (f64, String) {
     let seconds = |since: Instant| since.elapsed().as_secs_f64();
     let cliques: Vec<Vec<usize>> = (0..known.c.nrows())

@@ -1,10 +1,10 @@
-//! Circuits: minimal sets of rows that depend on each other, the explanation of a redundancy in its
+//! Circuits: minimal sets of rows that depend on each other. They explain a redundancy in its
 //! smallest pieces.
 //!
 //! Redundancy belongs to circuits, never to a row. The p fundamental circuits (one for each dropped
 //! row) depend on which rows were dropped and may be long. Every circuit is the support of a vector
 //! `Z·y` that vanishes on a hyperplane of the dual, so the hyperplanes list all circuits, and the
-//! short ones among them say the same in fewer rows.
+//! short ones among them describe the same dependencies with fewer rows.
 
 use crate::limits::{HYPERPLANES_MAX, PIVOT_MIN};
 use std::cmp::Ordering;
@@ -23,15 +23,15 @@ pub struct Circuit {
     /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
     pub coefficients: Vec<f64>,
     /// The largest coefficient of the equilibrated rows, relative to the largest of all, that
-    /// counts as zero within a stated tolerance only; zero where none does.
+    /// counts as zero only within a stated tolerance; zero if there is none.
     pub left_out: f64,
 }
 
 /// The fundamental circuit of each dropped row, in the order of `dropped`.
 ///
 /// The support is decided on equilibrated coefficients relative to the largest of the circuit,
-/// against the noise of their rows ([`RankDecision::row_noise`]); a row whose margin is zero is in
-/// none. A row of zeros is a circuit by itself.
+/// against the noise of their rows ([`RankDecision::row_noise`]); a row with margin zero is in no
+/// circuit. A row of zeros is a circuit of one row.
 #[must_use]
 pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
     fundamental(decision)
@@ -44,10 +44,10 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
 /// independent of it, and so on, which makes the total length smallest. Shortest first, equal
 /// lengths by rows; they do not depend on the rows that were dropped.
 ///
-/// A component (rows that mix) of redundancy p_c has at most as many circuits as subsets of p_c − 1
-/// of its rows. Where that is more than 20 000, or where rounding hides which rows belong to one or
-/// that a row belongs to any, the fundamental circuits of the component stand in: minimal and
-/// independent too, but perhaps longer.
+/// A component (a set of coupled rows) of redundancy p_c has at most as many circuits as subsets of
+/// p_c − 1 of its rows. If there are more than 20 000 of these, or if rounding hides which rows
+/// belong to a circuit or whether a row belongs to any, the fundamental circuits of the component
+/// are returned: also minimal and independent, but perhaps longer.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -65,9 +65,9 @@ pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
     let mut found: Vec<Sparse> = Vec::with_capacity(decision.redundancy);
     for rows in components(decision).coupled {
         let dual = Dual::new(decision, &support, &rows);
-        // One dropped row has one circuit, and the support has decided on it.
+        // A component with one dropped row has one circuit, whose rows have already been decided.
         let shortest = (dual.dimension() > 1).then(|| shortest(&dual)).flatten();
-        // Each row of a component is in one of its circuits; else the noise of all has hidden it.
+        // Each row of a component is in one of its circuits; otherwise noise has hidden the row.
         let shortest = shortest.filter(|circuits| covers(circuits, &rows));
         match shortest {
             Some(circuits) => found.extend(circuits),
@@ -83,7 +83,7 @@ pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
     found.iter().map(|z| circuit(decision, z)).collect()
 }
 
-/// Equilibrated coefficients by row, zeros left out.
+/// Equilibrated coefficients by row, without zeros.
 type Sparse = Vec<(usize, f64)>;
 
 fn by_length(a: &Sparse, b: &Sparse) -> Ordering {
@@ -128,8 +128,8 @@ fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
     None
 }
 
-/// The circuit `Z̃·y` that vanishes on p − 1 independent vectors, with y. `None` if they are
-/// dependent or too noisy to say which other rows it contains.
+/// The circuit `Z̃·y` that vanishes on p − 1 independent vectors, with y. Returns `None` if they
+/// are dependent or too noisy to decide which other rows it contains.
 fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse, Vec<f64>)> {
     let hyperplane = eliminate(vectors, dual.noise).ok()?;
     if hyperplane.pivots.len() != p - 1 || hyperplane.smallest < PIVOT_MIN {
@@ -144,7 +144,7 @@ fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse
     }
     let largest = kernels::max_abs(&y);
     y.iter_mut().for_each(|y| *y /= largest);
-    // An error of the vectors moves y by the inverse of the smallest pivot as much.
+    // An error of the vectors changes y by that error divided by the smallest pivot.
     let noise = dual.noise * p as f64 * (1.0 + hyperplane.smallest.recip());
     let mut circuit = Sparse::new();
     for (&row, vector) in dual.rows.iter().zip(&dual.vectors) {
@@ -173,8 +173,8 @@ fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
         .collect()
 }
 
-/// The largest coefficient that the dependency has by its dropped rows, that is none of these and
-/// no rounding, relative to the largest.
+/// The largest coefficient of the dependency, relative to the largest of all, that counts as zero
+/// although it is larger than rounding.
 fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
     if !decision.has_tolerance() {
         return 0.0;

@@ -1,17 +1,17 @@
-//! The one place where a rank is decided, and where a tolerance for it lives.
+//! The rank decision and its tolerance. Ranks are decided nowhere else.
 //!
 //! A rank is decided once per regime of a motion, at a point polished onto the constraints, never
-//! inside a right-hand side: off the manifold by δ a singular value that is exactly zero on it is
-//! about δ. The decision carries its evidence (all singular values of the equilibrated matrix) and
-//! may be `Undecided`; then both readings are in it. Not here: what redundancy means for reactions
-//! (`null_space` gives the dependencies) and any weighting by masses, which creates false small
-//! singular values.
+//! inside a right-hand side: at a distance δ from the manifold, a singular value that is exactly
+//! zero on it is about δ. The decision contains its evidence (all singular values of the
+//! equilibrated matrix) and may be `Undecided`; then it contains both possible ranks. The meaning
+//! of redundancy for reactions is outside this module (`null_space` gives the dependencies). Masses
+//! are not used as weights, because they create false small singular values.
 //!
 //! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
 //! `τ = 10·max(eps·√(m·n), uncertainty)`, rank r is decided iff `σ_{r+1} ≤ τ` and
-//! `σ_r ≥ max(10³·τ, 10⁻⁷)`; where τ is above 0.01, only if σ_{r+1} is rounding. Two other rules
-//! give a certificate: `exact` reads the entries as they stand, `within` reads them in
-//! double-double and knows what the data are worth.
+//! `σ_r ≥ max(10³·τ, 10⁻⁷)`; if τ is above 0.01, only if σ_{r+1} is rounding. Two other rules give
+//! a certificate: `exact` takes the entries as exact, `within` uses double-double and the
+//! uncertainty of the data.
 
 mod bound;
 mod certificate;
@@ -44,12 +44,12 @@ pub(crate) use clear::{Size, independent, size};
 pub(crate) use coefficient::coefficient_noise;
 pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
 
-/// Decides the rank of C, chooses the rows to keep and expresses the others by them.
+/// Decides the rank of C, chooses the rows to keep, and expresses the others in terms of them.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
 /// | `c` | m×n | constraint matrix; `0×n` and `m×0` have rank 0 |
-/// | `uncertainty` | – or m×n | what the entries are known to beyond rounding; see [`Uncertainty`] |
+/// | `uncertainty` | – or m×n | uncertainty of the entries beyond rounding; see [`Uncertainty`] |
 ///
 /// ```
 /// use linalg::Matrix;
@@ -66,7 +66,7 @@ pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
 /// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
-///   infinite or of another matrix.
+///   infinite or of another shape.
 ///
 /// Source: rank rule and scaling as in the module docs; rows by pivoted QR of `(D_r·C·D_c)ᵀ` and
 /// strong exchanges (Gu and Eisenstat 1996).
@@ -84,8 +84,9 @@ pub fn decide<'a>(
     Ok(reading.with_basis(scaling, basis))
 }
 
-/// Rows that look independent by the pivots of one factorisation, ascending: what a Newton
-/// iteration may solve with, which shows whether they are. Not a rank.
+/// Rows that appear independent by the pivots of one factorisation, ascending: a Newton iteration
+/// may be tried with them, and its convergence shows whether they are independent. This is not a
+/// rank decision.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -111,7 +112,7 @@ pub fn promising_rows<'a>(
     Ok(rows)
 }
 
-/// A rank read from singular values, without rows yet.
+/// A rank read from singular values, before rows are chosen.
 struct Reading {
     rank: usize,
     evidence: Evidence,
@@ -129,13 +130,13 @@ fn read(c: &Matrix, uncertainty: Uncertainty<'_>) -> Result<(Scaling, Matrix, Re
     Ok((scaling, scaled, reading))
 }
 
-/// τ of an m×n matrix whose equilibrated entries are known to `uncertainty`.
+/// τ of an m×n matrix whose equilibrated entries have this uncertainty.
 pub(crate) fn tolerance(m: usize, n: usize, uncertainty: f64) -> f64 {
     let rounding = f64::EPSILON * (m as f64 * n as f64).sqrt();
     NOISE_FACTOR * rounding.max(uncertainty)
 }
 
-/// What the smallest singular value that counts as non-zero has to reach: max(10³·τ, 10⁻⁷).
+/// Lower limit for the smallest singular value that counts as non-zero: max(10³·τ, 10⁻⁷).
 pub(crate) fn required(tolerance: f64) -> f64 {
     (CLEARANCE * tolerance).max(NEARLY_SINGULAR)
 }
@@ -155,7 +156,7 @@ fn check_finite(c: &Matrix) -> Result<(), RankError> {
     }
 }
 
-/// A combination of rows without its part in the left null space, of unit norm.
+/// A combination of rows without its component in the left null space, of unit norm.
 fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
     let z = crate::orthonormal(decision);
     let part = z.transpose_times(&direction);
@@ -168,7 +169,7 @@ fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
 }
 
 /// The status of a rank with a clear gap: decided, unless the tolerance hides singular values that
-/// are no rounding.
+/// are not rounding.
 pub(crate) fn shown(sigma_next: f64, tolerance: f64) -> RankStatus {
     if tolerance > HIDDEN && sigma_next > NOT_ROUNDING {
         RankStatus::Undecided(Doubt::Hidden {
@@ -214,7 +215,7 @@ impl Reading {
             }
         };
         let sigma_next = |r: usize| singular_values.get(r).copied().unwrap_or(0.0);
-        // Below the tolerance there is only noise: no gap may profit from it.
+        // Below the tolerance there is only noise, which must not enlarge the gap.
         let clear_gap = |r: usize| sigma_r(r).min(sigma_max) / sigma_next(r).max(tolerance);
         let rank = (lower..=upper)
             .max_by(|&a, &b| clear_gap(a).total_cmp(&clear_gap(b)))

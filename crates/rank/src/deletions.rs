@@ -1,14 +1,14 @@
-//! Which rows may be deleted so that the motion stays, and which deletions make a wanted multiplier
-//! unique.
+//! Which rows may be deleted so that the motion stays the same, and which deletions make a given
+//! multiplier unique.
 //!
 //! A set D of p rows is admissible iff the other rows still have rank r; equivalently iff the block
-//! `Z_D` of a left null space basis is nonsingular. The multipliers of D are then zero by decree
-//! and all others are unique. Deleting fewer rows makes some of them unique: a combination `ℓᵀ·λ`
-//! becomes unique iff `ℓᵀ·Z` lies in the row space of `Z_D`. All of it is decided with the clear
-//! gap of rank decisions, on the coefficients of the decision; where a number lies in the gap, that
-//! is the answer.
+//! `Z_D` of a left null space basis is nonsingular. Deleting D sets its multipliers to zero, and
+//! all others become unique. Deleting fewer rows makes some of them unique: a combination `ℓᵀ·λ`
+//! becomes unique iff `ℓᵀ·Z` lies in the row space of `Z_D`. All tests use the clear gap of rank
+//! decisions, on the coefficients of the decision; if a number lies in the gap, the result is an
+//! error that says so.
 //!
-//! Not here: which rows it is sensible to delete. The caller says which are candidates.
+//! Which rows it is sensible to delete is up to the caller, who passes the candidates.
 
 mod count;
 mod substitutes;
@@ -22,15 +22,15 @@ use crate::{Doubt, RankDecision, RankStatus, components};
 pub use count::count_deletions;
 pub use substitutes::{Limits, Substitutes, making_unique};
 
-/// Why deletions cannot be told.
+/// Reason why deletions cannot be determined.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeletionError {
     /// The rank itself is undecided.
     #[error("the rank is undecided, so no deletion can be judged: {0}")]
     Rank(Doubt),
-    /// Whether some rows may be deleted together hangs on a number that is neither zero nor
-    /// certainly not.
+    /// Whether some rows may be deleted together depends on a number that is neither certainly zero
+    /// nor certainly not zero.
     #[error(
         "whether rows can be deleted together hangs on {value:.3e}, between the rounding {noise:.3e} of the dependencies and what is \
          certainly not zero; polish the point or decide in higher precision"
@@ -38,31 +38,31 @@ pub enum DeletionError {
     Unclear {
         /// The number.
         value: f64,
-        /// Below this it would be zero.
+        /// Largest value that counts as zero.
         noise: f64,
     },
-    /// Too many to be counted.
+    /// There are too many deletions to be counted.
     #[error(
         "a component with redundancy {redundancy} has too many admissible deletions to be counted"
     )]
     TooMany {
-        /// p of the component.
+        /// Redundancy p of the component.
         redundancy: usize,
     },
-    /// A row that does not exist.
+    /// A row does not exist.
     #[error("row {row} does not exist, rows are 0..{rows}")]
     RowOutOfRange {
         /// The row.
         row: usize,
-        /// Rows of the matrix.
+        /// Number of rows of the matrix.
         rows: usize,
     },
-    /// The target is no list of combinations of all multipliers.
+    /// The target is not a list of combinations of all multipliers.
     #[error("combinations have {found} coefficients, there are {rows} multipliers")]
     TargetShape {
-        /// Columns of the target.
+        /// Number of columns of the target.
         found: usize,
-        /// Rows of the constraint matrix.
+        /// Number of rows of the constraint matrix.
         rows: usize,
     },
     /// The target has an entry that is NaN or infinite.
@@ -83,12 +83,12 @@ impl From<Unclear> for DeletionError {
     }
 }
 
-/// The first `limit` admissible sets of p rows: deleting one of them leaves the motion as it is and
-/// all multipliers unique.
+/// The first `limit` admissible sets of p rows: deleting one of them keeps the motion and makes all
+/// other multipliers unique.
 ///
-/// Sets ascend; those of one component (rows that mix) come in lexicographic order, several
-/// components combine like the digits of a number. How many there are is [`count_deletions`]. Full
-/// rank has one such set, the empty one.
+/// Sets ascend; those of one component (coupled rows) come in lexicographic order, and several
+/// components are combined like the digits of a number. [`count_deletions`] returns their number. A
+/// matrix of full rank has one such set, the empty one.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -103,7 +103,7 @@ impl From<Unclear> for DeletionError {
 ///
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.
-/// - [`DeletionError::Unclear`]: a set lies in the gap between admissible and not.
+/// - [`DeletionError::Unclear`]: for a set it is undecided whether it is admissible.
 pub fn deletions(decision: &RankDecision, limit: usize) -> Result<Vec<Vec<usize>>, DeletionError> {
     let mut sets = vec![Vec::new()];
     for dual in duals(decision)? {
@@ -140,8 +140,8 @@ fn require_rank(decision: &RankDecision) -> Result<(), DeletionError> {
     }
 }
 
-/// Adds to `bases` the bases that contain `chosen` and otherwise rows from place `next` on. Every
-/// branch that is entered ends in a basis, so the work for each of them is bounded.
+/// Adds to `bases` the bases that contain `chosen` and otherwise rows from index `next` on. Every
+/// branch that is entered ends in a basis, so the work for each basis is bounded.
 fn list_bases(
     dual: &Dual,
     all: &[usize],

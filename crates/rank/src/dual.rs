@@ -5,15 +5,15 @@
 //! parallel vectors replace each other; the rows where `Z̃·y` vanishes and those where it does not
 //! are a hyperplane of the dual and a circuit of the rows.
 //!
-//! Every question is a rank of a few vectors, answered by elimination with complete pivoting:
-//! multipliers are at most one, so the noise of all entries stays that of the decision, and an
-//! entry between "zero" and "certainly not" is an error, not a guess.
+//! Every test is a rank of a few vectors, computed by elimination with complete pivoting: the
+//! multipliers are at most one, so the noise of all entries stays that of the decision. An entry
+//! between "zero" and "certainly not zero" is an error, not a guess.
 
 use crate::decision::{Size, size};
 use crate::null_space::Support;
 use crate::{RankDecision, support_tolerance};
 
-/// A rank that hangs on a number between "zero" and "certainly not".
+/// A rank depends on a number between "zero" and "certainly not zero".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Unclear {
     pub(crate) value: f64,
@@ -39,7 +39,7 @@ impl Dual {
         let coordinates: Vec<usize> = (0..decision.redundancy)
             .filter(|&j| inside(&decision.dropped[j]))
             .collect();
-        // Coordinates in units of their largest coefficient: a change of basis that makes their
+        // Coordinates are scaled by their largest coefficient: a change of basis that makes their
         // noise equal.
         let unit = |j: usize| support.t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs()));
         let vector = |row: usize| -> Vec<f64> {
@@ -62,13 +62,13 @@ impl Dual {
         self.vectors.first().map_or(0, Vec::len)
     }
 
-    /// Rank of the vectors at these places.
+    /// Rank of the vectors with these indices.
     pub(crate) fn rank(&self, places: &[usize]) -> Result<usize, Unclear> {
         let vectors = places.iter().map(|&k| self.vectors[k].clone()).collect();
         rank(vectors, self.noise)
     }
 
-    /// Places grouped by direction; zero vectors are left out.
+    /// Indices grouped by direction; zero vectors are left out.
     pub(crate) fn parallel_classes(&self) -> Result<Vec<Vec<usize>>, Unclear> {
         let mut classes: Vec<Vec<usize>> = Vec::new();
         'places: for k in 0..self.rows.len() {
@@ -97,7 +97,7 @@ pub(crate) struct Eliminated {
     pub(crate) vectors: Vec<Vec<f64>>,
     /// Coordinate of each pivot.
     pub(crate) pivots: Vec<usize>,
-    /// The last pivot's absolute value, infinite if there is none.
+    /// Absolute value of the last pivot, infinite if there is none.
     pub(crate) smallest: f64,
 }
 

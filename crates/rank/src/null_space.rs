@@ -1,8 +1,9 @@
-//! The left null space of a constraint matrix, read from a rank decision, and what it says in
-//! words: which groups of rows mix (components). Minimal dependent sets are in `circuits`.
+//! The left null space of a constraint matrix, derived from a rank decision, and the groups of rows
+//! that it couples (components). Minimal dependent sets are in `circuits`.
 //!
-//! Columns z with `Cᵀ·z = 0` are the self-stresses: multipliers may change by them without any
-//! force on any body. Not here: verdicts on joints and reactions, which need the grouping of rows.
+//! Columns z with `Cᵀ·z = 0` are the self-stresses: if multipliers change by them, the force on
+//! every body stays the same. Verdicts on joints and reactions need the grouping of rows and are
+//! made elsewhere.
 
 use crate::limits::COEFFICIENT_ROUNDING;
 use crate::{CoefficientReading, RankDecision};
@@ -11,14 +12,14 @@ use linalg::{Matrix, PivotedQr, kernels};
 /// Partition of the rows by common dependencies.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Components {
-    /// Rows that mix with each other: each list ascending, lists ordered by their first row.
+    /// Sets of coupled rows: each list ascending, lists ordered by their first row.
     pub coupled: Vec<Vec<usize>>,
     /// Rows in no dependency at all: their multipliers are unique. Ascending.
     pub coloops: Vec<usize>,
 }
 
-/// Z (m×p) with `Cᵀ·Z = 0`: column j is `[−T_jᵀ; e_j]` in the order (K, D), scattered to row order;
-/// it says `row dropped[j] = Σ T_ji · row kept[i]`.
+/// Z (m×p) with `Cᵀ·Z = 0`: column j is `[−T_jᵀ; e_j]` in the order (K, D), permuted to row order;
+/// it states that `row dropped[j] = Σ T_ji · row kept[i]`.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -34,8 +35,8 @@ pub fn dependencies(decision: &RankDecision) -> Matrix {
 
 /// Orthonormal basis (m×p) of the left null space of the *equilibrated* rows `D_r·C·D_c`.
 ///
-/// The norm of row i is the margin of "row i is unique": zero iff it is in no dependency, one iff
-/// it depends on nothing else (a row of zeros). `D_r` times a column is a self-stress of C.
+/// The norm of row i is the margin of "row i is unique": zero iff the row is in no dependency, one
+/// iff the row alone is dependent (a row of zeros). `D_r` times a column is a self-stress of C.
 pub fn orthonormal(decision: &RankDecision) -> Matrix {
     let z = scatter(decision, &decision.equilibrated_dependence());
     let p = z.ncols();
@@ -47,10 +48,10 @@ pub fn support_tolerance(decision: &RankDecision) -> f64 {
     decision.coefficient_tolerance()
 }
 
-/// Connected components of the graph "kept row i – dropped row j where T_ji ≠ 0".
+/// Connected components of the graph with an edge between kept row i and dropped row j if T_ji ≠ 0.
 ///
-/// They are the components of the row matroid: rows of one list mix in some dependency, rows of
-/// different lists never do, and the result does not depend on which rows were kept.
+/// They are the components of the row matroid: rows of one list are coupled by dependencies, rows
+/// of different lists never are, and the result does not depend on which rows were kept.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -65,9 +66,8 @@ pub fn components(decision: &RankDecision) -> Components {
     components_of(decision, &Support::new(decision))
 }
 
-/// Rows of components in which a stated tolerance leaves open whether a row belongs to any
-/// dependency, or to which: which of them depend on each other is not known there. Ascending; none
-/// without a tolerance.
+/// Rows of components in which a stated tolerance leaves open whether a row belongs to a
+/// dependency, or to which one. Ascending; empty without a tolerance.
 pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
     if !decision.has_tolerance() {
         return Vec::new();
@@ -78,7 +78,7 @@ pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
     for (open, row) in support.open.iter_mut().zip(&decision.kept) {
         *open |= told.binary_search(row).is_ok();
     }
-    // Open rows belong to all that their coefficients touch.
+    // Open rows belong to every component in which they have a coefficient.
     for (noise, _) in support.noise.iter_mut().zip(&support.open).filter(|x| *x.1) {
         *noise = COEFFICIENT_ROUNDING;
     }
@@ -106,7 +106,7 @@ fn components_of(decision: &RankDecision, support: &Support) -> Components {
             let row_i = decision.kept[i];
             coloop[row_i] = false;
             let (a, b) = (root(&label, row_i), root(&label, row_j));
-            // The smaller row becomes the root, so that roots name the first row of a component.
+            // The smaller row becomes the root, so that the root is the first row of a component.
             label[a.max(b)] = a.min(b);
         }
     }
@@ -124,17 +124,17 @@ fn components_of(decision: &RankDecision, support: &Support) -> Components {
 }
 
 /// Which equilibrated coefficients count as non-zero. A row whose margin, the norm of its row of
-/// [`orthonormal`], reads as zero is in no circuit: verdicts ask that question, and circuits must
-/// not tell another story.
+/// [`orthonormal`], counts as zero is in no circuit: verdicts use the margin, and circuits must be
+/// consistent with them.
 pub(crate) struct Support {
-    /// T of the equilibrated rows.
+    /// Coefficients T of the equilibrated rows.
     pub(crate) t: Matrix,
     /// Largest coefficient for each dropped row, at least one.
     size: Vec<f64>,
-    /// Noise of the coefficients of each kept row, relative to it; infinite where the margin is
+    /// Noise of the coefficients of each kept row, relative to the row; infinite if the margin is
     /// zero.
     noise: Vec<f64>,
-    /// Whether it is open if the margin of a kept row is zero.
+    /// Whether it is undecided that the margin of a kept row is zero.
     open: Vec<bool>,
 }
 
@@ -256,9 +256,9 @@ mod tests {
 
     #[test]
     fn a_row_that_is_unique_is_in_no_circuit() {
-        // Sixteen unit rows and their sum, in which the last has the coefficient x beside fifteen
-        // of 1: the dependency has the length 4, so the margin is x/4. A coefficient of twice the
-        // noise is no rounding by itself, but its row is unique.
+        // Sixteen unit rows and their sum, in which the last has the coefficient x and fifteen have
+        // 1: the dependency has norm 4, so the margin is x/4. A coefficient of twice the noise is
+        // not rounding by itself, but its row is unique.
         let matrix = |x: f64| {
             Matrix::from_fn(17, 17, |i, j| match (i, j) {
                 (16, 15) => x,

@@ -1,13 +1,13 @@
-//! Arithmetic modulo a prime, for questions that have no tolerance: is a minor zero?
+//! Arithmetic modulo a prime, for tests without a tolerance: is a minor zero?
 //!
-//! A determinant that is not zero modulo one prime is not zero; one that is zero modulo so many
-//! primes that their product exceeds Hadamard's bound is zero. Every finite `f64` is an integer
-//! times a power of two, and a power of two is a unit modulo an odd prime, so constraint matrices
-//! are mapped without error. Not here: which rows, which minors (`rank::modular`).
+//! A determinant that is not zero modulo one prime is not zero; one that is zero modulo primes
+//! whose product exceeds Hadamard's bound is zero. Every finite `f64` is an integer times a power
+//! of two, and a power of two is a unit modulo an odd prime, so constraint matrices are mapped
+//! without error. The choice of rows and minors is in `rank::modular`.
 //!
-//! The primes have 62 bits and are drawn from a fixed pseudo-random stream. Primes with a pattern
-//! would not do: modulo the convenient 2⁶¹ − 1 the determinant of [[1, 1], [1, 2⁶¹]] vanishes, and
-//! data in binary are full of powers of two.
+//! The primes have 62 bits and are drawn from a fixed pseudo-random stream. Primes of a special
+//! form are not suitable: modulo the convenient 2⁶¹ − 1 the determinant of [[1, 1], [1, 2⁶¹]]
+//! vanishes, and binary data contain many powers of two.
 //!
 //! Source: P. L. Montgomery, Modular multiplication without trial division, Math. Comp. 44 (1985)
 //! 519–521; the bases of the primality test after J. Sorenson, J. Webster, Strong pseudoprimes to
@@ -141,7 +141,8 @@ pub(crate) fn fields() -> impl Iterator<Item = PrimeField> {
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014), filtered for primes. Two equal ones among n have
-/// probability n²/2⁵⁶; the reconstruction notices, because the second has no inverse of the first.
+/// probability n²/2⁵⁶; the reconstruction detects this, because the second has no inverse of the
+/// first.
 #[derive(Debug, Clone)]
 struct Stream(u64);
 
@@ -161,8 +162,7 @@ impl Iterator for Stream {
     }
 }
 
-/// Miller and Rabin's test with the first twelve primes as bases: no composite below 3.1e23 passes
-/// it.
+/// Miller–Rabin test with the first twelve primes as bases: no composite below 3.1e23 passes it.
 fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if BASES.iter().any(|b| n.is_multiple_of(*b)) {
@@ -195,7 +195,7 @@ mod tests {
     use super::*;
     use crate::limits::PRIME_BITS;
 
-    /// Against `u128` remainders, and Fermat's theorem through the inverse.
+    /// Compared with `u128` remainders, and with Fermat's theorem through the inverse.
     #[test]
     fn arithmetic_agrees_with_remainders() {
         for field in fields().take(4).chain([PrimeField::new(7)]) {

@@ -2,11 +2,11 @@
 //!
 //! Column-pivoted QR picks a good set K of rows, but the coefficients that express the other rows
 //! can still grow like 2^r. Exchanging a kept row i with a dropped row j multiplies the volume
-//! `√det(C_K·C_Kᵀ)` by `|T_ji|`, so exchanging while an entry exceeds the bound ends. This is the
-//! strong rank-revealing criterion for the part that matters here; its second term,
+//! `√det(C_K·C_Kᵀ)` by `|T_ji|`, so exchanging while an entry exceeds the bound terminates. This is
+//! the part of the strong rank-revealing criterion that is needed here; its second term,
 //! `‖R₁₁⁻¹‖·‖R₂₂‖ ≤ σ_{r+1}/σ_r`, is at most 1e-3 for every decided rank and is left out.
 //!
-//! Not here: which rank. That is decided before.
+//! The rank itself has been decided before.
 //!
 //! Source: M. Gu, S. C. Eisenstat, Efficient algorithms for computing a strong rank-revealing QR
 //! factorization, SIAM J. Sci. Comput. 17 (1996) 848–869, algorithm 4 with f = 2.
@@ -27,7 +27,7 @@ pub(crate) struct Basis {
 }
 
 impl Basis {
-    /// From lists in any order, with T in the order of the lists.
+    /// Sorts lists in any order, with T in the order of the lists.
     pub(crate) fn sorted(kept: &[usize], dropped: &[usize], t: &Matrix, residual: f64) -> Self {
         let ascending = |rows: &[usize]| {
             let mut order: Vec<usize> = (0..rows.len()).collect();
@@ -58,8 +58,8 @@ pub(crate) fn bounded(c: &Matrix, mut kept: Vec<usize>) -> Basis {
     basis
 }
 
-/// Exchanges rows until `|T_ji| ≤ 2`; T is updated, not computed afresh, and the lists are no
-/// longer ascending.
+/// Exchanges rows until `|T_ji| ≤ 2`. T is updated, not computed again, and the lists are no longer
+/// ascending.
 pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [usize]) {
     let exchanges_max = 10 * (kept.len() + dropped.len());
     for _ in 0..exchanges_max {
@@ -71,7 +71,7 @@ pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [us
     }
 }
 
-/// Expresses all other rows by the rows `kept`, which are independent: `Tᵀ = R₁₁⁻¹·R₁₂`.
+/// Expresses all other rows in terms of the rows `kept`, which are independent: `Tᵀ = R₁₁⁻¹·R₁₂`.
 pub(crate) fn express(c: &Matrix, mut kept: Vec<usize>) -> Basis {
     kept.sort_unstable();
     let dropped = complement(c.nrows(), &kept);
@@ -100,8 +100,8 @@ pub(crate) fn express(c: &Matrix, mut kept: Vec<usize>) -> Basis {
     }
 }
 
-/// Coefficients of the row y in the rows that were factored, and the norm of what y has outside
-/// their span; y is overwritten.
+/// Coefficients of the row y in terms of the factored rows, and the norm of the component of y
+/// outside their span; y is overwritten.
 pub(crate) fn coefficients(qr: &PivotedQr, y: &mut [f64], t: &mut [f64]) -> f64 {
     qr.q_transpose_mul(y);
     let (x, outside) = y.split_at_mut(t.len());
@@ -131,7 +131,8 @@ fn largest_above_bound(t: &Matrix) -> Option<(usize, usize)> {
     at
 }
 
-/// T after kept row i and dropped row j changed places: one Gauss–Jordan step with pivot T_ji.
+/// Updates T after kept row i and dropped row j have been exchanged: one Gauss–Jordan step with
+/// pivot T_ji.
 fn exchange(t: &mut Matrix, j: usize, i: usize) {
     let pivot = t[(j, i)];
     let mut row_j: Vec<f64> = t.row(j).iter().map(|a| -a / pivot).collect();
@@ -151,7 +152,8 @@ fn exchange(t: &mut Matrix, j: usize, i: usize) {
 mod tests {
     use super::*;
 
-    /// Row 1 is 100 times a unit vector mix of row 0: the basis must take row 1, not row 0.
+    /// Row 0 is a combination of rows 1 and 2 with factor 1/100, so the basis must not contain row
+    /// 0.
     #[test]
     fn exchanges_until_the_coefficients_are_bounded() {
         let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [100.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
@@ -165,7 +167,7 @@ mod tests {
         approx::assert_abs_diff_eq!(good.t, Matrix::from_rows(&[[0.01, -0.01]]), epsilon = 1e-16);
     }
 
-    /// One exchange against expressing afresh.
+    /// One exchange gives the same T as a new factorisation.
     #[test]
     fn exchange_agrees_with_a_new_factorisation() {
         let c = Matrix::from_rows(&[

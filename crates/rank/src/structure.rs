@@ -1,20 +1,21 @@
-//! What the pattern of a constraint matrix settles before any rank of the whole: rows that are in
-//! no dependency because of where they act, and parts that have nothing to do with each other.
+//! Facts that follow from the pattern of a constraint matrix before any rank of the whole: rows
+//! that are in no dependency because of where they act, and parts that are independent of each
+//! other.
 //!
-//! Columns come in blocks (bodies), rows in groups (joints). Three facts are used, each exact in
-//! one direction: what they settle is settled, what they leave open needs numbers.
+//! Columns form blocks (bodies), rows form groups (joints). Three facts are used. Each is exact in
+//! one direction: rows that they settle are settled, the others need numbers.
 //!
-//! - **Parts.** Groups that share no block, directly or through others, are independent problems.
-//!   The ground is no block.
+//! - **Parts.** Groups that share no block, directly or through other groups, are independent
+//!   problems. The ground is not a block.
 //! - **Peeling.** `Cᵀ·z = 0` on the columns of one block involves only the rows that touch it. If
-//!   these rows, restricted to the block, are independent, then z vanishes on all of them; they and
-//!   the block leave.
+//!   these rows, restricted to the block, are independent, then z vanishes on all of them, and they
+//!   are removed together with the block.
 //! - **Bridges.** In the graph of blocks and ground a group that alone joins a set S of blocks to
 //!   the rest has `C_Xᵀ·z_X = 0`: the equilibrium of S. This needs mechanics, see
 //!   [`RowGroup::ground`].
 //!
-//! Ranks here are those of a few rows of the equilibrated matrix, by the rule of `rank`; what is
-//! not certain stays open. Not here: names of joints, and verdicts from ranks.
+//! Ranks here are those of a few rows of the equilibrated matrix, by the rule of `rank`; whatever
+//! is not certain stays open. Names of joints, and verdicts from ranks, are not used here.
 
 mod cycles;
 mod graph;
@@ -35,44 +36,45 @@ pub use incidence::{Part, RowGroup};
 
 pub(crate) use incidence::partition;
 
-/// What is known of a row or group before any rank of the whole.
+/// Result for a row or group before any rank of the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Settled {
-    /// All its rows left with blocks where they are independent: its multipliers are unique.
+    /// All its rows were removed with blocks on which they are independent: its multipliers are
+    /// unique.
     Peeled,
-    /// It is the only one between two sides: `C_Xᵀ·λ_X` is unique.
+    /// It is the only connection between two sides: `C_Xᵀ·λ_X` is unique.
     Bridge,
-    /// Open; the number of its part in [`Structure::open`].
+    /// Not settled; the number is that of its part in [`Structure::open`].
     Open(usize),
 }
 
-/// What the pattern settles.
+/// Results that follow from the pattern.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Structure {
-    /// For each group, why it is settled, or its part; peeled if all its rows are.
+    /// For each group, why it is settled, or its part; peeled if all its rows are peeled.
     pub groups: Vec<Settled>,
-    /// The same for each row. A row of no group is one by itself, on the ground.
+    /// The same for each row. A row in no group forms a group by itself, connected to the ground.
     pub rows: Vec<Settled>,
-    /// Parts of the whole matrix, by their first row.
+    /// Parts of the whole matrix, ordered by their first rows.
     pub parts: Vec<Part>,
-    /// Parts of what is left open, by their first row: each can be judged alone, on its rows and
-    /// the columns of its blocks.
+    /// Parts of the open rows, ordered by their first rows. Each can be analysed separately, on its
+    /// rows and the columns of its blocks.
     pub open: Vec<Part>,
 }
 
-/// Settles what the pattern settles. `blocks` are ranges of columns; a column of no block is a
-/// block of its own.
+/// Determines what follows from the pattern. `blocks` are ranges of columns; a column in no block
+/// is a block of its own.
 ///
-/// A row touches a block where it has an entry that is not zero. Peeling and bridges take turns
-/// until neither finds more: each pass is linear in the entries of C, and their number at most that
-/// of the blocks. A group on more than two blocks, or on two and the ground (a gear with its
-/// carrier), joins all of them and is never called a bridge: what it transmits to one side may
-/// vanish while the rest does not.
+/// A row touches a block if it has a non-zero entry in it. Peeling and bridges alternate until
+/// neither finds more: each pass is linear in the entries of C, and there are at most as many
+/// passes as blocks. A group on more than two blocks, or on two and the ground (a gear with its
+/// carrier), connects all of them and is never a bridge: the load that it transmits to one side may
+/// vanish while the others do not.
 ///
 /// ```
 /// use linalg::Matrix;
 /// use rank::{RowGroup, Settled, structure};
-/// // Block 0 = column 0, block 1 = column 1. Rows 0 and 1 hold block 0 twice; row 2 hangs block 1 on it.
+/// // Block k = column k. Rows 0 and 1 both fix block 0; row 2 connects block 1 to it.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [-1.0, 1.0]]);
 /// let groups = [(0..1, true), (1..2, true), (2..3, false)].map(|(rows, ground)| RowGroup { rows, ground });
 /// let found = structure(&c, 0.0, &groups, &[0..1, 1..2])?;
@@ -81,13 +83,13 @@ pub struct Structure {
 /// # Ok::<(), rank::RankError>(())
 /// ```
 ///
-/// Ranges beyond the matrix are cut; a row in several groups, or a column in several blocks, counts
-/// for the first.
+/// Ranges beyond the matrix are cut off; a row in several groups, or a column in several blocks,
+/// counts for the first.
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
 /// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
-///   infinite or of another matrix.
+///   infinite or of another shape.
 pub fn structure<'a>(
     c: &Matrix,
     uncertainty: impl Into<Uncertainty<'a>>,

@@ -1,4 +1,4 @@
-//! The combination of rows that comes closest to zero: what nearly depends on each other, and by
+//! The combination of rows that is closest to zero: which rows nearly depend on each other, and by
 //! how much.
 
 use crate::limits::{DIRECTION_ROUNDING, INVERSE_ITERATIONS};
@@ -14,8 +14,8 @@ pub struct WeakestCombination {
 }
 
 /// The smallest singular value of rows and its left singular vector, by inverse iteration with
-/// `C·Cᵀ = P·Rᵀ·R·Pᵀ`. Where rows are dependent to the last digit of `f64`, by one with
-/// `C·Cᵀ + δ²·I`, where δ is the rounding of the largest row. `None` without rows.
+/// `C·Cᵀ = P·Rᵀ·R·Pᵀ`. If rows are dependent to the last digit of `f64`, with `C·Cᵀ + δ²·I`, where
+/// δ is the rounding of the largest row. Returns `None` without rows.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -30,7 +30,7 @@ pub fn weakest_combination(rows: &Matrix) -> Option<WeakestCombination> {
     by_inverse_iteration(rows).or_else(|| by_inverse_iteration(&beside_rounding(rows)))
 }
 
-/// `[C, δ·I]`.
+/// Appends the rounding: `[C, δ·I]`.
 fn beside_rounding(rows: &Matrix) -> Matrix {
     let (r, n) = (rows.nrows(), rows.ncols());
     let largest = (0..r).map(|i| kernels::norm(rows.row(i)));
@@ -48,7 +48,7 @@ fn by_inverse_iteration(rows: &Matrix) -> Option<WeakestCombination> {
     if r == 0 || r > qr.steps() || qr.r_diagonal().any(|d| d == 0.0) {
         return None;
     }
-    // Any start has a part along the weakest combination.
+    // Practically any start has a component along the weakest combination.
     let mut y: Vec<f64> = (0..r).map(|i| 1.0 + i as f64 / 7.0).collect();
     let mut growth = 0.0;
     for _ in 0..INVERSE_ITERATIONS {
@@ -72,7 +72,7 @@ fn by_inverse_iteration(rows: &Matrix) -> Option<WeakestCombination> {
 mod tests {
     use super::*;
 
-    /// Two equal rows beside a third one: weights (1, −1, 0)/√2, whatever their scale.
+    /// Two equal rows and a third one: weights (1, −1, 0)/√2, whatever their scale.
     #[test]
     fn equal_rows_cancel() {
         for scale in [1e-100, 1.0, 1e100] {

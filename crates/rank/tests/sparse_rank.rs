@@ -23,7 +23,7 @@ fn check(known: &Known) {
     let e = &found.evidence;
     assert!(e.smallest_margin > 1e8 * e.largest_zero, "{name}: {e:?}");
     assert!(e.backward_error < 1e-11, "{name}: {e:?}");
-    // Rows of three bodies with a bounded number of joints: memory in proportion.
+    // Bodies have a bounded number of joints, so memory is proportional to the rows.
     assert!(e.bytes < 1200 * known.c.nrows(), "{name}: {e:?}");
 }
 
@@ -58,13 +58,13 @@ fn kept_rows_are_as_many_and_independent() {
     assert_eq!(found.dropped.len(), known.redundancy);
 }
 
-/// Bodies and rows in another order, another unit of length, and one for each row: the same
-/// answers.
+/// Another order of bodies and rows, another unit of length, and a unit for each row give the same
+/// results.
 #[test]
 fn order_and_units_do_not_matter() {
     let known = chain(20);
     let (m, n) = (known.c.nrows(), known.c.ncols());
-    // A step without a common divisor visits all.
+    // A step without a common divisor visits all numbers.
     let step = |k: usize, of: usize| (k * 7919 + 3) % of;
     for (length, decades) in [(1e-9, 3), (1.0, 3), (1e6, 3), (1.0, 8)] {
         let row = |k: usize| {
@@ -80,7 +80,8 @@ fn order_and_units_do_not_matter() {
         let c = SparseMatrix::from_rows(n, (0..m).map(row)).expect("columns of bodies");
         let found = decide_sparse(&c, 0.0, &known.bodies, Sketch::default()).expect("finite");
         if decades > 3 && !found.is_decided() {
-            // Nor does the dense code: equilibration cannot tell such units from such sizes.
+            // The dense code does not either: equilibration cannot distinguish such units from such
+            // sizes.
             let dense = rank::decide(&c.dense(), 0.0).expect("finite");
             assert!(!dense.is_decided());
             continue;

@@ -380,7 +380,7 @@ fn the_first_component_to_stop_stops_all() {
         0.15 < stopped && stopped < 0.2_f64.asin() + 1e-6,
         "{stopped}"
     );
-    // Every row before the failure stands: one each 0.05 s.
+    // Every row before the failure remains valid: one each 0.05 s.
     assert_eq!(rows.len(), (stopped / 0.05).floor() as usize + 1);
 }
 
@@ -429,7 +429,7 @@ fn a_component_does_not_work_for_another() {
         pendulum(d, "bob", 0.0);
         stiff(d);
     };
-    // Rows that are shown together are computed before anybody asks: only what is wanted.
+    // Rows that are passed on together are computed in advance: only the requested values.
     let wanted = Wanted {
         accelerations: false,
         ..Wanted::default()

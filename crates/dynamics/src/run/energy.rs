@@ -12,7 +12,7 @@ pub(super) struct EnergyBalance {
 }
 
 impl EnergyBalance {
-    /// At the start of a run.
+    /// Takes the energy at the start of a run.
     pub(super) fn new(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Self {
         let kinetic = mechanism.kinetic_energy(v);
         Self {
@@ -22,7 +22,7 @@ impl EnergyBalance {
         }
     }
 
-    /// Takes a state on the constraints and the work until then (J).
+    /// Takes a state on the constraints and the work up to it (J).
     pub(super) fn note(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64], work: f64) {
         let kinetic = mechanism.kinetic_energy(v);
         let gap = kinetic + mechanism.potential_energy(q) - self.start - work;
@@ -41,13 +41,13 @@ impl EnergyBalance {
     }
 }
 
-/// The larger of two numbers; NaN, an energy that has left the range of numbers, is larger than
+/// The larger of two numbers; NaN, which results from an overflowing energy, counts as larger than
 /// all.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-/// A gap relative to a kinetic energy; none is none.
+/// A gap relative to a kinetic energy; zero if both are zero.
 pub(super) fn relative(gap: f64, kinetic: f64) -> f64 {
     if gap > 0.0 || gap.is_nan() {
         gap / kinetic

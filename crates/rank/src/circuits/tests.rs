@@ -88,7 +88,8 @@ fn short_circuits_are_the_shortest_basis_of_all_circuits() {
         redundancies[decision.redundancy] += 1;
         let exact = all_circuits(&rows);
         let found = short_circuits(&decision);
-        // Each is a circuit, its coefficients cancel its rows, and together they span.
+        // Each one is a circuit, its coefficients cancel its rows, and together they span the
+        // dependencies.
         let z = Matrix::from_fn(found.len(), c.nrows(), |k, i| {
             let at = found[k].rows.iter().position(|&row| row == i);
             at.map_or(0.0, |at| found[k].coefficients[at])
@@ -139,7 +140,7 @@ fn shortest_total(rows: &[Vec<i128>], circuits: &[Vec<usize>], p: usize) -> usiz
     total
 }
 
-/// The dependency of a circuit in integers: the last row is carried along in an identity.
+/// The dependency of a circuit in integers, from elimination of the rows with an identity appended.
 fn exact_dependency(rows: &[Vec<i128>], circuit: &[usize]) -> Vec<i128> {
     let (n, k) = (rows[0].len(), circuit.len());
     let mut a: Vec<Vec<i128>> = (0..k)
@@ -164,7 +165,7 @@ fn exact_dependency(rows: &[Vec<i128>], circuit: &[usize]) -> Vec<i128> {
     }
     assert_eq!(done, k - 1);
     let mut z = vec![0; rows.len()];
-    // Elimination leaves a common factor; it would overflow the next one.
+    // Elimination leaves a common factor, which would overflow in the next step.
     let dependency = &a[k - 1][n..];
     let gcd = dependency.iter().fold(0_i128, |mut a, &b| {
         let mut b = b.abs();
@@ -179,7 +180,7 @@ fn exact_dependency(rows: &[Vec<i128>], circuit: &[usize]) -> Vec<i128> {
     z
 }
 
-/// Too many hyperplanes: the fundamental circuits stand in.
+/// Too many hyperplanes: the fundamental circuits are returned instead.
 #[test]
 fn a_component_with_too_many_circuits_falls_back() {
     let c = Matrix::from_fn(30, 15, |i, j| ((i * i + 7 * j * j + i * j) as f64).sin());

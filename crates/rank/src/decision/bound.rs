@@ -1,7 +1,7 @@
-//! A lower bound of the smallest singular value that is proved in floating point.
+//! A lower bound on the smallest singular value, proved in floating point.
 //!
 //! With an approximate right inverse X of A (r×n) and `E = I − A·X`, `‖E‖ < 1` gives
-//! `σ_r(A) ≥ (1 − ‖E‖)/‖X‖`. X may come from anywhere; only E has to be bounded, and a product in
+//! `σ_r(A) ≥ (1 − ‖E‖)/‖X‖`. X may be any matrix; only E has to be bounded, and a product in
 //! floating point is wrong by at most `γ_n·|A|·|X|`.
 //!
 //! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section
@@ -10,8 +10,8 @@
 use crate::limits::BOUND_SLACK;
 use linalg::{Matrix, PivotedQr, kernels};
 
-/// Lower bound of σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n matrix `a`;
-/// 0 if nothing is proved.
+/// Lower bound on σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n matrix `a`;
+/// 0 if nothing can be proved.
 pub(super) fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
     let (r, n) = (a.nrows(), a.ncols());
     if r == 0 {
@@ -25,7 +25,7 @@ pub(super) fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
     let e = Matrix::from_fn(r, r, |i, l| {
         f64::from(u8::from(i == l)) - kernels::dot(a.row(i), x.row(l))
     });
-    // Norms skip NaN.
+    // Norms ignore NaN, so test for it.
     if x.first_non_finite().is_some() || e.first_non_finite().is_some() {
         return 0.0;
     }

@@ -1,16 +1,16 @@
-//! Zero or not, with a clear gap between: the rule of rank decisions for single numbers, and for a
-//! few rows of a matrix that is equilibrated already.
+//! Zero or not zero, with a clear gap between: the rule of rank decisions for single numbers, and
+//! for a few rows of a matrix that has already been equilibrated.
 
 use super::{required, tolerance};
 use crate::limits::{CLEARANCE, NOISE_MAX};
 use linalg::{Matrix, singular_values};
 
-/// How a number reads against its noise.
+/// Result of comparing a number with its noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Size {
     /// At most the noise, and the noise at most 1e-4.
     Zero,
-    /// Between: neither may be built on.
+    /// Between the two limits: undecided.
     Unclear,
     /// Above the noise by the clearance of rank decisions, 10³.
     NonZero,
@@ -24,9 +24,9 @@ pub(crate) fn size(x: f64, noise: f64) -> Size {
     }
 }
 
-/// Whether rows of an equilibrated matrix are certainly independent, as they stand:
-/// `σ_min ≥ max(10³·τ, 10⁻⁷)`. They are not equilibrated again, because that would blow up entries
-/// that are rounding beside the rest of their row or column.
+/// Whether rows of an equilibrated matrix are certainly independent: `σ_min ≥ max(10³·τ, 10⁻⁷)`.
+/// They are not equilibrated again, because that would enlarge entries that are only rounding
+/// relative to the rest of their row or column.
 pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
     let tolerance = tolerance(rows.nrows(), rows.ncols(), uncertainty);
     rows.nrows() <= rows.ncols()

@@ -1,5 +1,5 @@
-//! Is a coefficient of the dependencies zero? The tolerance for T, Z and what is made of them, from
-//! the evidence of the rank.
+//! Whether a coefficient of the dependencies is zero: the tolerance for T, Z and numbers computed
+//! from them, derived from the evidence of the rank.
 
 use super::outcome::RankDecision;
 use crate::limits::{
@@ -7,24 +7,24 @@ use crate::limits::{
     POSE_FACTOR, SOLVE_FACTOR, STATED_MAX, STATED_ZERO, TOLERANCE_MAX, VANISHED,
 };
 
-/// How a coefficient of the equilibrated dependencies reads.
+/// Classification of a coefficient of the equilibrated dependencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CoefficientReading {
     /// Certainly zero.
     Zero,
     /// Certainly not zero.
     NonZero,
-    /// The evidence does not tell.
+    /// The evidence does not decide.
     Unclear {
-        /// Rounding and uncertainty reach up to here.
+        /// Largest size that rounding and uncertainty explain.
         tolerance: f64,
-        /// Above this it would certainly not be zero.
+        /// Smallest size that is certainly not zero.
         required: f64,
     },
 }
 
 impl CoefficientReading {
-    /// Reads the size of a number known to `tolerance`.
+    /// Classifies a number of this size with the uncertainty `tolerance`.
     pub(crate) fn of(size: f64, tolerance: f64) -> Self {
         let required = (COEFFICIENT_CLEARANCE * tolerance).max(CERTAIN);
         if size <= tolerance && tolerance <= TOLERANCE_MAX {
@@ -40,22 +40,20 @@ impl CoefficientReading {
     }
 }
 
-/// How far a coefficient may be from its true value where singular values are known to `tolerance`:
-/// `10·τ/σ_r`.
+/// Bound on the error of a coefficient if singular values are accurate to `tolerance`: `10·τ/σ_r`.
 pub(crate) fn coefficient_noise(tolerance: f64, sigma_r: f64) -> f64 {
     SOLVE_FACTOR * tolerance / sigma_r.min(1.0)
 }
 
 impl RankDecision {
-    /// Whether coefficients are read to a tolerance that the scene states.
+    /// Whether coefficients are compared with a tolerance that the scene states.
     #[must_use]
     pub fn has_tolerance(&self) -> bool {
         let certificate = self.evidence.certificate.as_ref();
         certificate.is_some_and(|c| c.has_tolerance)
     }
 
-    /// Whether the entries of the matrix are meant exactly as they stand, so that T is zero exactly
-    /// where it is zero.
+    /// Whether the entries of the matrix are exact, so that zeros of T are exact as well.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.evidence
@@ -64,12 +62,12 @@ impl RankDecision {
             .is_some_and(|c| c.uncertainty == 0.0)
     }
 
-    /// How far a coefficient of T̃ or Z may be from its true value, absolute: `10·τ/σ_r`, or, for a
-    /// certified rank of a matrix known to s (Frobenius norm), `s/σ_r`.
+    /// Bound on the absolute error of a coefficient of T̃ or Z: `10·τ/σ_r`, or `s/σ_r` for a
+    /// certified rank of a matrix with uncertainty s (Frobenius norm).
     ///
-    /// For exact entries, rounding alone. For a nearly redundant matrix, that of the matrix as it
-    /// was read, `10·‖C_D − T·C_K‖/σ_r`: what the uncertainty of the data does there is told by
-    /// [`RankDecision::nearly_redundant`].
+    /// For exact entries it is rounding alone. For a nearly redundant matrix it is the error for
+    /// the matrix as it was read, `10·‖C_D − T·C_K‖/σ_r`; the effect of the uncertainty of the data
+    /// is reported by [`RankDecision::nearly_redundant`] instead.
     #[must_use]
     pub fn coefficient_tolerance(&self) -> f64 {
         let e = &self.evidence;
@@ -82,8 +80,8 @@ impl RankDecision {
             Some(_) if e.sigma_r < AS_READ => {
                 rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
             }
-            // T is right to double-double; what remains is the data: ‖δT‖ ≤ ‖δC‖·‖[T, I]‖/σ_r.
-            // A rank that only data within their uncertainty have leaves σ_{r+1} of it.
+            // T is right to double-double; what remains is the data: ‖δT‖ ≤ ‖δC‖·‖[T, I]‖/σ_r. If
+            // the rank holds only for data within their uncertainty, σ_{r+1} remains as a residual.
             Some(certificate) => {
                 let by_data = certificate.row_data.iter().flatten().copied();
                 by_data
@@ -94,10 +92,11 @@ impl RankDecision {
         }
     }
 
-    /// How far row i of `[−T̃, I]` may be from its true value (norm): that of the entries it
-    /// depends on, that of dependencies which hold within the data only, `10·‖C_D − T·C_K‖/σ_r`,
-    /// and rounding; or what the data make of it, where that is known and more. At most about
-    /// [`RankDecision::coefficient_tolerance`], in a matrix of mixed sizes much less.
+    /// Bound on the error (norm) of row i of `[−T̃, I]`: the sum of the uncertainty of the entries
+    /// on which it depends, of the residual of dependencies that hold only within the data,
+    /// `10·‖C_D − T·C_K‖/σ_r`, and of rounding; or the effect of the data, if it is known and
+    /// larger. At most about [`RankDecision::coefficient_tolerance`], and much less in a matrix of
+    /// mixed sizes.
     #[must_use]
     pub fn row_noise(&self, i: usize) -> f64 {
         let tolerance = self.coefficient_tolerance();
@@ -115,8 +114,8 @@ impl RankDecision {
         by_entries.max(by_data)
     }
 
-    /// What of [`RankDecision::row_noise`] is there without a stated tolerance: a row that is
-    /// shorter than that vanishes by itself, a longer one within the tolerance only.
+    /// The part of [`RankDecision::row_noise`] that does not come from a stated tolerance: a
+    /// shorter row is zero in any case, a longer one only within the tolerance.
     #[must_use]
     pub fn row_rounding(&self, i: usize) -> f64 {
         let certificate = self.evidence.certificate.as_ref();
@@ -124,13 +123,13 @@ impl RankDecision {
         POSE_FACTOR * NOISE_FACTOR * (f64::EPSILON + noise.copied().unwrap_or(0.0))
     }
 
-    /// Reads the size of a coefficient, or of a norm of some, of which the noise is known.
+    /// Classifies the size of a coefficient, or of a norm of several, given its noise.
     #[must_use]
     pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {
         self.readings().read(size, noise)
     }
 
-    /// Up to here a coefficient with this noise is left out of a dependency.
+    /// Largest coefficient with this noise that is left out of a dependency.
     pub(crate) fn largest_zero(&self, noise: f64) -> f64 {
         if self.has_tolerance() {
             noise.min(STATED_ZERO)
@@ -139,7 +138,7 @@ impl RankDecision {
         }
     }
 
-    /// How its coefficients are read.
+    /// Rules by which its coefficients are classified.
     #[must_use]
     pub fn readings(&self) -> Readings {
         Readings {
@@ -150,19 +149,20 @@ impl RankDecision {
     }
 }
 
-/// How coefficients are read: what is known of all of them beyond the noise of one.
+/// Rules by which coefficients are classified, common to all coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Readings {
-    /// Whether they came out in double-double.
+    /// Whether the coefficients were computed in double-double.
     pub(crate) is_certified: bool,
-    /// Noise is what a stated tolerance makes of the coefficients, as large as that may be.
+    /// Whether the noise includes a stated tolerance, however large that is.
     pub(crate) has_tolerance: bool,
-    /// The smallest one that is not zero, where the noise is estimated from it; infinite otherwise.
+    /// The smallest coefficient that is not zero, if the noise is estimated from it; otherwise
+    /// infinite.
     pub(crate) smallest: f64,
 }
 
 impl Readings {
-    /// Reads the size of a coefficient, or of a norm of some, of which the noise is known.
+    /// Classifies the size of a coefficient, or of a norm of several, given its noise.
     #[must_use]
     pub fn read(&self, size: f64, noise: f64) -> CoefficientReading {
         if self.has_tolerance {
@@ -198,7 +198,8 @@ impl Readings {
 mod tests {
     use super::*;
 
-    /// A tenth of a reaction is not left out because data within the tolerance could make it zero.
+    /// A tenth of a reaction is not treated as zero only because data within the tolerance could
+    /// make it zero.
     #[test]
     fn within_a_tolerance_only_what_is_small_is_zero() {
         let within = Readings {

@@ -1,4 +1,4 @@
-//! Rows dropped or kept on request: is the choice admissible?
+//! Rows dropped or kept as requested, with a check that the choice is admissible.
 //!
 //! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r;
 //! equivalently the rows D of a left null space basis Z form a nonsingular block.
@@ -7,11 +7,11 @@ use super::{RankDecision, RankError, Uncertainty, read, required};
 use crate::strong_basis::{self, complement};
 use linalg::{Matrix, singular_values};
 
-/// Why a choice of rows is not admissible.
+/// Reason why a choice of rows is not admissible.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KeptRowsError {
-    /// The matrix itself is at fault.
+    /// The matrix itself is invalid.
     #[error(transparent)]
     Rank(#[from] RankError),
     /// Too many or too few rows.
@@ -20,30 +20,30 @@ pub enum KeptRowsError {
         rows - rank
     )]
     WrongCount {
-        /// Rows dropped by the request.
+        /// Number of rows dropped by the request.
         dropped: usize,
-        /// Rows kept by the request.
+        /// Number of rows kept by the request.
         kept: usize,
-        /// The rank that was read.
+        /// Rank of the matrix.
         rank: usize,
-        /// Rows of the matrix.
+        /// Number of rows of the matrix.
         rows: usize,
     },
-    /// A row that does not exist.
+    /// A row does not exist.
     #[error("row {row} does not exist, rows are 0..{rows}")]
     RowOutOfRange {
-        /// The row asked for.
+        /// The requested row.
         row: usize,
-        /// Rows of the matrix.
+        /// Number of rows of the matrix.
         rows: usize,
     },
-    /// A row named twice.
+    /// A row is listed twice.
     #[error("row {row} is listed twice")]
     Duplicate {
         /// The row.
         row: usize,
     },
-    /// The kept rows depend on each other: at least one dropped row carries what they lack.
+    /// The kept rows depend on each other, so at least one dropped row is needed.
     #[error(
         "the kept rows are dependent: smallest singular value {smallest_singular_value:.3e}, need \
          {required:.3e}; a row in no dependency must not be dropped"
@@ -51,12 +51,12 @@ pub enum KeptRowsError {
     Dependent {
         /// Smallest singular value of the equilibrated kept rows.
         smallest_singular_value: f64,
-        /// What a decided rank needs, 10³·τ.
+        /// Lower limit for a decided rank, 10³·τ.
         required: f64,
     },
 }
 
-/// [`decide`](super::decide) with the dropped rows given; `|T̃_ji| ≤ 2` is then not promised.
+/// Like [`decide`](super::decide), with given dropped rows; `|T̃_ji| ≤ 2` is then not guaranteed.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -84,7 +84,7 @@ pub fn decide_dropping<'a>(
     decide_partition(c, uncertainty.into(), complement(c.nrows(), &dropped))
 }
 
-/// [`decide`](super::decide) with the kept rows given; `|T̃_ji| ≤ 2` is then not promised.
+/// Like [`decide`](super::decide), with given kept rows; `|T̃_ji| ≤ 2` is then not guaranteed.
 ///
 /// # Errors
 /// As [`decide_dropping`].
@@ -124,7 +124,7 @@ fn decide_partition(
     Ok(reading.with_basis(scaling, basis))
 }
 
-/// The list in ascending order, each row once and in range.
+/// The list in ascending order, checked for rows that are repeated or out of range.
 fn ascending(rows: &[usize], m: usize) -> Result<Vec<usize>, KeptRowsError> {
     let mut sorted = rows.to_vec();
     sorted.sort_unstable();

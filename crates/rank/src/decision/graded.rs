@@ -2,10 +2,10 @@
 //! residuals.
 //!
 //! On each level the rows with singular values within 1e-6 of the largest are expressed as usual;
-//! what the other rows have outside their span, `S_D = C_D − T·C_K` in double-double, is the matrix
-//! of the next level. Singular values from 1 down to 1e-28 are read this way, each from a
-//! well-conditioned problem in `f64`. The levels end where S falls below a floor. Not here: what
-//! the floor means.
+//! the component of the other rows outside their span, `S_D = C_D − T·C_K` in double-double, is the
+//! matrix of the next level. Singular values from 1 down to 1e-28 are read this way, each from a
+//! well-conditioned problem in `f64`. The levels end when S is below a floor, whose meaning is up
+//! to the caller.
 
 use super::bound;
 use crate::limits::{CORRECTIONS_MAX, LEVEL_SPREAD};
@@ -14,46 +14,46 @@ use linalg::{Dd, DdMatrix, Matrix, PivotedQr, kernels, powers, singular_values};
 
 /// The rows of one level.
 struct Level {
-    /// Independent rows, of the whole matrix.
+    /// Independent rows, numbered in the whole matrix.
     kept: Vec<usize>,
     /// S of these rows times 2^exponent, of size one.
     rows: Matrix,
     exponent: i32,
-    /// Coefficients in S of all rows that were left when the level began, and which rows these
-    /// were: row `left[j]` of C is `coefficients_j·C_before` + `S_j`.
+    /// Coefficients in S of all rows that remained when the level began, and the numbers of these
+    /// rows: row `left[j]` of C is `coefficients_j·C_before` + `S_j`.
     coefficients: DdMatrix,
     before: Vec<usize>,
-    /// Singular values of the equilibrated C that the level stands for.
+    /// Singular values of the equilibrated C that belong to the level.
     sigma: Vec<f64>,
-    /// `‖C_K → S_K‖` at most, for all kept rows up to this level.
+    /// Bound on `‖C_K → S_K‖` for all kept rows up to this level.
     growth: f64,
-    /// Rounding error of S at most (Frobenius norm).
+    /// Bound on the rounding error of S (Frobenius norm).
     error: f64,
 }
 
-/// Rows by levels, and what is left below the floor.
+/// Rows by levels, and the remainder below the floor.
 pub(super) struct Graded {
     levels: Vec<Level>,
-    /// Rows of no level, ascending.
+    /// Rows that belong to no level, ascending.
     pub(super) left: Vec<usize>,
     /// Kept rows in the order of the levels.
     pub(super) kept: Vec<usize>,
-    /// T (double-double) of the rows left in the kept ones.
+    /// T (double-double) of the remaining rows in terms of the kept ones.
     coefficients: DdMatrix,
-    /// What the rows left have outside the span of the kept ones: `C_left − T·C_K`.
+    /// Component of the remaining rows outside the span of the kept ones: `C_left − T·C_K`.
     outside: DdMatrix,
-    /// Singular values that stand for the rows left.
+    /// Singular values that belong to the remaining rows.
     left_sigma: Vec<f64>,
 }
 
 impl Graded {
-    /// Takes levels off the equilibrated matrix `c` while a singular value is above `floor`.
+    /// Removes levels from the equilibrated matrix `c` while a singular value is above `floor`.
     pub(super) fn new(c: &DdMatrix, floor: f64) -> Self {
         Self::up_to(c, floor, c.ncols())
     }
 
-    /// Takes levels off until `rank` rows are kept, however small they are; fewer where nothing is
-    /// left.
+    /// Removes levels until `rank` rows are kept, however small they are; fewer if no non-zero row
+    /// remains.
     pub(super) fn of_rank(c: &DdMatrix, rank: usize) -> Self {
         Self::up_to(c, 0.0, rank.min(c.ncols()))
     }
@@ -105,8 +105,8 @@ impl Graded {
         }
     }
 
-    /// Singular values of C belonging to what is left: those of S in an orthonormal basis of the
-    /// combinations `[−T, I]` that made it.
+    /// Singular values of C that belong to the remainder: those of S in an orthonormal basis of the
+    /// combinations `[−T, I]` that produced it.
     fn readings(&self, exponent: i32) -> Vec<f64> {
         let mut s = power(&self.outside, exponent).hi();
         let count = s.nrows().min(s.ncols().saturating_sub(self.kept.len()));
@@ -134,7 +134,7 @@ impl Graded {
             .collect()
     }
 
-    /// Readings of all singular values, `count` of them, largest first.
+    /// Estimates of all `count` singular values, largest first.
     pub(super) fn singular_values(&self, count: usize) -> Vec<f64> {
         let levels = self.levels.iter().flat_map(|l| &l.sigma);
         let mut sigma: Vec<f64> = levels.chain(&self.left_sigma).copied().collect();
@@ -143,7 +143,7 @@ impl Graded {
         sigma
     }
 
-    /// T of the rows left in the kept rows, in the order of the levels.
+    /// T of the remaining rows in terms of the kept rows, in the order of the levels.
     pub(super) fn dependence(&self) -> Matrix {
         self.coefficients.hi()
     }
@@ -156,8 +156,8 @@ impl Graded {
             .fold(0.0, f64::max)
     }
 
-    /// Proved lower bounds, one for each level: that of σ_r of C for the number r of rows kept up
-    /// to this level.
+    /// Proved lower bounds, one for each level: on σ_r of C for the number r of rows kept up to
+    /// this level.
     pub(super) fn bounds(&self) -> Vec<(usize, f64)> {
         let n = self.outside.ncols();
         let mut rows: Vec<f64> = Vec::new();
@@ -168,7 +168,7 @@ impl Graded {
             rows.extend_from_slice(level.rows.as_slice());
             count += level.kept.len();
             smallest = smallest.min(size);
-            // Rounding of S to f64, and of S itself.
+            // Errors of rounding S to f64, and of S itself.
             perturbation += f64::EPSILON * level.rows.frobenius_norm() + level.error / size;
             let stacked = Matrix::from_fn(count, n, |i, j| rows[i * n + j]);
             let sigma = bound::smallest_singular_value(&stacked, perturbation);
@@ -177,12 +177,13 @@ impl Graded {
         found
     }
 
-    /// Unit weights of the rows of C (length m) with which they sum to about σ of the smallest
-    /// level: a left singular vector, but for the left null space, which the caller takes out.
+    /// Unit weights of the rows of C (length m) whose combination has about the norm of the
+    /// smallest σ of the smallest level. This is a left singular vector except for a component in
+    /// the left null space, which the caller removes.
     pub(super) fn smallest_direction(&self) -> Option<Vec<f64>> {
         let level = self.levels.last()?;
-        // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; any start has a part along the smallest
-        // direction.
+        // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; practically any start has a component along
+        // the smallest direction.
         let qr = PivotedQr::of_rows(level.rows.clone());
         let mut y: Vec<f64> = (0..level.kept.len())
             .map(|i| 1.0 + i as f64 / 7.0)
@@ -203,8 +204,8 @@ impl Graded {
         Some(direction)
     }
 
-    /// Weights of the rows of C that sum to what row `left[j]` has outside the span of the kept
-    /// rows.
+    /// Weights of the rows of C whose combination is the component of row `left[j]` outside the
+    /// span of the kept rows.
     pub(super) fn left_direction(&self, j: usize) -> Vec<f64> {
         let mut direction = vec![0.0; self.kept.len() + self.left.len()];
         direction[self.left[j]] = 1.0;
@@ -219,14 +220,15 @@ fn power(a: &DdMatrix, exponent: i32) -> DdMatrix {
     DdMatrix::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].scaled(exponent))
 }
 
-/// One level: rows of a matrix of size one expressed by its independent ones.
+/// One level: the dependent rows of a matrix scaled to unit size, expressed in its independent
+/// rows.
 struct Step {
     kept: Vec<usize>,
     dropped: Vec<usize>,
     t: DdMatrix,
     /// `S_D − T·S_K`.
     outside: DdMatrix,
-    /// Rounding error of `outside` at most (Frobenius norm), for this T.
+    /// Bound on the rounding error of `outside` (Frobenius norm), for this T.
     error: f64,
 }
 
@@ -267,7 +269,7 @@ impl Step {
         }
     }
 
-    /// T of the dropped rows in the kept rows before this level and those of this level.
+    /// T of the dropped rows in terms of the kept rows of earlier levels and of this level.
     fn coefficients(&self, before: &DdMatrix) -> DdMatrix {
         let r = before.ncols();
         let (kept, dropped) = (

@@ -1,12 +1,12 @@
-//! Dependencies of rows without rounding: elimination modulo a prime, and from many primes the
-//! numbers themselves.
+//! Dependencies of rows without rounding: elimination modulo a prime, and reconstruction of the
+//! numbers from many primes.
 //!
 //! The matrix is scaled by powers of two to integers A (exact). For a row basis K with pivot
 //! columns J every coefficient of `A_D = T·A_K` is a quotient of minors of order r,
 //! `T_ji = N_ji/det A_KJ`. Minors are known modulo each prime; with primes whose product exceeds
 //! twice Hadamard's bound they are known, and the quotients follow to full precision. The same
-//! primes prove that all minors of order r + 1 vanish. Which rows to prefer comes from elsewhere:
-//! `graded`.
+//! primes prove that all minors of order r + 1 vanish. The order in which rows are preferred comes
+//! from `graded`.
 //!
 //! Source: mixed radix digits after H. L. Garner, The residue number system, IRE Trans. Electron.
 //! Comput. EC-8 (1959) 140–147.
@@ -25,13 +25,13 @@ pub(super) struct Integers {
     entries: Vec<(i64, u32)>,
     /// Row i of A is `2^−exponents[i]` times the row of `C·D_c`.
     exponents: Vec<i32>,
-    /// Upper bound of log₂ of the norm of each row.
+    /// Upper bound on log₂ of the norm of each row.
     bits: Vec<u64>,
 }
 
 impl Integers {
-    /// The columns scaled as in `scaling`, the rows so that they become integers without a common
-    /// factor of two.
+    /// Scales the columns as in `scaling`, and the rows so that they become integers without a
+    /// common factor of two.
     pub(super) fn new(c: &Matrix, scaling: &Scaling) -> Self {
         let (m, n) = (c.nrows(), c.ncols());
         let mut entries = Vec::with_capacity(m * n);
@@ -129,7 +129,7 @@ fn dyadic(field: PrimeField, x: f64, e: i32) -> Residue {
 
 /// Rows eliminated modulo a prime.
 struct Reduction {
-    /// Independent rows K, the first ones in the order asked for.
+    /// Independent rows K, in the given order.
     kept: Vec<usize>,
     /// Their pivot columns J.
     pivots: Vec<usize>,
@@ -139,8 +139,8 @@ struct Reduction {
     t: Vec<Residue>,
 }
 
-/// Eliminates the rows of `a` (n columns) in the order given; the rows that are independent of
-/// those before them are kept.
+/// Eliminates the rows of `a` (n columns) in the given order and keeps the rows that are
+/// independent of those before them.
 fn reduce(field: PrimeField, a: &[Residue], n: usize, order: &[usize]) -> Reduction {
     let mut kept = Vec::new();
     let mut pivots: Vec<usize> = Vec::new();
@@ -197,14 +197,14 @@ fn reduce(field: PrimeField, a: &[Residue], n: usize, order: &[usize]) -> Reduct
 pub(super) struct ExactBasis {
     /// Kept rows, ascending.
     pub(super) kept: Vec<usize>,
-    /// The others, ascending.
+    /// The other rows, ascending.
     pub(super) dropped: Vec<usize>,
-    /// T̃ between rows equilibrated by the scaling, p×r, each entry rounded from its exact value;
-    /// what is not zero stays not zero.
+    /// T̃ between rows equilibrated by the scaling, p×r, each entry rounded from its exact value.
+    /// Non-zero entries stay non-zero.
     pub(super) t: Matrix,
 }
 
-/// The rank and a row basis, rows earlier in `order` preferred, with exact dependencies of the
+/// The rank and a row basis that prefers rows earlier in `order`, with exact dependencies of the
 /// others.
 pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> ExactBasis {
     let (m, n) = (order.len(), a.ncols);
@@ -212,7 +212,7 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
     for (k, &i) in order.iter().enumerate() {
         position[i] = k;
     }
-    // Modulo a prime that divides minors the rank is less, or independent rows and pivot columns
+    // Modulo a prime that divides minors, the rank is lower, or independent rows and pivot columns
     // are found later.
     let key = |r: &Reduction| {
         let rows: Vec<usize> = r.kept.iter().map(|&i| position[i]).collect();
@@ -235,7 +235,7 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
             reference = Some(now);
             break;
         }
-        // T = 0 is N = 0; the determinant comes last.
+        // An entry of T is zero iff its N is zero; the determinant comes last.
         let minors: Vec<Residue> = now
             .t
             .iter()
@@ -244,7 +244,7 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
             .collect();
         digits.extend(field, &minors);
         reference = Some(now);
-        // Two bits for the sign and for "less than half".
+        // Two more bits, for the sign and for "less than half".
         if digits.bits() >= a.minor_bits(rank + 1) + 2 {
             break;
         }
@@ -283,8 +283,8 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
     }
 }
 
-/// Signed integers by their mixed radix digits, `d_0 + d_1·p_0 + d_2·p_0·p_1 + …`, extended prime
-/// by prime.
+/// Signed integers as mixed radix digits, `d_0 + d_1·p_0 + d_2·p_0·p_1 + …`, extended prime by
+/// prime.
 #[derive(Default)]
 struct MixedRadix {
     fields: Vec<PrimeField>,
@@ -347,8 +347,8 @@ impl MixedRadix {
                 exponent: 0,
             };
         };
-        // A number in the upper half of the product P stands for x − P; P − 1 − x has complementary
-        // digits.
+        // A number in the upper half of the product P represents x − P; P − 1 − x has the
+        // complementary digits.
         let negative = last[l] > p_last.p() / 2;
         let (mut mantissa, mut exponent) = (0.0_f64, 0_i64);
         for (digits, field) in self.digits.iter().zip(&self.fields).rev() {
@@ -372,11 +372,11 @@ impl MixedRadix {
     }
 }
 
-/// The left null space of a matrix modulo a few primes: tests whether something vanishes on it,
-/// without a tolerance.
+/// The left null space of a matrix modulo a few primes: tests without a tolerance whether something
+/// vanishes on it.
 ///
-/// "Not zero" is proved. "Zero" is wrong with probability below 2⁻¹³⁰ for data that were not made
-/// against the primes.
+/// "Not zero" is proved. "Zero" is wrong with probability below 2⁻¹³⁰ for data that were not
+/// constructed against the primes.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -398,15 +398,15 @@ pub struct ExactNullSpace {
 #[derive(Debug, Clone)]
 struct Witness {
     field: PrimeField,
-    /// A, m×n.
+    /// Residues of A, m×n.
     a: Vec<Residue>,
-    /// Z of A, m×p.
+    /// Left null space Z of A, m×p.
     z: Vec<Residue>,
     p: usize,
 }
 
 impl ExactNullSpace {
-    /// The left null space of `c` (m×n).
+    /// Computes the left null space of `c` (m×n).
     ///
     /// # Errors
     /// [`RankError::NonFinite`](crate::RankError::NonFinite): an entry is NaN or infinite.
@@ -423,7 +423,7 @@ impl ExactNullSpace {
             let entries = a.modulo(field);
             let r = reduce(field, &entries, a.ncols, &order);
             let (rank, p) = (r.kept.len(), m - r.kept.len());
-            // A prime that divides minors sees a larger null space.
+            // A prime that divides minors has a larger null space.
             match witnesses.first().map_or(p, |w| w.p) {
                 least if least < p => continue,
                 least if least > p => witnesses.clear(),
@@ -492,7 +492,7 @@ impl ExactNullSpace {
         image
     }
 
-    /// Whether `B_X = C_Xᵀ·Z_X = 0` for the rows X, each named once.
+    /// Whether `B_X = C_Xᵀ·Z_X = 0` for the rows X, each listed once.
     ///
     /// # Panics
     /// If a row does not exist.

@@ -1,5 +1,5 @@
-//! What a rank decision says: the rank, the rows to keep, the numbers behind both, and why a rank
-//! is undecided or none.
+//! Results of a rank decision: the rank, the rows to keep, the numbers behind both, and the reasons
+//! why a rank is undecided or cannot be decided.
 
 use super::certificate::{Certificate, NearlyRedundant};
 use linalg::{Matrix, Scaling, powers::scale};
@@ -7,7 +7,7 @@ use linalg::{Matrix, Scaling, powers::scale};
 /// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RankDecision {
-    /// r = rank C. If undecided: the reading with the larger gap.
+    /// Rank r of C. If undecided, the candidate with the larger gap.
     pub rank: usize,
     /// Degree of redundancy p = m − r.
     pub redundancy: usize,
@@ -22,14 +22,14 @@ pub struct RankDecision {
     pub scaling: Scaling,
     /// The numbers behind the decision.
     pub evidence: Evidence,
-    /// Decided, or why not.
+    /// Whether the rank is decided, or why it is not.
     pub status: RankStatus,
 }
 
 /// The numbers behind a rank decision; all of them belong to the equilibrated matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evidence {
-    /// All `min(m, n)` singular values, largest first; none of a sparse decision.
+    /// All `min(m, n)` singular values, largest first; empty for a sparse decision.
     pub singular_values: Vec<f64>,
     /// σ_r, infinite for rank 0.
     pub sigma_r: f64,
@@ -42,78 +42,78 @@ pub struct Evidence {
     /// The largest uncertainty of an equilibrated entry that the caller stated; 0 for exact
     /// entries.
     pub constraint_residual: f64,
-    /// Largest `‖row of C_D − T·C_K‖₂`: how far the dependencies are from exact.
+    /// Largest `‖row of C_D − T·C_K‖₂`, the error of the dependencies.
     pub dependence_residual: f64,
-    /// The proof, where one was asked for.
+    /// The proof, if one was requested.
     pub certificate: Option<Certificate>,
 }
 
-/// Whether the singular values leave room for another rank.
+/// Whether the singular values allow another rank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RankStatus {
-    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`, or, with a certificate, what its
-    /// [`Grounds`](super::Grounds) say.
+    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`; with a certificate, as stated by its
+    /// [`Grounds`](super::Grounds).
     Decided,
-    /// Two ranks can be read from the singular values; do not build on either.
+    /// Two ranks are compatible with the singular values; neither should be used.
     Undecided(Doubt),
 }
 
-/// Why a rank is undecided, with the numbers.
+/// Reason why a rank is undecided, with the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Doubt {
-    /// Singular values between "certainly zero" and "certainly not".
+    /// A singular value is between "certainly zero" and "certainly not zero".
     #[error(
         "singular value {sigma:.3e} lies between the tolerance {tolerance:.3e} and {required:.3e}: \
          rank {lower} or {upper}; polish the point or decide in higher precision"
     )]
     NoClearGap {
-        /// Singular values that are certainly not zero.
+        /// Number of singular values that are certainly not zero.
         lower: usize,
-        /// Singular values above the tolerance.
+        /// Number of singular values above the tolerance.
         upper: usize,
-        /// The smallest one above the tolerance.
+        /// The smallest singular value above the tolerance.
         sigma: f64,
         /// τ.
         tolerance: f64,
         /// max(10³·τ, 10⁻⁷).
         required: f64,
     },
-    /// A singular value that stays at every precision, about as large as what the data are known
-    /// to.
+    /// A singular value is the same at every precision and about as large as the uncertainty of the
+    /// data.
     #[error(
         "singular value {sigma:.3e} is the same at every precision and lies between {tolerance:.3e} and {required:.3e}, what \
          the uncertainty of the data explains: rank {lower} or {upper}; know the data better, or change them by more than that"
     )]
     NearUncertainty {
-        /// Singular values that are larger than the data explain.
+        /// Number of singular values larger than the uncertainty of the data.
         lower: usize,
-        /// Singular values above the tolerance.
+        /// Number of singular values above the tolerance.
         upper: usize,
-        /// The smallest one above the tolerance.
+        /// The smallest singular value above the tolerance.
         sigma: f64,
         /// τ.
         tolerance: f64,
         /// 4·τ.
         required: f64,
     },
-    /// Data that are wrong by about as much as they are rounded would have a lower rank.
+    /// The rank would be lower if the data were wrong by about their rounding.
     #[error(
         "singular value {sigma:.3e}: if the data were wrong by {share:.2} times their rounding, the rank would be {lower} instead of {upper}; \
          give the data with more digits, or place the mechanism nearer to the origin"
     )]
     WithinRounding {
-        /// The rank that other data within the rounding have.
+        /// The rank for other data within the rounding.
         lower: usize,
         /// The rank of the data as read.
         upper: usize,
-        /// The singular value that vanishes then.
+        /// The singular value that would vanish.
         sigma: f64,
-        /// Largest change of a datum, as a share of its rounding.
+        /// Largest change of a datum, as a fraction of its rounding.
         share: f64,
     },
-    /// The rank hangs on where in the tolerance the data are.
+    /// The rank depends on where within the tolerance the data are.
     #[error(
         "with data known to {tolerance:.1e} {unit} the rank is {lower} or {upper}: one row is redundant from about {from:.1e} {unit} on; \
          state a tolerance below {:.1e} {unit} or above {:.1e} {unit}",
@@ -121,45 +121,45 @@ pub enum Doubt {
         3.0 * from
     )]
     WithinTolerance {
-        /// The rank that data within the tolerance have.
+        /// The rank of data within the tolerance.
         lower: usize,
         /// The rank of the data as read.
         upper: usize,
-        /// Where the reading changes.
+        /// The change of the data at which the rank changes.
         from: f64,
-        /// What is stated.
+        /// The stated tolerance.
         tolerance: f64,
-        /// The unit of both: `m`, or `rad` where a tolerance is stated for angles alone.
+        /// The unit of both: `m`, or `rad` if a tolerance is stated for angles only.
         unit: &'static str,
     },
-    /// At this pose the data within their tolerance have a lower rank; of too few other poses it is
-    /// known whether they have it there.
+    /// At this pose, data within the tolerance have a lower rank; too few other poses could be
+    /// examined to decide whether they have it there as well.
     #[error(
         "with data known to {tolerance:.1e} {unit} the rank at this pose is {lower}; whether it is {lower} or {upper} at others is open, \
          because on the rows that are left too few of them are reached, or none that is known well enough; move the start, or know the data better"
     )]
     OtherPoses {
-        /// The rank that data within the tolerance have here.
+        /// The rank of data within the tolerance at this pose.
         lower: usize,
-        /// The rank that they may have elsewhere.
+        /// The rank that they may have at other poses.
         upper: usize,
-        /// What is stated.
+        /// The stated tolerance.
         tolerance: f64,
-        /// Its unit: `m`, or `rad` where a tolerance is stated for angles alone.
+        /// Its unit: `m`, or `rad` if a tolerance is stated for angles only.
         unit: &'static str,
     },
-    /// Rows that are not zero are hidden by what the data are known to.
+    /// The uncertainty of the data hides rows that are not zero.
     #[error(
         "singular value {sigma:.3e} is not rounding, and lies below {tolerance:.3e}, what the uncertainty of the data explains, \
          in a matrix of size one: nothing is known of these rows; place the mechanism nearer to the origin, or know the data better"
     )]
     Hidden {
-        /// The largest of those below the tolerance.
+        /// The largest singular value below the tolerance.
         sigma: f64,
         /// τ.
         tolerance: f64,
     },
-    /// The tolerance swallows every singular value of a matrix that is not zero.
+    /// The tolerance exceeds every singular value of a matrix that is not zero.
     #[error(
         "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e} of a non-zero \
          matrix: the constraint residual is too large to decide anything, polish the point first"
@@ -172,7 +172,7 @@ pub enum Doubt {
     },
 }
 
-/// Input that no rank can be decided for.
+/// Invalid input for a rank decision.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RankError {
@@ -186,30 +186,30 @@ pub enum RankError {
         /// The entry.
         value: f64,
     },
-    /// The stated uncertainty is none.
+    /// The stated uncertainty is invalid.
     #[error("uncertainty is {value}, need a finite number that is not negative")]
     Uncertainty {
-        /// What was given.
+        /// The given value.
         value: f64,
     },
-    /// The stated uncertainty is that of another matrix.
+    /// The stated uncertainty has another shape than the matrix.
     #[error("uncertainty of {rows}×{cols} entries for a matrix of {expected_rows}×{expected_cols}")]
     UncertaintyShape {
-        /// Rows given.
+        /// Number of rows given.
         rows: usize,
-        /// Columns given.
+        /// Number of columns given.
         cols: usize,
-        /// Rows of the matrix.
+        /// Number of rows of the matrix.
         expected_rows: usize,
-        /// Columns of the matrix.
+        /// Number of columns of the matrix.
         expected_cols: usize,
     },
 }
 
 impl RankDecision {
     /// T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row `kept[i]`.
-    /// Leaves the range of `f64` where rows differ by more than that;
-    /// [`RankDecision::coefficients`] does not.
+    /// Overflows if the rows differ by more than the range of `f64`; [`RankDecision::coefficients`]
+    /// does not.
     pub fn dependence(&self) -> Matrix {
         // D_r,D·C_D = T̃·D_r,K·C_K, hence T = D_r,D⁻¹·T̃·D_r,K.
         let rows = &self.scaling.rows;
@@ -231,8 +231,8 @@ impl RankDecision {
         self.status == RankStatus::Decided
     }
 
-    /// The warning that belongs to a decided rank with σ_r below 1e-3: as read the rank is r and
-    /// the verdicts hold, but reactions are of size 1/σ_r. Known for certified ranks only.
+    /// The warning for a decided rank with σ_r below 1e-3: the rank is r and the verdicts hold for
+    /// the data as read, but reactions are of size 1/σ_r. Available for certified ranks only.
     #[must_use]
     pub fn nearly_redundant(&self) -> Option<&NearlyRedundant> {
         self.evidence

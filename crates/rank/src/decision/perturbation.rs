@@ -1,12 +1,12 @@
-//! How far the dependencies of a matrix move with its entries, row by row: in a model of mixed
-//! sizes the large part is known to less than the small part weighs, and one tolerance for all
-//! would call small coefficients zero.
+//! How much each row of the dependencies of a matrix changes with its entries: in a model of mixed
+//! sizes the uncertainty of the large part may exceed the entries of the small part, and one
+//! tolerance for all rows would treat small coefficients as zero.
 
 use super::{RankDecision, Uncertainty};
 use linalg::{Matrix, PivotedQr, kernels};
 
-/// Norms of the rows of `δ[−T̃, I]` at most, m values, to first order in the uncertainty of the
-/// entries: `|δT| ≤ (U_D + |T|·U_K)·|C_K⁺|`, all equilibrated.
+/// Bounds on the norms of the rows of `δ[−T̃, I]`, m values, to first order in the uncertainty of
+/// the entries: `|δT| ≤ (U_D + |T|·U_K)·|C_K⁺|`, all equilibrated.
 pub(super) fn row_noise(decision: &RankDecision, c: &Matrix, known: Uncertainty<'_>) -> Vec<f64> {
     let mut noise = vec![0.0; c.nrows()];
     if decision.redundancy == 0 {

@@ -1,5 +1,5 @@
-//! Planted ranks, the published traps, invariances, and admissible choices of rows. Oracle: the SVD
-//! of nalgebra, and brute force over all choices.
+//! Planted ranks, published counterexamples, invariances, and admissible choices of rows. Oracles:
+//! the SVD of nalgebra, and brute force over all choices.
 
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -19,7 +19,7 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
-    /// In [−1, 1).
+    /// A number in [−1, 1).
     pub(super) fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
@@ -33,7 +33,7 @@ impl Numbers {
     }
 }
 
-/// m×n of rank r, rows and columns scaled over 1e±8.
+/// A random m×n matrix of rank r, with rows and columns scaled over 1e±8.
 fn planted(numbers: &mut Numbers, m: usize, n: usize, r: usize) -> Matrix {
     let product = numbers.matrix(m, r).product(&numbers.matrix(r, n));
     let rows: Vec<f64> = (0..m).map(|_| 10f64.powf(8.0 * numbers.unit())).collect();
@@ -58,7 +58,7 @@ pub(super) fn parallel_cranks(l: f64, theta: f64) -> Matrix {
             rows[(tip, body + axis)] = 1.0;
             rows[(tip, body + 2)] = turn;
             rows[(tip, coupler + axis)] = -1.0;
-            // The coupler lies along x: only its y rows see it turn.
+            // The coupler lies along x, so only its y rows depend on its rotation.
             rows[(tip, coupler + 2)] = [0.0, -(crank as f64 - 1.0) * l][axis];
         }
     }
@@ -116,7 +116,7 @@ fn sizes_1e_minus_8_and_1e_plus_8_in_one_model() {
     let decision = decide(&c, 0.0).unwrap();
     assert_eq!((decision.rank, decision.is_decided()), (22, true));
     assert!(decision.evidence.gap > 1e12, "{:e}", decision.evidence.gap);
-    // What happens without scaling: the textbook tolerance loses rows.
+    // Without scaling, the textbook tolerance loses rows.
     assert!(nalgebra_rank(&c, 24.0 * f64::EPSILON) < 22);
 }
 
@@ -232,7 +232,7 @@ fn admissible_pairs_by_brute_force() {
     }
 }
 
-/// Kahan's matrix: pivoted QR does not see how small its smallest singular value is.
+/// Kahan's matrix: pivoted QR does not show how small its smallest singular value is.
 pub(super) fn kahan(n: usize, angle: f64) -> Matrix {
     let (s, c) = angle.sin_cos();
     Matrix::from_fn(n, n, |i, j| {
@@ -304,7 +304,7 @@ fn empty_and_zero_matrices_have_rank_zero() {
 }
 
 proptest! {
-    /// Any bit pattern: an answer of the right shape or a named error, never a panic.
+    /// Any bit pattern gives an answer of the right shape or a named error, never a panic.
     #[test]
     fn arbitrary_input_is_survived(
         m in 0..6_usize, n in 0..6_usize, residual in any::<f64>(),
@@ -327,7 +327,7 @@ proptest! {
                     prop_assert!(!c[(row, col)].is_finite());
                 }
                 Err(RankError::Uncertainty { value }) => {
-                    // Or so large that the norm of all of it overflows.
+                    // Or so large that the norm of the whole matrix overflows.
                     prop_assert!(!((36.0 * value).is_finite() && value >= 0.0));
                 }
                 Err(error) => prop_assert!(false, "{}", error),

@@ -1,27 +1,27 @@
-//! What the entries of a matrix are known to, and the equilibration that goes with it.
+//! The uncertainty of the entries of a matrix, and the equilibration that uses it.
 
 use super::outcome::RankError;
 use crate::limits::SIGNIFICANT;
 use linalg::{Matrix, Scaling, equilibrate};
 
-/// What the entries of a matrix are known to.
+/// The uncertainty of the entries of a matrix.
 ///
 /// ```
 /// use linalg::Matrix;
 /// use rank::decide;
-/// // Two directions that are parallel but for the rounding of their cosine.
+/// // Two directions that are parallel except for the rounding of their cosine.
 /// let c = Matrix::from_rows(&[[6e-17, 1.0], [-1e-17, 1.0]]);
-/// assert_eq!(decide(&c, 0.0)?.rank, 2); // every entry means what it says
+/// assert_eq!(decide(&c, 0.0)?.rank, 2); // every entry is exact
 /// assert_eq!(decide(&c, &Matrix::from_rows(&[[2e-16; 2]; 2]))?.rank, 1);
 /// # Ok::<(), rank::RankError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Uncertainty<'a> {
-    /// Absolute, the same for all entries of the equilibrated matrix: each entry of the matrix
-    /// means what it says, however small.
+    /// Absolute, the same for all entries of the equilibrated matrix: small entries are as
+    /// significant as large ones.
     Equilibrated(f64),
-    /// Absolute, entry by entry, in the units of the matrix. Entries below theirs do not raise the
-    /// scale of a row or column.
+    /// Absolute, entry by entry, in the units of the matrix. Entries below their uncertainty do not
+    /// affect the scale of a row or column.
     Entries(&'a Matrix),
 }
 
@@ -37,12 +37,12 @@ impl<'a> From<&'a Matrix> for Uncertainty<'a> {
     }
 }
 
-/// How far an equilibrated matrix may be from the one that is meant.
+/// Bounds on the distance of an equilibrated matrix from the intended one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spread {
-    /// Of one entry, at most.
+    /// Largest uncertainty of one entry.
     pub(crate) largest: f64,
-    /// Of all together (Frobenius norm), at most: no singular value is further off.
+    /// Frobenius norm of the uncertainty: no singular value has a larger error.
     pub(crate) norm: f64,
 }
 
@@ -91,7 +91,7 @@ impl Uncertainty<'_> {
         }
     }
 
-    /// The uncertainty of each entry in an equilibration, which this one has made.
+    /// The uncertainty of each entry in an equilibration computed by [`Self::equilibrate`].
     pub(crate) fn of_entries(self, scaling: &Scaling) -> Matrix {
         match self {
             Self::Equilibrated(value) => {

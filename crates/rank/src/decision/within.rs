@@ -1,9 +1,9 @@
-//! The rank of a matrix that comes from a model: entries in double-double, data known to an
+//! The rank of a matrix that comes from a model: entries in double-double, data with an
 //! uncertainty.
 //!
 //! A singular value that is exactly zero falls from 1e-16 to 1e-32 when the precision is doubled;
-//! one that is merely small stays. If it stays, it is compared with what the data are known to,
-//! never with the rounding of `f64`.
+//! one that is merely small does not change. If it does not change, it is compared with the
+//! uncertainty of the data, never with the rounding of `f64`.
 
 use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::Graded;
@@ -16,20 +16,20 @@ use crate::limits::{CLEAR_OF_DATA, HIDDEN, NEARLY_REDUNDANT, NOISE_FACTOR, VANIS
 use crate::strong_basis::{self, Basis};
 use linalg::{Dd, DdMatrix, Scaling};
 
-/// Decides the rank of C (m×n), evaluated in double-double at a polished point, of a model whose
-/// data are known to `uncertainty`.
+/// Decides the rank of C (m×n), evaluated in double-double at a polished point, for a model whose
+/// data have the given uncertainty.
 ///
 /// | argument | meaning |
 /// | --- | --- |
-/// | `c` | constraint matrix; its entries carry errors of double-double only |
-/// | `uncertainty` | how far the entries may be from those of the model meant; see [`Uncertainty`]. Near a singular configuration they move with the root of the data |
+/// | `c` | constraint matrix; its entries have errors of double-double only |
+/// | `uncertainty` | distance of the entries from those of the intended model; see [`Uncertainty`]. Near a singular configuration they change with the square root of the data |
 ///
 /// With u, the largest uncertainty of an equilibrated entry, s, the Frobenius norm of all, and
 /// `τ = max(10·u, s)`: a singular value below τ is zero for some matrix within the uncertainty, one
 /// above 4·τ is not zero for any. Then: redundant exactly (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]);
-/// redundant within the data ([`Grounds::WithinData`]); of full rank although
-/// [nearly redundant](RankDecision::nearly_redundant); or undecided between τ and 4·τ, and where τ
-/// is above 0.01: entries of size one would be hidden.
+/// redundant within the data ([`Grounds::WithinData`]); of full rank although [nearly
+/// redundant](RankDecision::nearly_redundant); or undecided, between τ and 4·τ or if τ is above
+/// 0.01, because entries of size one would be hidden.
 ///
 /// ```
 /// use linalg::{Dd, DdMatrix, Matrix};
@@ -48,7 +48,7 @@ use linalg::{Dd, DdMatrix, Scaling};
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
 /// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
-///   infinite or of another matrix.
+///   infinite or of another shape.
 pub fn certify_within<'a>(
     c: &DdMatrix,
     uncertainty: impl Into<Uncertainty<'a>>,
@@ -59,7 +59,7 @@ pub fn certify_within<'a>(
     let known = uncertainty.into();
     let (scaling, spread) = known.equilibrate(&leading)?;
     let root = (m as f64 * n as f64).sqrt();
-    // Entries in double-double are no better than this, whatever the caller knows.
+    // Entries in double-double are not more accurate than this, whatever the caller states.
     let rounding = 4.0 * root.max(1.0) * Dd::EPSILON;
     let (uncertainty, spread) = (
         spread.largest.max(rounding),
@@ -112,27 +112,28 @@ pub fn certify_within<'a>(
     Ok(rule.decision(&graded, &leading, known))
 }
 
-/// A rank that has been read from f64, with what it was read by; see [`certify_rank`].
+/// A rank that has been read from f64, with its evidence; see [`certify_rank`].
 #[derive(Debug, Clone)]
 pub struct RankReading {
-    /// r
+    /// Rank r.
     pub rank: usize,
-    /// Decided, or why not.
+    /// Whether the rank is decided, or why it is not.
     pub status: RankStatus,
     /// The scaling under which it was read.
     pub scaling: Scaling,
-    /// What the entries are known to, all together: below it a singular value counts as zero.
+    /// Uncertainty of all entries together: a singular value below it counts as zero.
     pub noise: f64,
-    /// Singular values of the rank are above this; a matrix that has one below it is another one.
+    /// Lower limit of the non-zero singular values; a matrix with one below it does not have this
+    /// rank.
     pub separation: f64,
-    /// On what the other rows are called redundant if they do not vanish when the precision is
+    /// The reason why the other rows are redundant if they do not vanish when the precision is
     /// doubled.
     pub grounds: Grounds,
 }
 
-/// Kept rows, dependencies and the evidence of double-double for a rank that has been read from
-/// data known to `uncertainty` (m×n, in the units of C). If the rank that separates there is
-/// another one, `None`: the reading does not belong to this matrix.
+/// Chooses kept rows and computes dependencies and double-double evidence for a rank that has been
+/// read from data with the given uncertainty (m×n, in the units of C). Returns `None` if
+/// double-double shows another rank: then the reading does not belong to this matrix.
 ///
 /// # Errors
 /// As [`certify_within`].
@@ -168,7 +169,7 @@ pub fn certify_rank(
     Ok(Some(found.decision(&graded, &leading, known)))
 }
 
-/// A rank and what it was decided by.
+/// A rank and its evidence.
 struct Found {
     scaling: Scaling,
     status: RankStatus,

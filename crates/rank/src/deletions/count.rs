@@ -1,12 +1,12 @@
-//! The number of admissible deletions: deletion and contraction on classes of rows that replace
-//! each other, component by component.
+//! The number of admissible deletions, by deletion and contraction on classes of rows that can
+//! replace each other, component by component.
 
 use super::{DeletionError, duals};
 use crate::RankDecision;
 use crate::dual::{Dual, Unclear, rank};
 use crate::limits::COUNT_STEPS;
 
-/// The number of admissible sets of p rows, the product over all components (rows that mix).
+/// The number of admissible sets of p rows, as a product over all components (coupled rows).
 ///
 /// Within a component it is exact: `b = w·b(contracted) + b(deleted)` for a class of w parallel
 /// vectors, with closed forms for redundancy 1 (the number of rows) and 2 (pairs of rows of
@@ -14,7 +14,7 @@ use crate::limits::COUNT_STEPS;
 ///
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.
-/// - [`DeletionError::Unclear`]: a set lies in the gap between admissible and not.
+/// - [`DeletionError::Unclear`]: for a set it is undecided whether it is admissible.
 /// - [`DeletionError::TooMany`]: a component is too large, or the number exceeds 128 bits.
 pub fn count_deletions(decision: &RankDecision) -> Result<u128, DeletionError> {
     let mut product = 1_u128;
@@ -43,8 +43,8 @@ fn weighted(dual: &Dual) -> Vec<Class> {
     dual.vectors.iter().map(class).collect()
 }
 
-/// Σ over all bases of the product of weights; `None` if the steps are used up or 128 bits are too
-/// few.
+/// Σ over all bases of the product of weights. Returns `None` if the limit of steps is reached or
+/// 128 bits are too few.
 fn count(
     classes: Vec<Class>,
     noise: f64,
@@ -66,7 +66,8 @@ fn count(
     if rank(vectors(&classes), noise)? < p {
         return Ok(Some(0));
     }
-    // The largest vector keeps the multipliers of the contraction at one, and with them the noise.
+    // Eliminating with the largest vector keeps the multipliers of the contraction at most one, so
+    // the noise does not grow.
     let size = |c: &Class| linalg::kernels::max_abs(&c.vector);
     let Some(at) =
         (0..classes.len()).max_by(|&a, &b| size(&classes[a]).total_cmp(&size(&classes[b])))
@@ -87,7 +88,7 @@ fn count(
         .and_then(|(a, b)| a.checked_add(b)))
 }
 
-/// Classes with parallel vectors made one, zero vectors left out.
+/// Merges classes with parallel vectors and removes zero vectors.
 fn merged(classes: Vec<Class>, noise: f64) -> Result<Vec<Class>, Unclear> {
     let mut distinct: Vec<Class> = Vec::new();
     'classes: for class in classes {
@@ -105,7 +106,7 @@ fn merged(classes: Vec<Class>, noise: f64) -> Result<Vec<Class>, Unclear> {
     Ok(distinct)
 }
 
-/// Σ w for p = 1, Σ w_a·w_b over pairs for p = 2: different classes are independent there.
+/// Σ w for p = 1, Σ w_a·w_b over pairs for p = 2, in which different classes are independent.
 fn pairs_or_singles(classes: &[Class], p: usize) -> Option<u128> {
     let (mut singles, mut pairs) = (0_u128, 0_u128);
     for class in classes {
@@ -115,7 +116,7 @@ fn pairs_or_singles(classes: &[Class], p: usize) -> Option<u128> {
     Some(if p == 1 { singles } else { pairs })
 }
 
-/// The vectors modulo `taken`: its largest coordinate is eliminated and left out.
+/// The vectors modulo `taken`: its largest coordinate is eliminated and removed.
 fn contracted(classes: &[Class], taken: &[f64]) -> Vec<Class> {
     let largest = |a: usize, b: usize| {
         if taken[b].abs() > taken[a].abs() {

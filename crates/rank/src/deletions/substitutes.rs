@@ -1,4 +1,4 @@
-//! Smallest deletions that make wanted combinations of multipliers unique.
+//! Smallest deletions that make given combinations of multipliers unique.
 
 use super::{DeletionError, require_rank};
 use crate::dual::{Dual, Unclear, binomial, rank, subsets};
@@ -6,12 +6,12 @@ use crate::null_space::Support;
 use crate::{RankDecision, components};
 use linalg::{Matrix, kernels};
 
-/// How much may be listed and tried.
+/// Limits of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Sets that are listed at most.
+    /// Largest number of sets that are listed.
     pub sets: usize,
-    /// Sets of candidates that are tried at most.
+    /// Largest number of sets that are tried.
     pub trials: usize,
 }
 
@@ -28,11 +28,11 @@ impl Default for Limits {
 /// Smallest sets of candidates whose deletion makes a target unique.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Substitutes {
-    /// Each set lists candidates by their place, ascending; all have the same, smallest number of
-    /// candidates. One empty set if the target is unique as it is; none if no deletion of
-    /// candidates makes it so.
+    /// Each set lists the indices of candidates, ascending; all sets have the same, smallest number
+    /// of candidates. One empty set if the target is already unique; no set if no deletion of
+    /// candidates makes it unique.
     pub sets: Vec<Vec<usize>>,
-    /// Whether these are all of that size. If not, a limit was reached.
+    /// Whether all sets of that size are listed. If not, a limit was reached.
     pub complete: bool,
 }
 
@@ -42,16 +42,16 @@ pub struct Substitutes {
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
 /// | `target` | k×m | combinations of the multipliers of C as given: a unit row for one multiplier, `C_Xᵀ` for the reaction of a group X |
-/// | `candidates` | – | rows that are deleted together; those that share a row with the target, or cannot be deleted, are passed over |
-/// | `admits` | – | asked with all rows of a set, ascending: false refuses it; whoever refuses a set should refuse all larger ones |
+/// | `candidates` | – | rows that are deleted together; candidates that share a row with the target, or cannot be deleted, are skipped |
+/// | `admits` | – | called with all rows of a set, ascending; `false` refuses the set. If a set is refused, all larger sets that contain it should be refused as well |
 ///
-/// A set D is one iff its rows of Z are independent and span the rows `ℓᵀ·Z`. Nothing smaller does,
-/// so no part of a set suffices.
+/// A set D is a solution iff its rows of Z are independent and span the rows `ℓᵀ·Z`. No smaller set
+/// is, so no part of a set is sufficient.
 ///
 /// ```
 /// use linalg::Matrix;
 /// use rank::{Limits, decide, making_unique};
-/// // Three times the same row, and one that stands alone: to know λ₀, delete both others.
+/// // Three times the same row, and an independent one: to make λ₀ unique, delete both others.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]]);
 /// let decision = decide(&c, 0.0)?;
 /// let target = Matrix::from_rows(&[[1.0, 0.0, 0.0, 0.0]]);
@@ -63,7 +63,7 @@ pub struct Substitutes {
 ///
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.
-/// - [`DeletionError::Unclear`]: an answer lies in the gap between yes and no.
+/// - [`DeletionError::Unclear`]: a test is undecided.
 /// - [`DeletionError::TargetShape`], [`DeletionError::NonFinite`],
 ///   [`DeletionError::RowOutOfRange`]: malformed input.
 pub fn making_unique(
@@ -153,14 +153,14 @@ fn check(
     }
 }
 
-/// All rows that are in a dependency, with all p coordinates.
+/// All rows that take part in a dependency, with all p coordinates.
 fn whole(decision: &RankDecision) -> Dual {
     let mut rows = components(decision).coupled.concat();
     rows.sort_unstable();
     Dual::new(decision, &Support::new(decision), &rows)
 }
 
-/// The rows `ℓᵀ·Z̃` of a target, in units of the longest ℓ.
+/// The rows `ℓᵀ·Z̃` of a target, relative to the longest ℓ.
 struct Directions {
     vectors: Vec<Vec<f64>>,
     noise: f64,
@@ -169,7 +169,7 @@ struct Directions {
 impl Directions {
     fn new(decision: &RankDecision, target: &Matrix, dual: &Dual) -> Self {
         let m = target.ncols();
-        // λ_i of C as given is D_r,i times that of the equilibrated rows.
+        // λ_i of the given C is D_r,i times that of the equilibrated rows.
         let scaled = Matrix::from_fn(target.nrows(), m, |k, i| {
             target[(k, i)] * decision.scaling.row_factor(i)
         });
@@ -186,19 +186,19 @@ impl Directions {
         };
         Self {
             vectors: (0..scaled.nrows()).map(direction).collect(),
-            // A sum of m terms, together of unit length, adds the noise of each.
+            // A sum of m terms with unit norm adds the noise of each.
             noise: dual.noise * (m as f64).sqrt(),
         }
     }
 }
 
-/// A candidate that can be deleted, as places in the dual.
+/// A candidate that can be deleted, as indices into the dual.
 struct Unit {
     candidate: usize,
     places: Vec<usize>,
 }
 
-/// Candidates of the components that the target touches, without those that share a row with it or
+/// Candidates in the components that the target involves, without those that share a row with it or
 /// cannot be deleted.
 fn units(
     decision: &RankDecision,
@@ -235,7 +235,8 @@ fn units(
     Ok(units)
 }
 
-/// Units of one row each with parallel vectors replace each other; every other unit is alone.
+/// Units of one row each with parallel vectors can replace each other; every other unit forms a
+/// class of its own.
 fn replaceable(units: &[Unit], dual: &Dual) -> Result<Vec<Vec<usize>>, Unclear> {
     let mut classes: Vec<Vec<usize>> = Vec::new();
     'units: for (u, unit) in units.iter().enumerate() {
@@ -254,7 +255,7 @@ fn replaceable(units: &[Unit], dual: &Dual) -> Result<Vec<Vec<usize>>, Unclear> 
     Ok(classes)
 }
 
-/// Whether deleting these rows leaves the motion and makes the directions unique.
+/// Whether deleting these rows keeps the motion and makes the directions unique.
 fn suffices(places: &[usize], dual: &Dual, directions: &Directions) -> Result<bool, Unclear> {
     if dual.rank(places)? < places.len() {
         return Ok(false);
@@ -264,7 +265,7 @@ fn suffices(places: &[usize], dual: &Dual, directions: &Directions) -> Result<bo
     Ok(rank(vectors, directions.noise)? == places.len())
 }
 
-/// One unit of each chosen class, in all ways, like the digits of a number.
+/// All combinations with one unit of each chosen class, counted like the digits of a number.
 fn products(chosen: &[usize], classes: &[Vec<usize>]) -> impl Iterator<Item = Vec<usize>> {
     let digits: Vec<&[usize]> = chosen.iter().map(|&k| classes[k].as_slice()).collect();
     let total = digits

@@ -1,4 +1,4 @@
-//! Deletions against brute force: every set of rows, judged by ranks of small integer matrices.
+//! Deletions against brute force: every set of rows is tested by ranks of small integer matrices.
 
 use super::*;
 use crate::decide;
@@ -90,8 +90,8 @@ fn smallest_sets_that_make_a_multiplier_or_a_group_unique() {
     assert!(sizes[0] > 20 && sizes[1] > 20 && sizes[2] > 5, "{sizes:?}");
 }
 
-/// From the definition: after deleting D the rank is the same, and rank C = rank C_X + rank of the
-/// rest of what is left.
+/// From the definition: after deleting D the rank is the same, and rank C = rank C_X + the rank of
+/// the other remaining rows.
 fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
     let m = c.nrows();
     let zero = |i: &usize| c.row(*i).iter().all(|x| *x == 0.0);
@@ -104,8 +104,8 @@ fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
                     .copied()
                     .filter(|i| !group.contains(i))
                     .collect();
-                // A row of zeros in the group has no coefficient in the target: it may be deleted
-                // like others.
+                // A row of zeros in the group has no coefficient in the target, so it may be
+                // deleted like the others.
                 set.iter().all(|i| !group.contains(i) || zero(i))
                     && rank_of(c, &left) == rank
                     && rank_of(c, group) + rank_of(c, &rest) == rank
@@ -118,7 +118,7 @@ fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
     Vec::new()
 }
 
-/// Two generators of redundancy in chains: 2³⁰ sets are counted by components, a uniform matroid by
+/// Two sources of redundancy in chains: 2³⁰ sets are counted by components, a uniform matroid by
 /// contraction.
 #[test]
 fn large_redundancies_are_counted() {

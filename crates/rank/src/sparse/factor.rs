@@ -1,14 +1,13 @@
-//! The factorisation: C = Q·R, body by body, with the rank found on the way.
+//! The factorisation C = Q·R, body by body, with the rank determined on the way.
 //!
-//! Each front is triangularised by Householder reflections. A pivot column of which less than the
-//! tolerance is left is *dead* and stepped over (Heath's rule); there is no exchange of columns but
-//! among those of one body. What is left of the front below its pivots is triangularised too, so
-//! that it has no more rows than columns when it goes up; rows that have nothing left are the left
-//! null space. All that is set to zero on the way is E: `C + E = Q·R` up to rounding, hence
-//! `σ_{r+1}(C) ≤ ‖E‖`. The live columns lose nothing with the dead ones.
-//!
-//! Not here: whether to believe that rank. The live columns may be nearly dependent without one of
-//! them showing it.
+//! Each front is triangularised by Householder reflections. A pivot column whose remaining norm is
+//! below the tolerance is *dead* and skipped (Heath's rule); columns are exchanged only among those
+//! of one body. The part of the front below its pivots is triangularised too, so that it has no
+//! more rows than columns when it is passed to the parent front; rows that become zero span the
+//! left null space. E collects all entries that are set to zero: `C + E = Q·R` up to rounding,
+//! hence `σ_{r+1}(C) ≤ ‖E‖`. The live columns are not changed by dropping dead ones.
+//! Whether this rank is reliable is decided elsewhere: the live columns may be nearly dependent
+//! although no single column shows it.
 //!
 //! Source: M. T. Heath, Some extensions of an algorithm for sparse linear least squares problems,
 //! SIAM J. Sci. Stat. Comput. 3 (1982) 223–237; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM
@@ -26,12 +25,12 @@ use linalg::kernels;
 #[cfg(test)]
 mod tests;
 
-/// What counts as zero.
+/// Limits below which remainders count as zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tolerances {
-    /// What is left of a column when its body is eliminated.
+    /// For the remaining norm of a column when its body is eliminated.
     pub(super) dead: f64,
-    /// What is left of a column in the rest of a front.
+    /// For the remaining norm of a column in the lower part of a front.
     pub(super) rest: f64,
 }
 
@@ -41,16 +40,16 @@ pub(super) struct SparseQr {
     pub(super) q: Reflectors,
     pub(super) r: Trapezoid,
     pub(super) rank: usize,
-    /// Which rows of QᵀC are rows of R; the others are zero.
+    /// Which rows of QᵀC are rows of R; the other rows are zero.
     pub(super) is_live: Vec<bool>,
-    /// ‖E‖, the Frobenius norm of what was set to zero.
+    /// ‖E‖, the Frobenius norm of the entries set to zero.
     pub(super) dropped: f64,
-    /// That of its part in columns that were not dead then.
+    /// The norm of the part of E in columns that were not dead at that time.
     pub(super) dropped_from_rest: f64,
 }
 
 impl SparseQr {
-    /// Bytes held.
+    /// Memory of the factors (bytes).
     pub(super) fn bytes(&self) -> usize {
         self.q.bytes() + self.r.bytes()
     }
@@ -100,16 +99,16 @@ struct Householder {
     front: Assembly,
     tolerances: Tolerances,
     wanted: Wanted,
-    /// The vector v of the reflection in work: (row of the front, value).
+    /// The vector v of the current reflection: (row of the front, value).
     v: Vec<(usize, f64)>,
     product: Vec<f64>,
-    /// What is finished; until the end squares are in place of what was dropped, and `dropped` is
-    /// without the rest.
+    /// The finished part. Until the end it contains squares instead of norms, and `dropped` does
+    /// not include the lower parts of fronts.
     found: SparseQr,
 }
 
 impl Householder {
-    /// Triangularises the front: rows of R for its pivots, and a rest without rows of zeros.
+    /// Triangularises the front: rows of R for its pivots, and a remainder without zero rows.
     fn eliminate(&mut self, front: &Front) {
         let (mut top, mut start) = (0, 0);
         for &end in &front.ends {
@@ -140,8 +139,8 @@ impl Householder {
         self.front.leave(pivots, first..top);
     }
 
-    /// Brings that of the columns `at..end` to `at` of which most is left from row `top` on; its
-    /// norm, and the square of that of all of them.
+    /// Moves the column among `at..end` with the largest norm from row `top` on to `at`; returns
+    /// its norm, and the square of the norm of all these columns.
     fn largest_first(&mut self, top: usize, at: usize, end: usize) -> (f64, f64) {
         let width = self.front.width();
         let (mut square, mut largest, mut total) = (0.0, at, 0.0);
@@ -160,7 +159,7 @@ impl Householder {
         (square.sqrt(), total)
     }
 
-    /// Zeros in these columns from row `top` on.
+    /// Sets these columns to zero from row `top` on.
     fn clear(&mut self, top: usize, columns: Range<usize>) {
         let width = self.front.width();
         for row in self.front.values[top * width..].chunks_exact_mut(width) {
@@ -168,8 +167,8 @@ impl Householder {
         }
     }
 
-    /// Turns column `at`, of which `norm` is left from row `top` on, into that row; the rows in
-    /// which it is zero stay as they are.
+    /// Reflects column `at`, whose norm from row `top` on is `norm`, into that row; rows in which
+    /// the column is zero stay unchanged.
     fn reflect(&mut self, top: usize, at: usize, norm: f64) {
         let width = self.front.width();
         let entry = |i: usize| (i, self.front.values[i * width + at]);
@@ -207,7 +206,7 @@ impl Householder {
         self.front.values[top * width + at] = diagonal;
     }
 
-    /// Row `top` is the row of R with its pivot in column `at`.
+    /// Stores row `top` as the row of R with its pivot in column `at`.
     fn finish_row(&mut self, top: usize, at: usize) {
         self.found.rank += 1;
         self.found.is_live[self.front.rows[top]] = true;

@@ -1,38 +1,38 @@
-//! One front at a time: put together from rows of C and the rests of the fronts below, and its own
-//! rest left for the front above.
+//! One front at a time: assembled from rows of C and the remainders of the fronts below; its own
+//! remainder is passed to the front above.
 //!
-//! Not here: what is done to a front, which is in `factor`.
+//! The operations on a front are in `factor`.
 
 use super::symbolic::{Front, Symbolic};
 use linalg::SparseMatrix;
 
-/// Not a column of the front.
+/// Marks a column that is not in the front.
 const OUTSIDE: usize = usize::MAX;
 
-/// The front in work, and the rests that wait.
+/// The current front, and the remainders that have not been used yet.
 pub(super) struct Assembly {
-    /// Columns of C of the front, in the order of its columns.
+    /// The columns of C in the front, in the order of the front.
     pub(super) columns: Vec<usize>,
-    /// Which row of C each row has taken the place of.
+    /// The original row of C of each row.
     pub(super) rows: Vec<usize>,
     /// Values, row by row.
     pub(super) values: Vec<f64>,
-    /// Where a column of C stands in the front.
+    /// Index in the front of each column of C.
     position: Vec<usize>,
-    /// Rests of fronts that are not taken over yet, the latest last.
+    /// Remainders of fronts that have not been used yet, the latest last.
     waiting: Vec<Rest>,
     waiting_rows: Vec<usize>,
     waiting_columns: Vec<usize>,
     waiting_values: Vec<f64>,
 }
 
-/// What is left of a front: so many rows and columns of those that wait.
+/// Remainder of a front: its numbers of rows and columns.
 struct Rest {
     rows: usize,
     columns: usize,
 }
 
-/// An entry where the pattern has none.
+/// An entry outside the pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct OutsidePattern {
     pub(super) row: usize,
@@ -57,7 +57,7 @@ impl Assembly {
         self.columns.len()
     }
 
-    /// The rows of C that are met here first, and the rests of the children.
+    /// Assembles the rows of C that occur here first, and the remainders of the children.
     pub(super) fn assemble(
         &mut self,
         front: &Front,
@@ -92,7 +92,7 @@ impl Assembly {
         Ok(())
     }
 
-    /// The rows of the rest that was left last.
+    /// Adds the rows of the last remainder.
     fn take_over(&mut self, rest: &Rest) {
         let width = self.width();
         let columns = self.waiting_columns.len() - rest.columns;
@@ -114,8 +114,8 @@ impl Assembly {
         self.waiting_values.truncate(values);
     }
 
-    /// Leaves these rows, without the pivots, for the front above; if there is one, it expects even
-    /// none.
+    /// Passes these rows, without the pivots, to the front above; if there is one, it expects a
+    /// remainder even if it is empty.
     pub(super) fn leave(&mut self, pivots: usize, rows: impl Iterator<Item = usize>) {
         let width = self.width();
         if pivots == width {

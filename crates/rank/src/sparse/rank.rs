@@ -1,20 +1,20 @@
-//! The rank of a sparse matrix, by the rule of dense rank decisions, with evidence that can be had
-//! for the price of a few factorisations.
+//! The rank of a sparse matrix, by the rule of dense rank decisions, with evidence that costs a few
+//! factorisations.
 //!
 //! `C̃ = D_r·C·D_c` is equilibrated and factored twice:
 //!
-//! - `C̃ = Q·R` by columns gives r, and random combinations W of the left null space. What ‖C̃ᵀ·W‖
-//!   leaves is σ_{r+1}, from above.
-//! - `C̃ᵀ = Q'·R'` by rows gives as its live columns the kept rows K. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so
-//!   that its smallest singular value is that of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
+//! - `C̃ = Q·R` by columns gives r, and random combinations W of the left null space. ‖C̃ᵀ·W‖ is an
+//!   upper estimate of σ_{r+1}.
+//! - `C̃ᵀ = Q'·R'` by rows gives the kept rows K as its live columns. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so
+//!   its smallest singular value is that of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
 //!
-//! Not by the live columns of R: where a mechanism has many freedoms, coordinates chosen body by
-//! body may depend on each other exponentially, and rows that are well independent would look as if
-//! they were not.
+//! The live columns of R are not used for this: if a mechanism has many degrees of freedom,
+//! coordinates chosen body by body may depend on each other exponentially, and well independent
+//! rows would appear dependent.
 //!
-//! The ranks are found by Heath's rule, which may be wrong; one that is too large shows in
-//! σ_min(C̃_K) or in the other rank, one that is too small in ‖C̃ᵀ·W‖. Then the rank is undecided,
-//! never silently wrong.
+//! The ranks follow Heath's rule, which may be wrong. A rank that is too large shows in σ_min(C̃_K)
+//! or as a different rank of the other factorisation; one that is too small shows in ‖C̃ᵀ·W‖. Then
+//! the rank is undecided, never silently wrong.
 //!
 //! Source: L. V. Foster, T. A. Davis, Algorithm 933: Reliable calculation of numerical rank, null
 //! space bases, pseudoinverse solutions, and basic solutions using SuiteSparseQR, ACM Trans. Math.
@@ -42,7 +42,7 @@ mod tests;
 /// space, and the evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SparseRank {
-    /// r = rank C. If undecided: a guess.
+    /// Rank r of C. If undecided, an estimate.
     pub rank: usize,
     /// Degree of redundancy p = m − r.
     pub redundancy: usize,
@@ -57,42 +57,42 @@ pub struct SparseRank {
     pub sketch: Matrix,
     /// The numbers behind the decision.
     pub evidence: SparseEvidence,
-    /// Decided, or why not.
+    /// Whether the rank is decided, or why it is not.
     pub status: RankStatus,
 }
 
 /// The numbers behind a sparse rank decision; all of them belong to the equilibrated matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SparseEvidence {
-    /// A lower bound of the smallest singular value of the kept rows, and so of σ_r; at most about
+    /// Lower bound on the smallest singular value of the kept rows, and so on σ_r; at most about
     /// four times too small. Infinite for rank 0.
     pub sigma_r: f64,
-    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. Where all p dependencies hold only to
-    /// the stated uncertainty it is up to √p times larger than σ_{r+1}: undecided then, rather than
-    /// wrong.
+    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. If all p dependencies hold only to the
+    /// stated uncertainty, it is up to √p times larger than σ_{r+1}; then the rank is undecided
+    /// rather than wrong.
     pub sigma_next: f64,
-    /// τ: below it a singular value counts as zero.
+    /// τ: singular values below it count as zero.
     pub tolerance: f64,
-    /// What the equilibrated entries are known to, as it was stated.
+    /// The stated uncertainty of the equilibrated entries.
     pub uncertainty: f64,
-    /// ‖E‖ (Frobenius): what the factorisation by columns set to zero.
+    /// ‖E‖ (Frobenius): the entries that the factorisation by columns set to zero.
     pub backward_error: f64,
-    /// Largest norm of a row of W within its noise, 0 if there is none.
+    /// Largest norm of a row of W that is within its noise, 0 if there is none.
     pub largest_zero: f64,
-    /// Smallest norm of a row of W beyond its noise, infinite if there is none.
+    /// Smallest norm of a row of W that is above its noise, infinite if there is none.
     pub smallest_margin: f64,
-    /// Bytes that the factors took.
+    /// Memory of the factors (bytes).
     pub bytes: usize,
 }
 
-/// Input that no sparse rank can be decided for.
+/// Reason why a sparse rank cannot be decided.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SparseRankError {
-    /// The matrix has a bad entry, or the uncertainty is none.
+    /// The matrix has an entry that is not finite, or the uncertainty is invalid.
     #[error(transparent)]
     Rank(#[from] RankError),
-    /// The matrix is not one of the pattern.
+    /// An entry of the matrix is outside the pattern.
     #[error("entry in row {row}, column {column}, where the pattern has none")]
     Pattern {
         /// Row of the entry.
@@ -100,13 +100,13 @@ pub enum SparseRankError {
         /// Column of the entry.
         column: usize,
     },
-    /// Too many bodies, or too many rows of one body, are joined to each other to be eliminated one
-    /// by one.
+    /// Too many bodies, or too many rows of one body, are connected to each other to be eliminated
+    /// one by one.
     #[error(
         "elimination needs about {work:.1e} operations, at most {limit:.1e} are made; bodies or rows are joined too closely"
     )]
     TooDense {
-        /// Estimated operations, or those counted when the limit was passed.
+        /// Number of operations, estimated, or counted until the limit was passed.
         work: f64,
         /// The limit.
         limit: f64,
@@ -114,26 +114,26 @@ pub enum SparseRankError {
     /// The matrix has another shape than the pattern.
     #[error("matrix of {rows}×{columns} for a pattern of {expected_rows}×{expected_columns}")]
     Shape {
-        /// Rows given.
+        /// Number of rows given.
         rows: usize,
-        /// Columns given.
+        /// Number of columns given.
         columns: usize,
-        /// Rows of the pattern.
+        /// Number of rows of the pattern.
         expected_rows: usize,
-        /// Columns of the pattern.
+        /// Number of columns of the pattern.
         expected_columns: usize,
     },
 }
 
-/// Decides the rank of a sparse C whose columns come in blocks, the coordinates of a body each. A
-/// range beyond the matrix is cut, and a column in none is a block of its own.
+/// Decides the rank of a sparse C whose columns form blocks, one for the coordinates of each body.
+/// A range beyond the matrix is cut off, and a column in no block is a block of its own.
 ///
-/// `uncertainty` is what the entries of the equilibrated matrix are known to beyond rounding.
+/// `uncertainty` is the uncertainty of the entries of the equilibrated matrix beyond rounding.
 ///
 /// ```
 /// use linalg::SparseMatrix;
 /// use rank::{Sketch, decide_sparse};
-/// // Rows 0 and 2 say the same of the first body.
+/// // Rows 0 and 2 are equal up to a factor; both act on the first body.
 /// let c = SparseMatrix::from_rows(2, [vec![(0, 1.0)], vec![(0, 1.0), (1, 1.0)], vec![(0, 3.0)]])?;
 /// let found = decide_sparse(&c, 0.0, &[0..1, 1..2], Sketch::default())?;
 /// assert!(found.is_decided());
@@ -145,7 +145,7 @@ pub enum SparseRankError {
 /// # Errors
 /// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or
 ///   infinite.
-/// - [`SparseRankError::TooDense`]: see there.
+/// - [`SparseRankError::TooDense`]: elimination would take too many operations.
 pub fn decide_sparse(
     c: &SparseMatrix,
     uncertainty: f64,
@@ -155,8 +155,8 @@ pub fn decide_sparse(
     SparsePattern::new(c, blocks)?.decide(c, uncertainty, wanted)
 }
 
-/// Where matrices of one pattern have entries, and in which order they are factored: for many
-/// decisions on matrices of other values.
+/// The places of the entries of matrices with one pattern, and the order of their factorisation,
+/// for many decisions on matrices with different values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SparsePattern {
     by_columns: Symbolic,
@@ -164,11 +164,11 @@ pub struct SparsePattern {
 }
 
 impl SparsePattern {
-    /// The pattern of the stored entries of `c`, whose columns come in blocks.
+    /// Analyses the pattern of the stored entries of `c`, whose columns form blocks.
     ///
     /// # Errors
-    /// [`SparseRankError::TooDense`]: it would take longer than the dense code takes for some
-    /// thousands of rows.
+    /// [`SparseRankError::TooDense`]: elimination would take longer than dense elimination of
+    /// several thousand rows.
     pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, SparseRankError> {
         let by_columns = Symbolic::new(c, blocks)?;
         let by_rows = Symbolic::new(&c.transpose(), &by_columns.row_blocks)?;
@@ -178,23 +178,23 @@ impl SparsePattern {
         })
     }
 
-    /// Memory of a decision with so many random combinations, about, in bytes: before it is taken.
+    /// Estimated memory (bytes) of a decision with this number of random combinations.
     pub fn bytes(&self, wanted: Sketch) -> usize {
         let rows = self.by_columns.nrows;
         let q = self.by_columns.bytes(Wanted::Q);
         let vectors =
             size_of::<f64>() * rows * 2 * wanted.columns.next_multiple_of(REFLECTORS_WIDTH);
-        // The reflections of Cᵀ, a vector or two of the sketch, and then the triangle of the kept
-        // rows.
+        // The reflections of Cᵀ, one or two vectors of the sketch, and then the triangle of the
+        // kept rows.
         q + vectors + self.by_rows.bytes(Wanted::R)
     }
 
-    /// [`decide_sparse`] of a matrix with this pattern.
+    /// Like [`decide_sparse`], for a matrix with this pattern.
     ///
     /// # Errors
     /// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN
     ///   or infinite.
-    /// - [`SparseRankError::Pattern`], [`SparseRankError::Shape`]: the matrix is not one of the
+    /// - [`SparseRankError::Pattern`], [`SparseRankError::Shape`]: the matrix does not have this
     ///   pattern.
     pub fn decide(
         &self,
@@ -246,8 +246,8 @@ impl SparsePattern {
         Ok(found)
     }
 
-    /// The factorisation of Cᵀ whose live columns are the kept rows: of rows that are enough, those
-    /// of which as much is left as possible.
+    /// The factorisation of Cᵀ whose live columns are the kept rows; among sufficient rows, those
+    /// with the largest remaining norm are kept.
     fn kept_rows(
         &self,
         transposed: &SparseMatrix,
@@ -261,8 +261,8 @@ impl SparsePattern {
             };
             self.by_rows.factor(transposed, tolerances, Wanted::R)
         };
-        // If less is left than required, the kept rows cannot have the singular value that is
-        // required of them.
+        // If the remaining norm is below the limit, the kept rows cannot have the required singular
+        // value.
         let required = required(tolerance);
         let found = factor(required.max(LEFT))?;
         if found.rank == rank {

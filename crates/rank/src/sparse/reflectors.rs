@@ -1,7 +1,7 @@
-//! Q as what it was made of: a product of Householder reflections, each of a few rows.
+//! Q stored as a product of Householder reflections, each of a few rows.
 //!
-//! `Q = H₁·H₂⋯H_s` with `H = I − v·vᵀ`, `‖v‖² = 2`, and v sparse. Several vectors are turned at
-//! once, because the rows of v are looked up only once then.
+//! `Q = H₁·H₂⋯H_s` with `H = I − v·vᵀ`, `‖v‖² = 2`, and v sparse. Several vectors are reflected at
+//! once, because then the rows of v are looked up only once.
 
 use crate::limits::REFLECTORS_WIDTH;
 
@@ -11,7 +11,7 @@ pub(super) type Lanes = [f64; REFLECTORS_WIDTH];
 /// Reflections in the order in which they were applied to the rows of C.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Reflectors {
-    /// Ends of the entries of each v.
+    /// Index after the last entry of each v.
     end: Vec<usize>,
     row: Vec<usize>,
     value: Vec<f64>,
@@ -48,7 +48,7 @@ impl Reflectors {
         }
     }
 
-    /// Bytes held.
+    /// Memory (bytes).
     pub(super) fn bytes(&self) -> usize {
         size_of::<usize>() * (self.end.len() + self.row.len()) + size_of::<f64>() * self.value.len()
     }

@@ -1,10 +1,10 @@
 //! Random combinations of the left null space, W = Z·Ω, instead of the p columns of Z.
 //!
-//! The rows of QᵀC that are zero give an orthonormal basis `Z = Q·[0; I]` of the left null space;
-//! it is never formed. For k random columns Ω of mean zero and variance 1/k the rows of
-//! `W = Q·[0; Ω]` say the same of any group J of at most k rows, with probability one: `W_J = 0`
-//! iff `Z_J = 0`, `rank W_J = rank Z_J`, and both have the same left null space. The norm of a row
-//! of W estimates that of the row of Z.
+//! The rows of QᵀC that are zero give an orthonormal basis `Z = Q·[0; I]` of the left null space; Z
+//! is never formed. For k random columns Ω with mean zero and variance 1/k the rows of
+//! `W = Q·[0; Ω]` give the same answers for any group J of at most k rows, with probability one:
+//! `W_J = 0` iff `Z_J = 0`, `rank W_J = rank Z_J`, and both have the same left null space. The norm
+//! of a row of W estimates that of the row of Z.
 
 use super::factor::SparseQr;
 use super::random;
@@ -13,13 +13,13 @@ use crate::limits::REFLECTORS_WIDTH;
 use linalg::Matrix;
 use linalg::SparseMatrix;
 
-/// How the random combinations are drawn.
+/// Parameters of the random combinations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sketch {
-    /// Number of combinations k: not less than the rows of the largest group that is judged, and
-    /// some more against chance.
+    /// Number of combinations k: at least the number of rows of the largest group that is analysed,
+    /// and some more so that failures are improbable.
     pub columns: usize,
-    /// The same seed, the same numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
@@ -33,7 +33,7 @@ impl Default for Sketch {
     }
 }
 
-/// W and ‖Cᵀ·W‖ in the Frobenius norm, which estimates ‖Cᵀ·Z‖.
+/// Computes W, and ‖Cᵀ·W‖ in the Frobenius norm, which estimates ‖Cᵀ·Z‖.
 pub(super) fn sketch(qr: &SparseQr, c: &SparseMatrix, wanted: Sketch) -> (Matrix, f64) {
     let (m, k) = (c.nrows(), wanted.columns.max(1));
     let mut w = Matrix::zeros(m, k);

@@ -1,9 +1,10 @@
-//! The smallest singular value of the live columns, from below: what Heath's rule does not see.
+//! A lower bound on the smallest singular value of the live columns, which Heath's rule does not
+//! provide.
 //!
 //! With `A = (R₁₁ᵀ·R₁₁)⁻¹`, whose largest eigenvalue is `1/σ²` with unit eigenvector u, any x has
 //! `‖A^q·x‖ ≥ σ^(−2q)·|uᵀx|`, hence `σ ≥ (|uᵀx| / ‖A^q·x‖)^(1/2q)`. For a random x the product
-//! `uᵀx` is below ε with a probability of at most 0.82·ε; that all vectors of a batch are below it
-//! has the probability of the power, which fixes ε.
+//! `uᵀx` is below ε with a probability of at most 0.82·ε; the probability that all vectors of a
+//! batch are below ε is the corresponding power, which determines ε.
 //!
 //! Source: J. D. Dixon, Estimating extremal eigenvalues and condition numbers of matrices, SIAM J.
 //! Numer. Anal. 20 (1983) 812–814, here with a bound that does not need the norm of x.
@@ -13,18 +14,18 @@ use super::reflectors::Lanes;
 use super::trapezoid::Trapezoid;
 use crate::limits::{FAILURE, REFLECTORS_WIDTH, SOLVES};
 
-/// Not a stream of the sketch.
+/// A stream number that the sketch does not use.
 const STREAM: u64 = u64::MAX;
 
-/// A lower bound of σ_r of R₁₁, for a random choice of vectors that fails once in 10⁹; infinite for
-/// rank 0, 0 where nothing is found. `n` is the number of columns of the matrix that was factored.
+/// A lower bound on σ_r of R₁₁, with a probability of failure of 10⁻⁹; infinite for rank 0, 0 if
+/// none is found. `n` is the number of columns of the factored matrix.
 pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64 {
     if r.rank() == 0 {
         return f64::INFINITY;
     }
     let mut x = random::uniform(n, seed, STREAM);
     r.clear_dead(&mut x);
-    // ‖A^q·x‖ of each vector as a product: powers of 1/σ leave the range of `f64`.
+    // ‖A^q·x‖ of each vector as a product, because powers of 1/σ overflow.
     let mut logarithm = [0.0_f64; REFLECTORS_WIDTH];
     for _ in 0..SOLVES {
         r.solve_normal(&mut x);

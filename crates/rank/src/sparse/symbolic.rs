@@ -1,10 +1,10 @@
-//! Which fronts a factorisation goes through: from the pattern alone, before any value.
+//! The sequence of fronts of a factorisation, determined from the pattern alone.
 //!
-//! A *front* is the small dense matrix of all that touches the bodies eliminated in it: rows of C
-//! not met before, and what the fronts below have left over. Its columns are those of its own
-//! bodies, the *pivots*, and then those of the bodies that are joined to them by then. The first of
-//! these is eliminated in the front above, so fronts form a tree. A small front is put into the one
-//! above it: a few zeros cost less than a front.
+//! A *front* is the small dense matrix of everything that involves the bodies eliminated in it:
+//! rows of C that have not occurred before, and the remainders of the fronts below. Its columns are
+//! those of its own bodies, the *pivots*, followed by those of the bodies connected to them at that
+//! time. The first of these is eliminated in the front above, so fronts form a tree. A small front
+//! is merged into the one above it: a few zeros cost less than a separate front.
 //!
 //! Source: J. W. H. Liu, On general row merging schemes for sparse Givens transformations, SIAM J.
 //! Sci. Stat. Comput. 7 (1986) 1190–1211, for the tree; T. A. Davis, Algorithm 915: SuiteSparseQR,
@@ -16,48 +16,49 @@ use std::ops::Range;
 use crate::structure::partition;
 use linalg::{EliminationTree, SparseMatrix};
 
-/// Which factor is kept; the other one is not stored.
+/// The factor that is kept; the other one is not stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
     Q,
     R,
 }
 
-/// Operations, counted or estimated, when the limit was passed.
+/// Number of operations, counted or estimated, when the limit was passed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TooDense {
     pub(super) work: f64,
 }
 
-/// The fronts of matrices of one pattern.
+/// The fronts of matrices with one pattern.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Symbolic {
     pub(super) nrows: usize,
     pub(super) ncols: usize,
-    /// Consecutive rows that touch the same blocks.
+    /// Consecutive rows with entries in the same blocks.
     pub(super) row_blocks: Vec<Range<usize>>,
-    /// Rows without entries, which are in no front.
+    /// Rows without entries, which belong to no front.
     pub(super) empty_rows: Vec<usize>,
-    /// Those below a front come before it; the last ones before it are its children.
+    /// The fronts, each after all fronts below it; its children come directly before it, with their
+    /// descendants.
     pub(super) fronts: Vec<Front>,
 }
 
-/// A front before it has values.
+/// A front without values.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Front {
-    /// Ends of the bodies among the pivots.
+    /// Index after the last column of each body among the pivots.
     pub(super) ends: Vec<usize>,
     /// Columns of C: the pivots, and those that are eliminated later, in that order.
     pub(super) columns: Vec<usize>,
-    /// Rows of C that are met here first.
+    /// Rows of C that occur here first.
     pub(super) rows: Vec<usize>,
-    /// Fronts whose rest is taken over.
+    /// Number of fronts whose remainders are assembled here.
     pub(super) children: usize,
 }
 
 impl Symbolic {
-    /// The fronts of a matrix whose columns come in blocks. Ranges beyond the matrix are cut; a
-    /// column in no block is one.
+    /// Determines the fronts of a matrix whose columns form blocks. Ranges beyond the matrix are
+    /// cut off; a column in no block is a block of its own.
     pub(super) fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, TooDense> {
         let blocks = partition(c.ncols(), blocks.iter());
         let touched = Touched::new(c, &blocks);
@@ -110,12 +111,12 @@ impl Symbolic {
 }
 
 impl Symbolic {
-    /// Bytes that a factorisation holds at most: the factor that is kept, and the front in work
-    /// with the rests that wait. For fronts of full rank; what dependent columns leave besides is
+    /// Upper bound (bytes) on the memory of a factorisation: the factor that is kept, and the
+    /// current front with the stored remainders. For fronts of full rank; dependent columns add
     /// little.
     pub(super) fn bytes(&self, wanted: Wanted) -> usize {
         let (mut factor, mut waiting, mut most) = (0, 0, 0);
-        // Rows and columns of the rests that wait.
+        // Numbers of rows and columns of the stored remainders.
         let mut rests: Vec<[usize; 2]> = Vec::new();
         for front in &self.fronts {
             let width = front.columns.len();
@@ -130,7 +131,7 @@ impl Symbolic {
             let rank = rows.min(width);
             factor += ENTRY
                 * match wanted {
-                    // Reflections of all columns, those beyond the pivots included.
+                    // Reflections of all columns, including those after the pivots.
                     Wanted::Q => rank * rows - rank * rank.saturating_sub(1) / 2,
                     Wanted::R => {
                         let own = rank.min(pivots);
@@ -148,11 +149,11 @@ impl Symbolic {
     }
 }
 
-/// Bytes of a number, and of a number with its place.
+/// Bytes of a number, and of a number with its index.
 const NUMBER: usize = size_of::<f64>();
 const ENTRY: usize = NUMBER + size_of::<usize>();
 
-/// The blocks that rows touch; consecutive rows of the same blocks are one set.
+/// The blocks in which rows have entries; consecutive rows with the same blocks form one set.
 struct Touched {
     sets: Vec<Vec<usize>>,
     /// Rows of each set.
@@ -196,11 +197,11 @@ struct Supernode {
     children: usize,
 }
 
-/// Puts small fronts, and those that fit exactly, into their parents; the fronts in an order in
-/// which the children of each come right before it, with their descendants.
+/// Merges small fronts, and those that fit exactly, into their parents. Returns the fronts in an
+/// order in which the children of each front come directly before it, with their descendants.
 fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supernode> {
     let n = tree.order.len();
-    // Columns that are eliminated in the front of a node, and columns of the front.
+    // Numbers of columns that are eliminated in the front of a node, and of columns of the front.
     let mut pivots: Vec<usize> = (0..n).map(&size).collect();
     let mut width: Vec<usize> = (0..n)
         .map(|k| pivots[k] + tree.beyond[k].iter().map(|&j| size(j)).sum::<usize>())
@@ -223,7 +224,7 @@ fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supe
         }
         children[k] = apart;
     }
-    // Parents first, last child first; turned round, children come right before their parents.
+    // Parents first, last child first; after reversal, children come directly before their parents.
     let mut reversed = Vec::with_capacity(n);
     let mut open: Vec<usize> = (0..n).filter(|&k| tree.beyond[k].is_empty()).collect();
     while let Some(k) = open.pop() {
@@ -238,7 +239,7 @@ fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supe
     reversed
 }
 
-/// A node after all that were merged into it.
+/// A node, after all nodes that were merged into it.
 fn with_merged(top: usize, merged: &[Vec<usize>]) -> Vec<usize> {
     let mut reversed = Vec::new();
     let mut open = vec![top];

@@ -7,14 +7,14 @@ use crate::limits::REFLECTORS_WIDTH;
 /// pivots are the *live* ones, R₁₁, and no row has an entry in the pivot column of an earlier one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Trapezoid {
-    /// Ends of the entries of each row.
+    /// Index after the last entry of each row.
     end: Vec<usize>,
     column: Vec<usize>,
     value: Vec<f64>,
 }
 
 impl Trapezoid {
-    /// Adds a row: the pivot first, then the others that are not zero.
+    /// Adds a row: the pivot first, then the other non-zero entries.
     pub(super) fn push(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
         for (column, value) in entries {
             self.column.push(column);
@@ -23,7 +23,7 @@ impl Trapezoid {
         self.end.push(self.column.len());
     }
 
-    /// Rows, which is the number of live columns.
+    /// Number of rows, which equals the number of live columns.
     pub(super) fn rank(&self) -> usize {
         self.end.len()
     }
@@ -60,7 +60,7 @@ impl Trapezoid {
         }
     }
 
-    /// Zeros in the rows of dead columns.
+    /// Sets the rows of dead columns to zero.
     pub(super) fn clear_dead(&self, x: &mut [Lanes]) {
         let mut is_live = vec![false; x.len()];
         self.live().for_each(|j| is_live[j] = true);
@@ -81,7 +81,7 @@ impl Trapezoid {
         (&self.column[entries.clone()], &self.value[entries])
     }
 
-    /// Bytes held.
+    /// Memory (bytes).
     pub(super) fn bytes(&self) -> usize {
         size_of::<usize>() * (self.end.len() + self.column.len())
             + size_of::<f64>() * self.value.len()

@@ -1,25 +1,23 @@
 //! The blocks of a graph: groups that share a cycle.
 
-/// Sets of groups that lie on common cycles of the graph in which each group joins its vertices;
+/// Sets of groups that lie on common cycles of the graph in which each group connects its vertices;
 /// each set ascending, ordered by their first groups. A group on no cycle is a set of its own, and
-/// so is one on a single vertex.
+/// so is a group on a single vertex.
 ///
-/// In mechanics the vertices are bodies and the ground, and the groups joints whose rows vanish on
-/// the rigid motions that their bodies have in common. Where only one body is common to two sides,
-/// the side without the ground is in equilibrium by itself, so that its joints transmit nothing to
-/// that body that rigid motions of the body could tell: every `z` with `Cᵀ·z = 0` is the sum of
-/// such vectors on single sets. So each set can be judged alone, and the redundancy is the sum of
-/// theirs.
+/// In mechanics the vertices are bodies and the ground, and the groups are joints whose rows vanish
+/// on the common rigid motions of their bodies. If two sides have only one body in common, the side
+/// without the ground is in equilibrium by itself, so its joints transmit no total wrench to that
+/// body: every `z` with `Cᵀ·z = 0` is the sum of such vectors on single sets. So each set can be
+/// analysed separately, and the redundancy is the sum of theirs.
 ///
 /// ```
 /// use rank::cycles;
-/// // Vertices 0, 1, 2 in a triangle; 3 hangs on 2, and is joined to 4 twice.
+/// // Vertices 0, 1, 2 form a triangle; 3 is connected to 2, and twice to 4.
 /// let groups = [vec![0, 1], vec![1, 2], vec![2, 3], vec![2, 0], vec![3, 4], vec![4, 3]];
 /// assert_eq!(cycles(5, &groups), [vec![0, 1, 3], vec![2], vec![4, 5]]);
 /// ```
 ///
-/// Vertices that are not below `vertices` are left out. The work is linear in the number of
-/// entries.
+/// Vertices that are not below `vertices` are ignored. The work is linear in the number of entries.
 ///
 /// Source: R. Tarjan, Depth-first search and linear graph algorithms, SIAM J. Comput. 1 (1972)
 /// 146–160.
@@ -48,10 +46,10 @@ pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
     sets
 }
 
-/// Edges in compressed lists of their vertices. A group on k vertices is a cycle through them: it
-/// holds them together whichever of them is left out.
+/// Edges in compressed adjacency lists. A group on k vertices is a cycle through them: it keeps
+/// them connected whichever of them is removed.
 struct Graph {
-    /// Where the edges of each vertex begin, one more than vertices; and what they are.
+    /// Index of the first edge of each vertex (one more entry than vertices), and the edges.
     first: Vec<usize>,
     ends: Vec<(usize, usize)>,
     /// The group of each edge.
@@ -95,10 +93,11 @@ impl Graph {
 
 /// Depth first, without recursion.
 struct Search {
-    /// When each vertex was reached, from 1, and the earliest that its subtree reaches.
+    /// Order in which each vertex was reached, from 1, and the earliest vertex that its subtree
+    /// reaches.
     order: Vec<usize>,
     reach: Vec<usize>,
-    /// The next edge to look at.
+    /// The next edge to examine.
     next: Vec<usize>,
     visited: usize,
     /// Edges since the last block was closed.
@@ -115,7 +114,7 @@ impl Search {
 
     fn from(&mut self, root: usize, graph: &Graph, leader: &mut [usize]) {
         self.enter(root);
-        // The way here, with the number of edges that were pending before each vertex.
+        // The current path, with the number of pending edges before each vertex.
         let mut way = vec![(root, 0)];
         while let Some(&(vertex, before)) = way.last() {
             if self.next[vertex] < graph.first[vertex + 1] {
@@ -140,8 +139,8 @@ impl Search {
             };
             self.reach[parent] = self.reach[parent].min(self.reach[vertex]);
             if self.reach[vertex] >= self.order[parent] {
-                // What is pending since the edge to this vertex reaches nothing earlier than the
-                // parent: a block.
+                // The pending edges since the edge to this vertex reach nothing earlier than the
+                // parent: they form a block.
                 let block = self.pending.split_off(before);
                 for pair in block.windows(2) {
                     let [a, b] = [pair[0], pair[1]].map(|e| find(leader, graph.group[e]));
@@ -152,7 +151,7 @@ impl Search {
     }
 }
 
-/// The first group of a set, with shorter ways to it from now on.
+/// The first group of a set; shortens the paths to it.
 fn find(leader: &mut [usize], mut group: usize) -> usize {
     while leader[group] != group {
         leader[group] = leader[leader[group]];

@@ -1,9 +1,10 @@
-//! The graph of blocks, ground and groups: its parts without the ground, and its bridges with it.
+//! The graph of blocks, ground and groups: its parts without the ground, and its bridges with the
+//! ground.
 
 use super::incidence::{Incidence, Part};
 
-/// Parts of the remaining rows, the ground left out, by their first row. Rows of one group stay
-/// together.
+/// Parts of the remaining rows without the ground, ordered by their first rows. Rows of one group
+/// stay together.
 pub(super) fn parts(incidence: &Incidence) -> Vec<Part> {
     let n_blocks = incidence.blocks.len();
     // Vertices: blocks, then groups.
@@ -48,7 +49,7 @@ fn root(label: &mut [usize], mut vertex: usize) -> usize {
     vertex
 }
 
-/// Half an edge.
+/// One end of an edge.
 #[derive(Clone, Copy)]
 struct End {
     vertex: usize,
@@ -57,16 +58,16 @@ struct End {
 
 /// Groups on exactly two vertices (blocks or the ground) that no other path connects.
 ///
-/// Depth first with the earliest vertex that a subtree reaches: an edge is a bridge iff what lies
-/// behind it reaches nothing earlier. Groups on more vertices are stars around a vertex of their
-/// own and never bridges themselves.
+/// Depth-first search with the earliest vertex that a subtree reaches: an edge is a bridge iff the
+/// part behind it reaches nothing earlier. A group on more vertices is a star around an additional
+/// vertex and never a bridge.
 ///
 /// Source: R. Tarjan, A note on finding the bridges of a graph, Inform. Process. Lett. 2 (1974)
 /// 160–161.
 pub(super) fn bridges(incidence: &Incidence) -> Vec<usize> {
     let ground = incidence.blocks.len();
     let mut ends: Vec<Vec<End>> = vec![Vec::new(); ground + 1];
-    // The group of each edge, nothing for the rays of a star.
+    // The group of each edge; `None` for the edges of a star.
     let mut group_of: Vec<Option<usize>> = Vec::new();
     for g in 0..incidence.groups.len() {
         let mut vertices = incidence.blocks_of(g);
@@ -85,7 +86,8 @@ pub(super) fn bridges(incidence: &Incidence) -> Vec<usize> {
         if let [a, b] = vertices[..] {
             connect(a, b, Some(g));
         } else {
-            // Rays from the first vertex join all of them as well as a vertex of their own would.
+            // Edges from the first vertex connect all of them as well as an additional vertex
+            // would.
             vertices[1..]
                 .iter()
                 .for_each(|&v| connect(vertices[0], v, None));
@@ -100,9 +102,9 @@ pub(super) fn bridges(incidence: &Incidence) -> Vec<usize> {
 /// A vertex on the current path of the search.
 struct Step {
     vertex: usize,
-    /// The edge it was reached by.
+    /// The edge by which it was reached.
     through: Option<usize>,
-    /// Ends looked at so far.
+    /// Number of ends examined so far.
     next: usize,
 }
 

@@ -1,40 +1,40 @@
-//! Which blocks rows and groups touch, and which rows are still in play.
+//! The blocks that rows and groups touch, and the rows that are not settled yet.
 
 use std::ops::Range;
 
 use linalg::Matrix;
 
-/// Rows that belong together, as those of a joint.
+/// Rows that belong together, such as those of a joint.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RowGroup {
     /// Its rows of C.
     pub rows: Range<usize>,
     /// Whether it acts between its blocks and the ground, not only among its blocks.
     ///
-    /// `false` promises that its rows vanish on every rigid motion that its blocks have in common,
-    /// and that a rigid motion of one block has as many freedoms as the block has columns. Without
-    /// the promise say `true`: fewer bridges are found then.
+    /// `false` is a promise by the caller that its rows vanish on every common rigid motion of its
+    /// blocks, and that a rigid motion of one block has as many freedoms as the block has columns.
+    /// Without this promise use `true`; then fewer bridges are found.
     pub ground: bool,
 }
 
-/// Blocks and groups that have nothing to do with the others.
+/// Blocks and groups that are independent of the others.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Part {
     /// Groups, ascending.
     pub groups: Vec<usize>,
-    /// Rows of these groups that are to be judged together, ascending.
+    /// Rows of these groups that are to be analysed together, ascending.
     pub rows: Vec<usize>,
     /// Blocks that these rows touch, ascending.
     pub blocks: Vec<usize>,
 }
 
-/// Rows, groups and blocks, and which rows are still in play.
+/// Rows, groups and blocks, and the rows that are not settled yet.
 pub(super) struct Incidence {
     /// The equilibrated matrix.
     pub(super) c: Matrix,
     /// Columns of each block.
     pub(super) blocks: Vec<Vec<usize>>,
-    /// The groups as given; then one for each row of no group.
+    /// The given groups, followed by one for each row in no group.
     pub(super) groups: Vec<Group>,
     /// Blocks that each row touches, ascending.
     pub(super) touches: Vec<Vec<usize>>,
@@ -84,7 +84,7 @@ impl Incidence {
         }
     }
 
-    /// Rows of a group that are still in play.
+    /// Rows of a group that are not settled yet.
     pub(super) fn remaining(&self, group: usize) -> Vec<usize> {
         let rows = self.groups[group].rows.iter().copied();
         rows.filter(|&row| self.active[row]).collect()
@@ -103,8 +103,8 @@ impl Incidence {
     }
 }
 
-/// `0..n` split by ranges, the first range that has a number takes it; then one set for each number
-/// in no range.
+/// Splits `0..n` by ranges (a number belongs to the first range that contains it), followed by one
+/// set for each number in no range.
 pub(crate) fn partition<'a>(
     n: usize,
     ranges: impl Iterator<Item = &'a Range<usize>>,

@@ -1,4 +1,4 @@
-//! Peeling: blocks on which the remaining rows are independent leave, with these rows.
+//! Peeling: removes blocks on which the remaining rows are independent, together with these rows.
 
 use std::collections::VecDeque;
 
@@ -6,8 +6,8 @@ use super::incidence::Incidence;
 use crate::decision::independent;
 use linalg::Matrix;
 
-/// Takes rows out of play until no block can leave. Every row leaves at most once, so each block is
-/// looked at at most once more than rows leave it.
+/// Removes rows until no block can be removed. Every row is removed at most once, so each block is
+/// examined at most once more than rows are removed from it.
 pub(super) fn peel(incidence: &mut Incidence, uncertainty: f64) {
     let mut rows_of: Vec<Vec<usize>> = vec![Vec::new(); incidence.blocks.len()];
     for (row, touched) in incidence.touches.iter().enumerate() {

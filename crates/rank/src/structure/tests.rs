@@ -1,11 +1,11 @@
-//! What the pattern settles must be true: compared with the null space of random matrices and of
+//! Results from the pattern must be true: compared with the null space of random matrices and of
 //! chains of bodies.
 
 use super::*;
 use crate::{decide, orthonormal};
 
-/// A body in the plane, three columns. Points and lines are given in global components, so that
-/// rigid motions are (1, 0, −y), (0, 1, x) for every body alike.
+/// A pin between bodies in the plane, each with three columns. Points and lines are given in global
+/// components, so that the rigid motions are (1, 0, −y), (0, 1, x) for every body.
 fn pin(c: &mut Vec<Vec<f64>>, n: usize, pair: [Option<usize>; 2], at: [f64; 2]) -> Range<usize> {
     let first = c.len();
     for k in 0..2 {
@@ -25,8 +25,9 @@ fn matrix(rows: &[Vec<f64>]) -> Matrix {
     Matrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j])
 }
 
-/// Random pins between bodies and ground: every settled row or group against the null space of the
-/// whole, and every open part judged alone against the same rows of the whole.
+/// Random pins between bodies and ground: every settled row or group is compared with the null
+/// space of the whole, and every open part analysed separately is compared with the same rows of
+/// the whole.
 #[test]
 fn what_is_settled_is_true_and_parts_are_independent() {
     let mut state = 7_u64;
@@ -43,12 +44,12 @@ fn what_is_settled_is_true_and_parts_are_independent() {
         let mut groups = Vec::new();
         for _ in 0..2 + next(n + 3) {
             let i = next(n);
-            // Ground is one choice more than the other bodies.
+            // The ground is one more choice in addition to the other bodies.
             let j = match next(n + 1) {
                 j if j == n || j == i => None,
                 j => Some(j),
             };
-            // On a grid, so that pins coincide or lie in line now and then.
+            // On a grid, so that pins sometimes coincide or lie in line.
             let at = [next(4) as f64, next(3) as f64];
             groups.push(RowGroup {
                 rows: pin(&mut rows, n, [Some(i), j], at),
@@ -104,8 +105,8 @@ fn what_is_settled_is_true_and_parts_are_independent() {
     );
 }
 
-/// A closed loop of three bars with a redundant bar hangs on the ground by one pin: no body can be
-/// peeled, the pin is a bridge.
+/// A closed loop of three bars with a redundant bar is connected to the ground by one pin: no body
+/// can be peeled, and the pin is a bridge.
 #[test]
 fn a_bridge_that_peeling_cannot_find() {
     let mut rows = Vec::new();
@@ -129,14 +130,14 @@ fn a_bridge_that_peeling_cannot_find() {
     let found = structure(&matrix(&rows), 0.0, &groups, &blocks).unwrap();
     assert_eq!(found.groups[0], Settled::Bridge);
     assert!(found.groups[1..].iter().all(|s| *s == Settled::Open(0)));
-    // Without the promise that the loop only acts among its bars, the pin may carry something.
+    // Without the promise that the loop acts only among its bars, the pin may transmit a load.
     groups.iter_mut().for_each(|g| g.ground = true);
     let careful = structure(&matrix(&rows), 0.0, &groups, &blocks).unwrap();
     assert_eq!(careful.groups[0], Settled::Open(0));
 }
 
-/// Entries that are rounding beside their row do not peel: block 1 sees only 1e-17 of row 1, which
-/// repeats row 0 otherwise.
+/// Entries that are rounding relative to their row do not lead to peeling: block 1 has only an
+/// entry of 1e-17 in row 1, which otherwise repeats row 0.
 #[test]
 fn rounding_does_not_peel() {
     let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [1.0, 1e-17, 0.0], [0.0, 1.0, 1.0]]);
@@ -145,8 +146,8 @@ fn rounding_does_not_peel() {
     assert_eq!(found.rows, [Settled::Open(0); 3]);
 }
 
-/// Odd input: a row of zeros is a dependency by itself, ranges are cut, rows and columns of no
-/// range stand alone.
+/// Unusual input: a row of zeros is a dependency by itself, ranges are cut off, rows and columns in
+/// no range form sets of their own.
 #[test]
 fn odd_input_has_an_answer() {
     let c = Matrix::from_rows(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
@@ -171,8 +172,8 @@ fn odd_input_has_an_answer() {
     assert!(empty.parts.is_empty());
 }
 
-/// Groups are of one set iff, whichever vertex is left out, what is left of both hangs together, or
-/// they join the same vertices: from the definition, for every pair.
+/// From the definition, for every pair: two groups belong to one set iff, whichever vertex is
+/// removed, the rest of both stays connected, or they connect the same vertices.
 #[test]
 fn cycles_are_what_no_single_vertex_separates() {
     let mut seed = 5_u64;
@@ -217,7 +218,7 @@ fn cycles_are_what_no_single_vertex_separates() {
         for a in 0..groups.len() {
             for b in 0..a {
                 let by_vertex = (0..vertices).all(|v| hang_together(a, b, Some(v), None));
-                // An edge that alone joins the ends of another is no cycle with it.
+                // An edge that alone connects the ends of another forms no cycle with it.
                 let is_bridge = |g: usize| {
                     let [x, y] = [groups[g][0], groups[g][1]];
                     let mut label: Vec<usize> = (0..vertices).collect();

@@ -47,8 +47,8 @@ fn oracle_rank(mut a: Vec<Vec<BigInt>>) -> usize {
     rank
 }
 
-/// Everything a decision says, against the oracle: the rank, the kept rows, the zeros of T, and its
-/// values.
+/// Checks all results of a decision against the oracle: the rank, the kept rows, the zeros of T,
+/// and its values.
 fn check(c: &Matrix) -> RankDecision {
     let decision = certify_exact(c).unwrap();
     let a = integers(c);
@@ -64,7 +64,7 @@ fn check(c: &Matrix) -> RankDecision {
     let z = ExactNullSpace::new(c).unwrap();
     for (j, &row) in decision.dropped.iter().enumerate() {
         for (k, &kept) in decision.kept.iter().enumerate() {
-            // T_jk ≠ 0 iff row j may take the place of kept row k.
+            // T_jk ≠ 0 iff row j may replace kept row k.
             let mut exchanged = decision.kept.clone();
             exchanged[k] = row;
             let zero = of(&exchanged) < decision.rank;
@@ -84,7 +84,7 @@ fn check(c: &Matrix) -> RankDecision {
             "row {i} of {c:?}"
         );
         assert_eq!(z.annihilates([(i, 1.0)]), of(&others) < decision.rank);
-        // A group keeps its wrench iff the ranks of it and of the rest add up.
+        // The wrench of a group is unique iff its rank and the rank of the other rows add up to r.
         let (group, rest): (Vec<usize>, Vec<usize>) =
             (0..c.nrows()).partition(|l| l.abs_diff(i) < 2);
         assert_eq!(
@@ -129,7 +129,7 @@ fn cramer(c: &Matrix, decision: &RankDecision, j: usize, k: usize) -> f64 {
     let mut exchanged = decision.kept.clone();
     exchanged[k] = decision.dropped[j];
     let (mut numerator, denominator) = (det(rows(&exchanged)), det(rows(&decision.kept)));
-    // 2^80 digits after the point are enough for any quotient in the tests.
+    // 400 binary digits after the point are enough for any quotient in the tests.
     numerator <<= 400;
     let quotient = numerator / denominator;
     let bits = quotient.abs().bits();
@@ -146,8 +146,8 @@ fn planted_integers_sizes_and_near_redundancy_agree_with_big_integers() {
         let mut small = |m, n| Matrix::from_fn(m, n, |_, _| numbers.below(5) as f64 - 2.0);
         let mut c = small(m, r).product(&small(r, n));
         if case % 3 == 1 {
-            // Sizes over 1e±8: rows by any factor that f64 rounds, so that redundancy may be lost
-            // by rounding.
+            // Sizes over 1e±8: rows are multiplied by factors that f64 rounds, so rounding may
+            // destroy a redundancy.
             for i in 0..m {
                 let factor = 10f64.powf(8.0 * numbers.unit());
                 c.row_mut(i).iter_mut().for_each(|x| *x *= factor);
@@ -177,12 +177,12 @@ fn kahan_has_full_rank_and_a_copy_of_its_last_row_is_seen() {
     assert_eq!(components(&decision).coupled, [[29, 30]]);
     let kahan90 = certify_exact(&kahan(90, 1.2)).unwrap();
     assert_eq!(kahan90.rank, 90);
-    // Truth from the other tests: the smallest singular value is about 1e-15.
+    // Known from other tests: the smallest singular value is about 1e-15.
     assert!(kahan90.nearly_redundant().is_some());
     assert!(kahan90.evidence.certificate.unwrap().sigma_bound > 0.0);
 }
 
-/// det [[1, 1], [1, 2⁶¹]] = 2⁶¹ − 1 is the favourite prime of many programs.
+/// det [[1, 1], [1, 2⁶¹]] = 2⁶¹ − 1 is a prime that many programs use.
 #[test]
 fn powers_of_two_are_no_trap() {
     for c in [
@@ -199,8 +199,8 @@ fn powers_of_two_are_no_trap() {
 fn near_redundancy_beside_exact_redundancy() {
     for k in [8, 10, 12, 14, 16, 18, 20, 27, 29, 31, 40, 100, 300] {
         let e = 10f64.powi(-k);
-        // Row 1 is row 0 but for ε; row 3 = 2·row 1 − row 0 exactly (ε doubles exactly); row 4
-        // stands alone.
+        // Row 1 is row 0 except for ε; row 3 = 2·row 1 − row 0 exactly (ε doubles exactly); row 4
+        // is independent.
         let c = Matrix::from_rows(&[
             [3.0, 0.0, 1.0, 0.0],
             [3.0, e, 1.0, 0.0],
@@ -231,8 +231,7 @@ fn near_redundancy_beside_exact_redundancy() {
             let bound = decision.evidence.certificate.as_ref().unwrap().sigma_bound;
             assert!(bound > 1e-3 * near.sigma, "ε = 1e-{k}: {bound:e}");
         }
-        // The direction: rows 0, 1 and 3 against each other, no others, and orthogonal to the exact
-        // dependency.
+        // The direction involves rows 0, 1 and 3 only, and is orthogonal to the exact dependency.
         let d = &near.direction;
         assert!(d[2].abs() < 1e-5 && d[4].abs() < 1e-5, "{d:?}");
         let cancelled = decision.scaling.apply(&c).transpose_times(d);
@@ -287,7 +286,7 @@ fn tall_matrices() {
 }
 
 /// Cranks at an angle whose sine and cosine are rounded: the tips of the couplers still agree
-/// exactly, so the third one is redundant to the last bit; with different rounding it would not be.
+/// exactly, so the third crank is redundant to the last bit; with other rounding it would not be.
 #[test]
 fn cranks_as_they_stand() {
     let c = parallel_cranks(1.0, 0.7);

@@ -1,20 +1,19 @@
-//! What happens to singular values when the precision is doubled, and the three zones of the
-//! uncertainty.
+//! Singular values when the precision is doubled, and the three zones of the uncertainty.
 
 use super::*;
 use crate::decision::tests::{Numbers, parallel_cranks};
 use crate::{components, dependencies};
 use linalg::Matrix;
 
-/// What f64 data are known to.
+/// Relative uncertainty of f64 data.
 const DATA: f64 = 2e-16;
 
 fn grounds(decision: &RankDecision) -> Grounds {
     decision.evidence.certificate.as_ref().unwrap().grounds
 }
 
-/// Cranks with exact 3–4–5 angles in double-double, the foot of the third one moved across the
-/// others by ε.
+/// Cranks with exact 3–4–5 angles in double-double; the foot of the third one is displaced by ε
+/// across the others.
 fn cranks(epsilon: f64) -> DdMatrix {
     let mut c = DdMatrix::from(&parallel_cranks(1.0, 0.0));
     let (sin, cos) = (Dd::from(3.0) / Dd::from(5.0), Dd::from(4.0) / Dd::from(5.0));
@@ -29,7 +28,7 @@ fn cranks(epsilon: f64) -> DdMatrix {
     c
 }
 
-/// A row that is known to its own size only is not redundant: nothing is known of it.
+/// A row whose uncertainty is as large as the row is not redundant: nothing is known about it.
 #[test]
 fn what_the_data_hide_is_undecided() {
     let c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0]]));
@@ -41,8 +40,8 @@ fn what_the_data_hide_is_undecided() {
     let hidden = reading(3.0);
     assert_eq!(hidden.rank, 0);
     assert!(!hidden.is_decided());
-    // Rows that differ by less than the data are known to: redundant within them only as long as
-    // they are known to a hundredth of a row.
+    // Rows that differ by less than the uncertainty of the data: redundant within the data only if
+    // the uncertainty is below a hundredth of a row.
     let c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.05]]));
     let decision = certify_within(&c, 0.01).unwrap();
     let RankStatus::Undecided(Doubt::Hidden { sigma, tolerance }) = decision.status else {
@@ -83,7 +82,7 @@ fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
     for k in 3..=20 {
         let epsilon = 10f64.powi(-k);
         let decision = certify_within(&cranks(epsilon), DATA).unwrap();
-        // σ₁₂ is proportional to ε as long as ε is small.
+        // σ₁₂ is proportional to ε for small ε.
         let deviation = reading(epsilon) / reference - 1.0;
         assert!(
             deviation.abs() < 100.0 * epsilon + 1e-6,
@@ -98,7 +97,7 @@ fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
                 decision.evidence.sigma_r < 1e-3
             );
             let certificate = decision.evidence.certificate.as_ref().unwrap();
-            // The proof costs a factor of about ten.
+            // The bound is smaller than σ by a factor of about ten.
             assert!(certificate.sigma_bound > 0.05 * sigma, "{certificate:?}");
             if sigma > 20.0 * 12.0 * DATA {
                 assert_eq!(certificate.rank_at_least, 12, "ε = 1e-{k}");

@@ -1,11 +1,11 @@
-//! Closed forms and products: what a factorisation must give back.
+//! Closed forms and products that a factorisation must reproduce.
 
 use super::*;
 use crate::sparse::reflectors::Lanes;
 use crate::sparse::smallest::smallest_singular_value;
 use linalg::{Matrix, singular_values};
 
-/// Rows on neighbouring bodies of a ring, the last two of each body sums of others.
+/// Rows on neighbouring bodies of a ring; the last two rows of each body are sums of others.
 fn ring(bodies: usize) -> Matrix {
     Matrix::from_fn(4 * bodies, 3 * bodies, |i, j| {
         let (body, row) = (i / 4, i % 4);
@@ -79,7 +79,7 @@ fn q_is_orthogonal_and_its_last_columns_annihilate_c() {
 #[test]
 fn the_smallest_singular_value_is_bounded_from_below() {
     for bodies in [2, 4, 20] {
-        // Three independent rows a body, on fewer bodies than there are: full row rank.
+        // Three independent rows for each body, without the last bodies: full row rank.
         let all = ring(bodies);
         let rows: Vec<usize> = (0..all.nrows()).filter(|i| i % 4 != 3).collect();
         let c = all.select_rows(&rows);
@@ -95,7 +95,7 @@ fn what_is_dropped_is_told() {
     let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [1.0, 3e-14, 0.0], [0.0, 0.0, 1.0]]);
     let qr = factors(&c, Wanted::R);
     assert_eq!(qr.rank, 2);
-    // Half of the small entry is left below the first row: 3e-14/√2.
+    // The remaining norm of the small entry below the first row: 3e-14/√2.
     let expected = 3e-14 / 2f64.sqrt();
     assert!(
         (qr.dropped / expected - 1.0).abs() < 1e-2,

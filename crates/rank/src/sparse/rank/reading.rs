@@ -1,4 +1,4 @@
-//! What the evidence of a sparse rank says: of the rank, and of each row.
+//! Evaluates the evidence of a sparse rank: for the rank, and for each row.
 
 use super::{SparseEvidence, SparseRank};
 use crate::decision::{coefficient_noise, required, shown, tolerance};
@@ -12,7 +12,7 @@ impl SparseRank {
     }
 
     /// An estimate of the norm of row i of an orthonormal basis Z of the left null space: zero iff
-    /// the multiplier of the row is unique, one iff the row depends on nothing else.
+    /// the multiplier of the row is unique, one iff the row alone is dependent (a row of zeros).
     ///
     /// # Panics
     /// If `i` is not a row.
@@ -20,8 +20,8 @@ impl SparseRank {
         kernels::norm(self.sketch.row(i))
     }
 
-    /// Reads the margin of row i: whether its multiplier is unique. Margins within the noise are
-    /// zero if they are smaller than all others by a factor of 10⁴, unclear otherwise.
+    /// Classifies the margin of row i: whether its multiplier is unique. Margins within the noise
+    /// are zero if they are smaller than all others by a factor of 10⁴, otherwise unclear.
     ///
     /// # Panics
     /// If `i` is not a row.
@@ -29,7 +29,7 @@ impl SparseRank {
         self.readings().read(self.margin(i), self.noise())
     }
 
-    /// How margins are read.
+    /// Rules by which margins are classified.
     pub fn readings(&self) -> Readings {
         Readings {
             is_certified: false,
@@ -38,16 +38,16 @@ impl SparseRank {
         }
     }
 
-    /// How far a row of W may be from its true value (norm). The part of W outside the left null
-    /// space is at most ‖Cᵀ·W‖/σ_r; that of the matrix meant is off by the uncertainty over σ_r
-    /// besides.
+    /// Bound on the error (norm) of a row of W. The part of W outside the left null space is at
+    /// most ‖Cᵀ·W‖/σ_r; in addition, W differs from that of the intended matrix by the uncertainty
+    /// divided by σ_r.
     pub fn noise(&self) -> f64 {
         let e = &self.evidence;
         let known = e.sigma_next.max(tolerance(1, 1, e.uncertainty));
         coefficient_noise(known, e.sigma_r)
     }
 
-    /// The largest margin within the noise, and the smallest beyond it.
+    /// The largest margin within the noise, and the smallest above it.
     pub(super) fn margins(&self) -> (f64, f64) {
         let noise = self.noise();
         let (mut zero, mut other) = (0.0_f64, f64::INFINITY);
@@ -61,7 +61,7 @@ impl SparseRank {
         (zero, other)
     }
 
-    /// The rule of rank decisions on what is known; `norm` is ‖C‖ (Frobenius).
+    /// Applies the rule of rank decisions to the evidence; `norm` is ‖C‖ (Frobenius).
     pub(super) fn read(&self, norm: f64) -> RankStatus {
         let SparseEvidence {
             sigma_r,

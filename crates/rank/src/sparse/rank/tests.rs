@@ -1,10 +1,10 @@
-//! Against the dense decision, and matrices whose rank is known.
+//! Comparison with the dense decision, and matrices of known rank.
 
 use super::*;
 use crate::{CoefficientReading, decide, orthonormal};
 use linalg::{Matrix, singular_values};
 
-/// Numbers without a pattern for planted cases (Numerical Recipes, 3rd ed., section 7.1.3: 64-bit
+/// Pseudo-random numbers for planted cases (Numerical Recipes, 3rd ed., section 7.1.3: 64-bit
 /// xorshift).
 struct Dice(u64);
 
@@ -83,7 +83,7 @@ fn planted_matrices_read_as_by_the_dense_code() {
         redundant += usize::from(dense.redundancy > 0);
         assert_eq!(found.rank, dense.rank, "{case}");
         assert_eq!(found.scaling, dense.scaling, "{case}");
-        // A bound from below, and not far.
+        // A lower bound that is not far from the true value.
         let kept = found.scaling.apply(&c).select_rows(&found.kept);
         let sigma = singular_values(&kept)
             .last()
@@ -114,7 +114,7 @@ fn planted_matrices_read_as_by_the_dense_code() {
                 assert_eq!(reading, CoefficientReading::Zero, "{case}: {i} {margin:e}");
             }
         }
-        // Same left null space of each group: equal ranks, also side by side.
+        // The left null space of each group is the same: equal ranks, also if combined.
         for group in groups {
             let rows: Vec<usize> = group.collect();
             let (z_j, w_j) = (z.select_rows(&rows), found.sketch.select_rows(&rows));
@@ -132,8 +132,8 @@ fn planted_matrices_read_as_by_the_dense_code() {
     assert!(redundant > 100, "{redundant} redundant");
 }
 
-/// A row changed by 1e-17 … 1, and columns in units of 1e±8: undecided is allowed where the dense
-/// code decides, a contradiction is not.
+/// A row changed by 1e-17 … 1, and columns in units of 1e±8: the result may be undecided if the
+/// dense code decides, but must not contradict it.
 #[test]
 fn nearly_dependent_rows_are_never_misread() {
     let mut dice = Dice(0x0fed_cba9_8765_4321);
@@ -206,15 +206,15 @@ fn trivial_matrices() {
         &Matrix::from_rows(&[[1.0, 2.0, 3.0], [0.0; 3], [2.0, 4.0, 6.0]]),
         body,
     );
-    // The row of zeros depends on nothing else: margin one, estimated from eight numbers of
-    // variance one.
+    // The row of zeros is dependent alone: margin one, estimated from eight numbers of variance
+    // one.
     assert!((0.3..2.0).contains(&last.margin(1)), "{}", last.margin(1));
     assert!(last.margin(0) > 0.1 && last.margin(2) > 0.1);
 }
 
 #[test]
 fn columns_and_rows_without_entries_do_not_count() {
-    // Blocks beyond the matrix, none, and of no columns.
+    // Blocks beyond the matrix, no blocks, and blocks without columns.
     let c = Matrix::from_rows(&[
         [0.0, 1.0, 0.0, 2.0, 0.0],
         [0.0; 5],
@@ -231,7 +231,7 @@ fn columns_and_rows_without_entries_do_not_count() {
     }
 }
 
-/// W. Kahan's triangle: ones on the diagonal, −c above. No column looks small, yet σ_n falls like
+/// W. Kahan's triangle: ones on the diagonal, −c above. No column is small, but σ_n decreases like
 /// (1 + c)^−n.
 #[test]
 fn kahan_is_undecided_or_right() {
@@ -266,7 +266,7 @@ fn a_singular_value_between_is_undecided() {
     let status = |delta: f64| {
         let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, delta]]);
         let c = SparseMatrix::from_dense(&c);
-        // A row of the same columns keeps the scale of the second one.
+        // A row with the same columns determines the scale of the second one.
         let rows = [
             c.entries(0).collect(),
             c.entries(1).collect(),
@@ -296,7 +296,7 @@ fn uncertainty_raises_the_tolerance() {
         let error = decide(bad).unwrap_err();
         assert!(error.to_string().starts_with("uncertainty is"), "{error}");
     }
-    // All of the matrix within the uncertainty.
+    // The whole matrix is within the uncertainty.
     assert!(!decide(10.0).expect("finite").is_decided());
 }
 
@@ -326,7 +326,7 @@ fn bad_input_is_named() {
 
 #[test]
 fn what_would_take_hours_is_refused() {
-    // One row on 20 000 bodies joins each to each.
+    // A row on 20 000 bodies connects each of them to each other.
     let c = SparseMatrix::from_rows(60_000, [(0..60_000).map(|j| (j, 1.0))]).expect("columns");
     let bodies: Vec<_> = (0..20_000).map(|b| 3 * b..3 * b + 3).collect();
     let error = decide_sparse(&c, 0.0, &bodies, Sketch::default()).unwrap_err();
