@@ -1,5 +1,5 @@
-//! The verdicts along the motion of a scene: it is run, recorded as densely as it moves, and
-//! judged.
+//! The verdicts along the motion of a scene: the scene is run, recorded with enough rows for its
+//! speed, and analysed.
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -14,54 +14,54 @@ use solvability::{Along, AlongError, Extent, PassageKind, State, along_motion_of
 use crate::error::StudyError;
 use crate::study::Study;
 
-/// Judged states at least, evenly in time; of large mechanisms so many times rows, but not below
-/// the lower number.
+/// Smallest number of analysed states, evenly spaced in time. For large mechanisms it is multiplied
+/// by the number of rows, but is not below the smaller number.
 const INTERVALS: usize = 200;
 const INTERVALS_OF_ROWS: usize = 240_000;
 const INTERVALS_LEAST: usize = 24;
 
-/// Recorded rows between two judged states: what lies between rows is interpolated, with an error
-/// of REACH⁴/384 of a row's distance, and moved onto the constraints. Of mechanisms of more than
-/// `MANY` rows one has to do, as the integrator interpolates it, because rows on the constraints
-/// take longer than all steps; their accelerations are slopes of the velocities, which say at
-/// singular instants only which way the motion goes.
+/// Recorded rows between two analysed states. States between rows are interpolated, with an error
+/// of REACH⁴/384 of the distance of rows, and moved onto the constraints. For mechanisms with more
+/// than `MANY` rows there is only one, as interpolated by the integrator, because projecting rows
+/// would take longer than all steps; their accelerations are slopes of the velocities, which are
+/// used only for the direction of the motion at singular instants.
 const ROWS: usize = 4;
 const MANY: usize = 10_000;
 
-/// Between judged states no body moves by more than this share of the mechanism's size, or as many
-/// radians.
+/// Between analysed states no body moves by more than this fraction of the size of the mechanism,
+/// or by more than as many radians.
 const REACH: f64 = 0.1;
 
-/// A motion that stopped is continued by so many times what lies between its last row and its end,
-/// at least the distance of rows.
+/// A motion that stopped is continued by this multiple of the time between its last row and its
+/// end, at least of the time between rows.
 const BEYOND: f64 = 8.0;
 
-/// Judged states at most.
+/// Largest number of analysed states.
 const INTERVALS_MAX: usize = 4_000;
 
 /// Verdicts along a motion.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct VerdictsAlongMotion {
-    /// One verdict for almost all of it, and where another holds.
+    /// The generic verdict, and the times at which another one holds.
     pub along: Along,
-    /// Last time that was judged (s).
+    /// Last time that was analysed (s).
     pub to: f64,
-    /// Number of judged states.
+    /// Number of analysed states.
     pub samples: usize,
-    /// How far a body moves between two of them: a share of the mechanism's size, or as many
-    /// radians.
+    /// How far a body moves between two of them: a fraction of the size of the mechanism, or as
+    /// many radians.
     pub reach: f64,
-    /// Why the motion stopped, if it did.
+    /// Reason why the motion stopped, if it did.
     pub stopped: Option<MotionError>,
-    /// Where the motion stopped at a singular configuration: until when (s) it was judged,
-    /// continued beyond its last state as smoothly as it came. How it goes on is what the passages
-    /// say, not what was computed.
+    /// If the motion stopped at a singular configuration: the time (s) up to which it was analysed,
+    /// continued smoothly beyond its last state. How it continues is a result of the passages; it
+    /// was not computed.
     pub continued_to: Option<f64>,
 }
 
 impl VerdictsAlongMotion {
-    /// The same as plain data: `along` of what `pfaff analyze --along --json` writes.
+    /// The verdicts as plain data: `along` in the output of `pfaff analyze --along --json`.
     #[must_use]
     pub fn document(&self) -> AlongDocument {
         let stopped = self.stopped.as_ref().map(ToString::to_string);
@@ -72,24 +72,24 @@ impl VerdictsAlongMotion {
     }
 }
 
-/// How far the verdicts along a motion are.
+/// Progress of the verdicts along a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress {
     /// The motion has reached this time (s).
     Moving(f64),
-    /// Verdicts are asked for at this time (s); searches go to and fro.
+    /// Verdicts are computed at this time (s); searches move in both directions.
     Judging(f64),
 }
 
 impl Study {
-    /// Runs the scene up to `t_end`, or as long as it says itself, and judges the motion. Where the
-    /// run stops, what was computed is judged.
+    /// Runs the scene up to `t_end`, or to the end that the scene states, and analyses the motion.
+    /// If the run stops early, the part that was computed is analysed.
     ///
     /// ```
     /// use pfaff::model::Registry;
     /// use pfaff::{Overrides, Study};
     ///
-    /// // A pendulum that falls has nothing singular on its way.
+    /// // A falling pendulum has no singular configurations.
     /// let scene = r#"
     /// scene = { name = "pendulum", space = "plane", gravity = [0.0, -9.81] }
     /// body = [{ name = "bob", mass = 1.0, inertia = 0.1, position = [1.0, 0.0] }]
@@ -104,9 +104,9 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
-    /// - [`StudyError::Motion`]: it cannot begin, or stops before anything can be judged.
-    /// - [`StudyError::Along`]: the motion cannot be judged.
+    /// - [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
+    /// - [`StudyError::Motion`]: the motion cannot begin, or stops before anything can be analysed.
+    /// - [`StudyError::Along`]: the motion cannot be analysed.
     pub fn verdicts_along_motion(
         &self,
         t_end: Option<f64>,
@@ -137,9 +137,9 @@ impl Study {
         if run.stopped.is_none() && intervals == least {
             return self.judge(run, intervals, &mut progress);
         }
-        // Once more, where the motion is too fast for these rows, or up to the last state before it
-        // stopped. That one may be too near to a singular configuration to be brought onto the
-        // constraints; then the last row before it has to do.
+        // Record again if the motion is too fast for these rows, or up to the last state before it
+        // stopped. That state may be too close to a singular configuration to be moved onto the
+        // constraints; then the last row before it is used.
         let again = self.record(run.reached, intervals, &mut progress)?;
         let stopped = again.stopped.is_some();
         match self.judge(again, intervals, &mut progress) {
@@ -156,7 +156,7 @@ impl Study {
         }
     }
 
-    /// A motion that stopped, judged a little beyond its end, if a passage lies there.
+    /// Analyses a motion that stopped a little beyond its end, if there is a passage.
     fn judge_beyond(
         &self,
         run: &Record,
@@ -193,7 +193,7 @@ impl Study {
             .collect();
         let progress = Mutex::new(progress);
         let motion = |t: f64, extent: &Extent| {
-            // Who waits for others has nothing to tell.
+            // Skips the report while another thread is reporting.
             if let Ok(mut progress) = progress.try_lock() {
                 progress(Progress::Judging(t));
             }
@@ -293,7 +293,8 @@ struct Row {
 }
 
 /// Sets the acceleration of each row to the slope of the parabola through its velocities and those
-/// of the rows beside it, at the ends through the nearest three; of two rows to that of the line.
+/// of the adjacent rows, at the ends through the nearest three; if there are two rows, to the slope
+/// of the line.
 fn differentiate(rows: &mut [Row]) {
     let secant = |pair: &[Row]| {
         let h = pair[1].t - pair[0].t;
@@ -322,7 +323,7 @@ fn differentiate(rows: &mut [Row]) {
 /// The rows of a run.
 struct Record {
     rows: Vec<Row>,
-    /// So many of them from one judged state to the next.
+    /// Number of rows from one analysed state to the next.
     between: usize,
     /// The last accepted time (s), at or after the last row.
     reached: f64,
@@ -330,7 +331,7 @@ struct Record {
 }
 
 impl Record {
-    /// How far anything moves between judged states.
+    /// The largest displacement between analysed states.
     fn reach(&self, mechanism: &Mechanism) -> f64 {
         let Some(first) = self.rows.first() else {
             return 0.0;
@@ -341,7 +342,7 @@ impl Record {
             ColumnKind::Rotation => 1.0,
         };
         let units: Vec<f64> = mechanism.layout().column_kinds().iter().map(unit).collect();
-        // By velocities, because coordinates need not be as many.
+        // By velocities, because there may be more coordinates than velocities.
         let fastest = |row: &Row| {
             let rates = row.v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
             rates.fold(0.0, f64::max)
@@ -351,7 +352,8 @@ impl Record {
         self.between as f64 * self.rows.windows(2).map(moved).fold(0.0, f64::max)
     }
 
-    /// The motion at a time between the first row and the last, or near them; there must be two.
+    /// The motion at a time between the first row and the last, or near them; needs at least two
+    /// rows.
     fn state(&self, t: f64, extent: &Extent) -> State {
         let next = self.rows.partition_point(|row| row.t <= t);
         let k = next.clamp(1, self.rows.len() - 1);
@@ -386,8 +388,8 @@ fn hermite(u: f64, [x, slope_x]: [f64; 2], [y, slope_y]: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Slopes of parabolas are exact for velocities that are quadratic in time, at uneven times,
-    /// ends included.
+    /// Slopes of parabolas are exact for velocities that are quadratic in time, at uneven times and
+    /// at the ends.
     #[test]
     fn slopes_of_recorded_velocities() {
         let v = |t: f64| vec![3.0 - 2.0 * t + 0.5 * t * t, 7.0 * t];
@@ -409,7 +411,7 @@ mod tests {
                 row.a
             );
         }
-        // Through two points there is a line.
+        // Two points determine a line.
         let mut rows: Vec<Row> = [1.0, 3.0].into_iter().map(row).collect();
         differentiate(&mut rows);
         assert!(rows.iter().all(|row| row.a == [0.0, 7.0]));

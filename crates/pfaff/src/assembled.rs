@@ -1,5 +1,5 @@
-//! A scene with its mechanism, before anything is said of its rows: where a study begins, and all
-//! there is of a mechanism whose rank is too doubtful for a motion.
+//! A scene with its mechanism, before its rows are analysed: the first stage of a study, and all
+//! that is available for a mechanism whose rank is too uncertain for a motion.
 
 use dynamics::{MotionError, MotionOptions, RowChoice, prepare, start_velocity};
 use model::start::assemble;
@@ -11,7 +11,7 @@ use crate::configuration::{AskedRows, ConfigurationAnalysis};
 use crate::error::StudyError;
 use crate::study::{Overrides, Study};
 
-/// A scene whose mechanism could be built.
+/// A scene whose mechanism has been built.
 ///
 /// ```
 /// use pfaff::AssembledScene;
@@ -34,27 +34,27 @@ use crate::study::{Overrides, Study};
 /// ```
 #[non_exhaustive]
 pub struct AssembledScene {
-    /// What was read, or made by a program.
+    /// The scene, read from a text or made by a program.
     pub scene: Scene,
-    /// Its mechanism; initial values are those of the described start until it is assembled.
+    /// Its mechanism. Until it is assembled, initial values are those of the described start.
     pub mechanism: Mechanism,
 }
 
 impl AssembledScene {
-    /// Reads a scene. `name` is the file's name in messages.
+    /// Reads a scene; `name` is the file name in messages.
     ///
     /// # Errors
-    /// [`StudyError::Scene`]: everything that is wrong with the text.
+    /// [`StudyError::Scene`]: all faults of the text.
     pub fn read(name: &str, text: &str, registry: &Registry) -> Result<Self, StudyError> {
         let scene = scene::read(name, text, registry).map_err(StudyError::Scene)?;
         Self::build(scene)
     }
 
-    /// Takes a scene, or a description alone, that a program has made.
+    /// Takes a scene, or a description alone, made by a program.
     ///
     /// # Errors
-    /// [`StudyError::Build`]: everything that is wrong with the description. If the scene was read
-    /// from a text and then changed, [`StudyError::Scene`] with places.
+    /// [`StudyError::Build`]: all faults of the description. If the scene was read from a text and
+    /// then changed, [`StudyError::Scene`] with places.
     pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
         let scene = scene.into();
         match Mechanism::build(&scene.description) {
@@ -66,8 +66,8 @@ impl AssembledScene {
         }
     }
 
-    /// States what the numbers of the scene are known to, in place of what its `[scene]` says; what
-    /// is not stated here stays. Tolerances of bodies and joints go before these as before.
+    /// Replaces the tolerances that the `[scene]` table states; values that are `None` stay
+    /// unchanged. Tolerances of bodies and joints still take precedence.
     ///
     /// ```
     /// use pfaff::AssembledScene;
@@ -86,7 +86,7 @@ impl AssembledScene {
     /// ```
     ///
     /// # Errors
-    /// [`StudyError::Build`]: it is no finite number > 0.
+    /// [`StudyError::Build`]: a tolerance is not a finite number > 0.
     pub fn stating(mut self, tolerance: Tolerance) -> Result<Self, StudyError> {
         let tolerance = tolerance.or(self.scene.description.tolerance);
         let stated = self.mechanism.set_tolerance(tolerance);
@@ -98,11 +98,11 @@ impl AssembledScene {
     /// Finds a consistent start and chooses rows.
     ///
     /// # Errors
-    /// - [`StudyError::Scene`]: there is no such start; of a scene without text
+    /// - [`StudyError::Scene`]: there is no such start; for a scene without text
     ///   [`StudyError::Motion`].
-    /// - [`StudyError::SingularStart`]: there is one, but no motion begins with its velocities.
+    /// - [`StudyError::SingularStart`]: there is a start, but no motion begins with its velocities.
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or the options of the
-    ///   run are none, with their place if they are those of the scene.
+    ///   run are invalid, with their place if they come from the scene.
     pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
         let Self { scene, mechanism } = self;
         let options = options(&scene, overrides);
@@ -130,7 +130,7 @@ impl AssembledScene {
                     other => other.into(),
                 });
             }
-            // Faults of the text have a place in it; rows may come from the caller.
+            // Only faults of the text have a place in it; rows may come from the caller.
             Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
                 return Err(refused(&scene, e));
             }
@@ -146,21 +146,21 @@ impl AssembledScene {
         })
     }
 
-    /// Moves the bodies to a consistent configuration of the start, the nearest one, where initial
-    /// values of joints are taken.
+    /// Moves the bodies to a consistent configuration of the start, the nearest one, and takes the
+    /// initial values of joints there.
     ///
     /// # Errors
-    /// [`StudyError::Scene`]: there is none; of a scene without text [`StudyError::Motion`].
+    /// [`StudyError::Scene`]: there is none; for a scene without text [`StudyError::Motion`].
     pub fn assemble(&mut self) -> Result<Assembly, StudyError> {
         assemble(&mut self.mechanism, &self.scene.start).map_err(|e| refused(&self.scene, e.into()))
     }
 
-    /// The start, to be asked about its reactions, also where [`AssembledScene::prepare`] refuses
-    /// it: because the rank is undecided in `f64`, or no motion begins there.
+    /// Analyses the start, even if [`AssembledScene::prepare`] refuses it because the rank is
+    /// undecided in `f64` or no motion begins there.
     ///
     /// # Errors
-    /// As [`AssembledScene::assemble`], also where no motion has the given velocities, and
-    /// [`StudyError::Analysis`]: C cannot be judged there.
+    /// As [`AssembledScene::assemble`], also if the given velocities are impossible, and
+    /// [`StudyError::Analysis`]: C cannot be analysed.
     pub fn analyse(
         &mut self,
         drop: Option<&[usize]>,
@@ -168,7 +168,7 @@ impl AssembledScene {
         self.analyse_watched(drop, |_| ())
     }
 
-    /// The same; calls `progress` with the number of joints that are judged.
+    /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
     ///
     /// # Errors
     /// As [`AssembledScene::analyse`].
@@ -198,8 +198,8 @@ impl AssembledScene {
             let rows = solvability::rows(&self.mechanism, 0.0, q)?;
             configuration.state.v = match start_velocity(&self.mechanism, start, &rows, q, kept) {
                 Ok((found, _)) => found.v,
-                // Rows that are independent by the certificate may be too nearly dependent for
-                // numbers.
+                // Rows that the certificate shows to be independent may be too nearly dependent for
+                // `f64`.
                 Err(MotionError::Start(StartError::NoVelocity { .. }))
                     if !rows.all.is_decided()
                         || rows.inseparable(&self.mechanism, 0.0, q).is_some() =>
@@ -213,7 +213,7 @@ impl AssembledScene {
     }
 }
 
-/// An error with its place in the text of the scene, or as it is where there is no text.
+/// Adds the place in the text of the scene to an error, if there is a text.
 pub(crate) fn refused(scene: &Scene, error: MotionError) -> StudyError {
     match scene.locate_motion(&error) {
         Some(place) => StudyError::Scene(vec![place]),
@@ -221,13 +221,13 @@ pub(crate) fn refused(scene: &Scene, error: MotionError) -> StudyError {
     }
 }
 
-/// Whether rows contradict each other in accelerations only, and none of them is driven: another
-/// velocity would do.
+/// Whether rows contradict each other in accelerations only, and none of them is driven: then a
+/// motion with another velocity is possible.
 fn leaves_no_motion(e: &MotionError) -> bool {
     matches!(e, MotionError::Contradiction(c) if c.level == ConstraintLevel::Acceleration && c.drives == 0)
 }
 
-/// The scene's wishes with those of the caller on top.
+/// The options of the scene, with those of the caller taking precedence.
 fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
     let mut options = match (&scene.simulate, overrides.t_end) {
         (Some(options), _) => options.clone(),

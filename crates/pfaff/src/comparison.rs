@@ -1,10 +1,10 @@
-//! Reactions that are not unique along a run, by several choices: the one of the run, the least
-//! norm, and sets of rows without reaction. Set by set of joints that share cycles, so that the
-//! work grows with the sets that are redundant and not with the mechanism.
+//! Compares reactions that are not unique along a run for several choices: that of the run, the
+//! least norm, and sets of rows without reaction. Each set of joints that share cycles is treated
+//! separately, so the work grows with the redundant sets and not with the mechanism.
 //!
 //! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the configuration
-//! there, so that a component is told from facts at every instant and not at the start alone. Where
-//! the rank is in doubt nothing is said.
+//! at that instant, so unique components are recognised at every instant and not at the start only.
+//! If the rank is undecided, no comparison is made.
 
 #[cfg(test)]
 mod tests;
@@ -17,28 +17,29 @@ use report::{ComparedChoice, Comparison, Frame, Freedom, Recording};
 use solvability::parts::parts;
 use solvability::{Configuration, NormWeights, ReactionVerdict, Verdict, decide};
 
-/// Rows of a set whose choices are compared.
+/// Largest number of rows of a set whose choices are compared.
 const ROWS_MAX: usize = 150;
 
-/// Sets that are compared.
+/// Largest number of sets that are compared.
 const SETS_MAX: usize = 24;
 
-/// Sets of rows without reaction that are compared, and from how many they are taken.
+/// Number of sets of rows without reaction that are compared, and number of sets from which they
+/// are taken.
 const ELIMINATIONS: usize = 6;
 const CANDIDATES: usize = 400;
 
-/// Rows without reaction must fix what is free at least this well, or their numbers are large for
-/// that reason alone.
+/// Rows without reaction must determine the free directions at least this well; otherwise their
+/// numbers are large for that reason alone.
 const FIRM: f64 = 0.02;
 
-/// What is below this share of the largest free load of a set is rounding.
+/// Values below this fraction of the largest free load of a set are rounding.
 const VISIBLE: f64 = 1e-9;
 
-/// Share of the square of a free force that lies across its main direction, if the force is free in
-/// the plane.
+/// Fraction of the square of a free force across its main direction, above which the force is free
+/// in the plane.
 const PLANE: f64 = 1e-9;
 
-/// The comparisons, and in words what is not compared.
+/// The comparisons, and sentences on what is not compared.
 pub(crate) fn compare(
     mechanism: &Mechanism,
     recording: &Recording,
@@ -105,7 +106,7 @@ struct Set<'a> {
 }
 
 impl<'a> Set<'a> {
-    /// Returns `None` if the multipliers of the run are not known, or no rank can be read.
+    /// Returns `None` if the multipliers of the run are not known, or the rank is undecided.
     fn new(part: &'a Part, recording: &Recording) -> Option<Self> {
         let first = recording.frames.first()?;
         let known = |&i: &usize| first.multipliers.get(i).is_some_and(|x| x.is_finite());
@@ -175,9 +176,9 @@ impl<'a> Set<'a> {
             }
             freedom.push(instant.freedom);
         }
-        // A choice that says nothing anywhere is none.
+        // A choice without a finite number anywhere is removed.
         choices.retain(|c| c.values.iter().flatten().flatten().any(|x| x.is_finite()));
-        // Reactions of which nothing is free at any time are facts.
+        // Reactions without a free component at any time are unique.
         let groups = &self.part.places.groups;
         let free = |k: usize| {
             let of = |f: &Vec<Freedom>| f[k] != Freedom::UNKNOWN && f[k].components.contains(&true);
@@ -241,7 +242,8 @@ impl<'a> Set<'a> {
             .collect();
         let least = Configuration::new(mechanism, frame.t, &q, &decision)
             .ok()
-            // What the wrenches on first bodies do not show has no least norm.
+            // There is no least norm if the wrenches on first bodies do not show all free
+            // directions.
             .and_then(|c| c.least_norm(&lambda, NormWeights::NEWTON_METRE).ok());
         let without = self.eliminations.iter().map(|rows| {
             let to_zero = rows.iter().map(|&i| -lambda[i]).collect();
@@ -250,7 +252,7 @@ impl<'a> Set<'a> {
         let others = std::iter::once(least).chain(without);
         let others = others.map(|lambda| lambda.map(|lambda| self.wrenches(&maps, &lambda)));
         let others: Vec<Option<Vec<[f64; 3]>>> = others.collect();
-        // One choice alone would pass for a fact.
+        // A single choice would look like a unique number.
         let own = others.iter().any(Option::is_some).then_some(own);
         let values = std::iter::once(own).chain(others);
         Instant {
@@ -282,7 +284,7 @@ impl<'a> Set<'a> {
 }
 
 /// Directions of the forces `W_X·Z_X·y` of each joint, and which components of its wrench change
-/// with y; torques are measured by forces at the size of the set (m).
+/// with y; torques are divided by the size of the set (m).
 fn freedom(free: &[Matrix], turns: &[[f64; 2]], size: f64) -> Vec<Freedom> {
     let norm = |m: &Matrix, i: usize| m.row(i).iter().map(|x| x * x).sum::<f64>().sqrt();
     let along = |m: &Matrix, x: f64, y: f64| {
@@ -322,20 +324,20 @@ fn freedom(free: &[Matrix], turns: &[[f64; 2]], size: f64) -> Vec<Freedom> {
     free.iter().zip(turns).map(of).collect()
 }
 
-/// What the choices say at an instant.
+/// The values of the choices at an instant.
 struct Instant {
     values: Vec<Vec<[f64; 3]>>,
     freedom: Vec<Freedom>,
 }
 
-/// Sets of rows, so that each row that can be without reaction is in one if they suffice; those
-/// that fix best come first.
+/// Sets of rows such that each row that can be without reaction is in one of them, if there are
+/// enough sets; the best determined ones come first.
 fn eliminations(decision: &RankDecision) -> Vec<Vec<usize>> {
     let z = dependencies(decision);
     let all = deletions(decision, CANDIDATES).unwrap_or_default();
     let firm = all.into_iter().filter_map(|rows| {
         let firmness = firmness(&z, &rows);
-        // The rows that the decision dropped itself are the choice of most runs.
+        // The rows that the decision dropped are already the choice of most runs.
         (firmness >= 2.0 * FIRM && rows != decision.dropped).then_some((rows, firmness))
     });
     let mut firm: Vec<(Vec<usize>, f64)> = firm.collect();
@@ -363,7 +365,7 @@ fn firmness(z: &Matrix, rows: &[usize]) -> f64 {
     smallest / z.max_abs().max(f64::MIN_POSITIVE)
 }
 
-/// y with `Z_D·y = x`, where D fixes y firmly.
+/// y with `Z_D·y = x`, if the rows D determine y well.
 fn firmly_solved(z: &Matrix, rows: &[usize], mut x: Vec<f64>) -> Option<Vec<f64>> {
     if rows.len() != z.ncols() || firmness(z, rows) < FIRM {
         return None;

@@ -1,5 +1,5 @@
-//! One configuration of a scene, and everything that can be asked of its reactions. Each method
-//! answers one question; what nobody asks is not computed.
+//! One configuration of a scene, and all results for its reactions. Each method computes one
+//! result; nothing else is computed.
 
 mod document;
 mod requests;
@@ -26,7 +26,7 @@ use crate::error::StudyError;
 /// use pfaff::prelude::*;
 /// use pfaff::solvability::Allowed;
 ///
-/// // A cart on two wheels of one axle: each stops the same sideways motion.
+/// // A cart on two wheels on one axle: each prevents the same sideways motion.
 /// let mut cart = Description::new("cart");
 /// let body = cart.body(Body::new("cart", 10.0, 1.0));
 /// for (name, y) in [("left", 0.5), ("right", -0.5)] {
@@ -48,7 +48,7 @@ pub struct ConfigurationAnalysis<'a> {
     pub scene: &'a Scene,
     /// Its mechanism.
     pub mechanism: &'a Mechanism,
-    /// Coordinates and velocities; the latter are empty where the rank is undecided, because none
+    /// Coordinates and velocities. The velocities are empty if the rank is undecided, because none
     /// are known to be consistent.
     pub state: State,
     /// Ranks and verdicts.
@@ -56,19 +56,19 @@ pub struct ConfigurationAnalysis<'a> {
     questions: Questions<'a>,
 }
 
-/// What is known or asked of the rows of a configuration.
+/// What is known or requested for the rows of a configuration.
 pub(crate) enum AskedRows<'r> {
     /// Nothing.
     Any,
-    /// They have been decided there.
+    /// They have already been decided at this configuration.
     Decided(&'r Rows),
-    /// These carry the dependencies, from 0.
+    /// These rows, from 0, are to be dropped.
     Dropped(&'r [usize]),
 }
 
 impl<'a> ConfigurationAnalysis<'a> {
-    /// A state that satisfies the constraints at time t, and how well its configuration is known.
-    /// `progress` gets the number of joints that are judged.
+    /// Analyses a state that satisfies the constraints at time t; `known` is the accuracy of its
+    /// configuration. `progress` is called with the number of joints analysed.
     pub(crate) fn new(
         scene: &'a Scene,
         mechanism: &'a Mechanism,
@@ -93,7 +93,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         })
     }
 
-    /// The joint or drive of this name.
+    /// The joint or drive with this name.
     ///
     /// # Errors
     /// [`StudyError::UnknownReaction`], with the nearest name.
@@ -101,7 +101,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         requests::reaction(self.scene, self.mechanism, name)
     }
 
-    /// The verdict of the joint or drive of this name.
+    /// The verdict on the joint or drive with this name.
     ///
     /// # Errors
     /// [`StudyError::UnknownReaction`], with the nearest name.
@@ -110,11 +110,11 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(&self.analysis.reactions[place])
     }
 
-    /// Verdicts by name: the groups of the scene, then sums of components as `W3.N + W4.N`, or of
-    /// whole wrenches as `W3 + W4`.
+    /// Verdicts with their names: first the groups of the scene, then sums of components such as
+    /// `W3.N + W4.N`, or of whole wrenches such as `W3 + W4`.
     ///
     /// # Errors
-    /// If a sum cannot be read, names something unknown, or touches a part that is too large.
+    /// If a sum cannot be parsed, contains an unknown name, or involves a part that is too large.
     pub fn groups(&self, combine: &[String]) -> Result<Vec<(String, GroupVerdict)>, StudyError> {
         requests::groups(self.scene, self.mechanism, combine)?
             .into_iter()
@@ -122,17 +122,17 @@ impl<'a> ConfigurationAnalysis<'a> {
             .collect()
     }
 
-    /// The verdict of one such sum.
+    /// The verdict on one such sum.
     ///
     /// # Errors
-    /// If it cannot be read, names something unknown, or touches a part that is too large.
+    /// If it cannot be parsed, contains an unknown name, or involves a part that is too large.
     pub fn group(&self, combination: &str) -> Result<GroupVerdict, StudyError> {
         let group = requests::combination(self.scene, self.mechanism, combination)?;
         Ok(self.questions.group(&group)?)
     }
 
-    /// The numbers of the same groups that every solution shares, by name; several reactions side
-    /// by side have none.
+    /// The numbers of the same groups that are unique, with their names; groups of several separate
+    /// reactions have none.
     ///
     /// # Errors
     /// As [`ConfigurationAnalysis::groups`], and [`StudyError::Choice`]: there are no reactions, or
@@ -146,7 +146,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(numbers.collect::<Result<_, _>>()?)
     }
 
-    /// All numbers of the same groups as a choice gives them.
+    /// All numbers of the same groups for a given choice.
     ///
     /// # Errors
     /// As [`ConfigurationAnalysis::groups`].
@@ -162,13 +162,13 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(numbers.collect::<Result<_, _>>()?)
     }
 
-    /// How much each unique reaction hangs on the data. Nothing is known of it where the rank is
-    /// undecided.
+    /// Computes how strongly each unique reaction depends on the data. Reactions are left out if
+    /// the rank is undecided.
     ///
     /// ```
     /// use pfaff::prelude::*;
     ///
-    /// // A bar between a wall and a slope that is nearly parallel to it pushes with 1/tan of the angle: 1e-3 rad here.
+    /// // A bar between a wall and a nearly parallel slope pushes with 1/tan of the angle between them, here 1e-3 rad.
     /// let mut bar = Description { gravity: [0.0, -10.0], ..Description::new("bar") };
     /// let body = bar.body(Body::new("bar", 1.0, 1.0));
     /// bar.joint("wall", &[body], KnifeEdge { s: [-1.0, 0.0], normal: Direction::X });
@@ -187,7 +187,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.analysis.sensitivities(self.mechanism, q, v)?)
     }
 
-    /// What can move here, with the drives and without them.
+    /// What can move at this configuration, with the drives and without them.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -201,10 +201,10 @@ impl<'a> ConfigurationAnalysis<'a> {
         generic(self.mechanism, self.analysis.time, &self.state.q)
     }
 
-    /// How the motion goes on at a singular configuration, where the redundancy is larger than
-    /// elsewhere: along one branch only, or not determined by the constraints. Nothing where the
-    /// configuration is not singular, or where the velocities of the scene do not say which motion
-    /// is meant: it stands still, or has several freedoms.
+    /// How the motion continues at a singular configuration, at which the redundancy is larger than
+    /// elsewhere: along one branch only, or not determined by the constraints. Returns `None` if
+    /// the configuration is not singular, or if the velocities of the scene do not determine the
+    /// motion, because the mechanism is at rest or has several degrees of freedom.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -233,8 +233,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(Some(found))
     }
 
-    /// Whether the mechanism cannot move although it has freedoms of first order: second order
-    /// blocks all of them. Not asked of mechanisms with too many rows for matrices of all of them.
+    /// Whether the mechanism cannot move although its rows leave velocities free: second order
+    /// blocks all of them. Always `false` for mechanisms with too many rows for dense matrices.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -259,8 +259,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(is_fixed || self.is_locked()?)
     }
 
-    /// Why the reactions are not unique; nothing while the rank is undecided, where every sentence
-    /// would build on one of two readings.
+    /// Explains the non-unique reactions. Returns `None` if the rank is undecided.
     ///
     /// # Errors
     /// [`StudyError::Explanation`]
@@ -268,12 +267,12 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.explanation()?)
     }
 
-    /// The number of sets of rows that can be deleted without a change of motion, as many rows as
-    /// the degree of redundancy.
+    /// The number of sets of rows that can be deleted without a change of motion; each set has as
+    /// many rows as the degree of redundancy.
     ///
     /// # Errors
-    /// [`EliminationError`]: the rank or one of the sets is undecided, they are too many, or a part
-    /// is too large.
+    /// [`EliminationError`]: the rank or one of the sets is undecided, there are too many sets, or
+    /// a part is too large.
     pub fn eliminations(&self) -> Result<u128, EliminationError> {
         self.questions.eliminations()
     }
@@ -289,8 +288,8 @@ impl<'a> ConfigurationAnalysis<'a> {
     /// The smallest deletions that make a reaction unique without a change of motion.
     ///
     /// # Errors
-    /// [`EliminationError`]: the rank or an answer is undecided, a row that is allowed does not
-    /// exist, or its part is too large.
+    /// [`EliminationError`]: the rank or an answer is undecided, an allowed row does not exist, or
+    /// the part of the reaction is too large.
     pub fn make_unique(
         &self,
         id: ConstraintId,
@@ -308,8 +307,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.frames(id)?)
     }
 
-    /// The reactions that a choice gives at these velocities: what is unique, and one of many for
-    /// the rest.
+    /// The reactions for a given choice at these velocities: unique numbers, and one of many
+    /// possible values for the others.
     ///
     /// # Errors
     /// [`StudyError::Choice`]: there is no such distribution, or the rank is undecided.
@@ -320,8 +319,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.distribute(&self.solution()?, choice)?)
     }
 
-    /// Which components are facts, and which depend on a choice: told by a change of units, without
-    /// any verdict.
+    /// Which components are unique and which depend on a choice, determined by a change of units
+    /// and independently of the verdicts.
     ///
     /// # Errors
     /// [`StudyError::Units`]: there is nothing to compare, or the rank depends on the units.
@@ -330,11 +329,10 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.facts(&self.state.v, &solution)?)
     }
 
-    /// What redundant rows contradict each other in, the worst first; nothing is known of this
-    /// where the rank is undecided.
+    /// Contradictions between redundant rows, the largest first. Empty if the rank is undecided.
     ///
     /// # Errors
-    /// If the configuration cannot be judged.
+    /// If the configuration cannot be analysed.
     pub fn contradictions(&self) -> Result<Vec<Contradiction>, StudyError> {
         let State { q, v } = &self.state;
         let t = self.analysis.time;

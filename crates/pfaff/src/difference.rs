@@ -1,5 +1,5 @@
-//! Two scenes side by side: what changed in ranks, verdicts and dependencies, and how far apart the
-//! motions run. Things are the same where their names are.
+//! Comparison of two scenes: changes of ranks, verdicts and dependencies, and the distance of their
+//! motions. Objects correspond if their names are equal.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -12,14 +12,14 @@ use report::documents::{DependencyDocument, ReactionDocument};
 use crate::error::StudyError;
 use crate::study::Study;
 
-/// What differs in the verdicts of two starts.
+/// Differences between the verdicts at two starts.
 ///
 /// ```
 /// use pfaff::model::Registry;
 /// use pfaff::report::AnalysisDocument;
 /// use pfaff::{AssembledScene, Comparison};
 ///
-/// // A bar on two hinges, and the same with a hinge and a roller.
+/// // A bar on two hinges, and the same bar with a hinge and a roller.
 /// let scene = |second: &str| format!(
 ///     "scene = {{ name = \"bar\", space = \"plane\" }}
 /// body = [{{ name = \"bar\", mass = 1.0, inertia = 1.0 }}]
@@ -46,19 +46,19 @@ use crate::study::Study;
 pub struct Comparison<'a> {
     /// Joints and drives that only the first scene has.
     pub removed: Vec<&'a ReactionDocument>,
-    /// Those that only the second has.
+    /// Joints and drives that only the second scene has.
     pub added: Vec<&'a ReactionDocument>,
-    /// Those whose type, number of rows or verdicts differ, or whether they are fragile, in the
-    /// order of the first.
+    /// Joints and drives whose type, number of rows or verdicts differ, or of which only one is
+    /// fragile, in the order of the first scene.
     pub verdicts: Vec<VerdictChange<'a>>,
-    /// Dependencies of the first whose joints depend so no more.
+    /// Dependencies of the first scene that the second does not have.
     pub gone: Vec<&'a DependencyDocument>,
-    /// Those of the second that are new.
+    /// Dependencies of the second scene that are new.
     pub new: Vec<&'a DependencyDocument>,
 }
 
-/// A joint or drive that both scenes have, with another type or another verdict, or fragile in one
-/// of them only.
+/// A joint or drive that both scenes have, with another type or another verdict, or fragile in only
+/// one of them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct VerdictChange<'a> {
@@ -146,15 +146,15 @@ fn joints(dependency: &DependencyDocument) -> Vec<&str> {
     names
 }
 
-/// How far the motion of a body differs.
+/// Difference between the motions of a body.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MotionDifference {
     /// The body.
     pub body: String,
-    /// Largest distance of its two places (m), and when (s).
+    /// Largest distance of its two positions (m), and its time (s).
     pub distance: [f64; 2],
-    /// Largest difference of its two angles (rad), and when (s).
+    /// Largest difference of its two angles (rad), and its time (s).
     pub angle: [f64; 2],
 }
 
@@ -162,21 +162,21 @@ pub struct MotionDifference {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MotionComparison {
-    /// How far both motions were run (s): to the earlier of their ends.
+    /// Time up to which both motions were run (s): the earlier of their ends.
     pub t_end: f64,
-    /// Bodies that both have, in the order of the first.
+    /// Bodies that both scenes have, in the order of the first.
     pub bodies: Vec<MotionDifference>,
 }
 
-/// Times at which motions are compared, besides the start.
+/// Number of times at which motions are compared, in addition to the start.
 const TIMES: f64 = 200.0;
 
-/// Coordinates of a planar body.
+/// Number of coordinates of a planar body.
 const N_BODY: usize = 3;
 
 impl MotionComparison {
-    /// Runs both scenes with their own options and compares 201 states; nothing where one of them
-    /// has no `[simulate]`.
+    /// Runs both scenes with their own options and compares 201 states. Returns `None` if one of
+    /// them has no `[simulate]` table.
     ///
     /// # Errors
     /// [`StudyError::Motion`]: one of the motions stopped.
@@ -217,7 +217,7 @@ impl MotionComparison {
     }
 }
 
-/// Places of the bodies that both mechanisms have.
+/// Indices of the bodies that both mechanisms have.
 fn common(first: &Mechanism, second: &Mechanism) -> Vec<[usize; 2]> {
     let others = second.bodies().iter().enumerate();
     let others: BTreeMap<&str, usize> = others.map(|(j, b)| (b.name.as_str(), j)).collect();

@@ -1,4 +1,4 @@
-//! Why there are no results, or only a part of them.
+//! Reasons why there are no results, or only a part of them.
 
 use dynamics::MotionError;
 use model::BuildError;
@@ -10,80 +10,80 @@ use solvability::{
     RequestError, StateError, UnitError,
 };
 
-/// Why there are no results, or only a part of them.
+/// Reason why there are no results, or only a part of them.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// The scene is wrong, with all places.
+    /// The scene is invalid; all faults with their places.
     #[error("{} problem(s) in the scene, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Scene(Vec<Diagnostic>),
-    /// The description that a program has made is wrong, with all faults.
+    /// A description made by a program is invalid; all faults.
     #[error("{} problem(s) in the description, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Build(Vec<BuildError>),
-    /// The start is a singular configuration that cannot be left with its velocities. It can be
-    /// judged all the same, by [`AssembledScene::analyse`](crate::AssembledScene::analyse).
+    /// The start is a singular configuration from which no motion with its velocities is possible.
+    /// It can still be analysed by [`AssembledScene::analyse`](crate::AssembledScene::analyse).
     #[error("{contradiction}")]
     SingularStart {
-        /// What stands against it.
+        /// The contradiction that prevents the motion.
         contradiction: Contradiction,
-        /// Where in the text of the scene, if it has one.
+        /// Place in the text of the scene, if it has one.
         place: Option<Box<Diagnostic>>,
     },
-    /// Nobody says how long the run takes.
+    /// Neither the scene nor the caller states the end of the run.
     #[error("the scene has no `[simulate]` with `t_end`, and no last time was given")]
     NoEnd,
-    /// A combination that cannot be read.
+    /// A combination cannot be parsed.
     #[error("`{text}`: {error}")]
     Combination {
         /// The combination.
         text: String,
-        /// What is wrong.
+        /// Cause.
         error: CombinationError,
     },
-    /// A joint or drive that the mechanism does not have.
+    /// A joint or drive does not exist.
     #[error("there is no joint or drive `{name}`{}", suggestion(.nearest.as_deref()))]
     UnknownReaction {
         /// The name.
         name: String,
-        /// The nearest one, if one is near.
+        /// The most similar name, if one is similar.
         nearest: Option<String>,
     },
-    /// A row that the mechanism does not have.
+    /// A row does not exist.
     #[error("there is no row {}; rows are 1 to {rows}", row + 1)]
     UnknownRow {
         /// The row, from 0.
         row: usize,
-        /// How many there are.
+        /// Number of rows.
         rows: usize,
     },
-    /// Redundant rows ask for different motions.
+    /// Redundant rows require different motions.
     #[error(transparent)]
     Contradiction(#[from] Contradiction),
-    /// A group cannot be judged.
+    /// A group cannot be analysed.
     #[error(transparent)]
     Request(#[from] RequestError),
-    /// A motion could not begin or go on.
+    /// A motion could not begin or continue.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// A configuration could not be judged.
+    /// A configuration could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// A state of the motion is none.
+    /// A state of the motion is invalid.
     #[error(transparent)]
     State(#[from] StateError),
     /// A verdict could not be explained.
     #[error(transparent)]
     Explanation(#[from] ExplanationError),
-    /// Deletions could not be told.
+    /// Deletions could not be determined.
     #[error(transparent)]
     Deletion(#[from] EliminationError),
-    /// There is no such choice among the solutions.
+    /// The choice among the solutions is not possible.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-    /// Facts and choices could not be told apart.
+    /// It could not be determined which numbers are unique by a change of units.
     #[error(transparent)]
     Units(#[from] UnitError),
-    /// A motion could not be judged.
+    /// A motion could not be analysed.
     #[error(transparent)]
     Along(#[from] AlongError),
     /// A file could not be written.
@@ -99,9 +99,9 @@ fn suggestion(nearest: Option<&str>) -> String {
 }
 
 impl StudyError {
-    /// Why a scene cannot be moved although its start can be judged, by
-    /// [`AssembledScene::analyse`](crate::AssembledScene::analyse); nothing where the start is no
-    /// start, or nothing keeps the scene from moving.
+    /// The reason why a scene cannot be moved although its start can be analysed by
+    /// [`AssembledScene::analyse`](crate::AssembledScene::analyse). Returns `None` if the start is
+    /// invalid, or if nothing prevents a motion.
     #[must_use]
     pub fn only_motion(&self) -> Option<String> {
         match self {
@@ -115,7 +115,7 @@ impl StudyError {
         }
     }
 
-    /// Whether the input is wrong; otherwise the computation stopped.
+    /// Whether the input is invalid; otherwise the computation stopped.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

@@ -2,22 +2,22 @@
 //!
 //! # Code map
 //!
-//! All crates of the house under one roof, by their own names, and a scene from its text, or from a
+//! Contains all other crates under their own names, and leads from the text of a scene, or from a
 //! description in code, to its results:
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`prelude`] | the names that a program needs first |
+//! | [`prelude`] | the names that a program needs most often |
 //! | [`assembled`] | a scene with its mechanism |
 //! | [`study`] | its consistent start, its motion, its files |
 //! | `report_builder`, `comparison` | its report, and several choices for reactions that are not unique |
-//! | [`configuration`] | one configuration, and everything that can be asked of its reactions |
+//! | [`configuration`] | one configuration, and the results for its reactions |
 //! | [`along_motion`] | the verdicts along its motion |
-//! | [`difference`] | two scenes side by side |
-//! | [`mod@sweep`] | many runs with other numbers |
+//! | [`difference`] | comparison of two scenes |
+//! | [`mod@sweep`] | many runs with different numbers |
 //! | [`mod@work_precision`] | error against run time |
-//! | [`memory`] | what work on a scene takes |
-//! | [`error`] | why there are no results |
+//! | [`memory`] | estimated memory |
+//! | [`error`] | reasons why there are no results |
 
 pub mod along_motion;
 pub mod assembled;
@@ -50,18 +50,18 @@ pub use error::StudyError;
 pub use solvability::Numbers;
 pub use study::{Overrides, Study};
 
-/// So many threads at most for all that this program computes in parallel from now on; runs of
-/// several components have an option of their own, [`dynamics::MotionOptions::threads`].
+/// Limits the number of threads of all parallel computations of this program from now on. Runs with
+/// several components have a separate option, [`dynamics::MotionOptions::threads`].
 ///
 /// # Errors
-/// If threads have been started already, or cannot be.
+/// If threads have already been started, or cannot be started.
 pub fn limit_threads(threads: std::num::NonZeroUsize) -> Result<(), rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
     pool.build_global()
 }
 
-/// What two computations find, side by side where there are threads for both, else one after the
-/// other.
+/// The results of two computations, run in parallel if there are threads for both, otherwise one
+/// after the other.
 pub fn both<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,
@@ -69,7 +69,7 @@ pub fn both<A: Send, B: Send>(
     rayon::join(a, b)
 }
 
-/// Threads on which this program computes in parallel.
+/// Number of threads of parallel computations.
 #[must_use]
 pub fn threads() -> usize {
     rayon::current_num_threads()

@@ -1,5 +1,5 @@
-//! How much memory work on a scene takes, before it is taken. Estimates from sizes and patterns
-//! alone, meant to be too large rather than too small.
+//! Estimates the memory for work on a scene before it is allocated, from sizes and sparsity
+//! patterns only. The estimates are meant to be upper bounds.
 
 use solvability::memory_of_verdicts;
 
@@ -7,14 +7,15 @@ use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::study::Study;
 
-/// Bytes for a byte of a scene: its text, its tables with their places, the mechanism and its
+/// Bytes for each byte of a scene: its text, its tables with their places, the mechanism and its
 /// names.
 const OF_TEXT: usize = 45;
 
-/// Bytes that nothing can do without.
+/// Bytes that are always needed.
 const FLOOR: usize = 10 << 20;
 
-/// Bytes that reading a text of this length takes at most, about, its mechanism included.
+/// Estimated upper bound (bytes) on the memory for reading a text of this length, including its
+/// mechanism.
 ///
 /// ```
 /// // A scene of a megabyte.
@@ -26,25 +27,25 @@ pub fn of_reading(text: usize) -> usize {
 }
 
 impl AssembledScene {
-    /// Bytes that ranks, kept rows and verdicts take at most on so many threads, about, beside what
-    /// was read: see [`memory_of_verdicts`].
+    /// Estimated upper bound (bytes) on the memory of ranks, kept rows and verdicts on this number
+    /// of threads, in addition to the scene: see [`memory_of_verdicts`].
     ///
     /// # Errors
-    /// [`StudyError::Analysis`]: rows are joined too closely for a sparse decision.
+    /// [`StudyError::Analysis`]: elimination would take too many operations for a sparse decision.
     pub fn memory_of_verdicts(&self, threads: usize) -> Result<usize, StudyError> {
         Ok(memory_of_verdicts(&self.mechanism, threads)?)
     }
 }
 
 impl Study {
-    /// Bytes that a run takes at most, about, reading a text of this length and the verdicts of the
-    /// start included.
+    /// Estimated upper bound (bytes) on the memory of a run, including the reading of a text of
+    /// this length and the verdicts at the start.
     ///
     /// # Errors
-    /// [`StudyError::Analysis`]: rows are joined too closely for a sparse decision.
+    /// [`StudyError::Analysis`]: elimination would take too many operations for a sparse decision.
     pub fn memory(&self, text: usize) -> Result<usize, StudyError> {
         let verdicts = memory_of_verdicts(&self.prepared.mechanism, crate::threads())?;
-        // Verdicts are there before the run, and are few bytes then.
+        // Verdicts are computed before the run, and afterwards take little memory.
         Ok(of_reading(text) + verdicts.max(self.prepared.memory()))
     }
 }

@@ -1,5 +1,6 @@
-//! What a program needs that builds a mechanism, asks and moves it: `use pfaff::prelude::*;`. The
-//! other joints and forces are in [`joints`], what comes out in [`report::documents`].
+//! The names needed by a program that builds, analyses and moves a mechanism:
+//! `use pfaff::prelude::*;`. The other joints and forces are in [`joints`], the documents in
+//! [`report::documents`].
 
 pub use dynamics::MotionOptions;
 pub use joints::{Direction, KnifeEdge, Revolute, Translational};

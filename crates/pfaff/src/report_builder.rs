@@ -1,5 +1,6 @@
-//! `report.html` of a run: what is kept while it moves, and what is asked of its start afterwards.
-//! What the scene does not want is not computed for it; the page shows what there is.
+//! Builds `report.html` of a run: collects data during the motion, and analyses the start
+//! afterwards. Data that the scene does not request are not computed; the page shows the available
+//! ones.
 
 use dynamics::plan::Rows;
 use dynamics::{MotionFault, MotionOptions, Plan, Prepared, Sample};
@@ -16,12 +17,12 @@ use solvability::{Allowed, Sensitivities, Verdict};
 use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
 
-/// Reactions that are not unique for which the page says what would make them so, and sets tried
-/// for each.
+/// Number of non-unique reactions for which the page says what would make them unique, and number
+/// of sets tried for each.
 const HINTS: usize = 8;
 const HINT_TRIALS: usize = 2_000;
 
-/// Rows of a run whose page is being made.
+/// Rows of a run that are collected for its page.
 pub(crate) struct ReportBuilder<'a> {
     scene: &'a Scene,
     prepared: &'a Prepared,
@@ -54,7 +55,7 @@ impl<'a> ReportBuilder<'a> {
         }
     }
 
-    /// Takes a row with the reactions that were computed for it, if any were.
+    /// Takes a row with its reactions, if any were computed.
     pub(crate) fn take(
         &mut self,
         sample: &mut Sample<'_, '_>,
@@ -79,7 +80,7 @@ impl<'a> ReportBuilder<'a> {
         Ok(())
     }
 
-    /// The page.
+    /// Builds the page.
     pub(crate) fn page(
         &self,
         start: &ConfigurationAnalysis<'_>,
@@ -130,7 +131,7 @@ impl<'a> ReportBuilder<'a> {
         })
     }
 
-    /// The verdicts of the start with their reasons, and hints.
+    /// The verdicts at the start with their reasons, and hints.
     fn analysis(
         &self,
         start: &ConfigurationAnalysis<'_>,
@@ -156,7 +157,7 @@ impl<'a> ReportBuilder<'a> {
         (document, hints)
     }
 
-    /// What drives prescribe at the frames.
+    /// The values that drives prescribe at the frames.
     fn drives(&self) -> Vec<DriveCurve> {
         let mechanism = &self.prepared.mechanism;
         let drives = self.scene.description.drives.iter();

@@ -1,5 +1,5 @@
-//! A scene from its text to its results: read, assemble, decide, move, write. What the commands do,
-//! without their printing.
+//! A scene from its text to its results: read, assemble, decide, move, write. These are the
+//! commands without their printing.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -25,26 +25,25 @@ use crate::configuration::{AskedRows, ConfigurationAnalysis};
 use crate::error::StudyError;
 use crate::report_builder::ReportBuilder;
 
-/// Rows of a mechanism up to which a moving picture has rows of its own between those of the
-/// tables.
+/// Largest number of rows of a mechanism for which an animation has additional rows between those
+/// of the tables.
 const PICTURED_ROWS: usize = 600;
 
-/// Rows of a mechanism up to which it is tried whether a motion begins.
+/// Largest number of rows of a mechanism for which it is tested whether a motion begins.
 const BEGUN_ROWS: usize = 2000;
 
 /// A scene that has been assembled and can move.
 #[non_exhaustive]
 pub struct Study {
-    /// What was read, or made by a program.
+    /// The scene, read from a text or made by a program.
     pub scene: Scene,
     /// Start and kept rows.
     pub prepared: Prepared,
-    /// What a run is asked to do; nothing where neither the scene nor the caller says how long it
-    /// takes.
+    /// Options of a run; `None` if neither the scene nor the caller states the end of the run.
     pub options: Option<MotionOptions>,
 }
 
-/// What the caller wants otherwise than the scene.
+/// Options of the caller that replace those of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// Last time (s).
@@ -61,16 +60,16 @@ pub struct Overrides {
     pub stabilisation: Option<Stabilisation>,
     /// Rows to drop, from 0.
     pub drop: Option<Vec<usize>>,
-    /// Components that compute at the same time.
+    /// Number of components that compute at the same time.
     pub threads: Option<NonZeroUsize>,
 }
 
 impl Study {
-    /// Reads a scene, finds its consistent start and chooses rows. `name` is the file's name in
+    /// Reads a scene, finds its consistent start and chooses rows; `name` is the file name in
     /// messages.
     ///
     /// # Errors
-    /// - [`StudyError::Scene`]: everything that is wrong with the text, the start included.
+    /// - [`StudyError::Scene`]: all faults of the text, including those of the start.
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
     pub fn read(
         name: &str,
@@ -81,7 +80,7 @@ impl Study {
         AssembledScene::read(name, text, registry)?.prepare(overrides)
     }
 
-    /// The same of a scene, or of a description alone, that a program has made.
+    /// Like [`Self::read`], for a scene, or a description alone, made by a program.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -100,20 +99,19 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// - [`StudyError::Build`]: everything that is wrong with the description.
+    /// - [`StudyError::Build`]: all faults of the description.
     /// - [`StudyError::Motion`]: there is no consistent start, or no rows can be chosen.
     /// - [`StudyError::SingularStart`]: no motion begins with the velocities of the start.
     pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
         AssembledScene::build(scene)?.prepare(&Overrides::default())
     }
 
-    /// A configuration at a time of the motion, to be asked about its reactions; at t = 0 nothing
-    /// has to move. `drop` (rows from 0) says which rows carry the dependencies; no verdict depends
-    /// on them.
+    /// Analyses a configuration at a time of the motion; at t = 0 no run is needed. `drop` (rows
+    /// from 0) states which rows are expressed by the dependencies; no verdict depends on it.
     ///
     /// # Errors
-    /// If the motion does not reach that time, C cannot be judged there, redundant rows contradict
-    /// each other there, or the rows cannot be dropped.
+    /// If the motion does not reach that time, if C cannot be analysed there, if redundant rows
+    /// contradict each other there, or if the rows cannot be dropped.
     pub fn analyse(
         &self,
         t: f64,
@@ -122,7 +120,7 @@ impl Study {
         self.analyse_watched(t, drop, |_| ())
     }
 
-    /// The same; calls `progress` with the number of joints that are judged.
+    /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
     ///
     /// # Errors
     /// As [`Study::analyse`].
@@ -134,7 +132,7 @@ impl Study {
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let state = self.state_at(t)?;
-        // Later configurations are known only as well as the motion that has reached them.
+        // Later configurations are only as accurate as the motion that has reached them.
         let known = match t {
             0.0 => Known::AsStored,
             _ => Known::To(self.motion_to(t).rtol),
@@ -146,7 +144,7 @@ impl Study {
         };
         let configuration =
             ConfigurationAnalysis::new(&self.scene, mechanism, t, state, known, rows, progress)?;
-        // Those of the start have been looked for when it was prepared.
+        // Contradictions at the start were checked when it was prepared.
         let found = if t == 0.0 {
             Vec::new()
         } else {
@@ -159,12 +157,12 @@ impl Study {
     }
 
     /// The first contradiction of drives after the start: with each other, or with what joints
-    /// allow, at a dozen times up to the last one of the run. `None` if there is none, if nobody
-    /// says how long the run takes, or where it cannot be told: see
+    /// allow, checked at a dozen times up to the end of the run. Returns `None` if there is none,
+    /// if the end of the run is not stated, or if it cannot be determined: see
     /// [`solvability::contradicting_drives_along`].
     ///
     /// # Errors
-    /// If C cannot be judged on the way.
+    /// If C cannot be analysed on the way.
     pub fn contradicting_drives(&self) -> Result<Option<Contradiction>, StudyError> {
         let Some(options) = &self.options else {
             return Ok(None);
@@ -173,10 +171,11 @@ impl Study {
         Ok(contradicting_drives_along(mechanism, q, options.t_end)?)
     }
 
-    /// Refuses drives that contradict each other later in the run, with their places in the scene.
+    /// Returns an error for drives that contradict each other later in the run, with their places
+    /// in the scene.
     ///
     /// # Errors
-    /// As [`Study::contradicting_drives`], and [`StudyError::Scene`], or of a scene without text
+    /// As [`Study::contradicting_drives`], and [`StudyError::Scene`], or for a scene without text
     /// [`StudyError::Motion`]: there are such drives.
     pub fn check_drives(&self) -> Result<(), StudyError> {
         match self.contradicting_drives()? {
@@ -185,9 +184,9 @@ impl Study {
         }
     }
 
-    /// Why no motion begins although the start is one: a body without mass that is free to move,
-    /// for example. `None` if one begins; of a mechanism of many rows it is not asked, since the
-    /// answer costs as much as a step.
+    /// The reason why no motion begins although the start is consistent, for example a body without
+    /// mass that is free to move. Returns `None` if a motion begins. For mechanisms with many rows
+    /// it is not tested, because the test costs as much as a step.
     #[must_use]
     pub fn cannot_begin(&self) -> Option<String> {
         if self.prepared.mechanism.layout().rows() > BEGUN_ROWS {
@@ -222,7 +221,7 @@ impl Study {
         Ok(state)
     }
 
-    /// How the state at a later time is reached.
+    /// Options of the run that reaches the state at a later time.
     fn motion_to(&self, t: f64) -> MotionOptions {
         let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
         MotionOptions {
@@ -235,7 +234,7 @@ impl Study {
     /// Runs the scene and shows projected rows of output; see [`dynamics::simulate()`].
     ///
     /// # Errors
-    /// With what was reached.
+    /// A failure contains the summary of the part that was completed.
     pub fn run(
         &self,
         options: &MotionOptions,
@@ -244,14 +243,14 @@ impl Study {
         simulate(&self.prepared, options, row)
     }
 
-    /// The motion as plain data: state and reactions at t = 0, every output step and the end, with
-    /// the numbers, events and verdicts of the run. Numbers of reactions that are not unique belong
-    /// to the choice that the summary states.
+    /// The motion as plain data: state and reactions at t = 0, at every output step and at the end,
+    /// with the numbers, events and verdicts of the run. Numbers of reactions that are not unique
+    /// depend on the choice that the summary states.
     ///
     /// ```
     /// use pfaff::prelude::*;
     ///
-    /// // A body that is thrown: y = 5·t − g·t²/2.
+    /// // A thrown body: y = 5·t − g·t²/2.
     /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
     /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
     /// let motion = Study::build(thrown)?.motion(&MotionOptions::to(1.0))?;
@@ -262,9 +261,9 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// - [`StudyError::Motion`]: the run could not begin, or stopped; [`Study::run`] shows what was
-    ///   reached.
-    /// - [`StudyError::Analysis`]: reactions cannot be judged at the start.
+    /// - [`StudyError::Motion`]: the run could not begin, or stopped; [`Study::run`] returns the rows
+    ///   up to there.
+    /// - [`StudyError::Analysis`]: reactions cannot be analysed at the start.
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let plan = Plan::new(&self.prepared, options, &Wanted::default())?;
@@ -292,7 +291,7 @@ impl Study {
         Ok(MotionDocument::new(RunDocument::new(&run), rows))
     }
 
-    /// What a run of the scene does and leaves out, with what its `[output]` wants.
+    /// The plan of a run of the scene, with the output that its `[output]` requests.
     ///
     /// ```
     /// use pfaff::model::Registry;
@@ -313,8 +312,9 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
-    /// - [`StudyError::Motion`]: the options are none, or the motion cannot be judged at its start.
+    /// - [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
+    /// - [`StudyError::Motion`]: the options are invalid, or the motion cannot be evaluated at its
+    ///   start.
     pub fn plan(&self) -> Result<Plan<'_>, StudyError> {
         let options = self.options.as_ref().ok_or(StudyError::NoEnd)?;
         let wanted = wanted(&self.scene.output);
@@ -325,9 +325,8 @@ impl Study {
         Ok(Plan::new(&self.prepared, &options, &wanted)?)
     }
 
-    /// Rows that a run computes for each one that tables show: a moving picture needs more of them
-    /// than a scene may ask for. A power of two, so that the times of the tables stay what they
-    /// are.
+    /// Number of rows that a run computes for each row of the tables: an animation may need more of
+    /// them than the scene requests. A power of two, so that the times of the tables do not change.
     fn rows_between(&self, wanted: &Wanted) -> usize {
         let Some(options) = self.options.as_ref().filter(|_| self.scene.output.report) else {
             return 1;
@@ -344,13 +343,13 @@ impl Study {
     }
 
     /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and
-    /// `report.html` into a directory, each if the scene wants it. `progress` sees the time of each
-    /// row, or of each step where no rows are written, and may stop the run. What a stopped run has
-    /// written stays, and its summary says `partial`.
+    /// `report.html` into a directory, each if the scene requests it. `progress` is called with the
+    /// time of each row, or of each step if no rows are written, and may stop the run. The files of
+    /// a stopped run are kept, and its summary says `partial`.
     ///
     /// # Errors
-    /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
-    /// - [`StudyError::Motion`]: the run stopped; everything before is written.
+    /// - [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
+    /// - [`StudyError::Motion`]: the run stopped; everything up to there has been written.
     /// - [`StudyError::File`], [`StudyError::Table`]: something could not be written.
     pub fn simulate_into(
         &self,
@@ -360,7 +359,7 @@ impl Study {
         self.simulate_as(&Origin::default(), directory, progress)
     }
 
-    /// The same with what the report says of how it was made.
+    /// Like [`Study::simulate_into`], with information for the report on how the run was made.
     ///
     /// # Errors
     /// As [`Study::simulate_into`].
@@ -370,7 +369,7 @@ impl Study {
         directory: &OutputDirectory,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RunDocument, StudyError> {
-        // Before anything of an earlier run is touched.
+        // Checked before any file of an earlier run is changed.
         let plan = self.plan()?;
         let t_end = plan.options().t_end;
         let between = self.rows_between(&wanted(&self.scene.output));
@@ -401,7 +400,7 @@ impl Study {
         let interrupted = AtomicBool::new(false);
         let progress = Mutex::new(progress);
         let go_on = |t: f64| {
-            // A lock is poisoned by a panic only, which goes on elsewhere.
+            // A lock is poisoned only by a panic, which continues in its own thread.
             let flow = progress.lock().map_or(ControlFlow::Break(()), |mut p| p(t));
             interrupted.fetch_or(flow.is_break(), Ordering::Relaxed);
             flow
@@ -432,7 +431,7 @@ impl Study {
         });
         let (summary, error) = match outcome {
             Ok(summary) => (summary, None),
-            // Nothing of an earlier run is replaced by nothing.
+            // Files of an earlier run are not replaced if there is no row.
             Err(failure) if rows == 0 => return Err(failure.error.into()),
             Err(failure) => (failure.summary, Some(failure.error)),
         };
@@ -456,7 +455,7 @@ impl Study {
             trajectory.map(TrajectoryTable::finish),
             reactions.map(ReactionTable::finish),
         ] {
-            // Where a disk refuses a table, the summary of an earlier run stays beside its tables.
+            // If a table cannot be written, the summary of an earlier run stays with its tables.
             match file {
                 Some(file) if whole => drop(file?.finish()?),
                 Some(file) => drop(file?.finish_partial()?),
@@ -483,7 +482,7 @@ impl Study {
     }
 }
 
-/// What a run has to compute for this output.
+/// The output of a run that is needed for these files.
 fn wanted(output: &Output) -> Wanted {
     let reactions = match &output.reactions {
         WantedReactions::All => Reactions::All,
@@ -496,7 +495,7 @@ fn wanted(output: &Output) -> Wanted {
     };
     Wanted {
         rows,
-        // No table has them.
+        // No table contains accelerations.
         accelerations: false,
         reactions,
     }
@@ -527,18 +526,18 @@ fn write_row(
     Ok(Ok(()))
 }
 
-/// The figure of a comparison of methods in the same directory, if there is one and it is no larger
-/// than a page should be.
+/// The figure of a comparison of methods in the same directory, if there is one and it is not too
+/// large for the page.
 fn comparison_beside(directory: &OutputDirectory) -> Option<String> {
     let path = directory.path().join("work_precision.svg");
     let small = std::fs::metadata(&path).is_ok_and(|m| m.len() < FIGURE_MOST);
     small.then(|| std::fs::read_to_string(path).ok()).flatten()
 }
 
-/// Bytes of a figure that a page takes in.
+/// Largest size of a figure that is included in a page (bytes).
 const FIGURE_MOST: u64 = 1 << 20;
 
-/// Which reactions a table has; `None` if no table is wanted.
+/// The reactions in a table; `None` if no table is requested.
 fn selection(wanted: &WantedReactions) -> Option<Selection> {
     match wanted {
         WantedReactions::All => Some(Selection::All),

@@ -1,11 +1,10 @@
-//! Many runs of one scene with other numbers in it: in parallel, in parts, and so that an
-//! interruption costs nothing that was finished.
+//! Many runs of one scene with different numbers: in parallel, in parts, and such that an
+//! interruption loses no finished run.
 //!
-//! Each run is read, checked, assembled and moved like any scene. What is wrong with one
-//! combination of numbers stands in its row; the others go on. Numbers of reactions are those of
-//! unique ones only.
+//! Each run is read, checked, assembled and moved like any scene. A fault of one combination of
+//! numbers is reported in its row; the other runs continue. Only unique reactions have numbers.
 //!
-//! Not here: what a key means ([`scene::Template`]), and what files look like ([`report::sweep`]).
+//! The meaning of a key is in [`scene::Template`], the format of files in [`report::sweep`].
 
 mod axis;
 mod error;
@@ -32,8 +31,8 @@ pub use axis::{Axis, AxisError};
 pub use error::SweepError;
 pub use shard::{Shard, ShardError};
 
-/// A scene and the numbers that are varied in it. Several axes are a full grid, in which the last
-/// one runs fastest.
+/// A scene and the numbers that are varied in it. Several axes form a full grid, in which the last
+/// axis varies fastest.
 ///
 /// ```
 /// use pfaff::model::Registry;
@@ -60,17 +59,17 @@ pub struct Sweep<'r> {
     template: Template,
     grid: Grid,
     plan: SweepPlan,
-    /// Places of the wanted reactions among all.
+    /// Indices of the requested reactions.
     reactions: Vec<usize>,
     registry: &'r Registry,
 }
 
-/// How a sweep is done.
+/// Settings of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SweepSettings {
-    /// The runs that are made here.
+    /// The runs that are made by this process.
     pub shard: Shard,
-    /// Threads; 0 is as many as there are cores.
+    /// Number of threads; 0 means one for each core.
     pub threads: usize,
 }
 
@@ -83,14 +82,14 @@ impl Default for SweepSettings {
     }
 }
 
-/// How far a sweep is.
+/// Progress of a sweep.
 #[derive(Clone, Copy, Debug)]
 pub enum SweepProgress<'a> {
     /// It begins.
     Begin {
-        /// Runs of this shard.
+        /// Number of runs of this shard.
         runs: u64,
-        /// Those that were finished before.
+        /// Number of runs that were finished before.
         finished: u64,
     },
     /// A run is finished, and its row is in the journal.
@@ -98,12 +97,12 @@ pub enum SweepProgress<'a> {
 }
 
 impl<'r> Sweep<'r> {
-    /// Reads a scene and opens the numbers that are varied. `name` is the file's name in messages.
+    /// Reads a scene and finds the numbers that are varied; `name` is the file name in messages.
     ///
     /// # Errors
-    /// - [`SweepError::Study`]: the scene is wrong as it stands, or nobody says how long a run
-    ///   takes.
-    /// - [`SweepError::Key`]: a key names no number of the scene.
+    /// - [`SweepError::Study`]: the scene is invalid without changes, or it does not state the end
+    ///   of a run.
+    /// - [`SweepError::Key`]: a key does not refer to a number of the scene.
     /// - [`SweepError::Axis`]: nothing is varied, or there are too many combinations.
     pub fn read(
         name: &str,
@@ -152,14 +151,14 @@ impl<'r> Sweep<'r> {
         })
     }
 
-    /// The same, with the trajectory of each run in `runs/<number>/trajectory.csv`.
+    /// Also writes the trajectory of each run to `runs/<number>/trajectory.csv`.
     #[must_use]
     pub fn keeping_rows(mut self) -> Self {
         self.plan.keep_rows = true;
         self
     }
 
-    /// Number of runs, those of all shards.
+    /// Number of runs of all shards.
     #[must_use]
     pub fn runs(&self) -> u64 {
         self.plan.runs
@@ -173,11 +172,11 @@ impl<'r> Sweep<'r> {
     pub fn point(&self, run: u64) -> Vec<f64> {
         let runs = self.runs();
         assert!((1..=runs).contains(&run), "no run {run} of 1 to {runs}");
-        // Smaller than a number of runs, which was a usize.
+        // Fits, because the number of runs was a usize.
         self.grid.point((run - 1) as usize)
     }
 
-    /// Makes a run and writes nothing.
+    /// Makes a run without writing any file.
     ///
     /// # Panics
     /// If there is no such run; they are counted from 1.
@@ -190,15 +189,16 @@ impl<'r> Sweep<'r> {
     }
 
     /// Makes the runs of a shard that are not in a journal of the directory yet, and writes the
-    /// tables of all that are there then: `sweep.csv`, `sweep.parquet` and `summary.json`.
-    /// `progress` sees each finished run, in no order; `interrupted` is asked often, and ends the
+    /// tables of all finished runs: `sweep.csv`, `sweep.parquet` and `summary.json`. `progress` is
+    /// called with each finished run, in any order; `interrupted` is called often and ends the
     /// sweep without losing a finished run.
     ///
     /// # Errors
     /// - [`SweepError::NoneBegins`]: no run can begin; nothing is written.
     /// - [`SweepError::Journal`]: the directory belongs to another sweep, or another process works
     ///   on this shard.
-    /// - [`SweepError::File`], [`SweepError::Table`], [`SweepError::Threads`]: the system refused.
+    /// - [`SweepError::File`], [`SweepError::Table`], [`SweepError::Threads`]: the operating system
+    ///   reported an error.
     pub fn run_into(
         &self,
         directory: &Path,
@@ -206,7 +206,7 @@ impl<'r> Sweep<'r> {
         interrupted: impl Fn() -> bool + Sync,
         mut progress: impl FnMut(SweepProgress<'_>) + Send,
     ) -> Result<SweepDocument, SweepError> {
-        // More threads than runs have nothing to do.
+        // More threads than runs would be idle.
         let runs = usize::try_from(self.runs()).unwrap_or(usize::MAX);
         let threads = settings.threads.min(runs);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -245,7 +245,7 @@ impl<'r> Sweep<'r> {
         write_sweep(&output, || Ok(Journals::read(&[directory])?))
     }
 
-    /// Makes a run, with its trajectory in a directory if one is given; nothing if it was
+    /// Makes a run, with its trajectory in a directory if one is given. Returns `None` if it was
     /// interrupted.
     fn whole_row(
         &self,
@@ -284,7 +284,7 @@ impl<'r> Sweep<'r> {
             return Ok(None);
         }
         if let Some(table) = table {
-            // On the disk before the journal says so.
+            // The trajectory is stored on disk before the journal records the run.
             let mut file = table.finish()?;
             file.sync()?;
             file.finish()?;
@@ -292,7 +292,7 @@ impl<'r> Sweep<'r> {
         Ok(Some(row))
     }
 
-    /// Refuses a sweep of which no run can begin. The first one that can ends the search.
+    /// Returns an error if no run can begin. The search ends at the first one that can.
     fn check(&self, interrupted: &(impl Fn() -> bool + Sync)) -> Result<(), SweepError> {
         let begins = |run: &u64| interrupted() || self.begin(*run).is_ok();
         let found = (1..=self.runs()).into_par_iter().find_any(begins);
@@ -306,7 +306,7 @@ impl<'r> Sweep<'r> {
         }
     }
 
-    /// What is varied, with its values in a run.
+    /// The varied keys with their values in a run.
     fn values(&self, run: u64) -> String {
         let axes = self.grid.axes.iter().zip(self.point(run));
         let texts: Vec<String> = axes
@@ -316,17 +316,17 @@ impl<'r> Sweep<'r> {
     }
 }
 
-/// Writes the tables of journals in several directories, as if they were one.
+/// Merges the journals of several directories into one set of tables.
 ///
 /// # Errors
-/// [`SweepError::Journal`]: they are not of one sweep; [`SweepError::File`], [`SweepError::Table`]:
-/// something could not be written.
+/// [`SweepError::Journal`]: they belong to different sweeps; [`SweepError::File`],
+/// [`SweepError::Table`]: something could not be written.
 pub fn merge(directories: &[PathBuf], into: &Path) -> Result<SweepDocument, SweepError> {
     let journals = Journals::read(directories)?;
     write_sweep(&OutputDirectory::create(into)?, || Ok(journals))
 }
 
-/// Where the files of a run are, with as many digits as the last one has.
+/// Directory of the files of a run; its number has as many digits as that of the last run.
 fn folder(directory: &Path, run: u64, runs: u64) -> PathBuf {
     let width = runs.to_string().len();
     directory.join("runs").join(format!("{run:0width$}"))

@@ -1,13 +1,13 @@
-//! Error against run time: one scene by every method at many tolerances, compared with values that
-//! no run made itself.
+//! Error against run time: one scene with every method at many tolerances, compared with
+//! independent reference values.
 //!
 //! | module | content |
-//! | --- | --- |
-//! | `plan` | which runs are made |
-//! | `observation`, `standard` | what is compared, with what, and how well that is known |
-//! | `measure` | runs that are looked at, runs whose time is taken |
-//! | `rival` | runs of other programs and other ways, in the same table |
-//! | `ranking`, `overview` | who is the fastest to which error |
+//! | `plan` | the runs that are made |
+//! | `observation`, `standard` | what is compared, the reference values, and their accuracy |
+//! | `measure` | runs for errors, and runs for times |
+//! | `rival` | runs of other programs and other formulations, in the same table |
+//! | `ranking`, `overview` | which method reaches which error in the shortest time |
+//! | [`provenance`] | where and when the runs were made |
 //! | [`provenance`] | where and when runs were made |
 
 mod measure;
@@ -35,13 +35,13 @@ pub use plan::{Curve, Plan};
 pub use rival::{Rival, RivalFault, RivalRun};
 pub use standard::{Errors, Expected, Reference};
 
-/// Instants at which a motion is compared of which nothing is known beforehand.
+/// Number of instants at which motions without a known solution are compared.
 const INSTANTS: u32 = 5;
 
-/// Tolerances for a reference: the tightest at which a method reaches its end.
+/// Tolerances for a reference: the tightest one at which a method reaches its end is used.
 const TIGHTEST: [f64; 3] = [1e-13, 1e-12, 1e-11];
 
-/// A scene whose motion is to be compared.
+/// A scene whose motions are compared.
 pub struct Subject {
     name: String,
     title: String,
@@ -53,17 +53,17 @@ pub struct Subject {
     size: f64,
 }
 
-/// A finished comparison, or what there is of it.
+/// A comparison, finished or interrupted.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// References, runs, and who wins.
+    /// References, runs, and ranking.
     pub scene: WorkPrecisionScene,
-    /// Whether somebody asked to stop.
+    /// Whether it was interrupted.
     pub interrupted: bool,
 }
 
 impl Subject {
-    /// A scene whose motion is known.
+    /// A scene with a known motion.
     ///
     /// # Errors
     /// As [`Subject::of_study`].
@@ -71,10 +71,10 @@ impl Subject {
         Self::new(study, title, Some(reference))
     }
 
-    /// A scene of which nothing is known: its reference are two methods that agree.
+    /// A scene without a known motion: its reference consists of two methods that agree.
     ///
     /// # Errors
-    /// [`StudyError::NoEnd`]: nobody says how long the run takes.
+    /// [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
     pub fn of_study(study: Study) -> Result<Self, StudyError> {
         let title = study.scene.name().to_owned();
         Self::new(study, &title, None)
@@ -122,8 +122,8 @@ impl Subject {
         &self.times.wanted
     }
 
-    /// One run, compared with what is known of the motion: how far it is off, and how far the
-    /// reference may be. `None` if nothing is known.
+    /// One run, compared with the known motion: its error, and that of the reference. `None` if no
+    /// motion is known.
     ///
     /// # Errors
     /// [`StudyError::Motion`]: the run did not reach its end.
@@ -137,12 +137,13 @@ impl Subject {
         Ok(known.and_then(|known| known.errors(&run.observations)))
     }
 
-    /// Makes all runs of a plan, then those of the rivals at the same tolerances, and shows each
-    /// row when it is there. `interrupted` is asked now and then whether to stop.
+    /// Makes all runs of a plan, then those of the rivals at the same tolerances, and passes on
+    /// each row when it is finished. `interrupted` is called from time to time to decide whether to
+    /// stop.
     ///
     /// # Errors
-    /// [`StudyError::Analysis`]: it cannot be told which reactions are unique. Whatever `row`
-    /// returns.
+    /// [`StudyError::Analysis`]: it cannot be determined which reactions are unique. Also the
+    /// errors of `row`.
     pub fn compare<E: From<StudyError>>(
         &self,
         plan: &Plan,
@@ -191,7 +192,7 @@ impl Subject {
         })
     }
 
-    /// The method that is chosen where none is asked for: a run with the loosest tolerance tells.
+    /// The method that is chosen automatically, found by a run with the loosest tolerance.
     fn automatic(&self, plan: &Plan, interrupted: &impl Fn() -> bool) -> &'static str {
         let curve = Plan::usual(Method::Auto);
         let tolerance = plan.tolerances.first().copied().unwrap_or(self.base.rtol);
@@ -200,7 +201,7 @@ impl Subject {
         run.summary.method.name()
     }
 
-    /// One setting: a row, or nothing if somebody asked to stop.
+    /// The runs at one setting: a row, or `None` if interrupted.
     fn run(
         &self,
         curve: Curve,
@@ -270,8 +271,8 @@ impl Subject {
         Some(Standard::known(reference, mechanism, self.size))
     }
 
-    /// What runs are compared with: what is known, and for kinds of which nothing is known two runs
-    /// of different methods that agree.
+    /// The reference values of the runs: the known motion, and for other quantities two runs of
+    /// different methods that agree.
     fn standard(
         &self,
         plan: &Plan,
@@ -303,7 +304,7 @@ impl Subject {
         Ok((standard, document))
     }
 
-    /// Of the most accurate runs of different methods the two that agree best.
+    /// Of the most accurate runs of different methods, the two that agree best.
     fn best_pair(
         &self,
         plan: &Plan,
@@ -349,7 +350,7 @@ impl Subject {
     }
 }
 
-/// A way to move the mechanism, of the product or of another.
+/// A way to move the mechanism, by this product or by another program.
 enum Way<'a> {
     Own(Curve),
     Rival(&'a dyn Rival),
@@ -377,7 +378,7 @@ fn given_up_before(row: WorkPrecisionRow, looser: f64) -> WorkPrecisionRow {
 /// Two runs that agree.
 struct Pair {
     methods: [&'static str; 2],
-    /// The looser tolerance of both.
+    /// The looser tolerance of the two.
     tolerance: f64,
     mean: Standard,
     first: Vec<observation::Observation>,

@@ -1,4 +1,4 @@
-//! Choices of mechanisms in which one can say by heart what each of them gives.
+//! Choices of mechanisms for which the result of each choice can be derived by hand.
 
 use std::ops::ControlFlow;
 
@@ -44,7 +44,7 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
     (study, comparisons)
 }
 
-/// A cart on two wheels of one axle that is pushed sideways with 6 N.
+/// A cart on two wheels on one axle that is pushed sideways with 6 N.
 const CART: &str = r#"
 scene = { name = "cart", space = "plane" }
 body = [{ name = "cart", mass = 10.0, inertia = 1.0, velocity = [1.0, 0.0] }]
@@ -76,7 +76,7 @@ fn two_wheels_of_one_axle_share_in_any_way() {
         }
         shares.push([choice.values[0][0][1], choice.values[0][1][1]]);
     }
-    // Those of the run, the least norm, and the other wheel without force.
+    // The choices: that of the run, the least norm, and the other wheel without force.
     assert!(shares[0].iter().any(|x| x.abs() < 1e-12));
     assert!(shares[1].iter().all(|x| (x + 3.0).abs() < 1e-12));
     assert_eq!(
@@ -84,14 +84,14 @@ fn two_wheels_of_one_axle_share_in_any_way() {
         shares[2].map(|x| x.abs() > 1e-12)
     );
     for freedom in c.freedom.iter().flatten() {
-        // Across the cart, and nothing else.
+        // Across the cart, and in no other direction.
         assert!(freedom.angle.cos().abs() < 1e-12 && !freedom.plane);
         assert_eq!(freedom.components, [false, true, false]);
     }
 }
 
-/// Three equal cranks under one coupler: one number is missing, and every choice gives the bodies
-/// the same accelerations.
+/// Three equal cranks on one coupler: the redundancy is one, and every choice gives the bodies the
+/// same accelerations.
 #[test]
 fn choices_differ_by_loads_that_cancel_on_every_body() {
     let text = suite::find("three-cranks").expect("a case").scene;
@@ -106,7 +106,7 @@ fn choices_differ_by_loads_that_cancel_on_every_body() {
             for ((&k, f), r) in c.reactions.iter().zip(frame).zip(reference) {
                 let change = [f[0] - r[0], f[1] - r[1]];
                 differs |= change[0].hypot(change[1]) > 1e-3;
-                // On the first body, and opposite on the second.
+                // Positive on the first body, negative on the second.
                 for (body, sign) in mechanism.layout().groups[k].bodies.iter().zip([1.0, -1.0]) {
                     if let Some(b) = body.moving() {
                         force[b][0] += sign * change[0];

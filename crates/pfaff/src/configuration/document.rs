@@ -1,4 +1,4 @@
-//! All that a configuration tells of itself, as one document: what `pfaff analyze --json` writes.
+//! All results for a configuration as one document, which `pfaff analyze --json` writes.
 
 use model::System;
 use report::AnalysisDocument;
@@ -9,12 +9,10 @@ use crate::error::StudyError;
 
 impl ConfigurationAnalysis<'_> {
     /// Ranks with their proof, verdicts, groups, reasons and warnings as plain data: the document
-    /// that `pfaff analyze --json` writes, key by key. Groups are those of the scene, then the
-    /// combinations, as [`ConfigurationAnalysis::groups`] takes them; rows are counted from 1.
+    /// that `pfaff analyze --json` writes, key by key. Groups are those of the scene, followed by
+    /// the given combinations as in [`ConfigurationAnalysis::groups`]; rows are counted from 1.
     ///
-    /// What costs more is left for its own question and may be added to the document:
-    /// [`ConfigurationAnalysis::make_unique`], [`ConfigurationAnalysis::frames`],
-    /// [`ConfigurationAnalysis::distribution`], [`crate::VerdictsAlongMotion`].
+    /// More expensive results are computed separately and may be added to the document:
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -34,7 +32,7 @@ impl ConfigurationAnalysis<'_> {
     /// # Errors
     /// As [`ConfigurationAnalysis::groups`], [`ConfigurationAnalysis::explanation`],
     /// [`ConfigurationAnalysis::continuation`] and [`ConfigurationAnalysis::is_locked`]. Groups
-    /// without numbers are no error but a warning of the document.
+    /// without numbers are reported as a warning in the document, not as an error.
     pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
         let groups = self.groups(combine)?;
         let generic = self.generic();
@@ -68,7 +66,7 @@ impl ConfigurationAnalysis<'_> {
         document.warnings.extend(self.scene.cautions());
         document.add_notes(self.mechanism.layout());
         document.warnings.extend(only_here(&document, self));
-        // Where other configurations were reached, it moves.
+        // If other configurations were reached, the mechanism can move.
         let cannot_move = generic.is_none() && self.cannot_move()?;
         document.freedoms.cannot_move |= cannot_move;
         if cannot_move && document.mobility > 0 {
@@ -79,8 +77,8 @@ impl ConfigurationAnalysis<'_> {
     }
 }
 
-/// What the verdicts of a singular configuration were compared with. The motion need not lead
-/// there: the steps away follow the joints alone.
+/// The configurations with which a singular one was compared. The motion need not reach them,
+/// because the steps away ignore the drives.
 fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) -> Option<String> {
     let generic = d.generic.as_ref()?;
     if generic.redundancy >= d.redundancy || d.evidence.permanent != Some(false) {
@@ -105,7 +103,7 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
     ))
 }
 
-/// That freedoms of first order are no motions.
+/// A sentence that the free velocities of first order are not motions.
 fn locked(d: &AnalysisDocument) -> String {
     format!(
         "mobility {} at first order, but this mechanism cannot move: second order blocks every velocity that the constraints allow",

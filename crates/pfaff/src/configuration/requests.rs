@@ -1,4 +1,4 @@
-//! From the names of a scene to the joints and drives of its mechanism.
+//! Converts the names of a scene to the joints and drives of its mechanism.
 
 use model::{ConstraintId, Mechanism, System};
 use scene::{Combination, GroupContent, Scene, WrenchTerm};
@@ -6,7 +6,7 @@ use solvability::{Group, Term};
 
 use crate::error::StudyError;
 
-/// The joint or drive of this name.
+/// The joint or drive with this name.
 pub(super) fn reaction(
     scene: &Scene,
     mechanism: &Mechanism,
@@ -22,7 +22,7 @@ pub(super) fn reaction(
         })
 }
 
-/// Groups by name: those of the scene, then the combinations asked for.
+/// Groups with their names: those of the scene, then the requested combinations.
 pub(super) fn groups(
     scene: &Scene,
     mechanism: &Mechanism,
@@ -43,7 +43,7 @@ pub(super) fn groups(
     of_scene.chain(combine.iter().map(asked)).collect()
 }
 
-/// A combination as a text has it.
+/// Parses a combination.
 pub(super) fn combination(
     scene: &Scene,
     mechanism: &Mechanism,

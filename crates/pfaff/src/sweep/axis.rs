@@ -1,16 +1,16 @@
-//! A number of a scene and the values it takes.
+//! A number of a scene with the values it takes.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// Runs that a sweep may have: their rows are held in memory when tables are written.
+/// Largest number of runs of a sweep: their rows are held in memory when tables are written.
 const RUNS_MAX: usize = 10_000_000;
 
 /// A key of a scene with the values it takes, as `KEY=FROM:TO:N`, `KEY=FROM:TO:N:log` or
 /// `KEY=1,2,5`.
 ///
-/// `FROM:TO:N` are N ≥ 2 values with both ends, evenly spaced, or evenly in their logarithms. Both
-/// ends are met exactly.
+/// `FROM:TO:N` are N ≥ 2 values including both ends, evenly spaced, or evenly spaced in their
+/// logarithms. Both ends are exact.
 ///
 /// ```
 /// use pfaff::sweep::Axis;
@@ -24,58 +24,58 @@ const RUNS_MAX: usize = 10_000_000;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     key: String,
-    /// The values as they were written.
+    /// The text of the values.
     text: String,
     values: Vec<f64>,
 }
 
-/// Why there is no axis or no grid.
+/// Reason why an axis or grid is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AxisError {
-    /// Neither a range nor a list.
+    /// The text is neither a range nor a list.
     #[error("`{text}` is not KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C")]
     Form {
-        /// What was written.
+        /// The text.
         text: String,
     },
-    /// A value that is no finite number.
+    /// A value is not a finite number.
     #[error("`{text}`: `{value}` is not a finite number")]
     Value {
-        /// What was written.
+        /// The text.
         text: String,
         /// The value.
         value: String,
     },
-    /// A range with fewer than two values, or too many.
+    /// A range has fewer than two values, or too many.
     #[error(
         "`{text}`: `{count}` is not a number of values from 2 to {RUNS_MAX}; a single value is `KEY=VALUE`"
     )]
     Count {
-        /// What was written.
+        /// The text.
         text: String,
         /// The number of values.
         count: String,
     },
-    /// Logarithms of numbers that have none.
+    /// The ends of a logarithmic range have no logarithms.
     #[error("`{text}`: logarithmic spacing needs two ends of the same sign, neither of them 0")]
     Logarithm {
-        /// What was written.
+        /// The text.
         text: String,
     },
-    /// No axis at all.
+    /// There is no axis.
     #[error("nothing is varied")]
     Nothing,
-    /// Too many combinations.
+    /// There are too many combinations.
     #[error("the grid has more than {RUNS_MAX} combinations")]
     TooLarge,
 }
 
 impl Axis {
-    /// A key with any values.
+    /// An axis with a key and any values.
     ///
     /// # Errors
-    /// [`AxisError::Form`], [`AxisError::Value`]: there are none, or they are not finite.
+    /// [`AxisError::Form`], [`AxisError::Value`]: there are no values, or they are not finite.
     pub fn list(key: &str, values: &[f64]) -> Result<Self, AxisError> {
         let texts: Vec<String> = values.iter().map(|x| format!("{x:?}")).collect();
         format!("{key}={}", texts.join(",")).parse()
@@ -107,7 +107,7 @@ impl FromStr for Axis {
         let form = || AxisError::Form {
             text: text.to_owned(),
         };
-        // Names may have the sign in them, numbers do not.
+        // Names may contain the sign `=`, numbers do not.
         let (key, values) = text.rsplit_once('=').ok_or_else(form)?;
         if key.is_empty() {
             return Err(form());
@@ -167,12 +167,12 @@ impl Spacing {
         match self {
             _ if k == 0 => from,
             _ if k == last => to,
-            // Rounded once where the ends are whole, so that 0:1:11 meets 0.3.
+            // Rounded once if the ends are whole numbers, so that 0:1:11 contains 0.3.
             Self::Even if (from.abs() + to.abs()) * (last as f64) < f64::MAX => {
                 (from * (last - k) as f64 + to * k as f64) / last as f64
             }
             Self::Even => from * (1.0 - share) + to * share,
-            // Powers of ten meet decades.
+            // Exact at powers of ten.
             Self::Logarithmic => {
                 let exponent = from.abs().log10() * (1.0 - share) + to.abs().log10() * share;
                 10_f64.powf(exponent).copysign(from)
@@ -181,7 +181,7 @@ impl Spacing {
     }
 }
 
-/// All combinations of the values of some axes; the last axis runs fastest.
+/// All combinations of the values of several axes; the last axis varies fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Grid {
     pub(super) axes: Vec<Axis>,

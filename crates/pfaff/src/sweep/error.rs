@@ -1,5 +1,5 @@
-//! Why a sweep does not begin or go on. What is wrong with one run is not here: it stands in its
-//! row.
+//! Reasons why a sweep does not begin or continue. Faults of single runs are reported in their
+//! rows.
 
 use report::sweep::JournalError;
 use report::{FileError, TableError};
@@ -8,17 +8,17 @@ use scene::KeyError;
 use super::AxisError;
 use crate::error::StudyError;
 
-/// Why a sweep does not begin or go on.
+/// Reason why a sweep does not begin or continue.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// The scene is wrong before anything is varied.
+    /// The scene is invalid before any number is varied.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// A key names no number of the scene.
+    /// A key does not refer to a number of the scene.
     #[error(transparent)]
     Key(#[from] KeyError),
-    /// The values are none, or too many.
+    /// There are no values, or too many.
     #[error(transparent)]
     Axis(#[from] AxisError),
     /// No run can begin.
@@ -26,20 +26,20 @@ pub enum SweepError {
     NoneBegins {
         /// Number of runs.
         runs: u64,
-        /// Keys with their values in the first one.
+        /// Keys with their values in the first run.
         values: String,
-        /// Why it does not begin.
+        /// The reason why it does not begin.
         reason: String,
     },
-    /// The results of the directory cannot be continued.
+    /// The results in the directory cannot be continued.
     #[error(transparent)]
     Journal(#[from] JournalError),
     /// The threads could not be started.
     #[error("cannot start {threads} threads: {source}")]
     Threads {
-        /// How many were asked for; 0 is as many as there are cores.
+        /// Number of threads requested; 0 means one for each core.
         threads: usize,
-        /// Why.
+        /// Cause.
         source: rayon::ThreadPoolBuildError,
     },
     /// A file could not be written.
@@ -51,7 +51,7 @@ pub enum SweepError {
 }
 
 impl SweepError {
-    /// Whether the input is wrong; otherwise the computation stopped.
+    /// Whether the input is invalid; otherwise the computation stopped.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

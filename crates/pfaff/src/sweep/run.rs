@@ -1,4 +1,4 @@
-//! One run: the scene with its numbers, moved and watched.
+//! One run of a sweep: the scene with its numbers, moved and recorded.
 
 use std::ops::ControlFlow;
 
@@ -13,16 +13,16 @@ use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::study::{Overrides, Study};
 
-/// Rates and coordinates of a planar body, as tables have them.
+/// Number of coordinates of a planar body, and of their rates, in tables.
 const N_BODY: usize = 3;
 
-/// A run that can begin: assembled, and judged at its start.
+/// A run that can begin: assembled, and analysed at its start.
 pub(super) struct Begun<'s> {
     sweep: &'s Sweep<'s>,
     run: u64,
     pub(super) study: Study,
     analysis: Analysis,
-    /// Unique reactions that hang on the data.
+    /// Number of unique reactions that are fragile.
     fragile: u64,
 }
 
@@ -61,7 +61,7 @@ impl Sweep<'_> {
 }
 
 impl Begun<'_> {
-    /// Moves it to its end, or as long as `each` goes on; that sees every written row.
+    /// Moves it to its end, or until `each`, which is called with every written row, stops it.
     pub(super) fn go(&self, mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>) -> SweepRow {
         let Self {
             sweep,
@@ -83,7 +83,7 @@ impl Begun<'_> {
             Err(failure) => (failure.summary, Some(StudyError::from(failure.error))),
         };
         match error {
-            // It was never on its way.
+            // The run has no state.
             Some(error) if watch.t_state.is_nan() => sweep.refused(*run, &error),
             error => SweepRow {
                 run: *run,
@@ -99,7 +99,7 @@ impl Begun<'_> {
     }
 }
 
-/// An error in words, without the name and the lines of a text that nobody has written.
+/// An error as text, without the name and the lines of a text that the user has not written.
 pub(super) fn reason(error: &StudyError) -> String {
     let StudyError::Scene(diagnostics) = error else {
         return error.to_string();
@@ -111,13 +111,13 @@ pub(super) fn reason(error: &StudyError) -> String {
     texts.collect::<Vec<_>>().join("; ")
 }
 
-/// What is kept of the written rows of a run.
+/// Values kept from the rows of a run.
 struct Watch {
     /// Time of the last state (s).
     t_state: f64,
-    /// The last state, body by body as in trajectories.
+    /// The last state, body by body in the order of trajectories.
     state: Vec<f64>,
-    /// The wanted reactions, and which of them are unique.
+    /// The requested reactions, and whether each is unique.
     reactions: Vec<(usize, bool)>,
     extremes: Vec<Extreme>,
 }

@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-/// Every n-th run of a sweep, beginning with run i: `i/n`, counted from 1. Neighbours in the grid
-/// take similar times, so that shards end at similar times.
+/// Every n-th run of a sweep, beginning with run i: `i/n`, counted from 1. Neighbouring runs of the
+/// grid take similar times, so shards end at similar times.
 ///
 /// ```
 /// use pfaff::sweep::Shard;
@@ -19,7 +19,7 @@ pub struct Shard {
     n: u64,
 }
 
-/// What is not a shard.
+/// A text that is not a shard.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` is not i/n with 1 ≤ i ≤ n")]
 pub struct ShardError {
@@ -36,7 +36,7 @@ impl Shard {
         run % self.n == self.i % self.n
     }
 
-    /// Name of its journal: shards may write into one directory at the same time.
+    /// Name of its journal; shards may write into one directory at the same time.
     pub(super) fn journal(self) -> String {
         match self {
             Self::WHOLE => "sweep".to_owned(),

@@ -1,4 +1,4 @@
-//! Sweeps against closed forms, whatever the threads, the shards and the interruptions.
+//! Sweeps compared with closed forms, for any number of threads and shards and with interruptions.
 
 use std::fs;
 use std::path::PathBuf;
@@ -60,8 +60,8 @@ fn run(sweep: &Sweep<'_>, folder: &Folder, shard: Shard, threads: usize) -> Swee
     done.unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Small swings: x(t) = v/ω·sin ωt with ω² = g/L, and the largest pull m·(g + v²/L) at the bottom.
-/// Of the swing θ² < 10⁻⁸ is left out.
+/// Small oscillations: x(t) = v/ω·sin ωt with ω² = g/L, and the largest tension m·(g + v²/L) at the
+/// bottom. Terms of order θ² < 10⁻⁸ are neglected.
 #[test]
 fn a_pendulum_swings_as_its_length_says() {
     let registry = Registry::planar();
@@ -98,7 +98,7 @@ fn a_pendulum_swings_as_its_length_says() {
     }
 }
 
-/// A beam on two hinges: the pull along it is anybody's guess, and no table has a number for it.
+/// A beam on two hinges: the force along it is not determined, so no table has a number for it.
 #[test]
 fn reactions_that_are_not_unique_have_no_number() {
     let beam = r#"
@@ -120,7 +120,7 @@ simulate = { t_end = 0.1 }
     for extreme in &motion.extremes {
         assert!(extreme.force.is_nan() && extreme.force_time.is_nan() && extreme.torque.is_nan());
     }
-    // What is not wanted has no column.
+    // A reaction that is not requested has no column.
     let named = format!("{beam}output = {{ reactions = [\"right\"] }}\n");
     let sweep = sweep(&registry, &named, &["body.beam.mass=1,2"]);
     assert_eq!(sweep.plan.reactions, ["right"]);
@@ -138,7 +138,7 @@ fn threads_and_shards_leave_no_trace() {
     let folders = ["one", "two", "shards", "apart", "merged"].map(Folder::new);
     let [one, two, shards, apart, merged] = &folders;
     let document = run(&sweep, one, Shard::WHOLE, 1);
-    // Mass 0 has no motion either: two of the ten masses, times two.
+    // Mass 0 allows no motion either: two of the ten masses, times two.
     assert_eq!(
         (document.runs, document.done, document.stopped),
         (20, 16, 0)
@@ -257,7 +257,7 @@ fn wrong_sweeps_are_refused_before_anything_is_written() {
         );
     }
     assert!(!folder.0.exists());
-    // A directory with results of another sweep stays as it is.
+    // A directory with results of another sweep is not changed.
     run(
         &sweep(&registry, PENDULUM, &["body.bob.mass=1,2"]),
         &folder,

@@ -1,4 +1,4 @@
-//! Runs: one that is looked at, and those whose time is taken.
+//! Runs for errors, and runs for times.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -9,25 +9,25 @@ use super::observation::Observation;
 use super::plan::{Curve, Plan};
 use crate::study::Study;
 
-/// Rows of a run with a budget, at least: between two of them it can be given up.
+/// Smallest number of rows of a run with a budget; it can be given up between two rows.
 const ROWS: f64 = 1000.0;
 
-/// The times of a run that are looked at.
+/// The times of a run at which rows are evaluated.
 #[derive(Clone, Debug)]
 pub(super) struct Times {
-    /// Time between rows (s); all wanted times are multiples of it.
+    /// Time between rows (s); all requested times are multiples of it.
     step: f64,
-    /// What is wanted.
+    /// The requested times.
     pub(super) wanted: Vec<f64>,
 }
 
 impl Times {
-    /// Some times that are multiples of `step`.
+    /// Times that are multiples of `step`.
     pub(super) fn multiples(wanted: Vec<f64>, step: f64) -> Self {
         Self { step, wanted }
     }
 
-    /// Evenly spaced times: `count` and the end.
+    /// `count` evenly spaced times, and the end.
     pub(super) fn evenly(count: u32, t_end: f64) -> Self {
         let step = t_end / f64::from(count);
         let wanted = (1..=count).map(|k| step * f64::from(k)).collect();
@@ -53,14 +53,14 @@ impl Times {
 #[derive(Debug)]
 pub(super) enum Ending {
     Reached,
-    /// It took too long; the last time (s).
+    /// The run took too long; the last time (s).
     GivenUp(f64),
-    /// Somebody asked to stop.
+    /// The comparison was interrupted.
     Interrupted,
     Failed(MotionError),
 }
 
-/// A run that was looked at.
+/// A run with its rows.
 #[derive(Debug)]
 pub(super) struct Look {
     pub(super) observations: Vec<Observation>,
@@ -68,7 +68,7 @@ pub(super) struct Look {
     pub(super) ending: Ending,
 }
 
-/// What a curve at a tolerance asks of a run.
+/// The options of a run for a curve at a tolerance.
 pub(super) fn options(base: &MotionOptions, curve: Curve, tolerance: f64) -> MotionOptions {
     MotionOptions {
         rtol: tolerance,
@@ -79,7 +79,7 @@ pub(super) fn options(base: &MotionOptions, curve: Curve, tolerance: f64) -> Mot
     }
 }
 
-/// Runs and looks at the wanted times.
+/// Runs and records the rows at the requested times.
 pub(super) fn look(
     study: &Study,
     options: &MotionOptions,
@@ -120,8 +120,8 @@ pub(super) fn look(
     }
 }
 
-/// Runs without output and takes the time: the summary of the fastest run, and how many there were.
-/// `None` if one did not reach its end, or somebody asked to stop.
+/// Runs without output and measures the time: the summary of the fastest run, and the number of
+/// runs. Returns `None` if a run did not reach its end, or if interrupted.
 pub(super) fn clock(
     study: &Study,
     options: &MotionOptions,

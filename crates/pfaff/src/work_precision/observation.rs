@@ -1,11 +1,11 @@
-//! What is compared of a motion at an instant: positions, velocities, accelerations and reactions,
-//! by place.
+//! The quantities of a motion that are compared at an instant: positions, velocities, accelerations
+//! and reactions, by index.
 
 use dynamics::{MotionFault, Sample};
 use model::reaction::COMPONENTS;
 use model::{ColumnKind, Mechanism, Reaction, System};
 
-/// What is compared with its like: coordinates, their rates, the rates of the rates, reactions.
+/// Kinds of quantities: values of the same kind are compared with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Coordinates.
@@ -22,9 +22,9 @@ impl Kind {
     /// Number of kinds.
     pub const COUNT: usize = 4;
 
-    /// Where the kind `name` of `of` stands in an [`Observation`]: of a body `x`, `y` or `angle`,
-    /// of a joint or drive `Fx`, `Fy`, `T`, or the name of its one component. `None` if the
-    /// mechanism has nothing of the name.
+    /// Index of the quantity `name` of `of` in an [`Observation`]: for a body `x`, `y` or `angle`,
+    /// for a joint or drive `Fx`, `Fy`, `T`, or the name of its one component. Returns `None` if
+    /// the mechanism has nothing of that name.
     #[must_use]
     pub fn place(self, of: &str, name: &str, mechanism: &Mechanism) -> Option<usize> {
         if self != Self::Reaction {
@@ -38,10 +38,10 @@ impl Kind {
     }
 }
 
-/// Numbers per joint or drive: force, torque, and the named component, if it has one.
+/// Numbers for each joint or drive: force, torque, and the named component, if it has one.
 const PER_REACTION: usize = COMPONENTS.len() + 1;
 
-/// All that is compared at one instant, kind by kind in the order of [`Kind`].
+/// All quantities compared at one instant, by kind in the order of [`Kind`].
 #[derive(Clone, Debug)]
 pub struct Observation {
     /// Time (s).
@@ -51,15 +51,15 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// Looks at a row of output.
+    /// Takes the quantities of a row of output.
     pub(super) fn of(sample: &mut Sample<'_, '_>) -> Result<Self, MotionFault> {
         let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
         let [q, v] = [sample.q.to_vec(), sample.v.to_vec()];
         Ok(Self::new(sample.t, [q, v, a], &reactions))
     }
 
-    /// The coordinates, velocities and accelerations at a time, with the reactions of all joints
-    /// and drives.
+    /// Coordinates, velocities and accelerations at a time, with the reactions of all joints and
+    /// drives.
     #[must_use]
     pub fn new(t: f64, [q, v, a]: [Vec<f64>; 3], reactions: &[Reaction]) -> Self {
         let numbers = reactions.iter().flat_map(|r| {
@@ -75,13 +75,13 @@ impl Observation {
     }
 }
 
-/// Place of a reaction's component.
+/// Index of a component of a reaction.
 pub(super) fn reaction_place(group: usize, component: usize) -> usize {
     PER_REACTION * group + component
 }
 
-/// What the values of each kind are divided by so that they can be compared with each other:
-/// lengths by the size of the mechanism (m), torques too; angles and forces by 1.
+/// Units by which the values of each kind are divided so that they can be compared with each other:
+/// for lengths and torques the size of the mechanism (m), for angles and forces 1.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
     let kinds = mechanism.layout().column_kinds();
     let columns: Vec<f64> = kinds

@@ -1,18 +1,19 @@
-//! All scenes together, in words.
+//! Summary of all scenes as text.
 
 use report::{Place, WorkPrecisionRow, WorkPrecisionScene};
 
-/// Methods this close to the fastest share its place: repeated runs differ by as much.
+/// Methods within this factor of the fastest have the same rank: repeated runs differ by as much.
 const EQUAL: f64 = 1.1;
 
-/// A finished run with an error above this one at a tolerance of at most [`TIGHT`] is wrong, not
-/// inaccurate.
+/// A finished run with an error above this limit at a tolerance of at most [`TIGHT`] is wrong, not
+/// only inaccurate.
 const WRONG: f64 = 1e-2;
 
 /// See [`WRONG`].
 const TIGHT: f64 = 1e-6;
 
-/// Who wins how often, how many runs did not reach their end, and which finished runs are wrong.
+/// How often each method wins, how many runs did not reach their end, and which finished runs are
+/// wrong.
 #[must_use]
 pub fn overview(scenes: &[WorkPrecisionScene]) -> Vec<String> {
     let mut sentences: Vec<String> = wins(scenes).into_iter().chain(losses(scenes)).collect();
@@ -44,7 +45,7 @@ fn name(row: &WorkPrecisionRow) -> String {
     )
 }
 
-/// The places of methods with the usual treatment, the fastest first, for each scene and error.
+/// The ranks of methods with the usual stabilisation, the fastest first, for each scene and error.
 fn methods(
     scenes: &[WorkPrecisionScene],
 ) -> impl Iterator<Item = (&WorkPrecisionScene, f64, Vec<&Place>)> {
@@ -71,7 +72,7 @@ fn methods(
     places.filter(|(_, _, places): &(_, _, Vec<_>)| !places.is_empty())
 }
 
-/// Where the method that is chosen by itself is not the fastest, with the worst factor of each
+/// Cases in which the automatically chosen method is not the fastest, with the worst factor of each
 /// scene.
 fn losses(scenes: &[WorkPrecisionScene]) -> Option<String> {
     let mut worst: Vec<(&WorkPrecisionScene, f64, &str, f64)> = Vec::new();

@@ -1,9 +1,9 @@
-//! Which runs are made.
+//! The runs of a comparison.
 
 use dynamics::{FORMULATION, Method, Stabilisation};
 use report::CurveName;
 
-/// A way to move a mechanism; with its tolerances it is a curve of error over time.
+/// A way to move a mechanism; over all tolerances it gives a curve of error against time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     /// Integrator.
@@ -24,15 +24,15 @@ impl Curve {
     }
 }
 
-/// Methods that are compared: all but the one that chooses another.
+/// Methods that are compared: all except the automatic choice.
 fn methods() -> impl Iterator<Item = Method> {
     Method::ALL.iter().copied().filter(|m| *m != Method::Auto)
 }
 
-/// The explicit method with which treatments of drift are compared.
+/// The explicit method with which stabilisations are compared.
 const EXPLICIT: Method = Method::Dop853;
 
-/// Treatment of drift in the comparison of methods.
+/// Stabilisation in the comparison of methods.
 const STABILISATION: Stabilisation = Stabilisation::Projection;
 
 /// Powers of ten, exactly.
@@ -51,13 +51,13 @@ pub(super) const ACCURATE: [Method; 4] = [
 /// The runs of a comparison, the same for every scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Curves.
+    /// The curves.
     pub curves: Vec<Curve>,
-    /// Tolerances, relative and absolute alike, the loosest first.
+    /// Tolerances, used both as relative and absolute ones, the loosest first.
     pub tolerances: Vec<f64>,
-    /// Runs whose time is taken, at least.
+    /// Smallest number of timed runs.
     pub repetitions: u32,
-    /// Time that these runs take together, at least (s).
+    /// Smallest total time of these runs (s).
     pub seconds: f64,
     /// A run that takes longer (s) is given up, and so are runs of its curve with tighter
     /// tolerances.
@@ -81,7 +81,7 @@ impl Plan {
         }
     }
 
-    /// The same curves at three tolerances, for a first look.
+    /// The same curves at three tolerances, for a first impression.
     #[must_use]
     pub fn quick() -> Self {
         Self {
@@ -101,7 +101,7 @@ impl Plan {
         }
     }
 
-    /// Number of runs per scene.
+    /// Number of runs for each scene.
     #[must_use]
     pub fn runs(&self) -> usize {
         self.curves.len() * self.tolerances.len()
@@ -116,7 +116,7 @@ impl Plan {
     }
 }
 
-/// All curves: methods first, then what is compared with one method.
+/// All curves: methods first, then the stabilisations compared with one method.
 fn everything() -> Vec<Curve> {
     let mut curves: Vec<Curve> = methods().map(Plan::usual).collect();
     for method in methods() {

@@ -2,7 +2,7 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Processor, number of cores that may be used, operating system.
+/// Processor, number of available cores, operating system.
 #[must_use]
 pub fn machine() -> String {
     let processor = std::fs::read_to_string("/proc/cpuinfo").ok();
@@ -19,7 +19,7 @@ pub fn machine() -> String {
     )
 }
 
-/// Day and time of now in UTC, as `2026-11-21 16:20 UTC`.
+/// Present date and time in UTC, in the form `2026-11-21 16:20 UTC`.
 #[must_use]
 pub fn date() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);
@@ -34,7 +34,7 @@ pub fn date() -> String {
 }
 
 /// Year, month and day of a number of days after 1970-01-01, in the Gregorian calendar. Years begin
-/// in March here, so that the day of a leap year is their last; an era has 400 years.
+/// in March here, so that the leap day is their last day; an era has 400 years.
 fn civil(days: u64) -> [u64; 3] {
     let days = days + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);
@@ -56,8 +56,8 @@ mod tests {
 
     #[test]
     fn days_have_their_dates() {
-        // By the calendar: the beginning, leap days of 1972 and 2000, the first of March after
-        // each.
+        // From the calendar: the first day, the leap days of 1972 and 2000, and the first of March
+        // after each.
         assert_eq!(civil(0), [1970, 1, 1]);
         assert_eq!(civil(789), [1972, 2, 29]);
         assert_eq!(civil(790), [1972, 3, 1]);

@@ -1,26 +1,26 @@
-//! Which curve reaches which error in the shortest time, in numbers and in words.
+//! The curve that reaches each error in the shortest time, as numbers and as text.
 
 #[cfg(test)]
 mod tests;
 
 use report::{CurveName, Place, RankingLine, WorkPrecisionRow};
 
-/// Errors that are looked at.
+/// Errors for which the ranking is made.
 const LEVELS: [f64; 10] = [
     1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12,
 ];
 
-/// A run is trusted to reach an error if no tighter one misses it by more than this factor: near
-/// singular configurations a loose run may be right by luck.
+/// A run counts as reaching an error if no run with a tighter tolerance exceeds it by more than
+/// this factor: near singular configurations a loose run may be accurate by chance.
 const LUCK: f64 = 10.0;
 
-/// An error this much above what the reference is known to is still told.
+/// Errors are reported down to this multiple of the error of the reference.
 const RESOLVED: f64 = 3.0;
 
-/// Methods this close are called equal: repeated runs differ by as much.
+/// Methods within this factor are called equal: repeated runs differ by as much.
 const EQUAL: f64 = 1.1;
 
-/// Curves by time at each error, the fastest first.
+/// Curves ordered by time at each error, the fastest first.
 pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine> {
     let mut curves: Vec<&CurveName> = Vec::new();
     for row in rows {
@@ -54,9 +54,9 @@ pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine>
         .collect()
 }
 
-/// Time (s) and evaluations for an error, from the runs of a curve with the loosest tolerance
-/// first: between the last run that misses it and the first that reaches it, straight in
-/// logarithms.
+/// Time (s) and evaluations for an error, from the runs of a curve, the loosest tolerance first:
+/// interpolated linearly in logarithms between the last run above the error and the first one that
+/// reaches it.
 fn cost(runs: &[&WorkPrecisionRow], level: f64) -> Option<(f64, f64)> {
     let error = |row: &WorkPrecisionRow| row.motion_error().unwrap_or(f64::INFINITY);
     let finished: Vec<(&WorkPrecisionRow, f64)> = runs.iter().map(|r| (*r, error(r))).collect();
@@ -79,8 +79,8 @@ fn cost(runs: &[&WorkPrecisionRow], level: f64) -> Option<(f64, f64)> {
     Some((between(looser.seconds, own.0), evaluations))
 }
 
-/// Who wins where, one sentence for each range of errors; then how treatments of one method
-/// compare.
+/// One sentence for each range of errors with the fastest method; then a comparison of the
+/// stabilisations of one method.
 pub(super) fn words(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Vec<String> {
     let Some(usual) = rows.first().map(|row| &row.curve) else {
         return Vec::new();
@@ -148,7 +148,7 @@ fn span_of(low: f64, high: f64) -> String {
     }
 }
 
-/// Treatments of redundancy and drift compared with the usual one of the same method.
+/// Other stabilisations compared with the usual one of the same method.
 fn treatments(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Option<String> {
     let usual = &rows.first()?.curve;
     let mut others: Vec<&CurveName> = Vec::new();

@@ -1,4 +1,4 @@
-//! Ways to move a mechanism that are none of the product's, in the rows of the same table.
+//! Ways to move a mechanism that are not part of the product, in rows of the same table.
 
 use std::time::Duration;
 
@@ -10,16 +10,16 @@ use super::plan::Plan;
 use super::standard::{Errors, Standard};
 use super::{GIVEN_UP, Subject};
 
-/// A way to move a mechanism that the product does not have.
+/// A way to move a mechanism that is not part of the product.
 pub trait Rival {
-    /// What it is called in tables.
+    /// Its name in tables.
     fn name(&self) -> CurveName;
 
-    /// One run from the start through all instants (s, ascending), with relative and absolute
-    /// tolerance alike. It gives up when it has computed as long as the budget.
+    /// One run from the start through all instants (s, ascending), with equal relative and absolute
+    /// tolerance. It gives up after the budget of computing time.
     ///
     /// # Errors
-    /// Why it did not reach the last instant, in words: given up or stopped.
+    /// The reason why it did not reach the last instant, as text: given up or stopped.
     fn run(
         &self,
         start: &Prepared,
@@ -29,16 +29,16 @@ pub trait Rival {
     ) -> Result<RivalRun, RivalFault>;
 }
 
-/// Why a rival did not reach its last instant, in words.
+/// Reason why a rival did not reach its last instant, as text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RivalFault {
-    /// It computed as long as its budget.
+    /// It used up its budget of computing time.
     GivenUp(String),
-    /// Anything else.
+    /// Any other reason.
     Stopped(String),
 }
 
-/// What a rival did.
+/// Results of a run of a rival.
 #[derive(Clone, Debug)]
 pub struct RivalRun {
     /// Rows at the instants.
@@ -51,11 +51,11 @@ pub struct RivalRun {
     pub steps: u64,
     /// Rejected steps.
     pub rejected: u64,
-    /// Time of computing (s).
+    /// Computing time (s).
     pub seconds: f64,
 }
 
-/// Runs of a rival at one tolerance: a row, or `None` if somebody asked to stop.
+/// Runs of a rival at one tolerance: a row, or `None` if interrupted.
 pub(super) fn row(
     subject: &Subject,
     rival: &dyn Rival,

@@ -1,5 +1,5 @@
-//! What runs are compared with: values by place and instant, how well each kind is known, and where
-//! it comes from.
+//! The reference values of runs: values by index and instant, the accuracy of each kind, and their
+//! source.
 
 use model::{Mechanism, System};
 use solvability::analyse;
@@ -7,23 +7,24 @@ use solvability::analyse;
 use super::observation::{Observation, reaction_place, units};
 use crate::error::StudyError;
 
-/// Rows and instants of a reference are the same time if they differ by less than this part of it.
+/// Rows and instants of a reference have the same time if they differ by less than this fraction of
+/// it.
 const SAME_TIME: f64 = 1e-9;
 
 /// Errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Of each kind in the order of [`Kind`](super::Kind): the largest over components and
-    /// instants, lengths and torques divided by the size of the mechanism, relative to the largest
-    /// value of the kind (to 1 for positions that stay smaller, and where all are zero). NaN where
-    /// nothing is known.
+    /// Error of each kind in the order of [`Kind`](super::Kind): the largest over components and
+    /// instants, with lengths and torques divided by the size of the mechanism, relative to the
+    /// largest value of the kind (to 1 for positions that stay smaller, and if all values are
+    /// zero). NaN without a reference.
     pub scaled: [f64; 4],
     /// The largest difference of a coordinate or velocity, in SI units.
     pub state: f64,
 }
 
 impl Errors {
-    /// Nothing is known.
+    /// Errors without a reference.
     pub(super) const UNKNOWN: Self = Self {
         scaled: [f64::NAN; 4],
         state: f64::NAN,
@@ -36,12 +37,12 @@ impl Errors {
     }
 }
 
-/// What is known of a motion without a run, by place ([`Kind::place`](super::Kind::place)).
+/// A motion known without a run, by index ([`Kind::place`](super::Kind::place)).
 #[derive(Clone, Debug)]
 pub struct Reference {
-    /// Where the values come from.
+    /// Source of the values.
     pub source: String,
-    /// How far values of each kind may be from the truth, scaled as [`Errors::scaled`].
+    /// Bound on the error of the values of each kind, scaled as [`Errors::scaled`].
     pub limits: [f64; 4],
     /// Values in the order of time.
     pub instants: Vec<Expected>,
@@ -50,25 +51,25 @@ pub struct Reference {
 /// Reference values of one mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Standard {
-    /// How far the values of each kind may be from the truth, scaled as [`Errors::scaled`]; NaN
-    /// if nothing is known.
+    /// Bound on the error of the values of each kind, scaled as [`Errors::scaled`]; NaN without a
+    /// reference.
     pub(super) limits: [f64; 4],
     instants: Vec<Expected>,
     units: [Vec<f64>; 4],
     scales: [f64; 4],
 }
 
-/// Values at one time, by place.
+/// Values at one time, by index.
 #[derive(Clone, Debug)]
 pub struct Expected {
     /// Time (s).
     pub t: f64,
-    /// Places and values of each kind.
+    /// Indices and values of each kind.
     pub values: [Vec<(usize, f64)>; 4],
 }
 
 impl Standard {
-    /// How far the motion may be from the truth: the larger limit of position and velocity.
+    /// Bound on the error of the motion: the larger bound of position and velocity.
     pub(super) fn motion_limit(&self) -> f64 {
         self.limits[0].max(self.limits[1])
     }
@@ -79,8 +80,8 @@ impl Standard {
         Self::new(reference.instants.clone(), reference.limits, units)
     }
 
-    /// The mean of two runs at the times of both, with their difference as its limit. Of the
-    /// reactions those at the places of `unique`.
+    /// The mean of two runs at their common times, with their difference as the bound on its error.
+    /// Only the reactions with the indices `unique` are used.
     pub(super) fn mean(
         [a, b]: [&[Observation]; 2],
         unique: &[usize],
@@ -98,7 +99,7 @@ impl Standard {
         let instants = a.iter().zip(b).map(mean).collect();
         let mut standard = Self::new(instants, [0.0; 4], units(mechanism, size));
         if let Some(errors) = standard.errors(a) {
-            // Both are half their difference away from the mean.
+            // Both runs differ from the mean by half of their difference.
             standard.limits = errors.scaled.map(|e| 2.0 * e);
         }
         standard
@@ -126,7 +127,7 @@ impl Standard {
         }
     }
 
-    /// Takes kinds of which nothing is known from another one.
+    /// Takes the kinds without a reference from another one.
     pub(super) fn completed_by(mut self, other: &Self) -> Self {
         for kind in 0..4 {
             if !self.limits[kind].is_nan() {
@@ -177,7 +178,7 @@ impl Standard {
     }
 }
 
-/// The larger one; what is not finite is the worst.
+/// The larger one; a value that is not finite counts as the largest.
 fn worse(a: f64, b: f64) -> f64 {
     if b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
@@ -186,7 +187,7 @@ fn is_same_time(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME_TIME * a.abs().max(b.abs())
 }
 
-/// Components of reactions that are unique at all of these configurations, by place.
+/// Indices of the components of reactions that are unique at all of these configurations.
 pub(super) fn unique_reactions(
     run: &[Observation],
     mechanism: &Mechanism,
