@@ -2,13 +2,13 @@
 //! independent reference values.
 //!
 //! | module | content |
+//! | --- | --- |
 //! | `plan` | the runs that are made |
 //! | `observation`, `standard` | what is compared, the reference values, and their accuracy |
 //! | `measure` | runs for errors, and runs for times |
 //! | `rival` | runs of other programs and other formulations, in the same table |
 //! | `ranking`, `overview` | which method reaches which error in the shortest time |
 //! | [`provenance`] | where and when the runs were made |
-//! | [`provenance`] | where and when runs were made |
 
 mod measure;
 mod observation;

@@ -1,22 +1,23 @@
-//! Curves as short text: each is rounded to a share of its range, and neighbouring values are told
-//! by their difference.
+//! Curves as short text: values are rounded to a fraction of the range of the curve, and each value
+//! is written as the difference from the one before.
 
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
 
-/// Levels of the range of a curve: rounding is half a level.
+/// Number of levels in the range of a curve; rounding is half a level.
 pub(crate) const LEVELS: f64 = 100_000.0;
 
-/// Digits of a number that stands alone.
+/// Number of digits of a single number.
 const DIGITS: usize = 6;
 
 /// A curve over the frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Channel {
-    /// The same number everywhere.
+    /// The same value at all frames.
     Constant(Rounded),
-    /// The value at level 0, the height of a level, and the differences of levels; `null` is a gap.
+    /// The value at level 0, the height of a level, and the differences between levels; `null` is a
+    /// gap.
     Varying {
         /// Level 0.
         o: f64,
@@ -51,7 +52,7 @@ impl Channel {
         }
     }
 
-    /// Numbers of this size and below are rounding of zero.
+    /// Numbers of this size or smaller are rounding of zero.
     pub(crate) fn above(noise: f64, values: impl Iterator<Item = f64> + Clone) -> Self {
         let values = values.map(|x| if x.abs() <= noise { 0.0 } else { x });
         let finite = values.clone().filter(|x| x.is_finite());
@@ -63,7 +64,7 @@ impl Channel {
         if low > high {
             return Self::Constant(Rounded(f64::NAN));
         }
-        // What is below the rounding of the numbers themselves is no change.
+        // A change below the rounding of the numbers themselves counts as no change.
         let flat = height <= f64::EPSILON * low.abs().max(high.abs());
         if flat && !has_gaps {
             return Self::Constant(Rounded(low));
@@ -100,7 +101,7 @@ impl Rounded {
 impl Serialize for Rounded {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let value = self.value();
-        // −0 and 3.0 take room.
+        // −0 and 3.0 would need more characters.
         if value == value.trunc() && value.abs() < 1e9 {
             serializer.serialize_i64(value as i64)
         } else {
@@ -146,7 +147,8 @@ mod tests {
             .collect();
         let channel = Channel::new(values.iter().copied());
         for (a, b) in values.iter().zip(decoded(&channel, values.len())) {
-            // Half a level, and six digits of the height of a level over all of them.
+            // Half a level, and the rounding of the height of a level to six digits, summed over
+            // all levels.
             assert!((a - b).abs() <= 6.0 * (0.5 / LEVELS + 5e-7), "{a} {b}");
         }
     }

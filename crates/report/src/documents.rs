@@ -1,6 +1,6 @@
 //! Results as JSON documents: plain structs whose fields are the keys, in their order. Rows are
-//! counted from 1, as everywhere a user sees them. JSON knows no NaN and no infinity: such numbers
-//! are `null`.
+//! counted from 1, as in all texts for users. JSON has no NaN and no infinity: such numbers are
+//! `null`.
 
 mod analysis;
 mod answers;
@@ -50,19 +50,19 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
     out.flush()
 }
 
-/// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` where it is
+/// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` if it is
 /// undecided.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct VerdictDocument {
     /// `unique`, `not_unique` or `undecided`.
     pub verdict: &'static str,
-    /// Why it is undecided.
+    /// Reason why it is undecided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// How far the reaction is from unique; 0 is unique.
+    /// Distance of the reaction from being unique; 0 for a unique reaction.
     pub margin: f64,
-    /// Whether it is unique within the tolerance that the scene states only: the margin is above
+    /// Whether it is unique only within the tolerance that the scene states: the margin is above
     /// the rounding of the data, but data within their tolerance explain it.
     pub within_tolerance: bool,
 }
@@ -95,7 +95,7 @@ impl From<&Judgement> for VerdictDocument {
 pub struct Named<T>(pub Vec<(String, T)>);
 
 impl<T> Named<T> {
-    /// The value of a name.
+    /// The value of a name, if there is one.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&T> {
         let named = self.0.iter().find(|(key, _)| key == name);
@@ -106,7 +106,7 @@ impl<T> Named<T> {
 /// The value of a name.
 ///
 /// # Panics
-/// If there is no such name; [`Named::get`] says so instead.
+/// If there is no such name; [`Named::get`] returns `None` then.
 impl<T> std::ops::Index<&str> for Named<T> {
     type Output = T;
     fn index(&self, name: &str) -> &T {
@@ -127,7 +127,7 @@ impl<T: Serialize> Serialize for Named<T> {
     }
 }
 
-/// Rows as users count them.
+/// Row numbers counted from 1.
 fn from_one(rows: &[usize]) -> Vec<usize> {
     rows.iter().map(|row| row + 1).collect()
 }

@@ -7,9 +7,9 @@
 //! | [`history()`], [`histories`] | quantities over time |
 //! | [`paths()`] | paths in the plane, with equal axes |
 //! | [`work_precision()`] | error against run time, scene by scene |
-//! | [`extremes()`] | error over what is made extreme, panel by panel |
+//! | [`extremes()`] | error over an extreme number, panel by panel |
 //!
-//! Not here: which quantities are worth a figure, and pages around them.
+//! The selection of quantities, and the pages around figures, are in other modules.
 
 mod axis;
 mod curve;
@@ -37,18 +37,18 @@ pub use style::{Pattern, Style};
 pub(crate) use svg::escape;
 pub use work_precision::work_precision;
 
-/// Why a figure cannot be drawn.
+/// Reason why a figure cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
-    /// Coordinates of another mechanism.
+    /// The coordinates belong to another mechanism.
     #[error("{found} coordinates, the mechanism `{mechanism}` has {expected}")]
     Coordinates {
         /// Name of the mechanism.
         mechanism: String,
-        /// How many came.
+        /// Number of coordinates given.
         found: usize,
-        /// How many it has.
+        /// Number of coordinates of the mechanism.
         expected: usize,
     },
     /// A coordinate is NaN or infinite, or too large to draw.
@@ -58,31 +58,31 @@ pub enum FigureError {
     Coordinate {
         /// Name of the mechanism.
         mechanism: String,
-        /// Which one, from 1.
+        /// Number of the coordinate, from 1.
         number: usize,
         /// Its value.
         value: f64,
         /// The largest that can be drawn.
         limit: f64,
     },
-    /// Verdicts of another mechanism.
+    /// The verdicts belong to another mechanism.
     #[error("{found} verdicts, the mechanism `{mechanism}` has {expected} joints and drives")]
     Verdicts {
         /// Name of the mechanism.
         mechanism: String,
-        /// How many came.
+        /// Number of verdicts given.
         found: usize,
-        /// How many joints and drives it has.
+        /// Number of joints and drives.
         expected: usize,
     },
-    /// A body that does not exist.
+    /// A body does not exist.
     #[error("body {index} of `{mechanism}` does not exist: it has {bodies}, counted from 0")]
     Body {
         /// Name of the mechanism.
         mechanism: String,
-        /// Which one was meant.
+        /// Index of the body.
         index: usize,
-        /// How many there are.
+        /// Number of bodies.
         bodies: usize,
     },
 }

@@ -1,28 +1,28 @@
-//! Files of an output directory. Each is written beside its place as `<name>.part` and renamed when
-//! it is finished: a file with its own name is always a whole one. What is abandoned keeps the name
-//! `.part` and what was written so far. Where the disk refuses, it is cut after the last line that
-//! is whole; an older file with its own name stays what it was.
+//! Files of an output directory. Each is written next to its final place as `<name>.part` and
+//! renamed when it is finished: a file with its final name is always complete. An abandoned file
+//! keeps the name `.part` and what has been written so far. If writing fails, it is cut off after
+//! the last complete line; an older file with the final name stays unchanged.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::mem;
 use std::path::{Component, Path, PathBuf};
 
-/// Why a file cannot be written.
+/// Reason why a file cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
-    /// The operating system refused.
+    /// The operating system reported an error.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Refused {
-        /// What was tried.
+        /// The operation that failed.
         action: &'static str,
-        /// On which path.
+        /// Its path.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// A name that is no plain file name would leave the directory.
+    /// A name that is not a plain file name would leave the directory.
     #[error("`{name}` is not the name of a file inside `{}`: leave out directories", directory.display())]
     Name {
         /// The name.
@@ -50,10 +50,10 @@ pub struct OutputDirectory {
 }
 
 impl OutputDirectory {
-    /// Opens a directory, and makes it if there is none.
+    /// Opens a directory, and creates it if there is none.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: it cannot be made, for instance because a file has its name.
+    /// - [`FileError::Refused`]: it cannot be created, for instance because a file has its name.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let path = path.into();
         fs::create_dir_all(&path).map_err(FileError::refused("make the directory", &path))?;
@@ -66,11 +66,11 @@ impl OutputDirectory {
         &self.path
     }
 
-    /// Begins a file; an older one of the same name stays until this one is finished.
+    /// Begins a file; an older file with the same name is kept until this one is finished.
     ///
     /// # Errors
     /// - [`FileError::Name`]: the name is empty or has a directory in it.
-    /// - [`FileError::Refused`]: the file cannot be made.
+    /// - [`FileError::Refused`]: the file cannot be created.
     pub fn file(&self, name: &str) -> Result<OutputFile, FileError> {
         let mut parts = Path::new(name).components();
         let plain = matches!(
@@ -85,7 +85,7 @@ impl OutputDirectory {
         }
         let part = self.path.join(format!("{name}.part"));
         let mut options = File::options();
-        // Read, too: to find the last line that is whole.
+        // Readable as well, to find the last complete line.
         let options = options.read(true).write(true).create(true).truncate(true);
         let file = options
             .open(&part)
@@ -112,26 +112,27 @@ impl OutputDirectory {
 /// A file that is being written, buffered. Errors of writing name its path.
 #[derive(Debug)]
 pub struct OutputFile {
-    /// What the operating system said once it refused: what came later would leave a gap.
+    /// The first error of the operating system, if any: later writes would leave a gap.
     buffer: Result<BufWriter<File>, io::Error>,
     part: PathBuf,
     path: PathBuf,
 }
 
 impl OutputFile {
-    /// Writes what is buffered and gives the file its name.
+    /// Writes the buffer and gives the file its final name.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: not everything could be written, and the file stays `.part`; or it
-    ///   could not be renamed.
+    /// - [`FileError::Refused`]: not everything could be written, and the file keeps the name
+    ///   `.part`; or it could not be renamed.
     pub fn finish(mut self) -> Result<PathBuf, FileError> {
         let flushed = self.with(Write::flush);
         flushed.map_err(FileError::refused("write", &self.part))?;
         self.rename()
     }
 
-    /// The same for a run that stopped early: what reached the disk gets its name, up to the last
-    /// whole line if the rest could not be written. The summary of the run says that it is partial.
+    /// Like [`Self::finish`], for a run that stopped early: the part that has been written gets the
+    /// final name, up to the last complete line if the rest could not be written. The summary of
+    /// the run says that it is partial.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: the end is missing, or the file could not be renamed.
@@ -142,7 +143,8 @@ impl OutputFile {
         flushed.and(renamed)
     }
 
-    /// Waits until what was written so far is on the disk, not only with the operating system.
+    /// Waits until everything written so far is on the disk, not only passed to the operating
+    /// system.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: not everything could be written.
@@ -156,14 +158,14 @@ impl OutputFile {
 
     fn rename(self) -> Result<PathBuf, FileError> {
         let Self { buffer, part, path } = self;
-        // Closed first: some systems do not rename open files. What could not be flushed is not
-        // tried again.
+        // Closed before renaming, because some systems do not rename open files. A failed flush is
+        // not tried again.
         drop(buffer.map(BufWriter::into_parts));
         fs::rename(&part, &path).map_err(FileError::refused("rename to", &path))?;
         Ok(path)
     }
 
-    /// Does something with the buffer; the first refusal is the end of it.
+    /// Applies `f` to the buffer; after the first error nothing is written any more.
     fn with<T>(
         &mut self,
         action: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
@@ -174,7 +176,7 @@ impl OutputFile {
         };
         let done = action(buffer);
         if let Err(e) = &done
-            // Callers try again.
+            // Callers try interrupted writes again.
             && e.kind() != ErrorKind::Interrupted
         {
             self.close(again(e));
@@ -182,11 +184,11 @@ impl OutputFile {
         done
     }
 
-    /// Cuts off what a refused write has left of a line, and writes no more.
+    /// Cuts off the incomplete line that a failed write has left, and writes no more.
     fn close(&mut self, refusal: io::Error) {
         if let Ok(buffer) = mem::replace(&mut self.buffer, Err(refusal)) {
             let (mut file, _) = buffer.into_parts();
-            // Where this is refused, too, the name `.part` says enough.
+            // If this fails too, the name `.part` is sufficient.
             let _ = end_of_last_line(&mut file).and_then(|end| file.set_len(end));
         }
     }
@@ -211,13 +213,13 @@ impl Write for OutputFile {
     }
 }
 
-/// The same error once more.
+/// A copy of the error.
 fn again(e: &io::Error) -> io::Error {
     let code = e.raw_os_error();
     code.map_or_else(|| e.kind().into(), io::Error::from_raw_os_error)
 }
 
-/// Where the last whole line of a file ends.
+/// Position after the last complete line of a file.
 fn end_of_last_line(file: &mut File) -> io::Result<u64> {
     let mut block = [0; 4096];
     let mut end = file.seek(SeekFrom::End(0))?;

@@ -1,9 +1,9 @@
 //! `report.html` of a run, and the page of a start alone: one file that opens without a network,
-//! for a reader who has the mechanism in mind and not the program. The mechanism moves, verdicts
-//! are told in words, curves have their cursor where the picture is.
+//! for a reader who knows the mechanism but not the program. It contains an animation of the
+//! mechanism, verdicts as text, and curves with a cursor at the time of the animation.
 //!
-//! A reaction that is not unique has no curve of its own: it is a band between choices that are
-//! named ([`Comparison`]).
+//! A reaction that is not unique has no curve of its own: it is drawn as a band between named
+//! choices ([`Comparison`]).
 //!
 //! | module | content |
 //! | --- | --- |
@@ -24,13 +24,13 @@ use model::Mechanism;
 pub use comparison::{ComparedChoice, Comparison, Freedom};
 pub use run_page::{DriveCurve, Origin, RunPage};
 
-/// Numbers of a row of a recording: what it holds, and what a page shows of it.
+/// Numbers in a row of a recording, including those that a page shows of it.
 #[must_use]
 pub fn numbers_per_row(mechanism: &Mechanism) -> usize {
     data::numbers_per_row(mechanism)
 }
 
-/// The page. Same input, same bytes.
+/// The page of a run. The same input gives the same bytes.
 #[must_use]
 pub fn run_page(page: &RunPage<'_>) -> String {
     document::document(page)

@@ -9,9 +9,9 @@
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
 //! | [`mod@sweep`] | many runs: a journal that survives interruptions, CSV and Parquet |
-//! | [`html`] | the page of a run, with its moving picture |
-//! | [`page`] | what other pages share: head, end, style, how numbers are written |
-//! | [`files`] | an output directory in which no half-written file is taken for a whole one |
+//! | [`html`] | the page of a run, with its animation |
+//! | [`page`] | common parts of pages: head, end, style, format of numbers |
+//! | [`files`] | an output directory without incomplete files under final names |
 
 mod channel;
 pub mod documents;

@@ -1,4 +1,4 @@
-//! What all pages share: head and end, style, and how numbers are written.
+//! Common parts of all pages: head and end, style, and format of numbers.
 
 use std::fmt::Write;
 
@@ -36,7 +36,7 @@ pub fn open(title: &str) -> String {
     )
 }
 
-/// The end of a page: how it was made.
+/// The end of a page, with its provenance.
 pub fn close(page: &mut String, p: &Provenance) {
     page.push_str("<h2>How it was made</h2>\n<dl>\n");
     for (what, value) in [
@@ -76,7 +76,7 @@ pub fn short(number: f64) -> String {
     }
 }
 
-/// A time with three digits in a unit that suits it.
+/// A time with three digits in a suitable unit.
 #[must_use]
 pub fn duration(seconds: f64) -> String {
     if !seconds.is_finite() {

@@ -1,15 +1,15 @@
-//! What of a run is kept for its report: rows of output as they were shown, at most so many that a
+//! The part of a run that is kept for its report: rows of output, limited in number so that a
 //! report stays small. Nothing is computed here.
 
 use model::Reaction;
 
-/// Rows that are kept at most.
+/// Largest number of rows that are kept.
 const FRAMES_MAX: usize = 1000;
 
-/// Numbers that are kept at most, over all rows.
+/// Largest number of values that are kept, over all rows.
 const NUMBERS_MAX: usize = 4_000_000;
 
-/// Rows that are kept of any mechanism, if the run has so many.
+/// Smallest number of rows that are kept for any mechanism, if the run has as many.
 const FRAMES_MIN: usize = 24;
 
 /// A row of output.
@@ -23,14 +23,14 @@ pub struct Frame {
     pub v: Vec<f64>,
     /// Work of drives and applied forces since the start (J).
     pub work: f64,
-    /// Reactions of all joints and drives; empty if none are wanted.
+    /// Reactions of all joints and drives; empty if none are requested.
     pub reactions: Vec<Reaction>,
-    /// Multipliers of all rows; empty if nothing is compared by them.
+    /// Multipliers of all rows; empty if no choices are compared.
     pub multipliers: Vec<f64>,
 }
 
 impl Frame {
-    /// Coordinates alone: nothing moves, no reaction is known.
+    /// A frame with coordinates only: nothing moves, no reaction is known.
     #[must_use]
     pub fn at_rest(t: f64, q: &[f64], n_v: usize) -> Self {
         Self {
@@ -47,21 +47,22 @@ impl Frame {
 /// Rows of a run.
 #[derive(Clone, Debug)]
 pub struct Recording {
-    /// Rows that are kept, in the order of time.
+    /// The kept rows, in the order of time.
     pub frames: Vec<Frame>,
-    /// One in so many rows is kept, and the one at the end.
+    /// One row in this many is kept, and the one at the end.
     pub stride: usize,
     seen: usize,
     t_end: f64,
 }
 
 impl Recording {
-    /// For a run of about so many rows up to `t_end`, each of about so many numbers.
+    /// A recording of a run with about this number of rows up to `t_end`, each with about this
+    /// number of values.
     #[must_use]
     pub fn new(t_end: f64, rows: f64, numbers: usize) -> Self {
         let affordable = NUMBERS_MAX / numbers.max(1);
         let most = affordable.clamp(FRAMES_MIN, FRAMES_MAX);
-        // Saturates for absurd numbers of rows.
+        // Saturates for extremely large numbers of rows.
         let stride = (rows / most as f64).ceil().max(1.0) as usize;
         Self {
             frames: Vec::new(),
@@ -71,14 +72,14 @@ impl Recording {
         }
     }
 
-    /// Whether the next row, at time t, is kept. To be asked once for each row.
+    /// Whether the next row, at time t, is kept. Must be called once for each row.
     pub fn wants(&mut self, t: f64) -> bool {
         let wanted = self.seen.is_multiple_of(self.stride) || t >= self.t_end;
         self.seen += 1;
         wanted
     }
 
-    /// Rows that were shown.
+    /// Number of rows passed so far.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.seen
@@ -99,7 +100,7 @@ mod tests {
         // 100 001 rows at a stride of 101, and the last one.
         let mut long = Recording::new(1e5, 100_001.0, 60);
         assert_eq!((long.stride, kept(&mut long, 100_001)), (101, 992));
-        // 1e5 numbers a row: 40 rows.
+        // 1e5 values in a row: 40 rows.
         let mut large = Recording::new(200.0, 201.0, 100_000);
         assert_eq!((large.stride, kept(&mut large, 201)), (6, 35));
         assert_eq!(Recording::new(1.0, f64::INFINITY, 1).stride, usize::MAX);

@@ -1,13 +1,13 @@
-//! Many runs of one scene with other numbers in it: a row for each, a journal while they are made,
-//! tables at the end.
+//! Many runs of one scene with different numbers: a row for each, a journal during the runs, tables
+//! at the end.
 //!
-//! A journal is a text that only grows, one line for each finished run, behind a line that says
-//! what the sweep is. Tables are made of journals, whole and in the order of the grid, whoever did
-//! the runs and when.
+//! A journal is a text file to which lines are only appended: a first line that describes the
+//! sweep, and one line for each finished run. Tables are computed from journals, completely and in
+//! the order of the grid, whichever processes made the runs and at whatever time.
 //!
-//! Journals are read back here and nowhere else.
+//! Journals are read only in this module.
 //!
-//! Not here: grids, runs and threads.
+//! Grids, runs and threads are in the crate `pfaff`.
 
 mod cell;
 mod document;
@@ -29,7 +29,7 @@ pub use journal::{Journal, JournalError, Journals, digest};
 pub use row::{Extreme, SweepMotion, SweepRow, SweepStatus};
 pub use tables::write_sweep;
 
-/// What a sweep is: all that its rows depend on, and what they are called.
+/// Description of a sweep: everything on which its rows depend, and the names in them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SweepPlan {
     /// Name of the scene.
@@ -38,7 +38,7 @@ pub struct SweepPlan {
     pub digest: String,
     /// The program that makes the runs.
     pub version: String,
-    /// Keys with their values, as they were asked for.
+    /// Keys with their values, as given by the user.
     pub vary: Vec<String>,
     /// Number of runs in all shards.
     pub runs: u64,
@@ -48,7 +48,7 @@ pub struct SweepPlan {
     pub keys: Vec<String>,
     /// Bodies, in their order.
     pub bodies: Vec<String>,
-    /// Joints and drives whose reactions are wanted, in the order of their rows.
+    /// Joints and drives whose reactions are requested, in the order of their rows.
     pub reactions: Vec<String>,
 }
 

@@ -1,7 +1,7 @@
 //! Tables of a run as CSV: one header, then one line per instant, written as they come. Numbers
 //! have the shortest text that reads back to the same bits; a value that does not exist is `NaN`.
 //!
-//! Not here: which instants are written, and where to.
+//! The times and the destination of rows are chosen by the caller.
 
 mod reactions;
 #[cfg(test)]
@@ -15,16 +15,16 @@ use serde::Serialize;
 pub use reactions::{ReactionTable, Selection};
 pub use trajectory::TrajectoryTable;
 
-/// Why a table or a row cannot be written.
+/// Reason why a table or a row cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// The writer behind the table failed.
+    /// The underlying writer failed.
     #[error("{table}: {source}")]
     Write {
         /// The table.
         table: &'static str,
-        /// What the writer said.
+        /// The error of the writer.
         source: std::io::Error,
     },
     /// A row of another mechanism.
@@ -32,16 +32,16 @@ pub enum TableError {
     Length {
         /// The table.
         table: &'static str,
-        /// Coordinates, velocities or reactions.
+        /// "coordinates", "velocities" or "reactions".
         what: &'static str,
         /// Time of the row (s).
         t: f64,
-        /// How many came.
+        /// Number of values given.
         found: usize,
-        /// How many it has.
+        /// Number of values of the table.
         expected: usize,
     },
-    /// A name that no joint or drive has.
+    /// No joint or drive has this name.
     #[error("no joint or drive is called `{name}`; there are: {known}")]
     UnknownReaction {
         /// The name.
@@ -85,7 +85,7 @@ impl<W: Write> Table<W> {
         self.checked(written)
     }
 
-    /// Hands on what is buffered.
+    /// Passes the buffer to the writer.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -94,7 +94,7 @@ impl<W: Write> Table<W> {
         self.checked(written.map_err(csv::Error::from))
     }
 
-    /// Gives the writer back, everything written.
+    /// Returns the writer after everything is written.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -109,7 +109,7 @@ impl<W: Write> Table<W> {
     fn checked(&self, written: csv::Result<()>) -> Result<(), TableError> {
         written.map_err(|e| TableError::Write {
             table: self.name,
-            // Kept as it is, so that callers can tell a closed pipe from a full disk.
+            // Kept unchanged, so that callers can distinguish a closed pipe from a full disk.
             source: match e.into_kind() {
                 csv::ErrorKind::Io(source) => source,
                 other => std::io::Error::other(format!("{other:?}")),

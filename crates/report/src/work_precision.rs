@@ -1,6 +1,6 @@
 //! Error against run time: the results of `pfaff work-precision` as a table, a figure and a page.
 //!
-//! Not here: runs, references, and the judgement which method is the best.
+//! Runs, references, and the comparison of methods are in the crate `pfaff`.
 
 mod page;
 mod table;
@@ -23,19 +23,19 @@ pub struct CurveName {
     pub stabilisation: &'static str,
 }
 
-/// One run, or why there was none. Errors are scaled; see [`WorkPrecisionScene::reference`] for
-/// what they are compared with.
+/// One run, or the reason why there is none. Errors are scaled; [`WorkPrecisionScene::reference`]
+/// describes the reference values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorkPrecisionRow {
     /// The scene.
     pub scene: String,
-    /// How.
+    /// Formulation, integrator and stabilisation.
     #[serde(flatten)]
     pub curve: CurveName,
     /// Relative and absolute tolerance.
     pub tolerance: f64,
-    /// Of position, velocity, acceleration and unique reactions; NaN where nothing is known, or the
-    /// run did not reach its end.
+    /// Errors of position, velocity, acceleration and unique reactions; NaN without a reference, or
+    /// if the run did not reach its end.
     pub errors: [f64; 4],
     /// Largest |Φ| or |C·v − b| at steps, all rows.
     pub constraint_residual: f64,
@@ -47,24 +47,24 @@ pub struct WorkPrecisionRow {
     pub factorisations: u64,
     /// Accepted steps.
     pub steps: u64,
-    /// Shortest time of a run (s); NaN where the run did not reach its end.
+    /// Shortest time of a run (s); NaN if the run did not reach its end.
     pub seconds: f64,
-    /// `done`, or why the run did not reach its end.
+    /// `done`, or the reason why the run did not reach its end.
     pub status: String,
     /// Rejected steps.
     pub rejected: u64,
-    /// Runs whose time was taken.
+    /// Number of timed runs.
     pub repetitions: u32,
     /// Largest |E − E₀ − work| relative to the largest kinetic energy.
     pub energy_error: f64,
     /// Largest difference of a coordinate or velocity from the reference, SI units.
     pub error_state: f64,
-    /// How far the reference may be from the truth: the larger one of position and velocity.
+    /// Bound on the error of the reference: the larger one of position and velocity.
     pub reference_limit: f64,
 }
 
 impl WorkPrecisionRow {
-    /// A row of which nothing is known yet.
+    /// A row without results.
     #[must_use]
     pub fn empty(scene: &str, curve: CurveName, tolerance: f64) -> Self {
         Self {
@@ -87,8 +87,8 @@ impl WorkPrecisionRow {
         }
     }
 
-    /// The larger error of position and velocity, if the run reached its end and something is
-    /// known.
+    /// The larger error of position and velocity, if the run reached its end and there is a
+    /// reference.
     #[must_use]
     pub fn motion_error(&self) -> Option<f64> {
         let error = self.errors[0].max(self.errors[1]);
@@ -96,27 +96,27 @@ impl WorkPrecisionRow {
     }
 }
 
-/// What the runs of a scene are compared with.
+/// The reference values of the runs of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReferenceDocument {
-    /// Where the values come from.
+    /// Source of the values.
     pub source: String,
-    /// How far values of position, velocity, acceleration and reactions may be from the truth,
-    /// scaled as the errors; NaN if nothing is known.
+    /// Bounds on the error of position, velocity, acceleration and reactions of the reference,
+    /// scaled like the errors; NaN if unknown.
     pub limits: [f64; 4],
-    /// How far the two best runs of different methods are apart, in words.
+    /// Difference between the two best runs of different methods, as text.
     pub agreement: String,
 }
 
 impl ReferenceDocument {
-    /// How well the motion is known.
+    /// Bound on the error of the motion.
     #[must_use]
     pub fn motion_limit(&self) -> f64 {
         self.limits[0].max(self.limits[1])
     }
 }
 
-/// Who is the fastest up to an error.
+/// The ranking of curves for an error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RankingLine {
     /// The error that is reached.
@@ -128,7 +128,7 @@ pub struct RankingLine {
 /// A curve at an error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Place {
-    /// Which curve.
+    /// The curve.
     #[serde(flatten)]
     pub curve: CurveName,
     /// Time (s).
@@ -137,20 +137,20 @@ pub struct Place {
     pub evaluations: f64,
 }
 
-/// All of one scene.
+/// All results of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorkPrecisionScene {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its description.
     pub title: String,
-    /// The method that is chosen if none is asked for.
+    /// The method that is chosen automatically.
     pub automatic: &'static str,
-    /// What runs are compared with.
+    /// The reference values.
     pub reference: ReferenceDocument,
-    /// Which method wins where, in words.
+    /// The fastest methods, as text.
     pub summary: Vec<String>,
-    /// The same in numbers.
+    /// The ranking as numbers.
     pub ranking: Vec<RankingLine>,
     /// All runs.
     pub rows: Vec<WorkPrecisionRow>,
@@ -161,23 +161,23 @@ pub struct WorkPrecisionScene {
 pub struct Provenance {
     /// Processor, cores, operating system.
     pub machine: String,
-    /// Of the program and the compiler.
+    /// Versions of the program and the compiler.
     pub versions: String,
-    /// Day and time, UTC.
+    /// Date and time, UTC.
     pub date: String,
-    /// The command that makes it again.
+    /// The command that reproduces the comparison.
     pub command: String,
 }
 
-/// A whole comparison.
+/// A complete comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorkPrecisionDocument {
-    /// Where and how.
+    /// Where and how the runs were made.
     pub provenance: Provenance,
     /// Whether it was interrupted before its end.
     pub partial: bool,
-    /// All scenes together, in words.
+    /// Summary of all scenes as text.
     pub summary: Vec<String>,
-    /// Scene by scene.
+    /// Results by scene.
     pub scenes: Vec<WorkPrecisionScene>,
 }

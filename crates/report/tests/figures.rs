@@ -1,4 +1,4 @@
-//! Figures: well-formed XML that contains what was asked, for ordinary and for degenerate data.
+//! Figures: well-formed XML with the expected contents, for ordinary and for degenerate data.
 
 use joints::Revolute;
 use model::{Body, BodyRef, Description, Joint, Mechanism, System};
@@ -7,8 +7,8 @@ use report::{FigureError, Panel, Path, PathRecorder, Series, Style};
 use solvability::{Verdict, analyse};
 use tests::robot::{robot, steering};
 
-/// Reads a document as far as needed to know that it is well-formed: tags nest, attributes are
-/// quoted, nothing has to be escaped. Returns its texts.
+/// Parses a document as far as needed to check that it is well-formed: tags nest, attributes are
+/// quoted, no character needs escaping. Returns its texts.
 fn texts(svg: &str) -> Vec<String> {
     let mut open: Vec<String> = Vec::new();
     let mut found = Vec::new();
@@ -95,7 +95,7 @@ fn the_robot_has_all_names_and_verdicts_without_overlap() {
         .map(|b| b.name.as_str())
         .chain(robot.layout().groups.iter().map(|g| g.name.as_str()))
         .collect();
-    // Names alone are labels; tool tips have more words, except those of bodies.
+    // Labels consist of a name only; tool tips have more words, except those of bodies.
     let labels: Vec<[f64; 4]> = svg
         .lines()
         .filter(|l| l.starts_with("<text class=\"name"))
@@ -103,7 +103,7 @@ fn the_robot_has_all_names_and_verdicts_without_overlap() {
             let content = &l[l.find('>').expect("ends") + 1..l.rfind("</").expect("closes")];
             assert!(names.contains(&content), "{content}");
             let number = |name| attribute(l, name).parse::<f64>().expect("a number");
-            // A narrow estimate, so that an overlap is a real one.
+            // A low estimate, so that every overlap found is real.
             let width = content.chars().count() as f64;
             [number("x"), number("y"), 0.25 * SIZE * width, 0.35 * SIZE]
         })
@@ -178,7 +178,7 @@ fn what_cannot_be_drawn_is_an_error() {
     ));
 }
 
-/// `n` bodies in a row, each on the one before it; names are hostile.
+/// `n` bodies in a row, each connected to the one before it; names contain special characters.
 fn chain(n: usize, length: f64) -> (Mechanism, Vec<f64>) {
     let bodies = (0..n).map(|k| Body {
         name: format!("<b>&\"{k}'\u{7}"),
@@ -337,7 +337,7 @@ fn both_axes_of_the_plane_have_one_scale() {
         let values = points.iter().map(|p| p[k]);
         values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
     };
-    // Places are written in hundredths of a pixel.
+    // Positions are written in hundredths of a pixel.
     assert!(
         (extent(0) - extent(1)).abs() < 0.03,
         "{} {}",

@@ -1,4 +1,4 @@
-//! An output directory: whole files or none, and errors that say where.
+//! An output directory: complete files or none, and errors with paths.
 
 use std::fs;
 use std::io::Write;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use report::OutputDirectory;
 
-/// An empty place for one test.
+/// An empty directory for one test.
 fn place(name: &str) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     if path.exists() {
@@ -110,19 +110,19 @@ fn a_full_disk_names_the_file() {
         .expect_err("more than the buffer takes");
     assert_eq!(error.kind(), std::io::ErrorKind::StorageFull);
     assert!(error.to_string().contains("x.csv.part"), "{error}");
-    // What came after a gap would be taken for its end.
+    // Bytes after a gap would appear to belong to the end.
     let again = file.write_all(b"0").expect_err("it was refused");
     assert_eq!(again.kind(), std::io::ErrorKind::StorageFull);
     let error = file.finish_partial().expect_err("the end is missing");
     assert!(error.to_string().contains("the end of"), "{error}");
-    // What there is has its name all the same.
+    // The written part has the final name nevertheless.
     assert!(path.join("x.csv").is_symlink());
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn an_unwritable_directory_is_named() {
-    // Nobody, not even root, makes files there.
+    // No user, not even root, can create files there.
     let error = OutputDirectory::create("/proc/results").expect_err("not writable");
     assert!(error.to_string().contains("/proc/results"), "{error}");
     let directory = OutputDirectory::create("/proc").expect("it is there");

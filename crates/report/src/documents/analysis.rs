@@ -1,5 +1,5 @@
-//! The document of `analyze --json`. What was not asked for is absent; keys of the first day keep
-//! their meaning.
+//! The document of `analyze --json`. Results that were not requested are absent; existing keys
+//! never change their meaning.
 
 mod along;
 mod choices;
@@ -48,77 +48,78 @@ pub struct AnalysisDocument {
     pub coordinates: usize,
     /// Number of rows m + h.
     pub rows: usize,
-    /// m
+    /// Number of holonomic rows m.
     pub holonomic_rows: usize,
-    /// h
+    /// Number of nonholonomic rows h.
     pub nonholonomic_rows: usize,
-    /// r = rank C
+    /// Rank r of C.
     pub rank: usize,
     /// Rank of Φq alone.
     pub rank_holonomic: usize,
     /// Rank of Ψ alone.
     pub rank_nonholonomic: usize,
-    /// p = m + h − r
+    /// Degree of redundancy p = m + h − r.
     pub redundancy: usize,
-    /// n_v − r
+    /// Mobility n_v − r.
     pub mobility: usize,
     /// What can move, with the drives and without them; [`AnalysisDocument::new`] leaves it empty.
     #[serde(flatten)]
     pub freedoms: FreedomsDocument,
     /// r independent rows.
     pub kept_rows: Vec<usize>,
-    /// The p others.
+    /// The other p rows.
     pub dropped_rows: Vec<usize>,
-    /// Sets of joints on common cycles that were judged alone; absent if all were judged together.
+    /// Sets of joints on common cycles that were analysed separately; absent if all were analysed
+    /// together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parts: Option<PartsDocument>,
-    /// What the data are known to, and what hangs on that.
+    /// Tolerances of the data, and what depends on them.
     pub data: DataDocument,
-    /// The numbers behind the rank.
+    /// Evidence for the rank.
     pub evidence: EvidenceDocument,
-    /// Ranks at other configurations; `null` if nobody asked, or none could be reached.
+    /// Ranks at other configurations; `null` if not requested, or if none could be reached.
     pub generic: Option<GenericDocument>,
-    /// Joints and drives in the order of their rows.
+    /// Verdicts on joints and drives in the order of their rows.
     pub reactions: Vec<ReactionDocument>,
-    /// Verdicts of combinations that were asked for; [`AnalysisDocument::new`] leaves it empty.
+    /// Verdicts on requested combinations; [`AnalysisDocument::new`] leaves it empty.
     pub groups: Vec<GroupDocument>,
-    /// Which unique reactions are fragile and what they hang on, in words.
+    /// Sentences on fragile unique reactions and the data on which they depend.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fragile: Vec<String>,
     /// Minimal sets of dependent rows.
     pub dependencies: Vec<DependencyDocument>,
-    /// Joints and drives whose reactions mix.
+    /// Joints and drives whose reactions are coupled.
     pub mixing: Vec<MixingDocument>,
-    /// What may be deleted without a change of motion.
+    /// Rows that may be deleted without a change of motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub eliminations: Option<EliminationsDocument>,
-    /// What makes reactions unique.
+    /// Deletions that make reactions unique.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub make_unique: Vec<MakeUniqueDocument>,
-    /// Reactions by different choices.
+    /// Reactions for different choices.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<DistributionDocument>,
     /// Verdicts along the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub along: Option<AlongDocument>,
-    /// How the motion goes on, where this configuration is singular and the velocities say which
-    /// motion is meant.
+    /// How the motion continues, if this configuration is singular and the velocities determine the
+    /// motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continuation: Option<ContinuationDocument>,
-    /// What definitions say of the reactions of their joints; [`AnalysisDocument::add_notes`] fills
-    /// it.
+    /// Notes of the definitions on the reactions of their joints; [`AnalysisDocument::add_notes`]
+    /// fills it.
     pub notes: Vec<NoteDocument>,
-    /// What else the reader should know.
+    /// Other remarks for the reader.
     pub warnings: Vec<String>,
 }
 
-/// Sets of joints on common cycles that were judged alone.
+/// Sets of joints on common cycles that were analysed separately.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct PartsDocument {
-    /// How many.
+    /// Number of sets.
     pub number: usize,
-    /// Rows of the largest.
+    /// Number of rows of the largest set.
     pub largest: usize,
 }
 
@@ -132,35 +133,36 @@ pub struct DependencyDocument {
     pub joints: Vec<String>,
     /// `Σ coefficient·row = 0`, largest coefficient 1.
     pub coefficients: Vec<f64>,
-    /// Whether other rows take no part within the tolerance that the scene states only; absent if
-    /// not.
+    /// Whether the dependency without other rows holds only within the tolerance that the scene
+    /// states; absent if not.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub within_tolerance: bool,
-    /// The largest coefficient that counts as zero for that, of scaled rows and relative to the
-    /// largest of all.
+    /// The largest coefficient that counts as zero for this reason, of scaled rows and relative to
+    /// the largest of all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
-    /// In words.
+    /// Explanation as text.
     pub text: String,
 }
 
-/// Joints and drives whose reactions mix.
+/// Joints and drives whose reactions are coupled.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct MixingDocument {
     /// Their names.
     pub reactions: Vec<String>,
-    /// Rows of C that take part.
+    /// Rows of C that are coupled.
     pub rows: Vec<usize>,
-    /// How many numbers are missing to tell all of them.
+    /// Number of further conditions that would determine all of these reactions.
     pub redundancy: usize,
-    /// In words.
+    /// Explanation as text.
     pub text: String,
 }
 
 impl AnalysisDocument {
-    /// The document of an analysis, with ranks at other configurations; `None` if nobody asked, or
-    /// none could be reached. Evidence is that of the part whose rank is least certain.
+    /// The document of an analysis, with ranks at other configurations; `None` if they were not
+    /// requested, or none could be reached. The evidence is that of the part whose rank is least
+    /// certain.
     #[must_use]
     pub fn new(scene: &str, analysis: &Analysis, generic: Option<&Generic>) -> Self {
         let decision = &analysis.decision;
@@ -211,15 +213,15 @@ impl AnalysisDocument {
         }
     }
 
-    /// Adds what can move. The freedoms must be those of the analysis.
+    /// Adds what can move. The freedoms must belong to the analysis.
     #[must_use]
     pub fn with_freedoms(mut self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         self.freedoms = FreedomsDocument::new(freedoms, mechanism);
         self
     }
 
-    /// Adds how much each unique reaction hangs on the data. The sensitivities must be those of the
-    /// analysis.
+    /// Adds how strongly each unique reaction depends on the data. The sensitivities must belong to
+    /// the analysis.
     pub fn add_sensitivities(&mut self, all: &Sensitivities, layout: &Layout) {
         self.fragile = all.sentences(layout);
         for (k, reaction) in self.reactions.iter_mut().enumerate() {
@@ -227,12 +229,12 @@ impl AnalysisDocument {
         }
     }
 
-    /// Unique reactions that hang on the data.
+    /// The fragile unique reactions.
     pub fn fragile_reactions(&self) -> impl Iterator<Item = &ReactionDocument> {
         self.reactions.iter().filter(|r| r.data.fragile)
     }
 
-    /// Adds why the reactions are not unique. The explanation must be that of the analysis.
+    /// Adds why the reactions are not unique. The explanation must belong to the analysis.
     pub fn explain(&mut self, explanation: &Explanation, layout: &Layout) {
         ReactionDocument::explain_all(&mut self.reactions, explanation);
         let stress = |stress: &solvability::SelfStress| {
@@ -249,7 +251,7 @@ impl AnalysisDocument {
                 text: said_within(&stress.text, stress.left_out),
             }
         };
-        // What is known of parts that were not explained stays.
+        // Results for parts that were not explained are kept.
         let told: Vec<DependencyDocument> = explanation.stresses.iter().map(stress).collect();
         let mut others = std::mem::replace(&mut self.dependencies, told);
         if self.parts.is_some() {
@@ -271,7 +273,7 @@ impl AnalysisDocument {
         self.mixing = explanation.mixing.iter().map(mixing).collect();
     }
 
-    /// Adds what the definitions of the joints say of their reactions.
+    /// Adds the notes of the definitions of the joints on their reactions.
     pub fn add_notes(&mut self, layout: &Layout) {
         self.notes = NoteDocument::all(layout);
     }
@@ -284,7 +286,7 @@ impl AnalysisDocument {
     }
 }
 
-/// A dependency in words, with what of it holds within the tolerance only.
+/// The text of a dependency, with the size of what holds only within the tolerance.
 fn said_within(text: &str, left_out: f64) -> String {
     if left_out > 0.0 {
         format!("{text}; within the tolerance (margin {left_out:.1e})")

@@ -1,18 +1,18 @@
-//! Documents of commands that answer in a few numbers, and of refusals. `ok` says whether there is
-//! an answer.
+//! Documents of commands whose result is a few numbers, and of errors. `ok` states whether there is
+//! a result.
 
 use serde::Serialize;
 
 use super::{AnalysisDocument, ComponentDocument, DependencyDocument, ReactionDocument};
 
-/// Why there is no answer.
+/// Reason why there is no result.
 #[derive(Clone, Debug, Serialize)]
 pub struct RefusalDocument<'a, P> {
     /// `false`
     pub ok: bool,
     /// The reason in one line.
     pub error: String,
-    /// Places of a scene that are at fault.
+    /// Places in the scene that are wrong.
     pub problems: &'a [P],
 }
 
@@ -25,23 +25,23 @@ pub struct CheckDocument<'a> {
     pub scene: &'a str,
     /// Number of bodies.
     pub bodies: usize,
-    /// n_q
+    /// Number of coordinates n_q.
     pub coordinates: usize,
-    /// m
+    /// Number of holonomic rows m.
     pub holonomic_rows: usize,
-    /// h
+    /// Number of nonholonomic rows h.
     pub nonholonomic_rows: usize,
     /// The largest correction of a coordinate of the start (m, rad).
     pub start_correction: f64,
-    /// The same of a velocity (m/s, rad/s), if there is a motion.
+    /// The largest correction of a velocity (m/s, rad/s), if there is a motion.
     pub start_velocity_correction: Option<f64>,
-    /// n_v − r
+    /// Mobility n_v − r.
     pub mobility: Option<usize>,
-    /// The same without the drives.
+    /// Mobility without the drives.
     pub mobility_without_drives: Option<usize>,
-    /// None: a scene with problems is refused.
+    /// Always empty: a scene with problems is refused.
     pub problems: [(); 0],
-    /// What else the reader should know.
+    /// Other remarks for the reader.
     pub warnings: &'a [String],
 }
 
@@ -54,17 +54,17 @@ pub struct ViewDocument<'a> {
     pub scene: &'a str,
     /// The file.
     pub file: String,
-    /// Its size.
+    /// Its size (bytes).
     pub bytes: usize,
     /// Number of joints and drives.
     pub reactions: usize,
-    /// How many of them are not unique.
+    /// Number of reactions that are not unique.
     pub not_unique: usize,
-    /// How many are unique, but fragile.
+    /// Number of reactions that are unique, but fragile.
     pub fragile: usize,
-    /// n_v − r
+    /// Mobility n_v − r.
     pub mobility: usize,
-    /// The same without the drives.
+    /// Mobility without the drives.
     pub mobility_without_drives: Option<usize>,
 }
 
@@ -84,7 +84,7 @@ pub struct NewDocument<'a> {
 pub struct TemplatesDocument<'a> {
     /// `true`
     pub ok: bool,
-    /// Each with what it is.
+    /// Each template with its description.
     pub templates: Vec<TemplateDocument<'a>>,
 }
 
@@ -93,11 +93,11 @@ pub struct TemplatesDocument<'a> {
 pub struct TemplateDocument<'a> {
     /// Its name.
     pub name: &'a str,
-    /// What it is.
+    /// Its description.
     pub summary: String,
 }
 
-/// Two scenes side by side.
+/// Comparison of two scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DiffDocument<'a> {
     /// `true`
@@ -106,19 +106,19 @@ pub struct DiffDocument<'a> {
     pub a: DiffSide<'a>,
     /// The second scene.
     pub b: DiffSide<'a>,
-    /// Joints and drives of the first scene only.
+    /// Joints and drives that only the first scene has.
     pub removed: Vec<DiffReaction<'a>>,
-    /// Those of the second scene only.
+    /// Joints and drives that only the second scene has.
     pub added: Vec<DiffReaction<'a>>,
-    /// Those that differ.
+    /// Joints and drives that differ.
     pub changed: Vec<DiffChange<'a>>,
-    /// Dependencies of the first scene only.
+    /// Dependencies that only the first scene has.
     pub dependencies_gone: &'a [&'a DependencyDocument],
-    /// Those of the second scene only.
+    /// Dependencies that only the second scene has.
     pub dependencies_new: &'a [&'a DependencyDocument],
     /// Differences of the motions; `null` if they were not compared.
     pub motion: Option<DiffMotion<'a>>,
-    /// Why they were not.
+    /// Reason why they were not compared.
     pub motion_not_compared: Option<&'a str>,
 }
 
@@ -151,7 +151,7 @@ impl<'a> From<&'a AnalysisDocument> for DiffSide<'a> {
 /// A joint or drive of one of two scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DiffReaction<'a> {
-    /// Its name, unless it stands above.
+    /// Its name, unless the object that contains it gives the name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<&'a str>,
     #[serde(rename = "type")]
@@ -176,7 +176,7 @@ impl<'a> From<&'a ReactionDocument> for DiffReaction<'a> {
 }
 
 impl<'a> DiffReaction<'a> {
-    /// With its name.
+    /// With the name of the reaction.
     #[must_use]
     pub fn named(r: &'a ReactionDocument) -> Self {
         Self {
@@ -200,23 +200,23 @@ pub struct DiffChange<'a> {
 /// Differences of two motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DiffMotion<'a> {
-    /// How far both were run (s).
+    /// Time up to which both were run (s).
     pub t_end: f64,
-    /// Body by body.
+    /// Differences body by body.
     pub bodies: Vec<DiffBody<'a>>,
 }
 
-/// The largest differences of the motions of a body, and when (s).
+/// The largest differences between the motions of a body, with their times (s).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DiffBody<'a> {
     /// The body.
     pub body: &'a str,
-    /// m
+    /// Distance (m).
     pub distance: f64,
-    /// Time of that.
+    /// Time of the largest distance (s).
     pub t_distance: f64,
-    /// rad
+    /// Difference of angles (rad).
     pub angle: f64,
-    /// Time of that.
+    /// Time of the largest difference of angles (s).
     pub t_angle: f64,
 }

@@ -6,18 +6,18 @@ use solvability::{FreeMotion, FreeMotions, Freedoms, LeftOut};
 
 use super::Named;
 
-/// Free motions, and what the mechanism is without its drives.
+/// Free motions, and the mechanism without its drives.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FreedomsDocument {
-    /// Rank, redundancy and free motions without the drives; `null` if there are none.
+    /// Rank, redundancy and free motions without the drives; `null` if there are no drives.
     pub without_drives: Option<WithoutDrivesDocument>,
-    /// What moves while the drives stand still.
+    /// Motions that are possible while the drives are locked.
     pub free_motions: Vec<FreeMotionDocument>,
     /// Freedoms without a described motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_motions_left_out: Option<LeftOutDocument>,
-    /// Whether nothing moves whatever the drives do.
+    /// Whether nothing can move, whatever the drives do.
     pub cannot_move: bool,
 }
 
@@ -29,11 +29,11 @@ pub struct WithoutDrivesDocument {
     pub drives: usize,
     /// Rank of the other rows.
     pub rank: usize,
-    /// What they are more than that.
+    /// Number of these rows minus their rank.
     pub redundancy: usize,
-    /// n_v − rank
+    /// Mobility n_v − rank.
     pub mobility: usize,
-    /// What moves.
+    /// Motions that are possible.
     pub free_motions: Vec<FreeMotionDocument>,
     /// Freedoms without a described motion.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -44,21 +44,21 @@ pub struct WithoutDrivesDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FreeMotionDocument {
-    /// In words.
+    /// Description.
     pub text: String,
-    /// `[vx, vy, omega]` of the bodies that move (m/s, rad/s), for each freedom that the words
-    /// tell: three of what is free as a whole, else one. The largest rotation is 1, or the fastest
-    /// translation where nothing turns.
+    /// `[vx, vy, omega]` of the moving bodies (m/s, rad/s), for each degree of freedom in the
+    /// description: three for a body that is free as a whole, otherwise one. The largest rotation
+    /// is 1, or the fastest translation if nothing rotates.
     pub velocities: Vec<Named<[f64; 3]>>,
 }
 
-/// Freedoms that are counted only.
+/// Freedoms that are only counted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct LeftOutDocument {
-    /// How many.
+    /// Their number.
     pub freedoms: usize,
-    /// Why.
+    /// Reason why they are not described.
     pub reason: String,
 }
 
@@ -82,7 +82,7 @@ impl FreedomsDocument {
         }
     }
 
-    /// The mobility in a sentence: "mobility 0 with its drive, 1 without", or "mobility 1" if there
+    /// The mobility as a phrase: "mobility 0 with its drive, 1 without", or "mobility 1" if there
     /// is no drive.
     #[must_use]
     pub fn sentence(&self, mobility: usize) -> String {
@@ -96,7 +96,7 @@ impl FreedomsDocument {
         }
     }
 
-    /// The same, and whether the mechanism cannot move.
+    /// The same phrase, with a remark if the mechanism cannot move.
     #[must_use]
     pub fn summary(&self, mobility: usize) -> String {
         if self.cannot_move {
@@ -112,8 +112,8 @@ impl FreedomsDocument {
         self.without_drives.as_ref().map(|without| without.mobility)
     }
 
-    /// The free motions in sentences: those with the drives, then those that the drives prescribe,
-    /// each once, with a lead that distinguishes them.
+    /// The free motions as sentences: those with the drives, then those that the drives prescribe,
+    /// each once, with an introduction that distinguishes them.
     #[must_use]
     pub fn sentences(&self) -> Vec<(String, String)> {
         let mut told: Vec<(String, String)> = Vec::new();
@@ -179,7 +179,7 @@ fn told(motions: &FreeMotions, mechanism: &Mechanism) -> Vec<FreeMotionDocument>
     motions.motions.iter().map(told).collect()
 }
 
-/// With the digits that a null space has: 13.
+/// Rounded to the digits that are accurate for a null space: 13.
 fn shown(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }

@@ -1,5 +1,5 @@
-//! A motion with its rows as plain data: what `summary.json`, `trajectory.csv` and `reactions.csv`
-//! say together.
+//! A motion with its rows as plain data: the combined contents of `summary.json`, `trajectory.csv`
+//! and `reactions.csv`.
 
 use model::reaction::COMPONENTS;
 use model::{Mechanism, Reaction, System};
@@ -11,9 +11,9 @@ use super::{Named, RunDocument};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct MotionDocument {
-    /// As `summary.json`.
+    /// The content of `summary.json`.
     pub summary: RunDocument,
-    /// As the rows of `trajectory.csv` and `reactions.csv`, by the names of their columns.
+    /// The rows of `trajectory.csv` and `reactions.csv`, by the names of their columns.
     pub rows: Vec<MomentDocument>,
 }
 
@@ -33,9 +33,9 @@ pub struct MomentDocument {
     pub t: f64,
     /// Bodies by name, in the order of the coordinates.
     pub bodies: Named<BodyStateDocument>,
-    /// Of joints and drives by name, in the order of their rows, force and torque on the first
-    /// body: `Fx`, `Fy` (N), `T` (N·m), and the named component of the definition, if it has one.
-    /// What was not computed is NaN, `null` in JSON.
+    /// Force and torque on the first body of joints and drives, by name and in the order of their
+    /// rows: `Fx`, `Fy` (N), `T` (N·m), and the named component of the definition, if it has one.
+    /// Values that were not computed are NaN, `null` in JSON.
     pub reactions: Named<Named<f64>>,
 }
 
@@ -47,7 +47,7 @@ pub struct BodyStateDocument {
     pub x: f64,
     /// y of the centre of mass (m).
     pub y: f64,
-    /// Angle (rad), not reduced to one turn.
+    /// Angle (rad), not reduced to one revolution.
     pub angle: f64,
     /// dx/dt (m/s)
     pub vx: f64,
@@ -59,7 +59,7 @@ pub struct BodyStateDocument {
 
 impl MomentDocument {
     /// State and reactions of a mechanism: q and v body by body, reactions of all joints and drives
-    /// in the order of their rows. What is too much or too little is left out.
+    /// in the order of their rows. Surplus and missing entries are ignored.
     #[must_use]
     pub fn new(
         mechanism: &Mechanism,

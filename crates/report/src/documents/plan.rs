@@ -1,11 +1,11 @@
-//! The plan of a run: whole for `plan --json`, and in short for `summary.json`.
+//! The plan of a run: complete for `plan --json`, and short for `summary.json`.
 
 use dynamics::plan::{ComponentPlan, Line, Plan, Saving};
 use serde::Serialize;
 
 use super::Named;
 
-/// `plan --json`
+/// The document of `plan --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PlanDocument {
@@ -17,27 +17,27 @@ pub struct PlanDocument {
     pub formulation: &'static str,
     /// Treatment of drift.
     pub stabilisation: &'static str,
-    /// What a run takes of memory at most, about, reading included (bytes).
+    /// Estimated upper bound on the memory of a run, including reading (bytes).
     pub memory: usize,
-    /// Components that do not feel each other; one, if all bodies do.
+    /// Components that are independent of each other; one if all bodies affect each other.
     pub components: Vec<PlannedComponentDocument>,
-    /// What was decided.
+    /// The decisions.
     pub decisions: Vec<DecisionDocument>,
 }
 
-/// Bodies that feel each other.
+/// Bodies that affect each other.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PlannedComponentDocument {
-    /// Its bodies in words, as decisions name it.
+    /// Its bodies as text, as used in decisions.
     pub name: String,
     /// Names of its bodies.
     pub bodies: Vec<String>,
-    /// Velocities.
+    /// Number of velocities.
     pub velocities: usize,
-    /// Holonomic rows.
+    /// Number of holonomic rows.
     pub holonomic_rows: usize,
-    /// Nonholonomic rows.
+    /// Number of nonholonomic rows.
     pub nonholonomic_rows: usize,
     /// Rank of C.
     pub rank: usize,
@@ -53,16 +53,16 @@ pub struct PlannedComponentDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DecisionDocument {
-    /// The component that it is of, where there are several.
+    /// The component to which it applies, if there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub component: Option<String>,
-    /// What was to be decided.
+    /// The question that is decided.
     pub decision: String,
-    /// What was decided.
+    /// The decision.
     pub taken: String,
-    /// Why.
+    /// Its reason.
     pub reason: String,
-    /// What it saves, where that can be counted.
+    /// What it saves, if that can be counted.
     pub saves: Option<SavingDocument>,
 }
 
@@ -70,11 +70,11 @@ pub struct DecisionDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SavingDocument {
-    /// How many are left out.
+    /// Number of omitted items.
     pub left_out: u64,
-    /// Of how many.
+    /// Number of all items.
     pub of: u64,
-    /// Of what, and how often.
+    /// Kind of the items, and how often they occur.
     pub what: &'static str,
 }
 

@@ -16,20 +16,20 @@ use super::{
     DataDocument, FreedomsDocument, Named, SensitivityDocument, VerdictDocument, from_one,
 };
 
-/// What a run was and what came out.
+/// A run and its results.
 #[derive(Clone, Copy)]
 pub struct Run<'a> {
-    /// Start, kept rows, and how it was to run.
+    /// Start, kept rows, and plan of the run.
     pub plan: &'a Plan<'a>,
     /// Verdicts at the start.
     pub reactions: &'a [ReactionVerdict],
-    /// How much they hang on the data there.
+    /// How strongly the reactions depend on the data at the start.
     pub sensitivities: &'a Sensitivities,
-    /// What the data are known to, and what hangs on that.
+    /// Tolerances of the data, and what depends on them.
     pub data: DataDocument,
-    /// What can move there.
+    /// What can move at the start.
     pub freedoms: &'a Freedoms,
-    /// What came out.
+    /// Numbers of the run.
     pub summary: &'a Summary,
     /// How it ended.
     pub ending: Ending<'a>,
@@ -38,11 +38,11 @@ pub struct Run<'a> {
 /// How a run ended.
 #[derive(Clone, Copy, Debug)]
 pub enum Ending<'a> {
-    /// At its last time.
+    /// The last time was reached.
     Complete,
-    /// It was interrupted; what was reached is good.
+    /// It was interrupted; the results up to there are valid.
     Interrupted,
-    /// It stopped; what was reached is good.
+    /// It stopped with this error; the results up to there are valid.
     Stopped(&'a MotionError),
 }
 
@@ -50,7 +50,7 @@ pub enum Ending<'a> {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RunDocument {
-    /// Integrator; `auto` where components have different ones.
+    /// Integrator; `auto` if components have different ones.
     pub method: &'static str,
     /// Treatment of redundancy.
     pub formulation: &'static str,
@@ -58,7 +58,7 @@ pub struct RunDocument {
     pub stabilisation: &'static str,
     /// Whether the run ended before its last time.
     pub partial: bool,
-    /// Why it stopped.
+    /// Reason why it stopped.
     pub error: Option<String>,
     /// Last time reached (s).
     pub t_end: f64,
@@ -70,42 +70,42 @@ pub struct RunDocument {
     pub evaluations: u64,
     /// Projections of steps.
     pub projections: u64,
-    /// Time of the integration alone (s).
+    /// Wall-clock time of the integration alone (s).
     pub wall_seconds: f64,
     /// Largest |Φ|.
     pub max_position_residual: f64,
     /// Largest |C·v − b|.
     pub max_velocity_residual: f64,
-    /// Largest |E − E₀ − work| relative to the largest kinetic energy, or a bound of it where there
-    /// are components.
+    /// Largest |E − E₀ − work| relative to the largest kinetic energy, or an upper bound on it if
+    /// there are components.
     pub energy_balance: f64,
     /// Largest change of a coordinate by the assembly (m or rad).
     pub start_correction: f64,
     /// Largest change of a velocity at the start (m/s or rad/s).
     pub start_velocity_correction: f64,
-    /// Freedoms of motion at the start, n_v − r.
+    /// Degrees of freedom at the start, n_v − r.
     pub mobility: usize,
     /// What can move there, with the drives and without them.
     #[serde(flatten)]
     pub freedoms: FreedomsDocument,
-    /// What the data are known to, and what hangs on that at the start.
+    /// Tolerances of the data, and what depends on them at the start.
     pub data: DataDocument,
-    /// What happened on the way.
+    /// Events of the run.
     pub events: Vec<EventDocument>,
     /// Verdict of every joint and drive at the start, by name.
     pub reactions: Named<RunReactionDocument>,
-    /// What was decided before the run, in short.
+    /// Decisions before the run, in short.
     pub plan: Named<String>,
-    /// Components that were run apart.
+    /// Components that were run separately.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub components: Vec<ComponentRunDocument>,
 }
 
-/// Numbers of a component that was run apart.
+/// Numbers of a component that was run separately.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ComponentRunDocument {
-    /// Its bodies in words.
+    /// Its bodies as text.
     pub name: String,
     /// Integrator.
     pub method: &'static str,
@@ -125,7 +125,7 @@ pub struct ComponentRunDocument {
     pub max_velocity_residual: f64,
     /// Largest |E − E₀ − work| relative to its largest kinetic energy.
     pub energy_balance: f64,
-    /// What was decided about it, in short.
+    /// Decisions about it, in short.
     pub plan: Named<String>,
 }
 
@@ -133,17 +133,17 @@ pub struct ComponentRunDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EventDocument {
-    /// When (s).
+    /// Time (s).
     pub time: f64,
-    /// What.
+    /// Kind of event.
     pub kind: &'static str,
     /// Degree of redundancy before.
     pub redundancy_before: usize,
     /// Degree of redundancy after.
     pub redundancy_after: usize,
-    /// Rows deleted from now on.
+    /// Rows deleted after the event.
     pub deleted_rows: Vec<usize>,
-    /// In words.
+    /// Description.
     pub text: String,
 }
 
@@ -154,22 +154,22 @@ pub struct RunReactionDocument {
     /// The verdict.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
-    /// How much it hangs on the data at the start.
+    /// How strongly it depends on the data at the start.
     #[serde(flatten)]
     pub data: SensitivityDocument,
-    /// What its numbers depend on if they are not unique.
+    /// The choice on which its numbers depend if they are not unique.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<ChoiceDocument>,
 }
 
-/// What was decided so that a non-unique reaction has a number.
+/// The choice by which a non-unique reaction has a number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "method", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum ChoiceDocument {
-    /// The multipliers of some rows are zero by decree.
+    /// The multipliers of some rows were set to zero.
     KeptRows {
-        /// These.
+        /// These rows.
         deleted_rows: Vec<usize>,
         /// Time from which other rows are deleted (s; see the events); absent if never.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -178,15 +178,15 @@ pub enum ChoiceDocument {
 }
 
 impl ChoiceDocument {
-    /// The choice that the reaction of a joint or drive belongs to: that of its component, where
+    /// The choice on which the reaction of a joint or drive depends: that of its component, if
     /// there are several.
     fn of(run: &Run<'_>, parts: Option<&[Vec<usize>]>, group: usize) -> Self {
         let prepared = run.plan.prepared();
         let components = &run.summary.components;
         let own = components.iter().find(|c| c.places.groups.contains(&group));
         let summary = own.map_or(run.summary, |component| &component.summary);
-        // Rows that the user asked for stay those of the reactions, whatever is kept for the
-        // motion.
+        // Rows requested by the user are used for the reactions throughout, whatever rows the
+        // motion keeps.
         let automatic = prepared.choice == RowChoice::Automatic;
         let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
         let belongs = |row: &&usize| own.is_none_or(|c| c.places.rows.contains(row));
@@ -202,7 +202,7 @@ impl ChoiceDocument {
 }
 
 /// For each joint and drive of a large mechanism, the deleted rows on common cycles with it, from
-/// 0: no others bear on its reaction.
+/// 0; no other rows affect its reaction.
 fn dropped_by_group(prepared: &Prepared) -> Option<Vec<Vec<usize>>> {
     let (mechanism, layout) = (&prepared.mechanism, prepared.mechanism.layout());
     if layout.rows() <= ONE_PART {
@@ -221,7 +221,7 @@ fn dropped_by_group(prepared: &Prepared) -> Option<Vec<Vec<usize>>> {
     Some(of_group)
 }
 
-/// Deleted rows that are listed in words; the document has all of them.
+/// Largest number of deleted rows listed in texts; the document has all of them.
 const LISTED: usize = 24;
 
 impl fmt::Display for ChoiceDocument {

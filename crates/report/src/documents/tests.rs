@@ -213,7 +213,7 @@ fn a_certificate_proves_a_decided_rank_that_it_reaches() {
         assert_eq!(evidence.grounds, Some(word));
         assert_eq!(evidence.sigma_bound, Some(0.375));
     }
-    // A point off by a micrometre in a mechanism of 2 m with σ_r = 1e-4.
+    // A point displaced by a micrometre in a mechanism of 2 m with σ_r = 1e-4.
     let near = Analysis {
         nearly_redundant: Some(NearlyRedundant {
             sigma: 1e-4,
@@ -269,7 +269,7 @@ fn an_undecided_rank_says_why() {
     let evidence = &document["evidence"];
     assert_eq!(evidence["status"], "undecided");
     assert_eq!(evidence["reason"], doubt.to_string());
-    // What is proved stays proved, but says nothing of an undecided rank.
+    // A proved bound stays proved, but does not decide an undecided rank.
     assert_eq!(evidence["rank_at_least"], 3);
     assert_eq!(
         (&evidence["permanent"], &evidence["certified"]),
@@ -282,7 +282,7 @@ fn an_undecided_rank_says_why() {
     assert_eq!(upper["margin"], Value::Null);
 }
 
-/// What can move of it.
+/// Its freedoms.
 fn freedoms(prepared: &Prepared) -> Freedoms {
     let (mechanism, q) = (&prepared.mechanism, &prepared.q);
     let analysis = analyse(mechanism, 0.0, q).expect("the door hangs");
@@ -430,7 +430,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
         let choice = reaction.choice.as_ref();
         assert_eq!(valid_until(choice), Some(1.25), "{name}");
     }
-    // Rows that were asked for stay those of the reactions.
+    // Rows requested by the user are used for the reactions throughout.
     let mut asked = prepared.clone();
     asked.choice = RowChoice::Drop(vec![3]);
     let explicit = RunDocument::new(&Run {
@@ -447,7 +447,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     assert!(interrupted.partial && interrupted.error.is_none());
 }
 
-/// When other rows are deleted, if the choice is one of rows.
+/// Time at which other rows are deleted, if the choice is one of rows.
 fn valid_until(choice: Option<&ChoiceDocument>) -> Option<f64> {
     match choice {
         Some(ChoiceDocument::KeptRows { valid_until, .. }) => *valid_until,
@@ -455,8 +455,8 @@ fn valid_until(choice: Option<&ChoiceDocument>) -> Option<f64> {
     }
 }
 
-/// A crank with its motor: `null` without drives, else ranks and motions of the others; bodies that
-/// move, by name.
+/// A crank with its motor: `null` without drives, otherwise ranks and motions of the other rows;
+/// moving bodies are given by name.
 #[test]
 fn freedoms_are_told_with_the_drives_and_without() {
     let mut d = Description::new("crank");

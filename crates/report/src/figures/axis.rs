@@ -1,4 +1,4 @@
-//! Axes: a range, round ticks, and labels with as few digits as tell them apart.
+//! Axes: a range, round ticks, and labels with as few digits as distinguish them.
 
 /// An axis with its ticks.
 #[derive(Clone, Debug, PartialEq)]
@@ -6,7 +6,7 @@ pub(super) struct Axis {
     pub(super) min: f64,
     pub(super) max: f64,
     pub(super) ticks: Vec<Tick>,
-    /// Labels times ten to this power are values.
+    /// Values are labels times ten to this power.
     pub(super) exponent: i32,
 }
 
@@ -17,7 +17,7 @@ pub(super) struct Tick {
     pub(super) label: String,
 }
 
-/// Values beyond cannot be drawn: differences of them would overflow.
+/// Larger values cannot be drawn: differences of them would overflow.
 pub(super) const DRAWABLE: f64 = 1e300;
 
 /// A range narrower than this, relative to its values, shows rounding only.
@@ -26,7 +26,7 @@ const RESOLUTION: f64 = 1e-12;
 /// Labels keep to three digits before the point and two zeros behind it.
 const PLAIN: std::ops::Range<f64> = 1e-2..1e4;
 
-/// Whether a value has a place in a figure.
+/// Whether a value can be drawn.
 pub(super) fn drawable(value: f64) -> bool {
     value.abs() <= DRAWABLE
 }
@@ -71,14 +71,14 @@ impl Axis {
         }
     }
 
-    /// The same with a margin on both sides, so that extremes do not touch the frame.
+    /// Like [`Self::over`], with a margin on both sides, so that extremes do not touch the frame.
     pub(super) fn around(range: [f64; 2], count: usize) -> Self {
         let [min, max] = widened(range);
         let margin = 0.06 * (max - min);
         Self::over([min - margin, max + margin], count)
     }
 
-    /// Place of a value: 0 at the beginning, 1 at the end.
+    /// Position of a value: 0 at the beginning, 1 at the end.
     pub(super) fn position(&self, value: f64) -> f64 {
         (value - self.min) / (self.max - self.min)
     }
@@ -97,7 +97,7 @@ impl Axis {
     }
 }
 
-/// A range that can be divided: a single value gets some room.
+/// A range that can be divided: a single value gets some space around it.
 fn widened([min, max]: [f64; 2]) -> [f64; 2] {
     let size = min.abs().max(max.abs());
     if max - min > RESOLUTION * size && max - min >= f64::MIN_POSITIVE {

@@ -7,7 +7,7 @@ use super::svg::{Svg, point_list};
 /// Half the size of a marker (px).
 const HALF: f64 = 3.4;
 
-/// How a curve looks: colour and marker change together.
+/// Appearance of a curve: colour and marker change together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Look(usize);
 
@@ -91,7 +91,7 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// The points there are.
+    /// The points that exist.
     pub(super) fn shown(&self) -> impl Iterator<Item = [f64; 2]> {
         self.points.iter().copied().flatten()
     }

@@ -2,18 +2,18 @@
 
 use super::axis::{Axis, Tick, power_of_ten, range};
 
-/// What the values of an axis are.
+/// Unit of the values of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unit {
     /// Numbers.
     Number,
     /// Times (s).
     Seconds,
-    /// The neighbour shows them.
+    /// The labels are shown on the neighbouring axis.
     Untold,
 }
 
-/// Room beyond the first and the last value, in decades.
+/// Space beyond the first and the last value, in decades.
 const MARGIN: f64 = 0.2;
 
 /// An axis over these logarithms with at most `count` + 1 labels at powers of ten, at least two.

@@ -1,6 +1,6 @@
-//! The one model of a drawing: outlines of bodies, joints as symbols that move with a body, wheels
-//! and applied forces. A page paints it at any time of a run, an SVG figure at one. Places that no
-//! body carries are given frame by frame.
+//! The single drawing model: outlines of bodies, joints as symbols that move with a body, wheels
+//! and applied forces. A page draws it at any time of a run, an SVG figure at one time. Places that
+//! do not move with a body are given frame by frame.
 
 use joints::Pose;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
@@ -12,13 +12,14 @@ use super::symbol::{SPRING, Shapes, Symbol};
 use crate::channel::{Channel, Rounded};
 use crate::recording::Frame;
 
-/// Frames at which it is asked whether a place goes with a body.
+/// Number of frames at which it is tested whether a place moves with a body.
 const PROBES: usize = 9;
 
-/// A place goes with a body if it stays in it up to this share of the size of the picture.
+/// A place moves with a body if its coordinates in the body change by no more than this fraction of
+/// the size of the picture.
 const FIXED: f64 = 1e-9;
 
-/// Place of the ground in lists of bodies.
+/// Index of the ground in lists of bodies.
 const GROUND: isize = -1;
 
 /// A point in the frame of a body.
@@ -28,7 +29,7 @@ type Held = (isize, Rounded, Rounded);
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct DrawnBody {
     pub(crate) name: String,
-    /// Convex hull of its centre and of the points that joints and forces hold, in its frame (m).
+    /// Convex hull of its centre and of the points of joints and forces, in its frame (m).
     pub(crate) outline: Vec<[Rounded; 2]>,
     pub(crate) x: Channel,
     pub(crate) y: Channel,
@@ -38,23 +39,23 @@ pub(crate) struct DrawnBody {
     omega: Channel,
 }
 
-/// Where something is.
+/// Position of something.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Place {
-    /// In the frame of a body.
+    /// Fixed in the frame of a body.
     Of { b: isize, p: [Rounded; 2] },
-    /// Somewhere else in each frame.
+    /// Given separately for each frame of the run.
     Free { x: Channel, y: Channel },
 }
 
-/// Where something points.
+/// Direction of something.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Heading {
     /// At this angle in a body (rad).
     Of { b: isize, a: Rounded },
-    /// Elsewhere in each frame.
+    /// Given separately for each frame of the run.
     Free { a: Channel },
 }
 
@@ -65,7 +66,7 @@ pub(crate) struct DrawnSite {
     pub(crate) place: Place,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) axis: Option<Heading>,
-    /// The other end of a rod, the block of a guide.
+    /// The other end of a rod, or the block of a guide.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) end: Option<Place>,
     pub(crate) grounded: bool,
@@ -90,7 +91,7 @@ pub(crate) struct DrawingModel {
     pub(crate) bodies: Vec<DrawnBody>,
     pub(crate) sites: Vec<DrawnSite>,
     pub(crate) forces: Vec<DrawnForce>,
-    /// Bodies in the order of painting, the largest first.
+    /// Bodies in the order of drawing, the largest first.
     pub(crate) order: Vec<usize>,
     shapes: Shapes,
     spring: &'static [[f64; 2]],
@@ -102,7 +103,7 @@ impl DrawnSite {
         matches!(self.symbol, "block" | "slot")
     }
 
-    /// Where its symbol is: blocks are where they slide to.
+    /// Position of its symbol; a block is drawn at the place to which it has moved.
     pub(crate) fn shown(&self) -> &Place {
         match &self.end {
             Some(end) if self.is_guided() => end,
@@ -111,7 +112,7 @@ impl DrawnSite {
     }
 }
 
-/// Where things are at the first frame (global, m and rad).
+/// Positions at the first frame (global, m and rad).
 impl DrawingModel {
     /// The centre of a body; the origin for the ground.
     pub(crate) fn centre(&self, body: isize) -> [f64; 2] {
@@ -130,7 +131,7 @@ impl DrawingModel {
         }
     }
 
-    /// A place.
+    /// Global coordinates of a place.
     pub(crate) fn at(&self, place: &Place) -> [f64; 2] {
         match place {
             Place::Of { b, p } => self.held(*b, *p),
@@ -155,7 +156,7 @@ impl DrawingModel {
 pub(crate) struct Stage<'a> {
     /// The mechanism, or the part of it that is drawn.
     pub(crate) mechanism: &'a Mechanism,
-    /// Its bodies among all.
+    /// Indices of its bodies among all bodies.
     pub(crate) bodies: &'a [usize],
     pub(crate) frames: &'a [Frame],
 }
@@ -341,7 +342,7 @@ impl Stage<'_> {
         }
         let mut last: f64 = 0.0;
         let all = self.every(id, |site, _| angle(site));
-        // An axis has no sense: each angle is the one nearest to that before.
+        // An axis has no orientation, so each angle is the one nearest to the angle before.
         let unwound = all.into_iter().map(|a| {
             last = a + std::f64::consts::PI * ((last - a) / std::f64::consts::PI).round();
             last
@@ -352,7 +353,7 @@ impl Stage<'_> {
         }
     }
 
-    /// Something of a joint in all frames.
+    /// A property of a joint in all frames.
     fn every<T>(&self, id: ConstraintId, of: impl Fn(&Site, &Scratch) -> T) -> Vec<T> {
         let frames = self.frames.iter();
         frames

@@ -1,4 +1,4 @@
-//! Error over what is made extreme: one panel for each question and each varied number, doubly
+//! Error over an extreme number: one panel for each test and each varied number, doubly
 //! logarithmic.
 
 use super::curve::{Curve, Look};
@@ -11,37 +11,37 @@ use super::svg::Svg;
 const WIDTH: f64 = 1120.0;
 /// Margin of the page (px).
 const MARGIN: f64 = 18.0;
-/// Room for labels of the vertical axis (px).
+/// Space for labels of the vertical axis (px).
 const LABELS: f64 = 44.0;
-/// Room between panels (px).
+/// Space between panels (px).
 const GUTTER: f64 = 30.0;
 /// Height of a panel (px).
 const HEIGHT: f64 = 190.0;
-/// Room above a panel for its title (px).
+/// Space above a panel for its title (px).
 const TITLE: f64 = 26.0;
-/// Room below a panel for labels and the name of the axis (px).
+/// Space below a panel for labels and the name of the axis (px).
 const BELOW: f64 = 46.0;
-/// Panels side by side.
+/// Number of panels side by side.
 const COLUMNS: usize = 2;
 
-/// Errors shown, as powers of ten; what lies beyond, zero too, is drawn at the edge.
+/// Range of errors, as powers of ten; values outside, including zero, are drawn at the edge.
 const SHOWN: [f64; 2] = [-17.0, 1.0];
 
 /// One panel: errors over a varied number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extremes<'a> {
-    /// What was asked.
+    /// The test.
     pub title: &'a str,
     /// The number that was varied.
     pub varied: &'a str,
     /// Names of curves with their points: the varied number and the error.
     pub series: Vec<(&'a str, Vec<[f64; 2]>)>,
-    /// The largest error that is right, if all cases have the same.
+    /// The largest error that is accepted, if it is the same for all cases.
     pub bound: Option<f64>,
 }
 
-/// Errors over varied numbers, panel by panel; an empty text without panels. A dashed line is the
-/// bound. Of several errors at one number the largest has a point, NaN has none.
+/// Errors over varied numbers, panel by panel; an empty text if there are no panels. A dashed line
+/// is the bound. Of several errors at one number the largest has a point, NaN has none.
 #[must_use]
 pub fn extremes(panels: &[Extremes<'_>]) -> String {
     let plots: Vec<Plot<'_>> = panels.iter().map(Plot::of).collect();

@@ -1,5 +1,5 @@
-//! Where the joints of a mechanism are and what kind of freedom they leave, found from their rows,
-//! wrenches and places: no joint is known by name.
+//! Positions of the joints of a mechanism and the kind of freedom they leave, derived from their
+//! rows, wrenches and places: no joint is known by name.
 
 #[cfg(test)]
 mod tests;
@@ -12,7 +12,7 @@ use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, System};
 use super::FigureError;
 use super::symbol::Symbol;
 
-/// Coordinates beyond cannot be drawn: their squares would overflow.
+/// Larger coordinates cannot be drawn: their squares would overflow.
 const LIMIT: f64 = 1e150;
 
 /// Evaluates poses, if q is a configuration that can be drawn.
@@ -42,23 +42,23 @@ pub(crate) fn posed(
     Ok(())
 }
 
-/// A joint or drive in its place (global components, m).
+/// A joint or drive at its place (global components, m).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Site {
     pub(crate) place: [f64; 2],
     pub(crate) symbol: Symbol,
-    /// Where its only force acts on the other body; its place if there is no such point.
+    /// Point at which its only force acts on the other body; its place if there is no such point.
     pub(crate) end: [f64; 2],
-    /// Whether it holds a body to the ground.
+    /// Whether it connects a body to the ground.
     pub(crate) grounded: bool,
-    /// Circles that roll on each other at its place, where it couples two rotations.
+    /// Circles that roll on each other at its place, if it couples two rotations.
     pub(crate) pitch: Option<[Pitch; 2]>,
 }
 
 /// A pitch circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pitch {
-    /// The body that it is centred on.
+    /// The body at whose centre it is.
     pub(crate) body: BodyRef,
     pub(crate) radius: f64,
 }
@@ -119,14 +119,15 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
     }
 }
 
-/// Ratios nearer to one have no mesh: rotations that are equal need no wheels.
+/// Ratios closer to one are drawn without wheels: equal rotations need none.
 const LEAST_SLIP: f64 = 1e-2;
 
-/// Where two wheels touch, if the second body turns `ratio` times as fast as the first one: r_i·ω_i
-/// = −r_j·ω_j outside of each other, r_i·ω_i = r_j·ω_j inside. The ratio is the torque on the first
-/// body, as rows of rotations are written with one for the second.
+/// The contact point of two wheels, if the second body rotates `ratio` times as fast as the first
+/// one: r_i·ω_i = −r_j·ω_j for external contact, r_i·ω_i = r_j·ω_j for internal contact. The ratio
+/// is the torque on the first body, because rows of rotations have the coefficient one for the
+/// second.
 fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [Pitch; 2])> {
-    // A ring that is part of the ground stands around the carrier.
+    // A ring that is part of the ground is centred on the carrier.
     let wheel = |slot: usize| {
         let around = [slot, 2].map(|slot| group.bodies.get(slot)?.moving());
         let k = around[0].or(around[1])?;
@@ -152,10 +153,10 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [
         .then_some((point, circles))
 }
 
-/// Rows by what they transmit.
+/// Rows, classified by what they transmit.
 struct Rows {
     forces: Vec<usize>,
-    /// Number of rows that transmit a torque alone.
+    /// Number of rows that transmit only a torque.
     torques: usize,
 }
 

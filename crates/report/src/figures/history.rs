@@ -5,16 +5,16 @@ use super::plot::{Entry, Frame, Labels, legend, legend_height};
 use super::style::{GREY, INK, Style, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Svg, text_width};
 
-/// A curve over time. If the lengths differ, the longer one is cut.
+/// A curve over time. If the lengths differ, the longer one is cut off.
 #[derive(Clone, Copy, Debug)]
 pub struct Series<'a> {
     /// Its name in the legend; empty: not in the legend.
     pub label: &'a str,
     /// Times (s).
     pub t: &'a [f64],
-    /// Values; what is not finite is a gap.
+    /// Values; a value that is not finite is a gap.
     pub y: &'a [f64],
-    /// How it looks.
+    /// Its appearance.
     pub style: Style,
 }
 
@@ -47,15 +47,15 @@ impl<'a> Panel<'a> {
 const WIDTH: f64 = 960.0;
 /// Height of the frame of a panel (px).
 const FRAME: f64 = 150.0;
-/// Height of a frame that stands alone (px).
+/// Height of the frame if there is only one panel (px).
 const FRAME_ALONE: f64 = 300.0;
 /// Margin of the page (px).
 const MARGIN: f64 = 16.0;
-/// Room between columns (px).
+/// Space between columns (px).
 const GUTTER: f64 = 30.0;
-/// Room for a title (px).
+/// Space for a title (px).
 const TITLE: f64 = 26.0;
-/// Room below the lowest frames (px).
+/// Space below the lowest frames (px).
 const BELOW: f64 = 40.0;
 
 /// One quantity over time.
@@ -78,8 +78,8 @@ pub fn history(title: &str, unit: &str, series: &[Series<'_>]) -> String {
     draw(&[panel], 1, FRAME_ALONE)
 }
 
-/// Several quantities over the same time: small multiples in rows of `columns` panels. If all
-/// panels have the same curves, one legend stands for all.
+/// Several quantities over the same time: small panels in rows of `columns`. If all panels have the
+/// same curves, one legend serves for all.
 #[must_use]
 pub fn histories(panels: &[Panel<'_>], columns: usize) -> String {
     draw(panels, columns.clamp(1, panels.len().max(1)), FRAME)
@@ -162,7 +162,7 @@ fn draw(panels: &[Panel<'_>], columns: usize, frame_height: f64) -> String {
     svg.finish()
 }
 
-/// Whether all panels have the same curves by name and style.
+/// Whether the curves of all panels have the same names and styles.
 fn shared_legend(panels: &[Panel<'_>]) -> bool {
     panels.windows(2).all(|pair| {
         let (a, b) = (pair[0].series, pair[1].series);

@@ -1,5 +1,5 @@
-//! Places for names so that none hides another: each takes the best of several places around its
-//! anchor, the same as in the moving picture of a page.
+//! Places names so that none hides another: each takes the best of several places around its
+//! anchor, by the same rule as in the animation of a page.
 
 use super::svg::text_width;
 
@@ -26,7 +26,7 @@ impl Rect {
     }
 }
 
-/// A name that wants a place.
+/// A name that needs a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request<'a> {
     pub(super) text: &'a str,
@@ -46,7 +46,7 @@ const DIRECTIONS: [[f64; 2]; 6] = [
     [0.0, 1.0],
 ];
 
-/// Places names in the order given; `None` where every place would hide another name or leave the
+/// Places names in the given order; `None` if every place would hide another name or leave the
 /// page.
 pub(super) fn place(page: &Rect, symbols: &[Rect], requests: &[Request<'_>]) -> Vec<Option<Rect>> {
     let mut taken: Vec<Rect> = Vec::new();

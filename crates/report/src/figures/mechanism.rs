@@ -1,4 +1,4 @@
-//! The drawing of a mechanism as an SVG figure, to scale: it paints the [`DrawingModel`] at one
+//! The drawing of a mechanism as an SVG figure, to scale: it draws the [`DrawingModel`] at one
 //! time, with names and a legend.
 
 use std::ops::Range;
@@ -19,7 +19,7 @@ use crate::recording::Frame;
 /// How joints and drives are marked.
 #[derive(Clone, Copy, Debug)]
 pub enum Marking<'a> {
-    /// All alike.
+    /// All in the same way.
     Plain,
     /// By the verdicts of an analysis.
     Verdicts(&'a [ReactionVerdict]),
@@ -37,33 +37,33 @@ pub enum Labels {
 /// Width of the page and largest height of the drawing (px).
 const WIDTH: f64 = 960.0;
 const LARGEST_HEIGHT: f64 = 640.0;
-/// Room around the drawing for names (px).
+/// Space around the drawing for names (px).
 const ROOM: [f64; 2] = [90.0, 60.0];
-/// Margin of the page, and room for the title (px).
+/// Margin of the page, and space for the title (px).
 const MARGIN: f64 = 16.0;
 const TITLE: f64 = 30.0;
 /// Sizes of text (px), as in the style sheet.
 const NAME_SIZE: f64 = 13.0;
 const BODY_SIZE: f64 = 12.0;
-/// More names than this are a grey mass: names are then in the tool tips alone.
+/// With more names than this the drawing would be unreadable: then names are in the tool tips only.
 const MAX_LABELS: usize = 300;
 /// Height of a line of the legend and width of a symbol in it (px).
 const LEGEND: [f64; 2] = [36.0, 50.0];
-/// What a rail reaches beyond its block (px).
+/// Length of a rail beyond its block (px).
 const RAIL: f64 = 30.0;
 
-/// The looks of pages and figures; the first rule names the colours.
+/// The style sheet of pages and figures; the first rule names the colours.
 pub(crate) const LOOKS: &str = include_str!("picture.css");
 
 /// Draws a mechanism at coordinates q and time t.
 ///
-/// Bodies are hulls of the points where joints and forces hold them and of their centres of mass:
-/// their true shapes are unknown. Every symbol has its name, type and verdict as tool tip.
+/// Bodies are convex hulls of their centres of mass and of the points at which joints and forces
+/// act: their true shapes are unknown. Every symbol has its name, type and verdict as tool tip.
 ///
 /// # Errors
-/// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is no configuration of the
+/// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is not a configuration of the
 ///   mechanism.
-/// - [`FigureError::Verdicts`]: the verdicts are those of another mechanism.
+/// - [`FigureError::Verdicts`]: the verdicts belong to another mechanism.
 pub fn mechanism(
     mechanism: &Mechanism,
     t: f64,
@@ -73,7 +73,7 @@ pub fn mechanism(
     labelled_mechanism(mechanism, t, q, marking, Labels::Names)
 }
 
-/// Draws it with other labels.
+/// Like [`mechanism()`], with other labels.
 ///
 /// # Errors
 /// As [`mechanism()`].
@@ -129,7 +129,7 @@ struct Entry {
     symbol: &'static str,
     mark: &'static str,
     words: String,
-    /// Place from the left (px), and line.
+    /// Distance from the left (px), and line.
     at: [f64; 2],
 }
 
@@ -178,7 +178,7 @@ fn legend(mechanism: &Mechanism, model: &DrawingModel, marking: Marking<'_>) -> 
 struct View {
     /// px/m
     scale: f64,
-    /// What is in the middle of the drawing.
+    /// The point in the middle of the drawing.
     middle: [f64; 2],
     /// Height of the drawing (px).
     height: f64,
@@ -205,8 +205,8 @@ impl View {
         let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
         let room = [WIDTH - 2.0 * ROOM[0], LARGEST_HEIGHT - 2.0 * ROOM[1]];
         let size = dx.max(dy);
-        // Something without size, or with a size lost in its distance from the origin, gets one
-        // metre.
+        // Something without size, or with a size that is rounding relative to its distance from the
+        // origin, gets one metre.
         let far = x[0].abs().max(y[0].abs());
         let scale = if size > 1e-9 * far && size > 1.0 / DRAWABLE {
             (room[0] / dx).min(room[1] / dy)
@@ -232,7 +232,7 @@ impl View {
     }
 }
 
-/// A figure in the making.
+/// A figure under construction.
 struct Picture<'a> {
     groups: &'a [ConstraintGroup],
     model: &'a DrawingModel,
@@ -311,7 +311,7 @@ impl Picture<'_> {
         }
     }
 
-    /// Opens a group at a place of the page, turned by an angle (rad).
+    /// Opens a group at a place of the page, rotated by an angle (rad).
     fn group(&mut self, class: &str, [x, y]: [f64; 2], angle: f64) {
         let turn = -angle.to_degrees() + 0.0;
         let transform = format!(
@@ -384,7 +384,7 @@ impl Picture<'_> {
         }
     }
 
-    /// The guide of a block, hatched where it is part of the ground.
+    /// The guide of a block, hatched if it is part of the ground.
     fn rail(&mut self, site: &DrawnSite, place: [f64; 2]) {
         let (end, angle) = (
             self.view.to_page(self.model.at(site.shown())),
@@ -508,7 +508,7 @@ impl Picture<'_> {
         }
     }
 
-    /// A round length, about a sixth of the page.
+    /// A bar of a round length, about a sixth of the page.
     fn scale_bar(&mut self) {
         let length = round_step(0.1 * WIDTH / self.view.scale);
         let (y, pixels) = (self.view.bottom() + 2.0, length * self.view.scale);
@@ -535,7 +535,7 @@ impl Picture<'_> {
     }
 }
 
-/// The style sheet with colours of the light scheme instead of their names.
+/// The style sheet with the colours of the light scheme instead of their names.
 fn looks() -> String {
     let root = LOOKS.split_once(":root {").map_or("", |(_, root)| root);
     let (colours, rules) = root.split_once('}').unwrap_or(("", root));
@@ -549,7 +549,7 @@ fn pair([x, y]: [f64; 2]) -> String {
     format!("{} {}", number(x), number(y))
 }
 
-/// Rows as the user counts them.
+/// Row numbers counted from 1.
 fn rows(rows: &Range<usize>) -> String {
     match rows.len() {
         0 => String::new(),

@@ -1,6 +1,6 @@
 //! Outlines of bodies: convex hulls of their points.
 
-/// Convex hull, counter-clockwise in the axes given, without points on its sides. One or two points
+/// Convex hull, counter-clockwise in the given axes, without points on its sides. One or two points
 /// are their own hull.
 pub(super) fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();

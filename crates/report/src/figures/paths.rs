@@ -14,11 +14,11 @@ pub use recorder::PathRecorder;
 pub struct Path {
     /// Its name in the legend.
     pub label: String,
-    /// x (m); what is not finite is a gap.
+    /// x (m); a value that is not finite is a gap.
     pub x: Vec<f64>,
     /// y (m).
     pub y: Vec<f64>,
-    /// How it looks.
+    /// Its appearance.
     pub style: Style,
 }
 
@@ -81,7 +81,7 @@ pub fn paths(title: &str, paths: &[Path]) -> String {
     svg.finish()
 }
 
-/// Axes of one scale around two ranges, and the size of their frame (px).
+/// Axes with equal scales around two ranges, and the size of their frame (px).
 fn equal(x: [f64; 2], y: [f64; 2]) -> (Axis, Axis, [f64; 2]) {
     let span = |r: [f64; 2]| r[1] - r[0];
     let largest = span(x).max(span(y));

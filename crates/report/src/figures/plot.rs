@@ -1,4 +1,4 @@
-//! What all diagrams share: a frame with grid and ticks, curves with gaps, legends.
+//! Common parts of all diagrams: a frame with grid and ticks, curves with gaps, legends.
 
 use super::axis::{Axis, drawable};
 use super::style::{GREY, GRID, INK, Style, TEXT_SIZE};
@@ -17,7 +17,7 @@ pub(super) struct Frame {
     pub(super) y: Axis,
 }
 
-/// Where the labels of an axis stand.
+/// Position of the labels of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Labels {
     Shown,
@@ -84,8 +84,7 @@ impl Frame {
             .text(text);
     }
 
-    /// A curve; where a value cannot be drawn it has a gap, and a value alone between gaps is a
-    /// dot.
+    /// A curve. Values that cannot be drawn make a gap, and a single value between gaps is a dot.
     pub(super) fn curve(&self, svg: &mut Svg, x: &[f64], y: &[f64], style: Style) {
         let mut points = Vec::new();
         for (&x, &y) in x.iter().zip(y) {
@@ -121,8 +120,7 @@ fn stroke(svg: &mut Svg, points: &[[f64; 2]], style: Style) {
     }
 }
 
-/// Leaves out points that are not told apart (less than a quarter of a pixel from the last one
-/// shown).
+/// Omits points that are closer than a quarter of a pixel to the last point shown.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut shown: Vec<[f64; 2]> = Vec::with_capacity(points.len().min(4096));
     for (k, p) in points.iter().enumerate() {
@@ -149,7 +147,7 @@ const LEGEND_LINE: f64 = 18.0;
 /// Length of the sample of a curve (px).
 const SAMPLE: f64 = 24.0;
 
-/// How a curve looks, shown by a piece of it.
+/// Appearance of a curve, shown by a short piece of it.
 pub(super) trait Sample: Copy {
     /// Draws the piece between two points.
     fn sample(self, svg: &mut Svg, ends: [[f64; 2]; 2]);

@@ -1,5 +1,5 @@
-//! Colours, strokes and sizes. Colours are those of Okabe and Ito (2008), which remain apart for
-//! colour-blind readers; nothing is told by colour alone.
+//! Colours, strokes and sizes. Colours are those of Okabe and Ito (2008), which colour-blind
+//! readers can distinguish; no information is given by colour alone.
 
 /// Text and frames.
 pub(super) const INK: &str = "#222222";
@@ -12,7 +12,7 @@ pub(super) const TITLE_SIZE: f64 = 14.0;
 /// Size of all other text (px).
 pub(super) const TEXT_SIZE: f64 = 12.0;
 
-/// Colours of the light scheme of pages with those of the dark one.
+/// Colours of the light scheme of pages, with those of the dark one.
 const DARK: [(&str, &str); 9] = [
     ("#ffffff", "#14171a"),
     ("#222222", "#e8eaec"),
@@ -54,18 +54,18 @@ impl Pattern {
     }
 }
 
-/// How a curve looks.
+/// Appearance of a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Style {
-    /// Place in the palette of seven colours, which repeats.
+    /// Index in the palette of seven colours, which repeats.
     pub colour: usize,
     /// Its stroke.
     pub pattern: Pattern,
 }
 
 impl Style {
-    /// The style of the curve with this place: colours and strokes both change, so that curves that
-    /// coincide are all seen.
+    /// The style of the curve with this index: colours and strokes both change, so that coinciding
+    /// curves are all visible.
     #[must_use]
     pub fn nth(place: usize) -> Self {
         Self {
@@ -79,7 +79,7 @@ impl Style {
     }
 }
 
-/// Rules that exchange the colours where the reader prefers a dark page.
+/// CSS rules that exchange the colours if the reader prefers a dark page.
 pub(super) fn dark_scheme() -> String {
     let rule = |(light, dark): (&str, &str)| {
         format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}")

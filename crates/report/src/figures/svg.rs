@@ -1,4 +1,4 @@
-//! SVG text, element by element. Names from outside are escaped here and nowhere else.
+//! SVG text, element by element. Names from outside are escaped only here.
 
 use std::fmt::Write;
 
@@ -13,14 +13,14 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     CHARACTER * size * text.chars().count() as f64
 }
 
-/// An SVG document in the making.
+/// An SVG document under construction.
 pub(super) struct Svg {
     text: String,
     open: Vec<&'static str>,
 }
 
 impl Svg {
-    /// A white page (px) with a title for readers that do not see.
+    /// A white page (px) with a title for screen readers.
     pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
         let mut svg = Self {
             text: String::new(),
@@ -51,7 +51,7 @@ impl Svg {
         Element { svg: self, tag }
     }
 
-    /// Closes the element opened last.
+    /// Closes the last opened element.
     pub(super) fn close(&mut self) {
         if let Some(tag) = self.open.pop() {
             self.end_tag(tag);
@@ -117,10 +117,10 @@ impl Element<'_> {
     }
 }
 
-/// Hundredths of a pixel are enough.
+/// A number rounded to hundredths of a pixel.
 pub(super) fn number(value: f64) -> String {
     let rounded = (value * 100.0).round() / 100.0;
-    // Adding zero turns −0 into 0.
+    // Adding zero changes −0 to 0.
     let rounded = if rounded.is_finite() {
         rounded + 0.0
     } else {
@@ -140,7 +140,7 @@ pub(super) fn point_list(points: impl IntoIterator<Item = [f64; 2]>) -> String {
     list
 }
 
-/// Escapes what XML gives a meaning, and replaces what it forbids.
+/// Escapes characters with a meaning in XML, and replaces those that XML forbids.
 pub(crate) fn escape(from: &str, to: &mut String) {
     for c in from.chars() {
         match c {

@@ -1,11 +1,11 @@
-//! Symbols as data: strokes around a place (px, y down), lying along x. The SVG of a mechanism and
-//! the moving picture of a page paint the same strokes; their looks are those of `picture.css`.
+//! Symbols as data: strokes around a place (px, y down), along x. The SVG of a mechanism and the
+//! animation of a page draw the same strokes; their styles are in `picture.css`.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::label::Rect;
 
-/// What a joint leaves free, as a picture. Directions are global unit vectors.
+/// Kind of freedom that a joint leaves, as a picture. Directions are global unit vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Symbol {
     /// Two points coincide.
@@ -18,7 +18,7 @@ pub(crate) enum Symbol {
     Slot { axis: [f64; 2] },
     /// Two points keep their distance.
     Rod,
-    /// A blade or wheel, seen from above.
+    /// A knife edge or wheel, seen from above.
     Edge { along: [f64; 2] },
     /// Rotations depend on each other.
     Rotation,
@@ -42,7 +42,7 @@ impl Symbol {
         }
     }
 
-    /// The direction that it lies along.
+    /// The direction along which it is drawn.
     pub(crate) fn axis(self) -> Option<[f64; 2]> {
         match self {
             Self::Block { axis } | Self::Slot { axis } | Self::Edge { along: axis } => Some(axis),
@@ -52,19 +52,20 @@ impl Symbol {
     }
 }
 
-/// A symbol to paint.
+/// A symbol to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     pub(crate) name: &'static str,
-    /// Half the sides of its box, and the middle of the box above or below its place (px).
+    /// Half the sides of its box, and the offset of the middle of the box above or below its place
+    /// (px).
     pub(crate) half: [f64; 2],
     pub(crate) middle: f64,
-    /// Class and path data of each stroke, in the order of painting.
+    /// Class and path data of each stroke, in the order of drawing.
     pub(crate) strokes: &'static [(&'static str, &'static str)],
 }
 
 impl Shape {
-    /// The shape of this name; the first one if there is none.
+    /// The shape with this name; the first one if there is none.
     pub(super) fn named(name: &str) -> Self {
         SHAPES
             .into_iter()
@@ -117,7 +118,7 @@ const STAND: &str = "M0 0L-9 14H9Z";
 const GROUND: &str = "M-15 14H15M-9 14l-5 6M-3 14l-5 6M3 14l-5 6M9 14l-5 6M15 14l-5 6";
 const CENTRE: &str = "M-4 0H4M0-4V4M-4 0a4 4 0 1 1 8 0a4 4 0 1 1-8 0";
 
-/// All symbols in the order in which they are painted: first those that would hide others.
+/// All symbols in the order in which they are drawn: first those that would hide others.
 pub(crate) const SHAPES: [Shape; 14] = [
     shape("rod", [5.0, 5.0], 0.0, &[("mark", END)]),
     shape("block", [12.0, 7.5], 0.0, &[("mark", BLOCK)]),
@@ -143,7 +144,7 @@ pub(crate) const SHAPES: [Shape; 14] = [
     shape("push", [19.0, 6.0], 19.0, &[("mark", PUSH)]),
     shape("turn", [18.0, 15.0], 0.0, &[("mark", TURN)]),
     shape("pin", [6.3, 6.3], 0.0, &[("mark", PIN)]),
-    // Not of joints: the ground below a place, centres of mass, applied forces and torques.
+    // Not for joints: the ground below a place, centres of mass, applied forces and torques.
     shape(
         "foot",
         [16.0, 10.0],
@@ -181,7 +182,7 @@ pub(crate) const SPRING: [[f64; 2]; 16] = [
     [1.0, 0.0],
 ];
 
-/// A spring shorter than this has no room for coils (px).
+/// A shorter spring has no space for coils (px).
 pub(crate) const SHORT: f64 = 4.0;
 
 /// The symbols by name, for scripts.

@@ -1,6 +1,6 @@
 //! Error against time and against evaluations: three panels for each scene, doubly logarithmic.
-//! Down and to the left is better. Curves are told apart by colour and by marker; the page follows
-//! the light or dark scheme of the reader.
+//! Lower and further left is better. Curves differ in colour and in marker; the page follows the
+//! light or dark scheme of the reader.
 
 use super::curve::{Curve, Look};
 use super::decades::{Unit, decades};
@@ -11,34 +11,34 @@ use crate::work_precision::{CurveName, WorkPrecisionRow, WorkPrecisionScene};
 
 /// Width of the figure (px).
 const WIDTH: f64 = 1120.0;
-/// Margin of the page (px).
+/// Space for labels of the vertical axis (px).
 const MARGIN: f64 = 18.0;
-/// Room for labels of the vertical axis (px).
+/// Space between panels (px).
 const LABELS: f64 = 44.0;
 /// Room between panels (px).
 const GUTTER: f64 = 30.0;
 /// Height of a panel (px).
 const HEIGHT: f64 = 176.0;
-/// Room above a panel for the name of its scene (px).
+/// Space above a panel for the name of its scene (px).
 const TITLE: f64 = 30.0;
-/// Room below a panel for labels (px).
+/// Space below a panel for labels (px).
 const BELOW: f64 = 26.0;
-/// Panels of a scene.
+/// Number of panels of a scene.
 const COLUMNS: usize = 3;
 
-/// Errors shown, as powers of ten; what lies beyond is drawn at the edge.
+/// Range of errors, as powers of ten; values outside are drawn at the edge.
 const SHOWN: [f64; 2] = [-16.0, 1.0];
 
-/// A colour by which the area that the reference does not resolve is filled.
+/// Fill colour of the area that the reference does not resolve.
 const UNRESOLVED: &str = "#f1f3f5";
 
-/// What is drawn over which work.
+/// The quantity on the horizontal axis.
 type Work = fn(&WorkPrecisionRow) -> f64;
 
 /// Error of the motion (the larger one of position and velocity) for all methods over seconds and
 /// over evaluations, and for all treatments of redundancy and drift with one method over seconds. A
-/// dashed line is how well the reference is known. Runs that did not reach their end have no point;
-/// their number is told.
+/// dashed line is the error of the reference. Runs that did not reach their end have no point;
+/// their number is stated.
 #[must_use]
 pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     let methods = Family::methods(scenes);
@@ -101,10 +101,10 @@ pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     svg.finish()
 }
 
-/// The limit of a reference is shown if it is at most this much below the smallest error.
+/// The limit of a reference is shown if it is at least this fraction of the smallest error.
 const FAR: f64 = 1e-3;
 
-/// Logarithms of all errors of a scene, and of its limit if that is near.
+/// Logarithms of all errors of a scene, and of its limit if it is close to them.
 fn errors(scene: &WorkPrecisionScene) -> impl Iterator<Item = f64> + Clone {
     let runs = scene.rows.iter().filter_map(WorkPrecisionRow::motion_error);
     let smallest = runs.clone().fold(f64::INFINITY, f64::min);
@@ -206,7 +206,7 @@ struct Family {
 }
 
 impl Family {
-    /// All methods with the treatment of most runs.
+    /// All methods with the most frequent treatment.
     fn methods(scenes: &[WorkPrecisionScene]) -> Self {
         let all = names(scenes);
         let first = all.first();
@@ -229,7 +229,7 @@ impl Family {
     fn treatments(scenes: &[WorkPrecisionScene]) -> Self {
         let all = names(scenes);
         let count = |method: &str| all.iter().filter(|c| c.method == method).count();
-        // Of equal ones the first.
+        // The first one if there are several.
         let method = all
             .iter()
             .rev()

@@ -1,5 +1,4 @@
-//! The data of a page as one JSON document: what scripts draw, and no more of it than a small page
-//! carries.
+//! The data of a page as one JSON document for the scripts, limited so that the page stays small.
 
 use model::reaction::COMPONENTS;
 use model::{Mechanism, System};
@@ -12,16 +11,16 @@ use crate::documents::{EventDocument, ReactionDocument};
 use crate::figures::drawing::{DrawingModel, DrawnForce, Stage};
 use crate::recording::Frame;
 
-/// Joints and drives, and bodies, that are drawn and plotted at most.
+/// Largest number of joints and drives, and of bodies, that are drawn and plotted.
 pub(super) const DRAWN_MAX: usize = 400;
 
-/// Drives that are plotted at most.
+/// Largest number of drives that are plotted.
 pub(super) const DRIVES_MAX: usize = 12;
 
-/// A force below this share of the largest one is rounding.
+/// A force below this fraction of the largest one is rounding.
 const NOISE: f64 = 1e-12;
 
-/// Everything that scripts need.
+/// All data that the scripts need.
 #[derive(Serialize)]
 pub(super) struct Data<'a> {
     name: &'a str,
@@ -57,9 +56,9 @@ struct Joint<'a> {
     /// Names, units and verdicts of the components that are not identically zero.
     components: Vec<Component>,
     explanation: Option<&'a str>,
-    /// What its numbers depend on if they are not unique.
+    /// The choice on which its numbers depend if they are not unique.
     choice: Option<String>,
-    /// Fx, Fy, T, and the named component; `None` if they were not wanted.
+    /// Fx, Fy, T, and the named component; `None` if they were not requested.
     reaction: Option<Reaction>,
 }
 
@@ -87,7 +86,7 @@ struct ComparisonData<'a> {
 #[derive(Serialize)]
 struct ChoiceData<'a> {
     label: &'a str,
-    /// Of each joint.
+    /// Components of the wrench of each joint.
     wrenches: Vec<[Channel; 3]>,
 }
 
@@ -134,8 +133,8 @@ pub(super) struct Cast {
 }
 
 impl Cast {
-    /// All of a small mechanism; the first bodies of a large one, with the joints and drives among
-    /// them.
+    /// A small mechanism as a whole; the first bodies of a large one, with the joints and drives
+    /// among them.
     pub(super) fn of(mechanism: &Mechanism) -> Self {
         let groups = &mechanism.layout().groups;
         let bodies = mechanism.bodies().len();
@@ -243,7 +242,7 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
         None => "ground".to_owned(),
         Some(k) => page.mechanism.bodies()[k].name.clone(),
     });
-    // The document tells of the start.
+    // The document describes the start only.
     let compared = page.comparisons.iter().any(|c| c.reactions.contains(&k));
     let later = compared && verdict == "unique";
     Joint {
@@ -310,7 +309,7 @@ fn comparison<'a>(c: &'a Comparison, cast: &Cast, noise: f64) -> Option<Comparis
     })
 }
 
-/// Angles of axes without jumps of half a turn.
+/// Angles of axes without jumps by half a revolution.
 fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
     let half = std::f64::consts::PI;
     let mut last = 0.0;
@@ -417,8 +416,8 @@ fn unit(component: &str) -> &'static str {
     }
 }
 
-/// Numbers of a row, weighted so that a recording of them stays small: those that are kept, and
-/// more for each that is shown.
+/// Numbers in a row, weighted so that a recording stays small: those that are stored, and an
+/// additional weight for each that is shown.
 pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     let layout = mechanism.layout();
     let kept = layout.n_q + layout.n_v + layout.rows() + 4 * layout.groups.len();
@@ -427,10 +426,10 @@ pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     kept + SHOWN * (6 * bodies + 3 * joints)
 }
 
-/// A number that is shown weighs as much as so many that are kept.
+/// A number that is shown has the weight of this many stored numbers.
 const SHOWN: usize = 6;
 
-/// Levels of a curve, in digits.
+/// Number of digits of the levels of a curve.
 pub(super) fn levels() -> u64 {
     crate::channel::LEVELS as u64
 }

@@ -1,5 +1,5 @@
 //! The page from its head to its scripts. Names and sentences from outside are escaped where they
-//! are put in.
+//! are inserted.
 
 use super::data::{Cast, Data};
 use super::run_page::RunPage;
@@ -20,11 +20,11 @@ const SCRIPTS: [&str; 6] = [
     include_str!("script/main.js"),
 ];
 
-/// Nothing is fetched: no address is allowed but data in the page itself.
+/// Nothing is loaded: only data in the page itself are allowed as addresses.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// Names that a sentence lists.
+/// Largest number of names that a sentence lists.
 const LISTED: usize = 12;
 
 pub(super) fn document(page: &RunPage<'_>) -> String {
@@ -127,7 +127,7 @@ fn picture_title(page: &RunPage<'_>) -> &'static str {
     }
 }
 
-/// One or two sentences: what the reader wanted to know.
+/// One or two sentences with the main result.
 fn answer(page: &RunPage<'_>) -> String {
     let all = page.verdicts();
     let of = |word: &str| -> Vec<&str> {
@@ -203,7 +203,7 @@ fn answer(page: &RunPage<'_>) -> String {
             format_args!("Undecided: {}. ", names_in_words(&doubt)),
         );
     }
-    // Nothing is undecided: one word less.
+    // Shorter if nothing is undecided.
     if doubt.is_empty() {
         text = text.replace(
             "All reactions that are decided are unique",
@@ -213,7 +213,7 @@ fn answer(page: &RunPage<'_>) -> String {
     text.trim_end().to_owned()
 }
 
-/// That some unique reactions hang on the data.
+/// States that some unique reactions are fragile.
 fn hanging(names: &[&str]) -> String {
     let names_in_words = names_in_words(names);
     match names.len() {
@@ -283,12 +283,12 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</ul>\n");
 }
 
-/// Controls of what only a run has.
+/// Controls that only the page of a run has.
 const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
 step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
 <fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
 
-/// The moving picture with what belongs to it.
+/// The animation with its controls.
 fn motion(out: &mut String, page: &RunPage<'_>) {
     let title = picture_title(page);
     add(
@@ -338,7 +338,7 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
     out.push_str(".</p>\n</section>\n");
 }
 
-/// What marks and arrows mean, as far as they occur.
+/// The meaning of marks and arrows, as far as they occur.
 fn legend(out: &mut String, page: &RunPage<'_>) {
     const MARK: &str = "<g transform=\"translate(17 11)\" class=\"site VERDICT\"><circle class=\"mark\" r=\"6.5\"/></g>";
     const ARROW: &str = "<path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/>";
@@ -370,7 +370,7 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
     }
 }
 
-/// Places for the curves; scripts fill them.
+/// Empty elements for the curves; scripts fill them.
 fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
     out.push_str(
         "<section id=\"reactions\" aria-labelledby=\"reactions-title\">\n<h2 id=\"reactions-title\">Reactions</h2>\n\
@@ -433,7 +433,7 @@ fn transport(out: &mut String) {
 }
 
 fn close(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
-    // Numbers and names only: this cannot fail.
+    // Only numbers and names, so this cannot fail.
     let json = serde_json::to_string(&Data::new(page, cast)).unwrap_or_else(|_| "null".to_owned());
     add(
         out,
@@ -448,12 +448,13 @@ fn close(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
     out.push_str("</script>\n</body>\n</html>\n");
 }
 
-/// JSON that ends no script: `<` occurs in strings only, where it may be written as an escape.
+/// JSON that cannot end a script: `<` occurs in strings only, in which it may be written as an
+/// escape.
 fn harmless(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-/// With a capital letter at the beginning, without a dot at the end.
+/// Adds a capital letter at the beginning and removes a full stop at the end.
 fn sentence(text: &str) -> String {
     let mut letters = text.trim_end_matches('.').chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());

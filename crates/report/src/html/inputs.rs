@@ -1,5 +1,5 @@
-//! What is needed to get the same page again: scene, options, versions, numbers of the run; and
-//! what the page leaves out.
+//! Information needed to reproduce the page: scene, options, versions, numbers of the run; and the
+//! parts that the page omits.
 
 use model::System;
 
@@ -8,7 +8,7 @@ use super::run_page::RunPage;
 use crate::documents::RunDocument;
 use crate::page::{add, duration, list, safe, short};
 
-/// Bytes of a scene that a page carries.
+/// Largest size of a scene included in a page (bytes).
 const SCENE_MOST: usize = 200_000;
 
 pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
@@ -100,7 +100,7 @@ fn numbers(out: &mut String, run: &RunDocument) {
 fn scene(out: &mut String, text: &str) {
     let end = text.floor_char_boundary(SCENE_MOST);
     out.push_str("<details><summary>The scene</summary>\n<pre>");
-    // Line by line: escaping takes line feeds for spaces.
+    // Line by line, because escaping replaces line feeds by spaces.
     for line in text[..end].lines() {
         out.push_str(&safe(line));
         out.push('\n');
@@ -121,7 +121,7 @@ fn pair(out: &mut String, what: &str, value: &str) {
     add(out, format_args!("<dt>{what}</dt><dd>{value}</dd>\n"));
 }
 
-/// What is drawn of a large mechanism, in words.
+/// Sentences on the drawn part of a large mechanism.
 fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
     let mut told = Vec::new();
     let groups = page.mechanism.layout().groups.len();

@@ -1,4 +1,4 @@
-//! What a page is made of.
+//! The contents of a page.
 
 use model::Mechanism;
 
@@ -6,29 +6,29 @@ use super::comparison::Comparison;
 use crate::documents::{AnalysisDocument, FreedomsDocument, MakeUniqueDocument, RunDocument};
 use crate::recording::Recording;
 
-/// What a page is made of.
+/// The contents of a page.
 pub struct RunPage<'a> {
     /// The mechanism that was run.
     pub mechanism: &'a Mechanism,
-    /// Verdicts at the start, with their explanation; `None` if none could be made.
+    /// Verdicts at the start, with their explanation; `None` if there are none.
     pub analysis: Option<&'a AnalysisDocument>,
-    /// For reactions that are not unique, what would make them so.
+    /// Deletions that would make non-unique reactions unique.
     pub hints: &'a [MakeUniqueDocument],
     /// Numbers of the run; `None` for the page of a start alone.
     pub run: Option<&'a RunDocument>,
     /// Its rows.
     pub recording: &'a Recording,
-    /// Reactions that are not unique, by several choices.
+    /// Non-unique reactions for several choices.
     pub comparisons: &'a [Comparison],
-    /// What drives prescribe, at the frames.
+    /// The values that drives prescribe, at the frames.
     pub drives: &'a [DriveCurve],
-    /// How to get the same run again.
+    /// How to reproduce the run.
     pub origin: &'a Origin,
     /// The text of the scene, if there is one.
     pub scene: Option<&'a str>,
-    /// Options of the run, in words.
+    /// Options of the run, as text.
     pub options: &'a [(String, String)],
-    /// What was left out, in sentences.
+    /// Sentences on what was left out.
     pub left_out: &'a [String],
     /// Error against run time, as an SVG figure, if there is one.
     pub work_precision: Option<&'a str>,
@@ -62,9 +62,9 @@ impl RunPage<'_> {
 /// What a drive prescribes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveCurve {
-    /// Its name.
+    /// Name of the drive.
     pub name: String,
-    /// What is driven, in words.
+    /// The driven quantity, as text.
     pub text: String,
     /// `m` or `rad`.
     pub unit: &'static str,
@@ -72,10 +72,10 @@ pub struct DriveCurve {
     pub values: Vec<f64>,
 }
 
-/// By whom and how a page was made.
+/// How a page was made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// The command line, or where there was none, who called.
+    /// The command line, or the caller if there was none.
     pub command: String,
     /// Versions of program and compiler.
     pub versions: String,

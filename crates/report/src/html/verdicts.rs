@@ -1,14 +1,14 @@
-//! Verdicts in words: the table of joints and drives, what mixes, and what would make reactions
-//! unique. Static text, so that it is there without scripts and on paper.
+//! Verdicts as text: the table of joints and drives, the coupled reactions, and what would make
+//! reactions unique. Static text, so that it is available without scripts and on paper.
 
 use super::run_page::RunPage;
 use crate::documents::ReactionDocument;
 use crate::page::{add, safe, short};
 
-/// Lines of a list, at most.
+/// Largest number of lines of a list.
 pub(super) const MOST: usize = 40;
 
-/// Lines of the table, at most.
+/// Largest number of lines of the table.
 const LINES: usize = 300;
 
 pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
@@ -33,7 +33,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</section>\n");
 }
 
-/// Those that are not unique, or fragile, come first where not all have room.
+/// If there are too many, those that are not unique, or fragile, come first.
 fn selected(all: &[ReactionDocument]) -> Vec<&ReactionDocument> {
     if all.len() <= LINES {
         return all.iter().collect();
@@ -94,7 +94,7 @@ fn reason(r: &ReactionDocument) -> String {
     }
     match (&r.explanation, r.settled, r.wrench.verdict) {
         (Some(text), ..) => {
-            // The column before says this.
+            // The column before contains this text.
             let known = format!("the reaction of `{}` is not determined: ", r.name);
             text.strip_prefix(&known).unwrap_or(text).to_owned()
         }
@@ -166,7 +166,7 @@ fn some(out: &mut String, sentences: &[String]) {
     }
 }
 
-/// Two digits for people.
+/// A number with two digits.
 fn margin(x: f64) -> String {
     if x >= 0.01 {
         format!("{x:.2}")
@@ -175,7 +175,7 @@ fn margin(x: f64) -> String {
     }
 }
 
-/// Text in which names stand between grave accents.
+/// Text in which names are enclosed in grave accents.
 pub(super) fn marked(text: &str) -> String {
     let mut out = String::new();
     for (k, part) in text.split('`').enumerate() {

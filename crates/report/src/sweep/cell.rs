@@ -7,16 +7,16 @@ use serde::{Serialize, Serializer};
 pub struct Column {
     /// Its name.
     pub name: String,
-    /// What its values are.
+    /// Type of its values.
     pub kind: Kind,
 }
 
-/// What the values of a column are.
+/// Type of the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Whole numbers, some of them unknown.
+    /// Whole numbers, some of which may be unknown.
     Count,
-    /// Numbers; NaN if there is none.
+    /// Numbers; NaN if unknown.
     Number,
     /// Texts of one line.
     Text,
@@ -25,22 +25,22 @@ pub enum Kind {
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Of a column of whole numbers; `None` if it is unknown.
+    /// A value of a column of whole numbers; `None` if it is unknown.
     Count(Option<u64>),
-    /// Of a column of numbers.
+    /// A value of a column of numbers.
     Number(f64),
-    /// Of a column of texts.
+    /// A value of a column of texts.
     Text(String),
 }
 
 impl Cell {
-    /// A text of one line, whatever it was.
+    /// A text converted to one line.
     pub(super) fn line(text: &str) -> Self {
         let words: Vec<&str> = text.split_whitespace().collect();
         Self::Text(words.join(" "))
     }
 
-    /// Reads what was written, if it is of this kind.
+    /// Parses a written value, if it is of this type.
     pub(super) fn read(text: &str, kind: Kind) -> Option<Self> {
         match kind {
             Kind::Count if text.is_empty() => Some(Self::Count(None)),

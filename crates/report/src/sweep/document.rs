@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::{Cell, Column, SweepPlan, SweepRows, SweepStatus};
 
-/// Runs that are not done and are named.
+/// Largest number of failed runs that are listed.
 const NAMED: usize = 10;
 
-/// What has become of a sweep.
+/// Summary of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SweepDocument {
     /// Name of the scene.
@@ -16,32 +16,32 @@ pub struct SweepDocument {
     pub vary: Vec<String>,
     /// Number of runs of the whole grid.
     pub runs: u64,
-    /// How many of them have a row.
+    /// Number of runs that have a row.
     pub finished: u64,
-    /// Whether some have none.
+    /// Whether some runs have no row.
     pub partial: bool,
-    /// Runs that reached their end.
+    /// Number of runs that reached their end.
     pub done: u64,
-    /// Runs that stopped before it.
+    /// Number of runs that stopped before it.
     pub stopped: u64,
-    /// Runs that did not begin.
+    /// Number of runs that did not begin.
     pub refused: u64,
-    /// The first ones that are not done.
+    /// The first runs that failed.
     pub failures: Vec<SweepFailure>,
     /// The largest energy balance of all runs; `None` if no run has one.
     pub max_energy_balance: Option<f64>,
-    /// The run that has it.
+    /// The run with this energy balance.
     pub max_energy_balance_run: Option<u64>,
 }
 
-/// A run that is not done.
+/// A run that failed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SweepFailure {
     /// Its number, from 1.
     pub run: u64,
     /// `stopped` or `refused`.
     pub status: String,
-    /// Why.
+    /// Reason.
     pub error: String,
 }
 
@@ -49,7 +49,7 @@ impl SweepDocument {
     /// The summary of rows under these columns.
     pub(super) fn new(plan: &SweepPlan, columns: &[Column], rows: &SweepRows) -> Self {
         let place = |name: &str| {
-            // Varied keys come first and may have any name.
+            // Varied keys come first and may have any names.
             let behind = 1 + plan.keys.len();
             let own = columns.iter().skip(behind);
             own.take_while(|c| c.name != name).count() + behind

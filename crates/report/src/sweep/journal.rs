@@ -1,6 +1,6 @@
-//! The journal of a sweep: a line for each finished run, written at once and never changed. Every
-//! line begins with a digest of the rest, so that a line that was cut off by a crash is recognised:
-//! it is left out, and its run is made again.
+//! The journal of a sweep: a line for each finished run, written immediately and never changed.
+//! Every line begins with a digest of the rest, so that a line cut off by a crash is recognised: it
+//! is ignored, and its run is made again.
 //!
 //! ```text
 //! 4be1d0… {"scene":"pendulum","digest":"…","vary":["body.bob.mass=1:2:11"],…}
@@ -15,22 +15,23 @@ use std::time::{Duration, Instant};
 use super::{Cell, Column, SweepPlan, SweepRow, SweepRows};
 use crate::files::FileError;
 
-/// Ending of the names of journals.
+/// Extension of the names of journals.
 const ENDING: &str = ".journal";
 
-/// A line that comes so long after the journal was last forced to the disk forces it again: to wait
-/// for the disk takes longer than short runs do. A power failure costs at most the runs that
-/// finished within this time after the last force; a crash of the program costs none.
+/// If this time has passed since the journal was last synchronised with the disk, the next line
+/// synchronises it again; waiting for the disk takes longer than a short run. A power failure loses
+/// at most the runs that finished within this time after the last synchronisation; a crash of the
+/// program loses none.
 const SYNC: Duration = Duration::from_millis(100);
 
-/// Why a journal cannot be used.
+/// Reason why a journal cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum JournalError {
-    /// The operating system refused.
+    /// The operating system reported an error.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Somebody else is writing it.
+    /// Another process is writing it.
     #[error("another sweep is writing `{}`; wait for its end, or take a shard of your own (`--shard i/n`)", path.display())]
     Busy {
         /// The journal.
@@ -51,13 +52,13 @@ pub enum JournalError {
         /// What it is now.
         now: String,
     },
-    /// Its first line is damaged, or none of a sweep.
+    /// Its first line is damaged, or does not describe a sweep.
     #[error("the first line of `{}` is not that of a sweep: nobody knows what its rows belong to; remove it to begin again", path.display())]
     Damaged {
         /// The journal.
         path: PathBuf,
     },
-    /// There is none.
+    /// There is no journal.
     #[error("no sweep was begun in `{}`", directory.display())]
     Missing {
         /// The directory.
@@ -65,29 +66,30 @@ pub enum JournalError {
     },
 }
 
-/// A journal that is being written; nobody else can write it at the same time.
+/// A journal that is being written; no other process can write it at the same time.
 #[derive(Debug)]
 pub struct Journal {
     file: File,
     path: PathBuf,
     plan: SweepPlan,
     synced: Instant,
-    /// Held as long as the journal is written. A file of its own: some systems let nobody read a
-    /// locked one.
+    /// Lock held while the journal is written. It is a separate file, because on some systems a
+    /// locked file cannot be read.
     _lock: File,
 }
 
 impl Journal {
-    /// Opens a journal under a name without its ending, or begins it. What a crash left of a last
-    /// line is removed.
+    /// Opens a journal with this name (without extension), or creates it. An incomplete last line
+    /// left by a crash is removed.
     ///
     /// # Errors
-    /// - [`JournalError::Busy`], [`JournalError::Changed`], [`JournalError::Damaged`]: it cannot be
-    ///   continued.
-    /// - [`JournalError::File`]: the operating system refused.
+    /// - [`JournalError::Busy`], [`JournalError::Changed`], [`JournalError::Damaged`]: the journal
+    ///   cannot be continued.
+    /// - [`JournalError::File`]: the operating system reported an error.
     pub fn open(directory: &Path, name: &str, plan: &SweepPlan) -> Result<Self, JournalError> {
         let path = directory.join(format!("{name}{ENDING}"));
-        // Those of other shards: a journal of another sweep beside them would spoil the directory.
+        // Also checks the journals of other shards: a journal of another sweep in the same
+        // directory would make its tables inconsistent.
         for other in journals(directory)?.iter().filter(|other| **other != path) {
             let bytes = fs::read(other).map_err(FileError::refused("read", other))?;
             if let Some(found) = Content::of(&bytes).plan(other)? {
@@ -136,16 +138,16 @@ impl Journal {
         self.line(&text, SyncWhen::Seldom)
     }
 
-    /// Leaves it with everything on the disk.
+    /// Closes the journal after everything is on the disk.
     ///
     /// # Errors
-    /// [`JournalError::File`]: the disk refused.
+    /// [`JournalError::File`]: it could not be written.
     pub fn finish(self) -> Result<(), JournalError> {
         let synced = self.file.sync_data();
         Ok(synced.map_err(FileError::refused("write", &self.path))?)
     }
 
-    /// One line by one write: lines of others never come between.
+    /// Each line is a single write, so lines of other processes are never mixed into it.
     fn line(&mut self, text: &[u8], when: SyncWhen) -> Result<(), JournalError> {
         let mut line = format!("{:016x} ", digest(text)).into_bytes();
         line.extend_from_slice(text);
@@ -169,9 +171,9 @@ enum SyncWhen {
 /// All journals of some directories.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Journals {
-    /// What they have in common.
+    /// The common description of the sweep.
     pub plan: SweepPlan,
-    /// The runs that are finished.
+    /// The finished runs.
     pub rows: SweepRows,
 }
 
@@ -180,8 +182,8 @@ impl Journals {
     ///
     /// # Errors
     /// - [`JournalError::Missing`]: a directory has none.
-    /// - [`JournalError::Changed`], [`JournalError::Damaged`]: they are not of one sweep.
-    /// - [`JournalError::File`]: the operating system refused.
+    /// - [`JournalError::Changed`], [`JournalError::Damaged`]: they belong to different sweeps.
+    /// - [`JournalError::File`]: the operating system reported an error.
     pub fn read<P: AsRef<Path>>(directories: &[P]) -> Result<Self, JournalError> {
         let mut all: Option<Self> = None;
         let mut missing = PathBuf::new();
@@ -190,7 +192,7 @@ impl Journals {
             for path in journals(directory)? {
                 let bytes = fs::read(&path).map_err(FileError::refused("read", &path))?;
                 let content = Content::of(&bytes);
-                // One that was cut off before its first line was complete has nothing.
+                // A journal that was cut off before its first line was complete is empty.
                 let Some(plan) = content.plan(&path)? else {
                     continue;
                 };
@@ -231,14 +233,14 @@ fn journals(directory: &Path) -> Result<Vec<PathBuf>, JournalError> {
     Ok(paths)
 }
 
-/// The lines of a journal that are as they were written.
+/// The valid lines of a journal.
 struct Content<'b> {
     lines: Vec<&'b [u8]>,
-    /// Whether the first line is among them.
+    /// Whether the first line is valid.
     begins: bool,
-    /// Whether a line is complete, but not as it was written.
+    /// Whether there is a complete line that is not as it was written.
     has_damage: bool,
-    /// Bytes up to the end of the last one.
+    /// Number of bytes up to the end of the last valid line.
     length: usize,
 }
 
@@ -264,7 +266,7 @@ impl<'b> Content<'b> {
         content
     }
 
-    /// What its first line says; `None` if there is none yet.
+    /// The description in its first line; `None` if there is none yet.
     fn plan(&self, path: &Path) -> Result<Option<SweepPlan>, JournalError> {
         let plan = match self.lines.first() {
             None if !self.has_damage => return Ok(None),
@@ -285,7 +287,7 @@ fn intact(line: &[u8]) -> Option<&[u8]> {
 }
 
 fn json(plan: &SweepPlan) -> Vec<u8> {
-    // Texts, numbers and lists of texts: there is nothing that could fail.
+    // Texts, numbers and lists of texts, so this cannot fail.
     serde_json::to_vec(plan).unwrap_or_default()
 }
 
@@ -318,7 +320,7 @@ fn read_record(line: &[u8], columns: &[Column]) -> Option<(u64, Vec<Cell>)> {
     }
 }
 
-/// Refuses what is another sweep, and says in what.
+/// Returns an error that names the difference if two descriptions differ.
 fn same(path: &Path, was: &SweepPlan, now: &SweepPlan) -> Result<(), JournalError> {
     let keeps = |plan: &SweepPlan| {
         if plan.keep_rows {
@@ -355,7 +357,8 @@ fn same(path: &Path, was: &SweepPlan, now: &SweepPlan) -> Result<(), JournalErro
     })
 }
 
-/// 64 bits that differ for texts that differ, short of intent: FNV-1a with a final mix of its bits.
+/// A 64-bit digest that differs for different texts unless they are constructed to agree: FNV-1a
+/// with a final mix of its bits.
 #[must_use]
 pub fn digest(bytes: &[u8]) -> u64 {
     let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);

@@ -1,5 +1,5 @@
-//! A table as Parquet: counts are INT64 with nulls, numbers DOUBLE, texts UTF-8. What the rows
-//! belong to stands in the metadata of the file, under `pfaff.sweep`, as in the first line of a
+//! A table as Parquet: counts are INT64 with nulls, numbers DOUBLE, texts UTF-8. The description of
+//! the sweep is in the metadata of the file, under `pfaff.sweep`, as in the first line of a
 //! journal.
 
 use std::io::{self, Write};
@@ -16,10 +16,10 @@ use parquet::schema::types::Type;
 use super::{Cell, Column, Kind, SweepPlan, SweepRows};
 use crate::tables::TableError;
 
-/// Where the plan stands in the metadata.
+/// Key of the description in the metadata.
 const KEY: &str = "pfaff.sweep";
 
-/// Writes all rows and gives the writer back.
+/// Writes all rows and returns the writer.
 pub(super) fn write<W: Write + Send>(
     out: W,
     plan: &SweepPlan,

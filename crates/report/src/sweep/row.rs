@@ -5,11 +5,11 @@ use super::{Cell, Column, Kind, SweepPlan};
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SweepStatus {
-    /// At its last time.
+    /// It reached its last time.
     Done,
-    /// Before it; what was reached is given.
+    /// It stopped earlier; the row contains the results up to there.
     Stopped,
-    /// It did not begin: the numbers make no mechanism, or no motion.
+    /// It did not begin: with these numbers there is no mechanism, or no motion.
     Refused,
 }
 
@@ -26,22 +26,22 @@ impl SweepStatus {
 }
 
 /// Largest |F| and |T| of a joint or drive over the written rows of a run, each with the first time
-/// at which it occurs (s). NaN where the reaction is not unique: there is no such number without a
+/// at which it occurs (s). NaN if the reaction is not unique: such a number would depend on a
 /// choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
     /// Largest |F| (N).
     pub force: f64,
-    /// When (s).
+    /// Time of this value (s).
     pub force_time: f64,
     /// Largest |T| (N·m).
     pub torque: f64,
-    /// When (s).
+    /// Time of this value (s).
     pub torque_time: f64,
 }
 
 impl Extreme {
-    /// Nothing is known.
+    /// Not known.
     pub const UNKNOWN: Self = Self {
         force: f64::NAN,
         force_time: f64::NAN,
@@ -49,9 +49,9 @@ impl Extreme {
         torque_time: f64::NAN,
     };
 
-    /// Takes a value at a time into account; NaN is none.
+    /// Takes a value at a time into account; NaN is ignored.
     pub fn include(&mut self, t: f64, force: f64, torque: f64) {
-        // A comparison with NaN is false, and the first value is larger than nothing.
+        // A comparison with NaN is false, so the first value is always taken.
         if force > self.force || self.force.is_nan() && !force.is_nan() {
             (self.force, self.force_time) = (force, t);
         }
@@ -76,7 +76,7 @@ pub struct SweepMotion {
     pub evaluations: u64,
     /// Projections of steps.
     pub projections: u64,
-    /// Time of the integration alone (s).
+    /// Wall-clock time of the integration alone (s).
     pub seconds: f64,
     /// Largest |Φ|.
     pub max_position_residual: f64,
@@ -88,22 +88,21 @@ pub struct SweepMotion {
     pub start_correction: f64,
     /// Largest change of a velocity at the start (m/s or rad/s).
     pub start_velocity_correction: f64,
-    /// Events on the way.
+    /// Number of events.
     pub events: u64,
     /// Rank of C at the start.
     pub rank: u64,
     /// Degree of redundancy at the start.
     pub redundancy: u64,
-    /// Joints and drives whose reaction is not unique at the start, or undecided.
+    /// Number of joints and drives whose reaction is not unique at the start, or undecided.
     pub not_unique: u64,
-    /// Joints and drives whose reaction is unique at the start, but fragile.
+    /// Number of joints and drives whose reaction is unique at the start, but fragile.
     pub fragile: u64,
     /// Time of the last written state (s); the end of a run that is done.
     pub t_state: f64,
-    /// The last written state, body by body x, y, angle, vx, vy, omega; NaN where no row was
-    /// written.
+    /// The last written state, body by body x, y, angle, vx, vy, omega; NaN if no row was written.
     pub state: Vec<f64>,
-    /// Of the joints and drives of [`SweepPlan::reactions`].
+    /// Extremes of the joints and drives of [`SweepPlan::reactions`].
     pub extremes: Vec<Extreme>,
 }
 
@@ -116,7 +115,7 @@ pub struct SweepRow {
     pub varied: Vec<f64>,
     /// How it ended.
     pub status: SweepStatus,
-    /// Why it is not done; empty if it is.
+    /// Reason why it is not done; empty if it is.
     pub error: String,
     /// Its numbers, if it began.
     pub motion: Option<SweepMotion>,
@@ -149,8 +148,8 @@ const STATE: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
 const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
 
 impl SweepPlan {
-    /// `run`, the varied keys, `status`, `error`, `method`, `t`, counts, numbers, then per body its
-    /// last state and per wanted joint and drive its extremes.
+    /// `run`, the varied keys, `status`, `error`, `method`, `t`, counts, numbers, then for each
+    /// body its last state and for each requested joint and drive its extremes.
     #[must_use]
     pub fn columns(&self) -> Vec<Column> {
         let column = |kind: Kind| move |name: String| Column { name, kind };

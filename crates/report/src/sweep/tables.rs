@@ -1,4 +1,5 @@
-//! The tables of a sweep, made of its journals: in the order of the grid, whoever made the runs.
+//! The tables of a sweep, computed from its journals in the order of the grid, whichever processes
+//! made the runs.
 
 use std::fs::File;
 
@@ -7,15 +8,15 @@ use crate::documents::write_json;
 use crate::files::{FileError, OutputDirectory};
 use crate::tables::{Table, TableError};
 
-/// Held while tables are written, by one process at a time.
+/// Lock file held while tables are written, by one process at a time.
 const LOCK: &str = "tables.lock";
 
-/// Writes `sweep.csv`, `sweep.parquet` where this is compiled, and `summary.json`. `read` reads the
-/// journals once nobody else is writing tables: of several shards that end at the same time, the
-/// last one has all rows.
+/// Writes `sweep.csv`, `sweep.parquet` if this is compiled in, and `summary.json`. `read` is called
+/// to read the journals when no other process is writing tables: if several shards end at the same
+/// time, the last one has all rows.
 ///
 /// # Errors
-/// Those of `read`, and if something could not be written; whole older tables stay.
+/// Errors of `read`, and if something could not be written; complete older tables are kept.
 pub fn write_sweep<E: From<FileError> + From<TableError>>(
     directory: &OutputDirectory,
     read: impl FnOnce() -> Result<Journals, E>,

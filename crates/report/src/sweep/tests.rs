@@ -1,4 +1,4 @@
-//! Journals survive what happens to files; tables are the same whatever happened.
+//! Journals survive damage to files; tables are the same after any interruption.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -135,7 +135,8 @@ fn a_row_comes_back_with_its_bits() {
     }
 }
 
-/// A journal that was cut anywhere has the rows of its whole lines, and goes on with the others.
+/// A journal that was cut off anywhere keeps the rows of its complete lines and is continued with
+/// the others.
 #[test]
 fn a_journal_may_be_cut_at_any_byte() {
     let folder = Folder::new("cut");
@@ -163,10 +164,10 @@ fn damaged_lines_are_made_again() {
     fill(&folder.0, "sweep", &[row(1), row(2), row(3)]);
     let whole = fs::read(folder.journal()).expect("readable");
     let ends: Vec<usize> = (0..whole.len()).filter(|k| whole[*k] == b'\n').collect();
-    // One digit of the second row is another one.
+    // One digit of the second row is changed.
     let mut bytes = whole.clone();
     bytes[ends[1] + 40] ^= 1;
-    // What a power failure leaves of a file: zeros behind its old end.
+    // The possible result of a power failure: zeros after the old end of a file.
     bytes.extend([0; 100]);
     fs::write(folder.journal(), &bytes).expect("writable");
     let rows = Journals::read(&[&folder.0]).expect("readable").rows;
@@ -174,7 +175,7 @@ fn damaged_lines_are_made_again() {
     fill(&folder.0, "sweep", &[row(2)]);
     let rows = Journals::read(&[&folder.0]).expect("readable").rows;
     assert_eq!(rows.len(), 3);
-    // Nobody knows what the rows behind a damaged first line are.
+    // After a damaged first line, the meaning of the rows is unknown.
     bytes[30] ^= 1;
     for bytes in [bytes.as_slice(), b"# somebody's diary\n"] {
         fs::write(folder.journal(), bytes).expect("writable");
@@ -237,7 +238,7 @@ fn another_sweep_is_refused_by_name() {
         assert!(error.to_string().contains(what), "{error}");
         assert_eq!(fs::read(folder.journal()).expect("readable"), before);
     }
-    // Neither does it begin beside it.
+    // Another journal cannot begin in the same directory either.
     let beside = SweepPlan { runs: 5, ..plan() };
     assert!(Journal::open(&folder.0, "sweep-1-of-2", &beside).is_err());
     assert!(!folder.0.join("sweep-1-of-2.journal").exists());

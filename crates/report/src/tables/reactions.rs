@@ -7,18 +7,18 @@ use model::{Mechanism, Reaction, System};
 
 use super::{Table, TableError};
 
-/// Which joints and drives are written.
+/// The joints and drives that are written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Selection {
-    /// Every one.
+    /// All of them.
     #[default]
     All,
-    /// These, in the order of the rows of C whatever the order of the names.
+    /// These, in the order of the rows of C, whatever the order of the names.
     Names(Vec<String>),
 }
 
 impl Selection {
-    /// Places of the selected ones among all.
+    /// Indices of the selected ones.
     fn places(&self, mechanism: &Mechanism) -> Result<Vec<usize>, TableError> {
         let groups = &mechanism.layout().groups;
         let Self::Names(names) = self else {
@@ -37,14 +37,14 @@ impl Selection {
     }
 }
 
-/// `t`, then per joint and drive `<name>.Fx, .Fy, .T` and the named component of its definition, if
-/// it has one: `.N` of a knife edge, `.drive` of a drive (s, N, N·m).
+/// `t`, then for each joint and drive `<name>.Fx, .Fy, .T` and the named component of its
+/// definition, if it has one: `.N` of a knife edge, `.drive` of a drive (s, N, N·m).
 ///
-/// Numbers of non-unique reactions belong to the choice that `summary.json` states.
+/// Numbers of non-unique reactions depend on the choice that `summary.json` states.
 pub struct ReactionTable<W: Write> {
     table: Table<W>,
     n_reactions: usize,
-    /// Place of each written one among all, and whether it has a named component.
+    /// Index of each written one, and whether it has a named component.
     selected: Vec<(usize, bool)>,
     /// One row, reused.
     values: Vec<f64>,
@@ -75,11 +75,11 @@ impl<W: Write> ReactionTable<W> {
         })
     }
 
-    /// Writes the reactions at time t: those of **all** joints and drives, in the order of their
-    /// rows; the table takes the selected ones.
+    /// Writes the reactions at time t. `reactions` contains **all** joints and drives, in the order
+    /// of their rows; the table writes the selected ones.
     ///
     /// # Errors
-    /// - [`TableError::Length`]: these are reactions of another mechanism; nothing is written.
+    /// - [`TableError::Length`]: the reactions belong to another mechanism; nothing is written.
     /// - [`TableError::Write`]: the writer failed.
     pub fn row(&mut self, t: f64, reactions: &[Reaction]) -> Result<(), TableError> {
         self.table
@@ -96,7 +96,7 @@ impl<W: Write> ReactionTable<W> {
         self.table.row(&self.values)
     }
 
-    /// Writes what is still buffered and gives the writer back.
+    /// Writes the buffer and returns the writer.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.

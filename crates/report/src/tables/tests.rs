@@ -1,4 +1,4 @@
-//! Golden headers and rows, bits that survive, rows of another mechanism.
+//! Golden headers and rows, exact bits, rows of another mechanism.
 
 use joints::plane::Direction;
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive};
@@ -6,7 +6,7 @@ use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, React
 
 use super::{ReactionTable, Selection, TableError, TrajectoryTable};
 
-/// A driven wheel carrier with a blade, and names that need quotes.
+/// A driven wheel carrier with a knife edge, and names that need quotes.
 fn carrier() -> Mechanism {
     let body = |name: &str| Body {
         name: name.into(),
@@ -59,7 +59,7 @@ fn trajectory_has_the_header_of_the_contract() {
     assert_eq!(text(table.finish().expect("writes")), expected);
 }
 
-/// Reactions of pin, motor, blade: the order of their rows.
+/// Reactions of pin, motor and knife edge, in the order of their rows.
 fn reactions() -> [Reaction; 3] {
     let with = |x: f64, component| Reaction {
         force: [x, 0.5],
@@ -154,7 +154,7 @@ fn what_does_not_exist_is_nan() {
     assert!(row.starts_with("0.0,NaN,NaN,NaN,0.0,"), "{row}");
 }
 
-/// Fails as a full disk does.
+/// A writer that fails like a full disk.
 struct Full;
 
 impl std::io::Write for Full {

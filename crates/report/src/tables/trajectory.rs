@@ -6,10 +6,10 @@ use model::{Mechanism, System};
 
 use super::{Table, TableError};
 
-/// Coordinates of a planar body; as many velocities.
+/// Number of coordinates of a planar body, and of its velocities.
 const N_BODY: usize = 3;
 
-/// `t`, then per body `<body>.x, .y, .angle, .vx, .vy, .omega` (s, m, rad, m/s, rad/s).
+/// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` (s, m, rad, m/s, rad/s).
 pub struct TrajectoryTable<W: Write> {
     table: Table<W>,
     n_bodies: usize,
@@ -53,7 +53,7 @@ impl<W: Write> TrajectoryTable<W> {
         self.table.row(&self.values)
     }
 
-    /// Writes what is still buffered and gives the writer back.
+    /// Writes the buffer and returns the writer.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.

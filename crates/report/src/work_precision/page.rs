@@ -1,4 +1,4 @@
-//! `report.html` of a comparison: one file that opens offline, for readers who have not seen the
+//! `report.html` of a comparison: one file that opens offline, for readers who do not know the
 //! program.
 
 use super::{
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::page::{add, close, duration, list, open, safe, short};
 
-/// What the numbers are, once for all scenes.
+/// Explanation of the numbers, once for all scenes.
 const EXPLANATION: &str = "<p>Each run is compared with values that it did not make itself. <em>Errors</em> are the largest over all \
 components and reference times; lengths are measured in the size of the mechanism, and the error of each kind (position, velocity, \
 acceleration, reaction) is relative to the largest value of the kind. Reactions are compared only where they are unique: other \

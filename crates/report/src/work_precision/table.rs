@@ -5,7 +5,7 @@ use std::io::Write;
 use super::WorkPrecisionRow;
 use crate::tables::{Table, TableError};
 
-/// Columns; those after `status` may become more.
+/// The columns; more may be added after `status`.
 const HEADER: [&str; 21] = [
     "scene",
     "formulation",
@@ -30,7 +30,8 @@ const HEADER: [&str; 21] = [
     "reference_limit",
 ];
 
-/// One line per run. Each line is handed to the writer at once: an interruption loses nothing.
+/// One line for each run. Each line is passed to the writer immediately, so an interruption loses
+/// nothing.
 pub struct WorkPrecisionTable<W: Write> {
     table: Table<W>,
 }
@@ -49,7 +50,7 @@ impl<W: Write> WorkPrecisionTable<W> {
         Ok(table)
     }
 
-    /// Writes a run. What is not known is `NaN`.
+    /// Writes a run. Unknown values are `NaN`.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -79,7 +80,7 @@ impl<W: Write> WorkPrecisionTable<W> {
         self.table.flush()
     }
 
-    /// Gives the writer back.
+    /// Returns the writer.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.

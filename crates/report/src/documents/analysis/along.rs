@@ -5,36 +5,36 @@ use solvability::{Along, Continuation, Difference, Part, Passage, PassageKind, S
 
 use super::VerdictDocument;
 
-/// One verdict for almost all of a motion, and where another holds.
+/// The generic verdict of a motion, and the times at which another holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct AlongDocument {
-    /// Last time that was judged (s); the first is 0.
+    /// Last time that was analysed (s); the first is 0.
     pub to: f64,
-    /// Number of judged states.
+    /// Number of analysed states.
     pub samples: usize,
-    /// How far a body moves between two of them: a share of the mechanism's size, or as many
-    /// radians.
+    /// How far a body moves between two of them: a fraction of the size of the mechanism, or as
+    /// many radians.
     pub reach: f64,
-    /// Why the motion stopped there, if it did.
+    /// Reason why the motion stopped at this time, if it did.
     pub stopped: Option<String>,
-    /// Until when (s) the motion was judged beyond the singular configuration at which it stopped,
-    /// continued as smoothly as it came.
+    /// Time (s) up to which the motion was analysed beyond the singular configuration at which it
+    /// stopped, continued smoothly.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continued_to: Option<f64>,
-    /// The verdicts that hold almost always.
+    /// The verdicts that hold almost everywhere.
     pub generic: GenericVerdictsDocument,
     /// Stretches of time with other verdicts.
     pub stretches: Vec<StretchDocument>,
-    /// Instants where something is different.
+    /// Instants at which something differs.
     pub passages: Vec<PassageDocument>,
 }
 
-/// The verdicts that hold almost always.
+/// The verdicts that hold almost everywhere.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct GenericVerdictsDocument {
-    /// An instant where they do (s).
+    /// An instant at which they hold (s).
     pub time: f64,
     /// Rank of C.
     pub rank: usize,
@@ -59,48 +59,48 @@ pub struct NamedVerdictDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StretchDocument {
-    /// Where it begins (s).
+    /// Time at which it begins (s).
     pub from: f64,
-    /// Where it ends (s).
+    /// Time at which it ends (s).
     pub to: f64,
-    /// Degree of redundancy on it.
+    /// Degree of redundancy on this stretch.
     pub redundancy: usize,
-    /// What differs.
+    /// Verdicts that differ from the generic ones.
     pub differences: Vec<DifferenceDocument>,
-    /// In words.
+    /// Description.
     pub text: String,
 }
 
-/// An instant where something is different.
+/// An instant at which something differs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PassageDocument {
-    /// When (s).
+    /// Time (s).
     pub time: f64,
     /// `rank_drops`, `nearly_singular`, `undecided` or `verdicts`.
     pub kind: &'static str,
-    /// Degree of redundancy, where the rank drops.
+    /// Degree of redundancy if the rank drops.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub redundancy: Option<usize>,
-    /// Where the rank drops: `unique`, `bifurcation` or `undetermined`.
+    /// If the rank drops: `unique`, `bifurcation` or `undetermined`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continuation: Option<&'static str>,
     /// Velocities of other branches at a bifurcation.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub branches: Vec<Vec<f64>>,
-    /// The smallest non-zero singular value, where the configuration is nearly singular.
+    /// The smallest non-zero singular value if the configuration is nearly singular.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sigma: Option<f64>,
-    /// From when to when the configuration is nearly singular (s).
+    /// First and last time of the nearly singular interval (s).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearly_singular: Option<[f64; 2]>,
-    /// What differs.
+    /// Verdicts that differ from the generic ones.
     pub differences: Vec<DifferenceDocument>,
-    /// In words.
+    /// Description.
     pub text: String,
 }
 
-/// How a motion goes on at a singular configuration.
+/// How a motion continues at a singular configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ContinuationDocument {
@@ -108,7 +108,7 @@ pub struct ContinuationDocument {
     pub kind: &'static str,
     /// Velocities of other branches at a bifurcation.
     pub branches: Vec<Vec<f64>>,
-    /// In words.
+    /// Description.
     pub text: String,
 }
 
@@ -120,15 +120,15 @@ pub struct DifferenceDocument {
     pub reaction: String,
     /// `wrench`, a component, or `row` with its number.
     pub part: String,
-    /// Almost always.
+    /// Verdict almost everywhere.
     pub generic: &'static str,
-    /// Here.
+    /// Verdict here.
     pub here: &'static str,
 }
 
 impl AlongDocument {
-    /// The document of a motion that was judged up to a time, at so many samples so far apart, and
-    /// stopped there if a reason is given.
+    /// The document of a motion that was analysed up to a time with this number of samples at this
+    /// distance, and that stopped there if a reason is given.
     #[must_use]
     pub fn new(
         along: &Along,

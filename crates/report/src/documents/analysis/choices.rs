@@ -1,19 +1,19 @@
-//! Reactions by one choice or another: facts plain, all other numbers with the choice they depend
-//! on.
+//! Reactions for several choices: unique numbers, and other numbers with the choice on which they
+//! depend.
 
 use model::{ConstraintId, Frame};
 use serde::Serialize;
 use solvability::{Distribution, Nature, UnitCheck, Value};
 
-/// The reactions that one choice gives.
+/// The reactions for one choice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DistributionDocument {
-    /// The choice.
+    /// Name of the choice.
     pub label: String,
-    /// Joints and drives in the order of their rows, on the first body at its place.
+    /// Reactions of joints and drives in the order of their rows, on the first body at its place.
     pub reactions: Vec<ValuesDocument>,
-    /// Sums that were asked for, by the same choice.
+    /// Requested sums for the same choice.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub groups: Vec<ValuesDocument>,
     /// The multiplier of each row.
@@ -39,17 +39,17 @@ pub struct ValueDocument {
     pub name: Option<&'static str>,
     /// The number.
     pub value: f64,
-    /// What it depends on; absent for what is unique.
+    /// The choice on which it depends; absent for unique numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
-    /// What a change of units shows, without any verdict: `fact` or `choice`; absent where that was
-    /// not asked.
+    /// Result of a change of units, independent of the verdicts: `fact` or `choice`; absent if not
+    /// requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nature: Option<&'static str>,
 }
 
 impl DistributionDocument {
-    /// The reactions of a choice, with what a change of units shows of them.
+    /// The reactions for a choice, with the result of a change of units.
     #[must_use]
     pub fn new(distribution: &Distribution, checks: &[UnitCheck]) -> Self {
         let reaction = |r: &solvability::ReactionValues| {
@@ -75,7 +75,7 @@ impl DistributionDocument {
 }
 
 impl ValuesDocument {
-    /// The numbers of a sum under its name.
+    /// The numbers of a sum, with its name.
     #[must_use]
     pub fn of_group(name: &str, values: &[(&'static str, Value)]) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl ValuesDocument {
     }
 }
 
-/// `checks` in the order of joints.
+/// Finds a component in `checks`, which are in the order of joints.
 fn nature(checks: &[UnitCheck], id: ConstraintId, name: &str) -> Option<&'static str> {
     let names = Frame::Global.components();
     let from = checks.partition_point(|c| c.id < id);

@@ -1,34 +1,35 @@
-//! What the numbers of a scene are known to, and by how much they would have to be wrong for
-//! another rank.
+//! Tolerances of the numbers of a scene, and how much the numbers would have to change for another
+//! rank.
 
 use model::Tolerance;
 use rank::Certificate;
 use serde::Serialize;
 use solvability::Analysis;
 
-/// What the data are known to, and what hangs on that.
+/// Tolerances of the data, and what depends on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DataDocument {
-    /// What the scene states of its points and lengths (m); `None` if that is nothing but their
-    /// rounding.
+    /// The tolerance that the scene states for points and lengths (m); `None` if only their
+    /// rounding counts.
     pub tolerance: Option<f64>,
-    /// The same of directions, angles and ratios (rad): as stated, or `tolerance` divided by the
-    /// size of the mechanism; of several parts, of the smallest.
+    /// The tolerance of directions, angles and ratios (rad): as stated, or `tolerance` divided by
+    /// the size of the mechanism, or of the smallest part if there are several.
     pub angle_tolerance: Option<f64>,
-    /// The tolerance from which on a row is redundant (m): some points may be elsewhere by this,
-    /// and the rank is lower wherever the mechanism moves. `None` if no such tolerance is near.
+    /// The tolerance from which on a row is redundant (m): if points may be displaced by this much,
+    /// the rank is lower at all configurations of the mechanism. `None` if no such tolerance is
+    /// close.
     pub lower_rank_from: Option<f64>,
-    /// The same of angles (rad) where a tolerance is stated for them alone: some directions may be
-    /// turned by this. `lower_rank_from` is `None` then.
+    /// The same for angles (rad) if a tolerance is stated for angles only: if directions may be
+    /// rotated by this much. Then `lower_rank_from` is `None`.
     pub lower_rank_from_angle: Option<f64>,
-    /// By how much points would have to be elsewhere for a lower rank at this configuration (m;
-    /// angles times the size of the mechanism). `None` if that is not near.
+    /// By how much points would have to be displaced for a lower rank at this configuration (m;
+    /// angles times the size of the mechanism). `None` if that is not close.
     pub lower_rank_here: Option<f64>,
 }
 
 impl DataDocument {
-    /// That of an analysis.
+    /// The document of an analysis.
     #[must_use]
     pub fn new(analysis: &Analysis) -> Self {
         let parts = analysis.parts.iter();
@@ -36,7 +37,7 @@ impl DataDocument {
         Self::of(analysis.tolerance, parts)
     }
 
-    /// Of parts with their sizes (m): the smallest change of the data that one of them needs.
+    /// The document of parts with their sizes (m): the smallest change of the data among them.
     fn of<'a>(
         tolerance: Tolerance,
         parts: impl Iterator<Item = (f64, Option<&'a Certificate>)> + Clone,
@@ -68,7 +69,7 @@ mod tests {
 
     use super::*;
 
-    /// A certificate that tells nothing but these two lengths.
+    /// A certificate that contains only these two lengths.
     fn certificate(from: Option<f64>, here: Option<f64>) -> Certificate {
         Certificate {
             rank_at_least: 1,

@@ -1,4 +1,5 @@
-//! What may be deleted: admissible sets of rows, and the smallest ones that make a reaction unique.
+//! Rows that may be deleted: admissible sets of rows, and the smallest ones that make a reaction
+//! unique.
 
 use serde::Serialize;
 use solvability::{Allowed, EliminationError, Proposals};
@@ -9,12 +10,12 @@ use crate::documents::from_one;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EliminationsDocument {
-    /// How many there are; `None` if they could not be counted.
+    /// Number of sets; `None` if they could not be counted.
     pub count: Option<u128>,
-    /// Why they could not be counted or listed.
+    /// Reason why they could not be counted or listed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// The first of them, if they were asked for.
+    /// The first sets, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sets: Option<Vec<Vec<usize>>>,
 }
@@ -25,14 +26,14 @@ pub struct EliminationsDocument {
 pub struct MakeUniqueDocument {
     /// Name of the joint or drive.
     pub reaction: String,
-    /// What may be deleted: `sensible`, `whole` or `rows`.
+    /// Kind of allowed deletions: `sensible`, `whole` or `rows`.
     pub allowed: &'static str,
-    /// Each is enough by itself, and no part of it is; one without rows if nothing needs to be
-    /// deleted.
+    /// Each is sufficient by itself, and none of its rows can be omitted; one without rows if no
+    /// deletion is needed.
     pub ways: Vec<WayDocument>,
-    /// Whether these are all of that size.
+    /// Whether all sets of that size are listed.
     pub complete: bool,
-    /// Why it could not be told.
+    /// Reason why it could not be determined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
@@ -43,12 +44,12 @@ pub struct MakeUniqueDocument {
 pub struct WayDocument {
     /// Rows to delete.
     pub rows: Vec<usize>,
-    /// What that means.
+    /// Description.
     pub text: String,
 }
 
 impl EliminationsDocument {
-    /// The number of sets, and the first of them if they were asked for (rows from 0).
+    /// The number of sets, and the first of them if requested (rows from 0).
     #[must_use]
     pub fn new(
         count: Result<u128, EliminationError>,
@@ -72,7 +73,7 @@ impl EliminationsDocument {
 }
 
 impl MakeUniqueDocument {
-    /// What makes this reaction unique.
+    /// The deletions that make this reaction unique.
     #[must_use]
     pub fn new(
         reaction: &str,

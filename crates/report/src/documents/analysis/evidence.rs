@@ -1,16 +1,16 @@
-//! The numbers behind a rank: what was read, what was proved, what was compared.
+//! The evidence for a rank: what was read, what was proved, what was compared.
 
 use rank::{Grounds, RankStatus};
 use serde::Serialize;
 use solvability::{Analysis, Generic, PartAnalysis};
 
-/// The numbers behind a rank.
+/// Evidence for a rank.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EvidenceDocument {
     /// `decided` or `undecided`.
     pub status: &'static str,
-    /// Why it is undecided: both readings, and what would decide.
+    /// Reason why it is undecided: both possible ranks, and what would decide.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// σ_r of the equilibrated matrix; infinite (`null`) for rank 0.
@@ -19,27 +19,28 @@ pub struct EvidenceDocument {
     pub sigma_next: f64,
     /// σ_r/σ_{r+1}; infinite (`null`) if σ_{r+1} = 0.
     pub gap: f64,
-    /// Below it a singular value counts as zero.
+    /// Singular values below this tolerance count as zero.
     pub tolerance: f64,
-    /// What the entries of the equilibrated matrix are known to, the open constraints included.
+    /// Uncertainty of the entries of the equilibrated matrix, including the residual of the
+    /// constraints.
     pub constraint_residual: f64,
     /// Whether the redundancy is the same at other configurations; `None` if that is not known.
     pub permanent: Option<bool>,
-    /// Whether the rank is decided and a certificate proves that it is not less; `grounds` say why
-    /// it is not more.
+    /// Whether the rank is decided and a certificate proves that it is not lower; `grounds` states
+    /// why it is not higher.
     pub certified: bool,
-    /// Proved: the rank is at least this.
+    /// Proved lower bound on the rank.
     pub rank_at_least: Option<usize>,
-    /// Proved lower bound of σ_r; 0 if only arithmetic modulo primes proves the rank.
+    /// Proved lower bound on σ_r; 0 if only arithmetic modulo primes proves the rank.
     pub sigma_bound: Option<f64>,
     /// σ_{r+1} in double-double precision.
     pub sigma_next_extended: Option<f64>,
     /// Why the rank is not larger: `full_rank`, `exact`, `vanishes`, `within_data` or
     /// `within_tolerance`.
     pub grounds: Option<&'static str>,
-    /// What the entries of the equilibrated matrix are known to; 0 if they are meant exactly.
+    /// Uncertainty of the entries of the equilibrated matrix; 0 for exact entries.
     pub uncertainty: Option<f64>,
-    /// Rows that are independent, but only just.
+    /// Rows that are independent by a small margin only.
     pub nearly_redundant: Option<NearlyRedundantDocument>,
 }
 
@@ -49,10 +50,10 @@ pub struct EvidenceDocument {
 pub struct NearlyRedundantDocument {
     /// σ_r
     pub sigma: f64,
-    /// Share by which reactions change if a point is off by 10⁻⁶ m: 1 is their own size. An
-    /// estimate of the first order.
+    /// Relative change of reactions if a point is displaced by 10⁻⁶ m: 1 is a change by their own
+    /// size. An estimate of first order.
     pub change_per_micrometre: f64,
-    /// Weights of all rows, equilibrated, with which they sum to a row of norm σ_r.
+    /// Weights of all equilibrated rows whose combination is a row of norm σ_r.
     pub direction: Vec<f64>,
 }
 
@@ -65,7 +66,7 @@ const MICROMETRE: f64 = 1e-6;
 pub struct GenericDocument {
     /// Degree of redundancy at almost all configurations.
     pub redundancy: usize,
-    /// What was compared.
+    /// The configurations that were compared.
     pub points: Vec<PointDocument>,
 }
 
@@ -84,8 +85,8 @@ pub struct PointDocument {
 }
 
 impl EvidenceDocument {
-    /// That of the part whose rank is least certain; the rank of the whole is proved where those of
-    /// all parts are.
+    /// The evidence of the part whose rank is least certain. The rank of the whole is proved if
+    /// those of all parts are.
     pub(super) fn new(analysis: &Analysis, generic: Option<&Generic>) -> Self {
         let weakest = analysis.weakest();
         let evidence = weakest.decision.evidence();
@@ -125,7 +126,7 @@ impl EvidenceDocument {
     }
 }
 
-/// Of the part where rows come closest to a dependence, measured by its size.
+/// The result of the part whose rows come closest to a dependence, relative to its size.
 fn nearly_redundant(analysis: &Analysis) -> Option<NearlyRedundantDocument> {
     let nearly = analysis.nearly_redundant.as_ref()?;
     let is_here = |part: &&PartAnalysis| {

@@ -1,4 +1,4 @@
-//! What definitions say that a reader of their reactions must know, once for all joints of a type.
+//! Notes of definitions for readers of their reactions, once for all joints of a type.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,22 +6,22 @@ use model::Layout;
 use model::reaction::ConstraintGroup;
 use serde::Serialize;
 
-/// Joints that the text names; the document lists all.
+/// Number of joints named in the text; the document lists all.
 const NAMED: usize = 12;
 
-/// What a reader of some reactions must know.
+/// A note for readers of some reactions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct NoteDocument {
     /// The joints concerned.
     pub joints: Vec<String>,
-    /// In words, with their names.
+    /// The note, with names of joints.
     pub text: String,
 }
 
 impl NoteDocument {
-    /// The notes of all definitions that have one, in the order of their first joints. Joints are
-    /// left out if nothing else pushes their bodies: no reaction is misread for them.
+    /// The notes of all definitions that have one, in the order of their first joints. A joint is
+    /// left out if nothing else acts on its bodies, because then its reaction cannot be misread.
     #[must_use]
     pub fn all(layout: &Layout) -> Vec<Self> {
         let has_note = |g: &&ConstraintGroup| g.spec.note.is_some();
@@ -57,7 +57,7 @@ impl NoteDocument {
     }
 }
 
-/// The first names, and how many more there are.
+/// The first names, and the number of the others.
 fn named(joints: &[String]) -> String {
     let first = joints.iter().take(NAMED);
     let first: Vec<String> = first.map(|name| format!("`{name}`")).collect();

@@ -1,4 +1,4 @@
-//! The verdict of a joint or drive, with all that was asked of it.
+//! The verdict on a joint or drive, with all requested results.
 
 use model::{ConstraintId, Frame};
 use rank::Settled;
@@ -11,13 +11,13 @@ use solvability::{
 use super::ValueDocument;
 use crate::documents::{SensitivityDocument, VerdictDocument};
 
-/// The verdict of a joint or drive.
+/// The verdict on a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ReactionDocument {
     /// Its name.
     pub name: String,
-    /// Its scene type.
+    /// Its type in scene files.
     #[serde(rename = "type")]
     pub kind: &'static str,
     /// Its rows of C.
@@ -25,7 +25,8 @@ pub struct ReactionDocument {
     /// Verdict of force and torque, with ‖B_X‖ as margin.
     #[serde(flatten)]
     pub wrench: VerdictDocument,
-    /// How much it hangs on the data; [`super::AnalysisDocument::add_sensitivities`] fills it.
+    /// How strongly it depends on the data; [`super::AnalysisDocument::add_sensitivities`] fills
+    /// it.
     #[serde(flatten)]
     pub data: SensitivityDocument,
     /// Verdict of all its multipliers together.
@@ -37,17 +38,17 @@ pub struct ReactionDocument {
     /// Basis of the unique directions in these components, without those along which the reaction
     /// is zero under any load; `null` if their number is undecided.
     pub unique_directions: Option<Vec<Vec<f64>>>,
-    /// What these count as zero within the tolerance that the scene states only, in the unit of
-    /// margins; absent if nothing.
+    /// The largest part, in the unit of margins, that had to count as zero within the stated
+    /// tolerance for these directions; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unique_directions_within_tolerance: Option<f64>,
-    /// Why it is unique without any numbers: `peeled` or `bridge`.
+    /// Reason why it is unique without any numbers: `peeled` or `bridge`.
     pub settled: Option<&'static str>,
-    /// Why it is not unique.
+    /// Explanation if it is not unique.
     pub explanation: Option<String>,
-    /// What it carries in each self-stress in which it takes part.
+    /// Its load in each self-stress in which it takes part.
     pub free_directions: Vec<FreeDirectionDocument>,
-    /// Its verdicts in other frames, if they were asked for.
+    /// Its verdicts in other frames, if requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub frames: Vec<FrameDocument>,
 }
@@ -74,18 +75,18 @@ pub struct ComponentDocument {
     pub verdict: VerdictDocument,
 }
 
-/// What a joint carries in a self-stress, ready to be drawn: the largest force of the self-stress
-/// is 1 N, or its largest torque 1 N·m if there is no force.
+/// Load on a joint in a self-stress, scaled for drawing: the largest force of the self-stress is 1
+/// N, or its largest torque is 1 N·m if there is no force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FreeDirectionDocument {
-    /// The self-stress, as a place in `dependencies`, from 0.
+    /// Index of the self-stress in `dependencies`, from 0.
     pub dependency: usize,
-    /// Where it acts on the first body (m), global components.
+    /// Point at which it acts on the first body (m), global components.
     pub place: [f64; 2],
-    /// Fx, Fy
+    /// Force Fx, Fy.
     pub force: [f64; 2],
-    /// T about the place.
+    /// Torque T about the place.
     pub torque: f64,
 }
 
@@ -97,7 +98,7 @@ pub struct FrameDocument {
     pub frame: &'static str,
     /// Unit vectors of the axes, global components.
     pub axes: [[f64; 2]; 2],
-    /// Along the first axis, along the second, and the torque.
+    /// Verdicts on the components along the first axis and along the second, and on the torque.
     pub components: Vec<ComponentDocument>,
 }
 
@@ -110,21 +111,20 @@ pub struct GroupDocument {
     /// Its verdict.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
-    /// Those of force and torque, for a sum of wrenches.
+    /// Verdicts on force and torque of a sum of wrenches.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub components: Vec<ComponentDocument>,
-    /// Where the torque of a sum of wrenches is about (m), global components.
+    /// The point (m, global components) about which the torque of a sum of wrenches is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub about: Option<[f64; 2]>,
-    /// Its numbers that every solution shares (N, N·m): the `sum` of components, or those of force
-    /// and torque.
+    /// Its unique numbers (N, N·m): the `sum` of components, or those of force and torque.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<ValueDocument>,
 }
 
 impl ReactionDocument {
-    /// The verdict as it is said in a line: with what hangs on the last digits, or on the tolerance
-    /// that the scene states.
+    /// The verdict as one line of text, including whether it depends on the last digits or on the
+    /// tolerance that the scene states.
     #[must_use]
     pub fn said(&self) -> String {
         let verdict = self.wrench.verdict.replace('_', " ");
@@ -137,7 +137,7 @@ impl ReactionDocument {
         format!("{verdict}{within}{fragile}")
     }
 
-    /// Adds what is known of all reactions, in the order of joints and drives.
+    /// Adds the explanations of all reactions, in the order of joints and drives.
     pub(super) fn explain_all(all: &mut [Self], explanation: &Explanation) {
         for (ConstraintId(k), why) in &explanation.settled {
             all[*k].settled = match why {
@@ -225,7 +225,7 @@ impl From<&FrameVerdict> for FrameDocument {
 }
 
 impl GroupDocument {
-    /// The verdict of a group under its name.
+    /// The verdict on a group, with its name.
     #[must_use]
     pub fn new(name: &str, verdict: &GroupVerdict) -> Self {
         Self {
@@ -237,7 +237,7 @@ impl GroupDocument {
         }
     }
 
-    /// Adds the numbers of the group that every solution shares.
+    /// Adds the unique numbers of the group.
     #[must_use]
     pub fn with_values(mut self, values: &[(&'static str, Value)]) -> Self {
         self.values = ValueDocument::named(values);

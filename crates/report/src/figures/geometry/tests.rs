@@ -1,4 +1,4 @@
-//! The points of joints, against the points that were put into them.
+//! The points of joints, compared with the points of their definitions.
 
 use joints::{
     Angle, Direction, Distance, Fixed, Gear, KnifeEdge, Line, PinInSlot, PointOnLine, Revolute,
@@ -15,10 +15,10 @@ use crate::figures::drawing::Stage;
 use crate::figures::symbol::Symbol;
 use crate::recording::Frame;
 
-/// Points are found by divisions of numbers of order one.
+/// Points are computed by divisions of numbers of order one.
 const ROUNDING: f64 = 1e-14;
 
-/// Two bodies at odd poses with one joint or drive.
+/// Two bodies at general poses with one joint or drive.
 fn two_bodies(element: impl PlaneConstraint + 'static, drives: bool) -> Mechanism {
     let body = |name: &str, position, angle| Body {
         name: name.into(),
@@ -51,13 +51,13 @@ fn two_bodies(element: impl PlaneConstraint + 'static, drives: bool) -> Mechanis
             .push(Joint::new("joint", &bodies, element));
     }
     let mut mechanism = Mechanism::build(&description).expect("builds");
-    // Only to set initial values: the start may be off the constraint, the picture is drawn all the
-    // same.
+    // Only sets initial values: the start may violate the constraint, the picture is drawn
+    // nevertheless.
     let _ = assemble(&mut mechanism, &StartOptions::default());
     mechanism
 }
 
-/// Where their joint is found.
+/// The site computed for their joint.
 fn site(element: impl PlaneConstraint + 'static, drives: bool) -> super::Site {
     let mechanism = two_bodies(element, drives);
     let mut s = mechanism.scratch();
@@ -90,7 +90,7 @@ fn near(a: [f64; 2], b: [f64; 2]) -> bool {
     (a[0] - b[0]).hypot(a[1] - b[1]) <= ROUNDING
 }
 
-/// Same line, whatever the sense.
+/// Whether two directions are on the same line, whatever their orientation.
 fn parallel(a: [f64; 2], b: [f64; 2]) -> bool {
     (a[0] * b[1] - a[1] * b[0]).abs() <= ROUNDING && (a[0].hypot(a[1]) - 1.0).abs() <= ROUNDING
 }
@@ -130,9 +130,9 @@ fn symbols_follow_from_rows() {
 fn wheels_touch_where_their_speeds_agree() {
     let gear = |ratio: f64| site(Gear { ratio, phase: 0.0 }, false);
     for (ratio, point, radii) in [
-        // Outside: twice as fast, half as large.
+        // External contact: twice as fast, half as large.
         (-2.0, [4.0 / 3.0, 2.0 / 3.0], [2.0 / 3.0, 1.0 / 3.0]),
-        // Inside: the slow one is the ring around the other.
+        // Internal contact: the slow wheel is the ring around the other.
         (0.5, [-2.0, -1.0], [1.0, 2.0]),
     ] {
         let site = gear(ratio);

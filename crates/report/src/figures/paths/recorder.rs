@@ -8,8 +8,8 @@ use crate::figures::FigureError;
 use crate::figures::geometry::posed;
 use crate::figures::style::Style;
 
-/// Collects the paths of chosen bodies' centres and of all points that have a nonholonomic
-/// constraint: the wheels.
+/// Collects the paths of the centres of selected bodies and of all points with a nonholonomic
+/// constraint, such as wheels.
 ///
 /// ```
 /// use model::{Body, BodyRef, Description, Joint, Mechanism};
@@ -45,7 +45,7 @@ enum Point {
 }
 
 impl<'m> PathRecorder<'m> {
-    /// Nothing recorded yet; `bodies` are counted from 0.
+    /// A recorder without records; `bodies` are counted from 0.
     ///
     /// # Errors
     /// - [`FigureError::Body`]: there is no such body.
@@ -86,7 +86,7 @@ impl<'m> PathRecorder<'m> {
     /// Takes the configuration q at time t.
     ///
     /// # Errors
-    /// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is no configuration of the
+    /// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is not a configuration of the
     ///   mechanism.
     pub fn record(&mut self, t: f64, q: &[f64]) -> Result<(), FigureError> {
         let s = &mut self.scratch;
