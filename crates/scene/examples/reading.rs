@@ -79,7 +79,7 @@ fn said(what: &str, begin: Instant) {
     println!("{seconds:>9.3} s  {what}, {} in memory at most", peak());
 }
 
-/// The largest memory so far, where the system tells it.
+/// The largest memory so far, if the operating system reports it.
 fn peak() -> String {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

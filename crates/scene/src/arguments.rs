@@ -1,4 +1,4 @@
-//! The values of a definition's parameters, and the element that is built from them.
+//! The values of the parameters of a definition, and the element built from them.
 
 use std::ops::Range;
 
@@ -12,8 +12,8 @@ use crate::function::{self, Domain};
 use crate::place::Place;
 use crate::table::Table;
 
-/// Values in the order of the parameters. Where one could not be read, a harmless one stands in, so
-/// that the others are checked all the same.
+/// Values in the order of the parameters. A value that could not be read is replaced by a valid
+/// one, so that the others are still checked.
 pub(crate) struct Arguments {
     pub(crate) values: Vec<Argument>,
     pub(crate) functions: Vec<Function>,
@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Reads all parameters of a definition but the points, which come from its place.
+    /// Reads all parameters of a definition except the points, which are read with its place.
     pub(crate) fn read(
         table: &mut Table,
         spec: &'static Spec,
@@ -75,8 +75,8 @@ impl Arguments {
         self.spans.push(span);
     }
 
-    /// Builds the element and reports everything that its definition refuses. `None` if anything is
-    /// wrong.
+    /// Builds the element and reports everything that its definition refuses. Returns `None` if
+    /// anything is wrong.
     pub(crate) fn build<E>(
         &mut self,
         spec: &'static Spec,
@@ -84,7 +84,8 @@ impl Arguments {
         build: fn(&[Argument]) -> Result<E, ArgumentError>,
         findings: &mut Findings,
     ) -> Option<E> {
-        // A definition names its first fault only: put a harmless value there and ask again.
+        // A definition reports only its first fault: replace the value by a valid one and try
+        // again.
         for _ in 0..=spec.parameters.len() {
             let error = match build(&self.values) {
                 Ok(element) => return self.complete.then_some(element),
@@ -105,7 +106,7 @@ impl Arguments {
     }
 }
 
-/// A value that any definition takes.
+/// A value that every definition accepts.
 fn harmless(shape: Shape) -> Argument {
     match shape {
         Shape::Point { .. } | Shape::Direction { .. } => Argument::Pair([1.0, 0.0]),

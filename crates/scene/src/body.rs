@@ -41,7 +41,7 @@ const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::A
     .unit("rad/s")
     .doc("Angular velocity at the start; it follows in the same way where it is left out");
 
-/// Keys of a body beside its name.
+/// Keys of a body in addition to its name.
 pub(crate) const KEYS: [Key; 7] = [
     MASS,
     INERTIA,
@@ -65,11 +65,11 @@ const fn pair(name: &'static str) -> Key {
 pub(crate) struct Bodies {
     pub(crate) list: Vec<Body>,
     pub(crate) entries: Vec<Entry>,
-    /// Places in the list; of a name that is used twice, the first.
+    /// Indices by name; if a name is used twice, the first body.
     by_name: HashMap<String, usize>,
-    /// Bodies without a name of their own. Each is taken for one that is called by an unknown name.
+    /// Number of bodies without a name. Each is assumed to have one of the unknown names.
     unnamed: usize,
-    /// The names that they are taken for.
+    /// The names assumed for them.
     theirs: RefCell<BTreeSet<String>>,
 }
 
@@ -115,7 +115,7 @@ impl Bodies {
         table.close(findings);
     }
 
-    /// The body that a field names; `ground` is the ground.
+    /// The body with the name in this field; `ground` is the ground.
     pub(crate) fn find(&self, field: &Field, findings: &mut Findings) -> Option<BodyRef> {
         let name = field.text("the name of a body", findings)?;
         if name == GROUND {
@@ -128,13 +128,12 @@ impl Bodies {
         at.map(BodyRef::Body)
     }
 
-    /// The place of a body in the list.
+    /// The index of a body.
     pub(crate) fn position(&self, name: &str) -> Option<usize> {
         self.by_name.get(name).copied()
     }
 
-    /// Reports a body that does not exist, unless that is the consequence of a problem that is
-    /// reported at the bodies.
+    /// Reports a body that does not exist, unless a problem reported for the bodies explains it.
     pub(crate) fn unknown(
         &self,
         span: Range<usize>,
@@ -165,7 +164,7 @@ impl Bodies {
         );
     }
 
-    /// Whether a name that is unknown may be that of a body without a name.
+    /// Whether an unknown name may belong to a body without a name.
     fn is_of_unnamed(&self, name: &str) -> bool {
         let mut theirs = self.theirs.borrow_mut();
         if theirs.len() < self.unnamed {

@@ -1,12 +1,12 @@
-//! Linear combinations of reactions: of components, as `W3.N + W4.N` or `2*A.Fx - B.T`, or of whole
-//! wrenches, as `W3 + W4`.
+//! Linear combinations of reactions: of components, such as `W3.N + W4.N` or `2*A.Fx - B.T`, or of
+//! whole wrenches, such as `W3 + W4`.
 
 use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::nearest::{list, nearest};
 
-/// What is added up; at least one term.
+/// The terms of a sum; at least one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Combination {
     /// `Σ coefficient·component`: one number.
@@ -19,7 +19,7 @@ pub enum Combination {
 /// One component of the reaction of a joint or drive, times a number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// The factor, 1 where none is written.
+    /// The factor; 1 if none is written.
     pub coefficient: f64,
     /// Name of the joint or drive.
     pub reaction: String,
@@ -30,23 +30,23 @@ pub struct Term {
 /// The wrench of the reaction of a joint or drive, times a number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrenchTerm {
-    /// The factor, 1 where none is written.
+    /// The factor; 1 if none is written.
     pub coefficient: f64,
     /// Name of the joint or drive.
     pub reaction: String,
 }
 
-/// Why a text is no combination.
+/// Reason why a text is not a combination.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{problem}")]
 pub struct CombinationError {
-    /// What is wrong.
+    /// The fault.
     pub problem: CombinationProblem,
-    /// Bytes of the expression.
+    /// Position in the expression (bytes).
     pub span: Range<usize>,
 }
 
-/// What is wrong with a combination.
+/// Fault of a combination.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CombinationProblem {
@@ -56,10 +56,10 @@ pub enum CombinationProblem {
     /// Two terms without a sign between them.
     #[error("expected `+` or `-` between terms, found `{found}`")]
     NoSign {
-        /// What stands there.
+        /// The character found instead of a sign.
         found: char,
     },
-    /// A whole reaction among components, or the other way round.
+    /// A whole reaction among components, or a component among whole reactions.
     #[error("`{text}` is {}; write all terms with a component, or none", mixed(.whole))]
     Mixed {
         /// The term.
@@ -67,7 +67,7 @@ pub enum CombinationProblem {
         /// Whether it is the whole reaction.
         whole: bool,
     },
-    /// A number before a term without the sign between them.
+    /// A number before a term without `*` between them.
     #[error("a factor is written with `*`: `{factor}*{term}`")]
     NoTimes {
         /// The number.
@@ -75,22 +75,22 @@ pub enum CombinationProblem {
         /// The term.
         term: String,
     },
-    /// A joint or drive that does not exist.
+    /// A joint or drive does not exist.
     #[error("there is no joint or drive `{name}`{}", suggestion(.nearest.as_deref()))]
     UnknownReaction {
         /// The name.
         name: String,
-        /// The nearest one.
+        /// The most similar name.
         nearest: Option<String>,
     },
-    /// A component that the reaction does not have.
+    /// The reaction does not have a component.
     #[error("the reaction of `{reaction}` has no component `{component}`; it has {available}")]
     UnknownComponent {
         /// The joint or drive.
         reaction: String,
         /// The component.
         component: String,
-        /// What it has.
+        /// Its components.
         available: String,
     },
     /// A factor that is too large.
@@ -122,9 +122,9 @@ pub(crate) struct ReactionNames<'a> {
 /// All joints and drives, found by name.
 pub(crate) struct Reactions<'a> {
     list: Vec<ReactionNames<'a>>,
-    /// Places in the list; of a name that is used twice, the first.
+    /// Indices by name; if a name is used twice, the first one.
     by_name: HashMap<&'a str, usize>,
-    /// Bytes of the longest name.
+    /// Length of the longest name (bytes).
     longest: usize,
 }
 
@@ -147,16 +147,16 @@ impl<'a> Reactions<'a> {
         self.list.iter().map(|reaction| reaction.name)
     }
 
-    /// The name as it is kept here, if there is one.
+    /// The stored name, if there is one.
     pub(crate) fn find(&self, name: &str) -> Option<&ReactionNames<'a>> {
         self.by_name.get(name).map(|&at| &self.list[at])
     }
 
-    /// The longest name with which a text begins, if a term may end there.
+    /// The longest name at the beginning of a text, if a term may end there.
     fn longest_at(&self, text: &str) -> Option<&ReactionNames<'a>> {
         let reach = text.floor_char_boundary(self.longest);
         let end = (reach == text.len()).then_some(reach);
-        // One letter more: what follows the longest name.
+        // One letter more than the longest name: the letter after it.
         let ends = text[reach..]
             .chars()
             .next()
@@ -198,7 +198,7 @@ pub(crate) fn parse(text: &str, reactions: &Reactions) -> Result<Combination, Co
     }
 }
 
-/// A term as it is read.
+/// A parsed term.
 enum Read {
     Component(Term),
     Wrench(WrenchTerm),
@@ -212,7 +212,7 @@ impl Combination {
         }
     }
 
-    /// Adds a term of the same kind; otherwise tells whether it was a whole wrench.
+    /// Adds a term of the same kind; otherwise returns whether it was a whole wrench.
     fn push(&mut self, term: Read) -> Result<(), bool> {
         match (self, term) {
             (Self::Components(terms), Read::Component(term)) => terms.push(term),
@@ -251,7 +251,7 @@ impl<'a> Scanner<'a> {
     fn term(&mut self, sign: f64, all: &Reactions) -> Result<Read, CombinationError> {
         let coefficient = sign * self.factor()?;
         let start = self.at;
-        // Names may contain anything, so the longest known one that fits is meant.
+        // Names may contain any characters, so the longest known name that fits is used.
         let Some(known) = all.longest_at(self.rest()) else {
             return Err(self.unknown(all));
         };
@@ -316,7 +316,7 @@ impl<'a> Scanner<'a> {
         Ok(value)
     }
 
-    /// A number and the term after it, if only the sign between them is missing.
+    /// A number and the term after it, if only `*` is missing between them.
     fn factor_without_times(&self, all: &Reactions) -> Option<(&'a str, &'a str)> {
         let rest = self.rest();
         let in_number = |c: char| c.is_ascii_digit() || c == '.';
@@ -327,7 +327,7 @@ impl<'a> Scanner<'a> {
         Some((number, term.split([' ', '+']).next().unwrap_or(term)))
     }
 
-    /// What to say of a term that begins with no known name.
+    /// The error for a term that begins with no known name.
     fn unknown(&self, all: &Reactions) -> CombinationError {
         let rest = self.rest();
         let end = |c: char| c.is_whitespace() || c == '+';

@@ -1,5 +1,6 @@
-//! Which bodies a joint or force connects: `body`, `bodies`, and keys of further slots. Their
-//! number chooses among the definitions that share a scene type, and so does the key of a variant.
+//! The bodies that a joint or force connects: `body`, `bodies`, and keys of further slots. The
+//! number of bodies selects among the definitions that share a scene type, and so does the key of a
+//! variant.
 
 use joints::spec::Spec;
 use model::BodyRef;
@@ -10,12 +11,12 @@ use crate::nearest::{did_you_mean, list};
 use crate::source_map::PLACE_KEYS;
 use crate::table::Table;
 
-/// The only body.
+/// Key for a single body.
 pub(crate) const BODY: &str = "body";
-/// Two of them.
+/// Key for two bodies.
 pub(crate) const BODIES: &str = "bodies";
 
-/// Slots that `body` or `bodies` fill; further ones have keys of their own.
+/// Number of slots given by `body` or `bodies`; further slots have keys of their own.
 pub(crate) fn listed(spec: &Spec) -> usize {
     spec.slots.len().min(2)
 }
@@ -23,8 +24,8 @@ pub(crate) fn listed(spec: &Spec) -> usize {
 /// The bodies of the slots `body` or `bodies`, as far as they are known.
 pub(crate) type Named = Vec<Option<BodyRef>>;
 
-/// Reads `body` or `bodies`. `None`, reported, if they are missing or not what any of the
-/// definitions takes.
+/// Reads `body` or `bodies`. Returns `None` and reports if they are missing or if no definition
+/// accepts them.
 pub(crate) fn named(
     table: &mut Table,
     specs: &[&'static Spec],
@@ -37,8 +38,8 @@ pub(crate) fn named(
         (true, false) => "`body = …`",
         _ => "`bodies = [first, second]`",
     };
-    // A key that no definition takes is asked for only where it is written: otherwise it is not one
-    // of the keys.
+    // A key that no definition accepts is read only if it is written; otherwise it would count as a
+    // key of the table.
     let mut read = |key, is_taken| {
         let asked = is_taken || table.has(key);
         asked.then(|| table.optional(key)).flatten()
@@ -90,7 +91,7 @@ pub(crate) fn named(
     }
 }
 
-/// Looks only whether the bodies exist, where nothing is known of the definition.
+/// Checks only that the bodies exist, if the definition is not known.
 pub(crate) fn check_names(table: &mut Table, bodies: &Bodies, findings: &mut Findings) {
     if let Some(one) = table.optional(BODY) {
         bodies.find(&one, findings);
@@ -105,8 +106,8 @@ pub(crate) fn check_names(table: &mut Table, bodies: &Bodies, findings: &mut Fin
     }
 }
 
-/// The bodies of all slots of the definition: those that are named, then one key for each further
-/// slot, the ground where it is not given.
+/// The bodies of all slots of the definition: the named ones, then one key for each further slot,
+/// which is the ground if it is not given.
 pub(crate) fn slots(
     table: &mut Table,
     spec: &'static Spec,
@@ -123,8 +124,7 @@ pub(crate) fn slots(
     named
 }
 
-/// The definition that is meant, by the number of bodies and the key of the variant; its place in
-/// `specs`.
+/// Index in `specs` of the definition selected by the number of bodies and the key of the variant.
 pub(crate) fn choose(
     table: &mut Table,
     specs: &[&'static Spec],
@@ -135,7 +135,7 @@ pub(crate) fn choose(
         .filter(|&k| listed(specs[k]) == n_named)
         .collect();
     if let [only] = fitting[..] {
-        // A variant without an alternative has nothing to choose, but its key may be written.
+        // A variant without an alternative needs no selection, but its key may be written.
         if specs[only].variant.is_none() {
             return Some(only);
         }
@@ -182,7 +182,7 @@ pub(crate) fn choose(
     chosen.map(|(k, _)| k)
 }
 
-/// Marks the keys as known that depend on a choice which could not be made.
+/// Marks keys as known that depend on a selection which could not be made.
 pub(crate) fn forgive(table: &mut Table, specs: &[&'static Spec]) {
     for key in PLACE_KEYS {
         table.optional(key);

@@ -1,5 +1,4 @@
-//! What is wrong with a file, as data. Rendering with colours and source lines is the command's
-//! business.
+//! Problems of a file, as data. The command renders them with colours and source lines.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,29 +7,29 @@ use serde::Serialize;
 
 use crate::text::SourceText;
 
-/// How bad it is.
+/// Severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Severity {
     /// The scene cannot be used.
     Error,
-    /// The scene can be used, but is probably not what was meant.
+    /// The scene can be used, but is probably not what was intended.
     Warning,
-    /// No problem of its own: how many more there are.
+    /// Not a problem of its own: the number of further problems.
     Note,
 }
 
 /// A marked part of the file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Label {
-    /// Bytes of the text.
+    /// Range in the text (bytes).
     pub span: Range<usize>,
-    /// Line of its beginning, from 1.
+    /// Line at which it begins, from 1.
     pub line: usize,
-    /// Column of its beginning, from 1, in characters.
+    /// Column at which it begins, from 1, in characters.
     pub column: usize,
-    /// What to say about it.
+    /// Text shown at the mark.
     pub text: String,
 }
 
@@ -39,17 +38,17 @@ pub struct Label {
 /// `Display` writes it in one line, `file:line:column: error: message`, as compilers do.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// Its severity.
     pub severity: Severity,
     /// Name of the file.
     pub file: String,
-    /// What was found and what was expected.
+    /// What was found, and what was expected.
     pub message: String,
     /// The place at fault.
     pub primary: Label,
-    /// Other places that matter, for example the first use of a name.
+    /// Other relevant places, for example the first use of a name.
     pub secondary: Vec<Label>,
-    /// What to do, where known.
+    /// Advice, if any.
     pub help: Option<String>,
 }
 
@@ -72,14 +71,14 @@ impl Diagnostic {
         }
     }
 
-    /// The same with one more place.
+    /// Adds another place.
     #[must_use]
     pub fn and(mut self, label: Label) -> Self {
         self.secondary.push(label);
         self
     }
 
-    /// The same with advice, if there is any.
+    /// Adds advice, if there is any.
     #[must_use]
     pub fn help(mut self, help: impl Into<Option<String>>) -> Self {
         self.help = help.into();

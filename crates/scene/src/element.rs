@@ -1,5 +1,5 @@
-//! What joints and forces have in common: a type from the registry, bodies, a place and parameters.
-//! No joint and no force is known here by name.
+//! Common parts of joints and forces: a type from the registry, bodies, a place and parameters. No
+//! joint and no force is known by name here.
 
 use joints::ArgumentError;
 use joints::spec::Spec;
@@ -18,9 +18,9 @@ use crate::table::Table;
 
 /// A definition of the registry.
 pub(crate) trait Definition {
-    /// What it builds.
+    /// The type of the element that it builds.
     type Element;
-    /// Its facts.
+    /// Its description.
     fn spec(&self) -> &'static Spec;
     /// Its constructor.
     fn constructor(&self) -> fn(&[joints::Argument]) -> Result<Self::Element, ArgumentError>;
@@ -57,15 +57,15 @@ pub(crate) struct Read<'r, D: Definition> {
 /// Scene types of the registry.
 pub(crate) struct Types<'r> {
     pub(crate) registry: &'r Registry,
-    /// What the section holds, for messages.
+    /// The kind of element in the section, for messages.
     pub(crate) kind: &'static str,
     pub(crate) known: Vec<&'static str>,
-    /// The other section, its kind and its types.
+    /// The other section: its table, its kind and its types.
     pub(crate) other: (&'static str, &'static str, Vec<&'static str>),
 }
 
 impl<'r> Types<'r> {
-    /// Those of joints.
+    /// The types of joints.
     pub(crate) fn of_joints(registry: &'r Registry) -> Self {
         Self {
             registry,
@@ -75,7 +75,7 @@ impl<'r> Types<'r> {
         }
     }
 
-    /// Those of forces.
+    /// The types of forces.
     pub(crate) fn of_forces(registry: &'r Registry) -> Self {
         Self {
             registry,
@@ -94,14 +94,14 @@ fn names(specs: impl Iterator<Item = &'static Spec>) -> Vec<&'static str> {
     types
 }
 
-/// The list of them.
+/// The types as a list.
 impl std::fmt::Display for Types<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&list(self.known.iter().copied()))
     }
 }
 
-/// Reads `type`. `None`, reported, if it is missing or no definition has it.
+/// Reads `type`. Returns `None` and reports if it is missing or no definition has it.
 pub(crate) fn scene_type(
     table: &mut Table,
     types: &Types,
@@ -131,8 +131,8 @@ pub(crate) fn scene_type(
     None
 }
 
-/// Reads everything that the definitions of one scene type take. `None`, reported, if none of them
-/// can be meant.
+/// Reads everything that the definitions of one scene type accept. Returns `None` and reports if
+/// none of them fits.
 pub(crate) fn read<'r, D: Definition>(
     table: &mut Table,
     definitions: &[&'r D],

@@ -1,4 +1,4 @@
-//! One value of the file, read as what is expected there. What is not is reported with both.
+//! One value of the file, read as the expected type. If it has another type, both are reported.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -11,10 +11,10 @@ use crate::findings::Findings;
 use crate::table::Table;
 use crate::units;
 
-/// A value with the key it stands under.
+/// A value with its key.
 #[derive(Clone)]
 pub(crate) struct Field<'t> {
-    /// What the table describes that it stands in.
+    /// Description of the table that contains it.
     pub(crate) subject: Rc<str>,
     /// Its key.
     pub(crate) key: Cow<'t, str>,
@@ -77,7 +77,7 @@ impl<'t> Field<'t> {
         self.number_expected("a number", findings)
     }
 
-    /// A finite number; `expected` says more about it.
+    /// A finite number; `expected` describes it.
     pub(crate) fn number_expected(&self, expected: &str, findings: &mut Findings) -> Option<f64> {
         let Some(value) = as_number(self.value.get_ref()) else {
             self.mismatch(expected, findings);
@@ -97,7 +97,7 @@ impl<'t> Field<'t> {
         Some(value)
     }
 
-    /// A whole number that fits.
+    /// A whole number within the range of the type.
     pub(crate) fn integer(&self, expected: &str, findings: &mut Findings) -> Option<i64> {
         let value = match self.value.get_ref() {
             DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix()).ok(),
@@ -175,13 +175,13 @@ impl<'t> Field<'t> {
     }
 }
 
-/// Reads all values, also after one that cannot be read.
+/// Reads all values, even after one that cannot be read.
 pub(crate) fn all<X, Y>(from: &[X], read: impl FnMut(&X) -> Option<Y>) -> Option<Vec<Y>> {
     let read: Vec<_> = from.iter().map(read).collect();
     read.into_iter().collect()
 }
 
-/// An integer or a float as a float; what is too large is infinite.
+/// An integer or a float as a float; a value that is too large becomes infinite.
 pub(crate) fn as_number(value: &DeValue) -> Option<f64> {
     match value {
         DeValue::Float(x) => x.as_str().parse().ok(),
@@ -191,7 +191,7 @@ pub(crate) fn as_number(value: &DeValue) -> Option<f64> {
     }
 }
 
-/// An integer of another base, as long as a float holds it.
+/// An integer with another base, if a float can represent it.
 fn whole(n: &DeInteger) -> Option<f64> {
     #[expect(
         clippy::cast_precision_loss,
@@ -202,10 +202,10 @@ fn whole(n: &DeInteger) -> Option<f64> {
         .map(|n| n as f64)
 }
 
-/// Longest text that a message repeats.
+/// Length of the longest text that a message repeats.
 const EXCERPT: usize = 40;
 
-/// What a value is, in words.
+/// Describes the type of a value.
 pub(crate) fn found(value: &DeValue) -> String {
     match value {
         DeValue::String(text) if text.chars().count() <= EXCERPT => format!("the text {text:?}"),

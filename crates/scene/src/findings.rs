@@ -1,4 +1,4 @@
-//! Problems found on the way. Reading goes on after each of them.
+//! Problems found while reading. Reading continues after each of them.
 
 use std::cell::Cell;
 use std::ops::Range;
@@ -7,27 +7,27 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::nearest::nearest;
 use crate::text::SourceText;
 
-/// Problems that come with suggested names. Comparing every unknown name with all known ones would
-/// take minutes where thousands are wrong.
+/// Largest number of problems with suggested names. Comparing every unknown name with all known
+/// ones would take minutes if thousands are wrong.
 const SUGGESTIONS: usize = 100;
 
-/// Names that may be compared for suggestions in one file.
+/// Largest number of names compared for suggestions in one file.
 const COMPARED: usize = 1_000_000;
 
-/// Problems that are listed; the others are counted. Where one mistake is made in every line, that
-/// says enough.
+/// Largest number of problems that are listed; the others are counted. If every line contains the
+/// same mistake, this is sufficient.
 pub(crate) const LISTED: usize = 5000;
 
-/// The problems of a file, as they are found.
+/// The problems of a file, in the order in which they are found.
 pub(crate) struct Findings<'s> {
-    /// Where they are.
+    /// The text to which places refer.
     pub(crate) source: &'s SourceText,
     list: Vec<Diagnostic>,
-    /// What can be used, but is probably not what was meant.
+    /// Scenes with these can be used, but are probably not what was intended.
     warnings: Vec<Diagnostic>,
-    /// Places in the list of those that another one has explained.
+    /// Indices of problems that are explained by another one.
     explained: Vec<usize>,
-    /// Those that are not listed.
+    /// Number of problems that are not listed.
     more: usize,
     compared: Cell<usize>,
 }
@@ -53,22 +53,22 @@ impl<'s> Findings<'s> {
         }
     }
 
-    /// The place of the next problem, for [`Findings::explain`].
+    /// The index of the next problem, for [`Findings::explain`].
     pub(crate) fn next(&self) -> usize {
         self.list.len()
     }
 
-    /// Takes back a problem that is a consequence of another one: one mistake, one message.
+    /// Removes a problem that is a consequence of another one: one mistake gives one message.
     pub(crate) fn explain(&mut self, place: usize) {
         self.explained.push(place);
     }
 
-    /// Whether further problems are only counted: looking for their places is of no use.
+    /// Whether further problems are only counted, so that their places are not needed.
     pub(crate) fn is_full(&self) -> bool {
         self.list.len() >= LISTED
     }
 
-    /// Counts problems that are not described.
+    /// Counts problems without describing them.
     pub(crate) fn count(&mut self, more: usize) {
         self.more += more;
     }
@@ -100,7 +100,7 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(self.source, span, message, label).help(help));
     }
 
-    /// Keeps a warning, which is no problem of the file.
+    /// Adds a warning, which does not make the file invalid.
     pub(crate) fn warning(
         &mut self,
         span: Range<usize>,
@@ -124,7 +124,7 @@ impl<'s> Findings<'s> {
         warnings
     }
 
-    /// Reports an error and the place of the thing it collides with.
+    /// Reports an error with the place of the item with which it is in conflict.
     pub(crate) fn collision(
         &mut self,
         span: Range<usize>,
@@ -140,7 +140,7 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(self.source, span, message, label).and(first));
     }
 
-    /// The known name that was probably meant, as long as there are few problems and few names.
+    /// The known name that was probably intended, as long as there are few problems and few names.
     pub(crate) fn suggest<'a>(
         &self,
         name: &str,
@@ -156,13 +156,13 @@ impl<'s> Findings<'s> {
         found
     }
 
-    /// The line of an offset, for texts that refer to another place.
+    /// The line of an offset, for messages that refer to another place.
     pub(crate) fn line(&self, offset: usize) -> usize {
         self.source.line(offset)
     }
 
-    /// All problems in the order of the file, each once; where there are too many, the last one
-    /// says how many more there are.
+    /// All problems in the order of the file, each once; if there are too many, the last one states
+    /// the number of the others.
     pub(crate) fn sorted(mut self) -> Vec<Diagnostic> {
         self.explained.sort_unstable();
         let mut place = 0;

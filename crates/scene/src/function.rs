@@ -99,7 +99,7 @@ fn names() -> impl Iterator<Item = &'static str> {
     KINDS.iter().map(|kind| kind.name)
 }
 
-/// The times of a table: the run must not leave them.
+/// The interval of the times of a table; the run must stay within it.
 pub(crate) struct Domain {
     pub(crate) subject: Rc<str>,
     pub(crate) span: Range<usize>,
@@ -107,7 +107,7 @@ pub(crate) struct Domain {
     pub(crate) last: f64,
 }
 
-/// Reads a function. Tables leave their domain in `domains`.
+/// Reads a function. The intervals of tables are added to `domains`.
 pub(crate) fn read(
     field: &Field,
     domains: &mut Vec<Domain>,
@@ -162,7 +162,8 @@ fn steps(table: &mut Table, findings: &mut Findings) -> Option<Function> {
     let items = field.items(STEPS.expected, findings)?;
     let read = all(&items, |item| step(item, findings));
     let (start, mut steps) = (start?, read?);
-    // The function names its first fault only: report it, put a harmless step there and ask again.
+    // The function reports only its first fault: report it, replace the step by a valid one and try
+    // again.
     let mut faultless = true;
     for _ in 0..=items.len() {
         if findings.is_full() {

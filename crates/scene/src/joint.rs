@@ -25,22 +25,22 @@ const MOTION: Key = Key::required("motion", "a function of time", Takes::Functio
     .unit("rad or m")
     .doc("The measure is its initial value + f(t) − f(0); a number holds it");
 
-/// Keys of a drive beside its name and its type.
+/// Keys of a drive in addition to its name and its type.
 pub(crate) const DRIVE_KEYS: [Key; 2] = [JOINT, MOTION];
 
-/// The words for the type of a drive.
+/// Description of the type of a drive.
 pub(crate) const MEASURE: &str = "a measure of the joint";
 
-/// What is known of a joint, for drives and groups that refer to it.
+/// The data of a joint to which drives and groups refer.
 pub(crate) struct Known<'r> {
     pub(crate) name: String,
-    /// Where its name stands.
+    /// Place of its name.
     pub(crate) span: Range<usize>,
     /// Its definition, if its type is known.
     pub(crate) definition: Option<&'r ConstraintDefinition>,
     /// Its bodies and arguments, if all could be read.
     complete: Option<(Vec<BodyRef>, Vec<Argument>)>,
-    /// What its data are known to (m).
+    /// Tolerance of its data (m).
     tolerance: Option<f64>,
 }
 
@@ -101,7 +101,7 @@ impl<'r> Joints<'r> {
 /// The joints by name, for drives.
 pub(crate) struct JointNames<'j, 'r> {
     list: &'j [Known<'r>],
-    /// Of a name that is used twice, the first.
+    /// Indices by name; if a name is used twice, the first joint.
     by_name: HashMap<&'j str, &'j Known<'r>>,
 }
 
@@ -128,7 +128,7 @@ pub(crate) struct Drives {
 }
 
 impl Drives {
-    /// Reads one drive. Two drives of one measure are redundant, not wrong.
+    /// Reads one drive. Two drives of one measure are redundant, which is not an error.
     pub(crate) fn read(
         &mut self,
         mut table: Table,
@@ -181,7 +181,7 @@ impl Drives {
         };
         let mut arguments = arguments.clone();
         arguments.push(Argument::Absent);
-        // The joint took these arguments, and its drive differs in nothing but the motion.
+        // The joint accepted these arguments, and its drive differs only in the motion.
         match definition
             .drives
             .get(at)
@@ -211,8 +211,8 @@ impl Drives {
     }
 }
 
-/// Warns of a motion that is a number other than zero: whoever writes one may expect a speed or a
-/// place, but a drive follows f(t) − f(0).
+/// Warns of a motion that is a constant other than zero: the author may expect a speed or a
+/// position, but a drive follows f(t) − f(0).
 fn warn_if_held(motion: &Field, findings: &mut Findings) {
     let Some(value) = as_number(motion.value.get_ref()).filter(|value| *value != 0.0) else {
         return;

@@ -1,5 +1,5 @@
-//! The keys of the format: what the reader asks for is what the schema says. Keys of joints and
-//! forces are not here: they come from their definitions.
+//! The keys of the format, used both by the reader and by the schema. Keys of joints and forces
+//! come from their definitions instead.
 
 use serde_json::Value;
 
@@ -10,19 +10,19 @@ pub(crate) const TYPE: &str = "type";
 #[derive(Clone, Copy)]
 pub(crate) struct Key {
     pub(crate) name: &'static str,
-    /// What it takes, in the words of messages.
+    /// The expected value, as stated in messages.
     pub(crate) expected: &'static str,
     pub(crate) takes: Takes,
-    /// The unit of its numbers; empty where they have none.
+    /// The unit of its numbers; empty if they have none.
     pub(crate) unit: &'static str,
-    /// What it means.
+    /// Its meaning.
     pub(crate) doc: &'static str,
     pub(crate) is_required: bool,
-    /// What holds where it is not given.
+    /// The default value.
     pub(crate) default: Option<fn() -> Value>,
 }
 
-/// What a key takes.
+/// Kind of value of a key.
 #[derive(Clone, Copy)]
 pub(crate) enum Takes {
     /// The name of something.
@@ -35,11 +35,11 @@ pub(crate) enum Takes {
     Flag,
     /// One number.
     Number(Interval),
-    /// Two numbers.
+    /// At least this many numbers.
     Pair(Interval),
     /// At least so many numbers.
     Numbers(usize),
-    /// Texts, at least so many.
+    /// At least this many texts.
     Texts(usize),
     /// All, none, or the names of some.
     Names,
@@ -51,7 +51,7 @@ pub(crate) enum Takes {
     Steps,
 }
 
-/// Numbers that are allowed.
+/// Range of allowed numbers.
 #[derive(Clone, Copy)]
 pub(crate) enum Interval {
     Any,
@@ -72,7 +72,7 @@ impl Interval {
 }
 
 impl Key {
-    /// A key that must be given.
+    /// A key that is required.
     pub(crate) const fn required(name: &'static str, expected: &'static str, takes: Takes) -> Self {
         Self {
             is_required: true,
@@ -80,7 +80,7 @@ impl Key {
         }
     }
 
-    /// A key that may be left out.
+    /// An optional key.
     pub(crate) const fn optional(name: &'static str, expected: &'static str, takes: Takes) -> Self {
         Self {
             name,
@@ -93,7 +93,7 @@ impl Key {
         }
     }
 
-    /// It must be given.
+    /// Makes it required.
     pub(crate) const fn needed(self) -> Self {
         Self {
             is_required: true,
@@ -101,17 +101,17 @@ impl Key {
         }
     }
 
-    /// In this unit.
+    /// Sets the unit.
     pub(crate) const fn unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
     }
 
-    /// What it means.
+    /// Sets the meaning.
     pub(crate) const fn doc(self, doc: &'static str) -> Self {
         Self { doc, ..self }
     }
 
-    /// What holds where it is not given.
+    /// Sets the default value.
     pub(crate) const fn or(self, default: fn() -> Value) -> Self {
         Self {
             default: Some(default),
@@ -119,7 +119,7 @@ impl Key {
         }
     }
 
-    /// Whether a number may stand here.
+    /// Whether a number is in the allowed range.
     pub(crate) fn allows(&self, x: f64) -> bool {
         match self.takes {
             Takes::Number(range) | Takes::Pair(range) => range.contains(x),

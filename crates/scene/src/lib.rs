@@ -4,19 +4,19 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `limits` | how large a text may be |
-//! | `read` | the whole file, and what the mechanism refuses |
+//! | `limits` | largest size of a text |
+//! | `read` | the whole file, and the checks by the mechanism |
 //! | `section`, `names` | tables of the first level; names that may occur only once |
-//! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
+//! | `table`, `field`, `key` | a table that records its keys; a value read as the expected type; the values of a key |
 //! | `body` | bodies, and their names elsewhere |
-//! | `element` | what joints and forces share: type, `connection`, `place`, `arguments` |
+//! | `element` | common parts of joints and forces: type, `connection`, `place`, `arguments` |
 //! | `joint`, `force` | joints and their drives; forces |
 //! | `function` | functions of time |
-//! | `start`, `simulate`, `reactions`, `combination` | what is to be done |
+//! | `start`, `simulate`, `reactions`, `combination` | requested computations |
 //! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
-//! | `template` | the text with other numbers in it |
+//! | `template` | the text with other numbers |
 //! | `schema` | the format as a JSON schema, from the same keys |
-//! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, names that were meant |
+//! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, suggested names |
 
 mod arguments;
 mod body;

@@ -1,4 +1,4 @@
-//! From errors that name bodies, joints and rows to places in the file.
+//! Places in the file for errors that name bodies, joints and rows.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -95,8 +95,8 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// Given velocities that no motion has: what is driven comes first, then the velocity, or the entry
-/// that holds it.
+/// The place of given velocities that are impossible: first the drives, then the velocity, or the
+/// table that contains it.
 fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) -> Diagnostic {
     let span = match (conflict.is_kept, conflict.coordinate) {
         (true, _) => map.section("start", "keep"),
@@ -168,15 +168,15 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// Redundant rows that ask for different motions: the drives among them, or all where there are
-/// none.
+/// The places of redundant rows that require different motions: the drives among them, or all rows
+/// if there are no drives.
 fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
     forcing: &[&str],
     error: &impl std::error::Error,
 ) -> Diagnostic {
-    // Rows that drives leave no way to go on are as they should be.
+    // Rows that drives prevent from holding are not wrong themselves.
     let mut spans = forcing
         .iter()
         .take(MARKS)
@@ -194,13 +194,13 @@ fn contradicting(
             let marks = ["asks for what the others forbid", "holds it"];
             (rows.collect(), marks)
         }
-        // Joints between drives are as they should be.
+        // Joints between drives are not wrong themselves.
         _ => (drives, ["contradicts the others", "contradicts too"]),
     };
     at_rows(map, rows, error, marks)
 }
 
-/// Places of one error that are marked.
+/// Largest number of marked places for one error.
 const MARKS: usize = 20;
 
 fn at(
@@ -212,8 +212,8 @@ fn at(
     Diagnostic::error(&map.text, span, error.to_string(), label)
 }
 
-/// An error of several rows at their joints and drives, each once. The first mark is that of the
-/// first one.
+/// An error of several rows, marked at their joints and drives, each once. The first mark is for
+/// the first row.
 fn at_rows<'a>(
     map: &SourceMap,
     labels: impl IntoIterator<Item = &'a RowLabel>,
@@ -229,18 +229,18 @@ fn at_rows<'a>(
     })
 }
 
-/// The joint or drive of a row.
+/// The place of the joint or drive of a row.
 fn row(map: &SourceMap, label: &RowLabel) -> Range<usize> {
     element_key(map, &label.joint, &[])
 }
 
-/// The first of these keys of a joint, drive or force that is given, or its name.
+/// The place of the first of these keys that a joint, drive or force has, or of its name.
 fn element_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     let entry = map.element(name);
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
 }
 
-/// Spans of a name in the two spaces of names: bodies; joints, drives and forces.
+/// Places of a name in the two name spaces: bodies; joints, drives and forces.
 fn uses(map: &SourceMap, name: &str) -> [Vec<Range<usize>>; 2] {
     let of = |entries: &mut dyn Iterator<Item = &Entry>| {
         let same = entries.filter(|entry| entry.name == name);
@@ -266,7 +266,7 @@ pub(crate) fn duplicates(
     later.iter().map(again).collect()
 }
 
-/// A number of a body of this name that is at fault.
+/// The place of a wrong number of the body with this name.
 fn body_key(
     map: &SourceMap,
     d: &Description,
@@ -291,7 +291,8 @@ fn body_key(
     found.map_or(0..0, |(_, entry)| entry.span(&key))
 }
 
-/// The bodies of an element of this name that are at fault. A drive has those of its joint.
+/// The place of the wrong bodies of the element with this name. A drive has the bodies of its
+/// joint.
 fn connection(
     map: &SourceMap,
     d: &Description,

@@ -1,4 +1,5 @@
-//! Names of bodies, of joints, drives and forces, and of groups: each space has each name once.
+//! Names of bodies, of joints, drives and forces, and of groups: within each of these name spaces a
+//! name occurs once.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
@@ -11,7 +12,7 @@ use crate::locate;
 use crate::source_map::SourceMap;
 use crate::table::Table;
 
-/// Names of everything, complete or not, in their spaces.
+/// All names in their name spaces, including those of incomplete tables.
 #[derive(Default)]
 pub(crate) struct Names {
     pub(crate) bodies: Vec<Use>,
@@ -19,7 +20,7 @@ pub(crate) struct Names {
     pub(crate) groups: Vec<Use>,
 }
 
-/// A name, and where it is given.
+/// A name and its place.
 pub(crate) struct Use {
     name: String,
     span: Range<usize>,

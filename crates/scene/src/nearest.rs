@@ -1,10 +1,10 @@
-//! The name that was probably meant.
+//! Suggests the name that was probably intended.
 
 /// Longer names are not compared: the effort grows with the square of the length.
 const LONGEST: usize = 80;
 
-/// The candidate nearest to `name`, if one is near enough: at most a third of its letters differ,
-/// and not all. A plural is near.
+/// The candidate most similar to `name`, if it is similar enough: at most a third of the letters
+/// differ, and not all of them. A plural is similar.
 ///
 /// ```
 /// assert_eq!(scene::nearest("dor", ["cart", "door"]), Some("door"));
@@ -37,7 +37,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
-/// The advice `did you mean …?`, if a candidate is near enough.
+/// The advice `did you mean …?`, if a candidate is similar enough.
 pub(crate) fn did_you_mean<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -45,10 +45,10 @@ pub(crate) fn did_you_mean<'a>(
     nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
 }
 
-/// Names that a help lists.
+/// Largest number of names in an advice.
 const LISTED: usize = 10;
 
-/// The advice `the … are …`, where there are not too many of them.
+/// The advice `the … are …`, if there are not too many names.
 pub(crate) fn all<'a>(what: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let names: Vec<_> = names.into_iter().take(LISTED + 1).collect();
     let few = (1..=LISTED).contains(&names.len());
@@ -61,7 +61,7 @@ pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// Letters that are compared: case does not count.
+/// The compared letters: case is ignored.
 fn lower(text: &str, out: &mut Vec<char>) {
     out.clear();
     if text.is_ascii() {
@@ -80,8 +80,8 @@ struct Rows {
 }
 
 impl Rows {
-    /// Letters to insert, delete, replace or swap with their neighbour (optimal string alignment),
-    /// if not more than `limit`.
+    /// Number of letters to insert, delete, replace or exchange with their neighbour (optimal
+    /// string alignment), if it is at most `limit`.
     fn distance(&mut self, a: &[char], b: &[char], limit: usize) -> Option<usize> {
         if a.len().abs_diff(b.len()) > limit {
             return None;
@@ -93,8 +93,8 @@ impl Rows {
         for (j, x) in self.last.iter_mut().enumerate() {
             *x = j;
         }
-        // A swap reaches back two rows: no distance is below the smaller one of the least of the
-        // last two.
+        // An exchange uses two rows before: no distance is below the smaller of the minima of the
+        // last two rows.
         let mut least_before = 0;
         for i in 1..=a.len() {
             let Self { before, last, row } = self;
@@ -152,7 +152,7 @@ mod tests {
         assert_eq!(nearest("D", ["A", "B"]), None);
         assert_eq!(nearest("a", ["B", "A"]), Some("A"));
         assert_eq!(nearest("bodies", ["joint", "body"]), Some("body"));
-        // The first one of those that are equally near.
+        // The first one if several are equally similar.
         let near = nearest("crank-10", ["crank-1", "crank-20", "Crank-10", "crank-10"]);
         assert_eq!(near, Some("Crank-10"));
     }

@@ -1,4 +1,4 @@
-//! Where a joint or force acts: `at`, a global point of the described configuration, or points in
+//! The place of a joint or force: `at`, a global point of the described configuration, or points in
 //! the frames of the bodies.
 
 use std::ops::Range;
@@ -13,8 +13,8 @@ use crate::findings::Findings;
 use crate::nearest::list;
 use crate::table::Table;
 
-/// Points in the frames of their bodies, in the order of the point parameters, `None` where not
-/// readable; and where they are written.
+/// Points in the frames of their bodies, in the order of the point parameters, `None` if not
+/// readable; and their places in the text.
 pub(crate) struct Place {
     pub(crate) points: Vec<Option<[f64; 2]>>,
     pub(crate) span: Range<usize>,
@@ -42,7 +42,7 @@ pub(crate) fn owners(spec: &Spec) -> Vec<usize> {
     spec.parameters.iter().filter_map(slot).collect()
 }
 
-/// Reads the place of a definition whose slots hold `slots`.
+/// Reads the place of a definition whose slots contain the bodies `slots`.
 pub(crate) fn read(
     table: &mut Table,
     spec: &'static Spec,
@@ -140,7 +140,7 @@ fn global(
     of.iter().zip(points).map(&mut local).collect()
 }
 
-/// `point`: in the frame of the only body, a list where there are several.
+/// `point`: in the frame of the only body; a list if there are several points.
 fn same_body(field: &Field, n: usize, findings: &mut Findings) -> Vec<Option<[f64; 2]>> {
     let points = match n {
         1 => field.pair(POINT, findings).map(|point| vec![point]),
@@ -164,7 +164,7 @@ fn by_body(
     let Some(table) = field.table("a table { body = [x, y], … }", findings) else {
         return points;
     };
-    // Without all names there is no telling which keys are right.
+    // If a name is missing, it cannot be decided which keys are right.
     let Some(owners) = of
         .iter()
         .map(|&slot| slots.get(slot).copied().flatten())
@@ -180,7 +180,7 @@ fn by_body(
     let foreign = given
         .iter()
         .filter(|(_, value)| !names.contains(&&*value.key));
-    // One point under another name is one mistake.
+    // One point with another name is one mistake.
     let meant = match (missing.len(), foreign.count()) {
         (1, 1) => missing.pop(),
         _ => None,

@@ -1,4 +1,4 @@
-//! `[[group]]` and `[output]`: which reactions are wanted, and which combinations of them.
+//! `[[group]]` and `[output]`: which reactions are requested, and which combinations of them.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -12,16 +12,16 @@ use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::table::Table;
 
-/// A combination of reactions whose verdict is wanted.
+/// A combination of reactions on which a verdict is requested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupRequest {
     /// Its name.
     pub name: String,
-    /// What is combined.
+    /// The combined reactions.
     pub content: GroupContent,
 }
 
-/// What a group combines.
+/// Content of a group.
 #[derive(Clone, Debug, PartialEq)]
 pub enum GroupContent {
     /// The reactions of these joints and drives together.
@@ -30,7 +30,7 @@ pub enum GroupContent {
     Combination(Combination),
 }
 
-/// What is written. What is not wanted is not computed.
+/// Requested output. Values that are not requested are not computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Output {
     /// `trajectory.csv`
@@ -54,12 +54,12 @@ impl Default for Output {
 /// Which reactions are written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum WantedReactions {
-    /// Those of all joints and drives.
+    /// Reactions of all joints and drives.
     #[default]
     All,
-    /// None.
+    /// No reactions.
     None,
-    /// Those of these joints and drives.
+    /// Reactions of these joints and drives.
     Of(Vec<String>),
 }
 
@@ -70,7 +70,7 @@ const COMBINE: Key =
         "A sum of components as \"W3.N + W4.N\" or of whole reactions as \"W3 + W4\", with factors where wanted",
     );
 
-/// What a group has one of, beside its name.
+/// Keys of which a group has one, in addition to its name.
 pub(crate) const GROUP_KEYS: [Key; 2] = [MEMBERS, COMBINE];
 
 const TRAJECTORY: Key = Key::optional("trajectory", "true or false", Takes::Flag)
@@ -90,8 +90,8 @@ const REPORT: Key = Key::optional("report", "true or false", Takes::Flag)
 /// Keys of `[output]`.
 pub(crate) const OUTPUT_KEYS: [Key; 3] = [TRAJECTORY, REACTIONS, REPORT];
 
-/// Components that can be asked for: force and torque, also where they are identically zero, and
-/// the named one.
+/// Components that can be requested: force and torque, even if they are identically zero, and the
+/// named component.
 pub(crate) fn components(spec: &ConstraintSpec) -> Vec<&'static str> {
     COMPONENTS.into_iter().chain(spec.component).collect()
 }
@@ -232,7 +232,7 @@ fn combine(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
         .ok()
 }
 
-/// The place of a part of a text in the file; the whole text where it is written with escapes.
+/// The place in the file of a part of a text; of the whole text if it is written with escapes.
 fn inside(field: &Field, text: &str, part: Range<usize>, findings: &Findings) -> Range<usize> {
     let whole = field.span();
     let written = findings

@@ -1,4 +1,4 @@
-//! From a text to a scene, or to everything that is wrong with it.
+//! From a text to a scene, or to all of its problems.
 
 mod syntax;
 
@@ -32,13 +32,12 @@ use crate::tolerance;
 
 /// Reads a scene file.
 ///
-/// `source_name` is what diagnostics call it, usually its path; `registry` has the joints and
-/// forces that it may name.
+/// `source_name` is the name in diagnostics, usually the path; `registry` contains the joints and
+/// forces that the text may use.
 ///
 /// # Errors
-/// Everything that is wrong with the text, in the order of the text. A file that is not TOML is
-/// judged no further than that. A scene without problems is a description that
-/// [`model::Mechanism::build`] accepts.
+/// All problems of the text, in the order of the text. If a file is not TOML, only that is
+/// reported. A scene without problems is a description that [`model::Mechanism::build`] accepts.
 ///
 /// ```
 /// use model::Registry;
@@ -66,7 +65,7 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     let whole = Table::new("the scene", 0..0, root.get_ref());
     let mut scene = document(whole, registry, &mut findings);
     scene.warnings = findings.take_warnings();
-    // Large beside what was read from it.
+    // Freed early, because it is large relative to the result.
     drop(root);
     if let Some(source) = &scene.source {
         check(&scene.description, source, &mut findings);
@@ -79,8 +78,9 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     }
 }
 
-/// Reports what is not TOML, one error for each line. An error at the end of the text means that
-/// something was never closed: only the first one tells where, and the others are its consequences.
+/// Reports text that is not TOML, one error for each line. An error at the end of the text means
+/// that a bracket was never closed: only the first error shows where, and the others are its
+/// consequences.
 fn syntax(errors: &[toml::de::Error], findings: &mut Findings) {
     let source = findings.source;
     let text = source.text();
@@ -119,7 +119,7 @@ fn say(fault: syntax::Fault, findings: &mut Findings) {
     findings.error_with_help(span, message, label, Some(help));
 }
 
-/// Reads all sections. The result is to be used only if nothing was found.
+/// Reads all sections. The result may be used only if no problem was found.
 fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
     let mut sections = BTreeMap::new();
     let head = section(&mut root, &section::SCENE, &mut sections, findings);
@@ -179,13 +179,13 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     }
 }
 
-/// What the mechanism consists of.
+/// The parts of the mechanism.
 #[derive(Default)]
 struct Parts<'r> {
     bodies: Bodies,
     joints: Joints<'r>,
     drives: Drives,
-    /// Of all drives, complete or not.
+    /// Names of all drives, complete or not.
     drive_names: Vec<String>,
     forces: Forces,
     names: Names,
@@ -230,7 +230,7 @@ impl<'r> Parts<'r> {
         parts
     }
 
-    /// Joints and drives by name, also those that could not be read.
+    /// Joints and drives by name, including those that could not be read.
     fn reactions(&self) -> Reactions<'_> {
         let joints = self.joints.known.iter().map(|joint| ReactionNames {
             name: &joint.name,
@@ -291,7 +291,7 @@ const GRAVITY: Key = Key::optional(
 .doc("Acceleration of free bodies [gx, gy]")
 .or(|| json!([0.0, 0.0]));
 
-/// Keys of `[scene]`, beside those of tolerances.
+/// Keys of `[scene]`, in addition to those of tolerances.
 pub(crate) const SCENE_KEYS: [Key; 3] = [NAME, SPACE, GRAVITY];
 
 /// `[scene]`
@@ -331,8 +331,8 @@ impl Heading {
     }
 }
 
-/// Reports what the mechanism refuses. That there are bodies has been checked, and names, also
-/// those of what could not be read.
+/// Reports what the mechanism refuses. The existence of bodies has already been checked, and so
+/// have names, including those of tables that could not be read.
 fn check(description: &Description, source: &SourceMap, findings: &mut Findings) {
     let errors = Mechanism::build(description).err().unwrap_or_default();
     let of_drive = |of: &str| description.drives.iter().any(|drive| drive.name == of);
@@ -342,12 +342,12 @@ fn check(description: &Description, source: &SourceMap, findings: &mut Findings)
         }
         match error {
             BuildError::DuplicateName { .. } | BuildError::Ground | BuildError::NoBodies => {}
-            // Its joint has the same.
+            // Its joint has the same problem.
             BuildError::Tolerance {
                 of: Stated::Drive(_),
                 ..
             } => {}
-            // Its joint has them too.
+            // Its joint has the same problem.
             BuildError::SameBody { name, .. } | BuildError::GroundOnly { name }
                 if of_drive(name) => {}
             _ => findings.report(locate::build(source, description, error)),

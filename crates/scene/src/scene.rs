@@ -1,5 +1,5 @@
-//! A mechanism with what is to be done with it: what a text is read into, and what a program may
-//! write directly.
+//! A mechanism with the requested computations: the result of reading a text, or written directly
+//! by a program.
 
 use dynamics::{MotionError, MotionOptions};
 use model::{BuildError, Description, StartError, StartOptions};
@@ -11,15 +11,15 @@ use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
 use crate::source_map::SourceMap;
 
-/// A mechanism, what is to be done with it, and where all of it stands in the file, if it was read
-/// from one.
+/// A mechanism, the requested computations, and the places of all of these in the file, if it was
+/// read from one.
 ///
 /// ```
 /// use dynamics::MotionOptions;
 /// use model::{Body, Description};
 /// use scene::Scene;
 ///
-/// // Without a file: a description, and where wanted what is to be done with it.
+/// // Without a file: a description, and the requested computations if any.
 /// let mut free = Description::new("free body");
 /// free.body(Body::new("body", 1.0, 1.0));
 /// let scene = Scene { simulate: Some(MotionOptions::to(1.0)), ..free.into() };
@@ -30,21 +30,21 @@ use crate::source_map::SourceMap;
 pub struct Scene {
     /// The mechanism as plain data; it has the name of the scene.
     pub description: Description,
-    /// What a start may and may not do.
+    /// Options of the start.
     pub start: StartOptions,
-    /// The run, if the file asks for one.
+    /// The run, if the file requests one.
     pub simulate: Option<MotionOptions>,
-    /// What is written.
+    /// Requested output.
     pub output: Output,
-    /// Combinations of reactions whose verdict is wanted.
+    /// Combinations of reactions on which verdicts are requested.
     pub groups: Vec<GroupRequest>,
-    /// Where everything stands; nothing where there is no text.
+    /// Places in the text; `None` if there is no text.
     pub source: Option<SourceMap>,
-    /// What was read and can be used, but is probably not what was meant.
+    /// Parts of the text that can be used, but are probably not what was intended.
     pub warnings: Vec<Diagnostic>,
 }
 
-/// A mechanism with nothing said but itself: everything by default, and no run.
+/// A scene with the mechanism only: everything else by default, and no run.
 impl From<Description> for Scene {
     fn from(description: Description) -> Self {
         Self {
@@ -61,13 +61,13 @@ impl Scene {
         &self.description.name
     }
 
-    /// Its text; nothing where there is none.
+    /// Its text, if there is one.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         self.source.as_ref().map(|source| source.text.text())
     }
 
-    /// The warnings as sentences, each with its line and what to do.
+    /// The warnings as sentences, each with its line and advice.
     pub fn cautions(&self) -> impl Iterator<Item = String> + '_ {
         self.warnings.iter().map(|w| {
             let help = w.help.as_ref().map(|help| format!("; {help}"));
@@ -77,7 +77,7 @@ impl Scene {
     }
 
     /// The place of an error of [`model::Mechanism::build`], for descriptions that were changed
-    /// after reading; nothing where there is no text, as with the other places.
+    /// after reading. Returns `None` if there is no text, as do the other functions for places.
     #[must_use]
     pub fn locate_build(&self, error: &BuildError) -> Option<Diagnostic> {
         let source = self.source.as_ref()?;
@@ -96,12 +96,12 @@ impl Scene {
         Some(locate::motion(self.source.as_ref()?, error))
     }
 
-    /// Reads a combination of reaction components of this scene, as the key `combine` of a group
-    /// has it.
+    /// Parses a combination of reaction components of this scene, as in the key `combine` of a
+    /// group.
     ///
     /// # Errors
-    /// If the text is no sum of terms, or names a reaction or component that the scene does not
-    /// have.
+    /// If the text is not a sum of terms, or refers to a reaction or component that the scene does
+    /// not have.
     pub fn combination(&self, text: &str) -> Result<Combination, CombinationError> {
         let joints = self.description.joints.iter();
         let joints = joints.map(|j| (&j.name, j.element.spec()));
@@ -114,7 +114,7 @@ impl Scene {
         combination::parse(text, &Reactions::new(names.collect()))
     }
 
-    /// The joint or drive whose name is nearest to a name that does not exist, if one is near.
+    /// The joint or drive with the most similar name, if one is similar.
     #[must_use]
     pub fn nearest_reaction(&self, name: &str) -> Option<&str> {
         let joints = self.description.joints.iter().map(|j| j.name.as_str());

@@ -1,6 +1,6 @@
-//! The format as a JSON schema, for editors: made of the keys that the reader asks for and of the
-//! definitions of the registry. What only a whole scene can tell (names that exist, rows, a start
-//! that assembles) is not in it.
+//! The format as a JSON schema for editors, generated from the keys of the reader and the
+//! definitions of the registry. Conditions on a whole scene (names that exist, rows, a start that
+//! assembles) are not part of it.
 
 mod element;
 mod value;
@@ -23,8 +23,8 @@ use value::{described, reference};
 
 /// The JSON schema (draft 2020-12) of scene files that name joints and forces of this registry.
 ///
-/// What it refuses, [`read`](crate::read()) refuses; the reverse does not hold, because names, rows
-/// and a start that assembles are no matter of form.
+/// A text that it refuses is also refused by [`read`](crate::read()). The reverse does not hold,
+/// because names, rows and the assembly of a start are not checked by a schema.
 ///
 /// ```
 /// let schema = scene::schema(&model::Registry::planar());
@@ -66,7 +66,7 @@ pub fn schema(registry: &Registry) -> Value {
         properties.insert((*name).to_owned(), property);
         definitions.insert((*name).to_owned(), definition);
     }
-    // A scene without bodies is none.
+    // A scene needs at least one body.
     properties[section::BODY.name]["minItems"] = 1.into();
     definitions.insert("point".to_owned(), value::point());
     definitions.insert("function".to_owned(), function());
@@ -83,7 +83,7 @@ pub fn schema(registry: &Registry) -> Value {
     })
 }
 
-/// How often a section may stand in a file.
+/// How often a section may occur in a file.
 enum Times {
     Once,
     Many,
@@ -124,7 +124,7 @@ fn body_table() -> Value {
 fn drive(registry: &Registry) -> Value {
     let keys: Vec<Key> = [NAME].into_iter().chain(DRIVE_KEYS).collect();
     let mut table = table("Drive", &keys);
-    // Joints by what can be prescribed of them.
+    // Joints, grouped by the measures that can be prescribed.
     let mut measures: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for spec in registry.constraint_specs() {
         for definition in registry.constraints(spec.scene_type) {
@@ -148,14 +148,14 @@ fn drive(registry: &Registry) -> Value {
     table
 }
 
-/// Adds a key to those that must be given.
+/// Adds a key to the required ones.
 fn require(table: &mut Value, key: &str) {
     if let Some(required) = table["required"].as_array_mut() {
         required.push(key.into());
     }
 }
 
-/// A name and one of two contents.
+/// A name and one of two kinds of content.
 fn group() -> Value {
     let either = GROUP_KEYS.map(|key| table(&format!("Group with `{}`", key.name), &[NAME, key]));
     json!({ "title": "Group", "oneOf": either })

@@ -1,4 +1,4 @@
-//! The tables of the first level: those that occur once, and lists of things with names.
+//! The tables of the first level: those that occur once, and lists of named items.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::key::{Key, Takes};
 use crate::source_map::Entry;
 use crate::table::Table;
 
-/// A section: the name of its tables, and what they are for.
+/// A section: the name of its tables, and their purpose.
 pub(crate) struct Section {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
@@ -50,7 +50,7 @@ pub(crate) const OUTPUT: Section = Section::new(
     "What is written; what is not wanted is not computed",
 );
 
-/// The name of what a table of a list describes.
+/// The name of the item that a table of a list describes.
 pub(crate) const NAME: Key = Key::required("name", "a text", Takes::Name)
     .doc("Its name, once among things of its kind; joints, drives and forces share their names");
 
@@ -68,7 +68,7 @@ pub(crate) fn section<'t>(
     Some(table)
 }
 
-/// Tables that may occur many times, with the names of what they describe.
+/// Tables that may occur many times, with the names of their items.
 pub(crate) fn list<'t>(
     root: &mut Table<'t>,
     Section { name: kind, .. }: &Section,
@@ -90,7 +90,7 @@ pub(crate) fn list<'t>(
         .collect()
 }
 
-/// A table with its name, or with its number where it has none.
+/// A table with its name, or with its number if it has no name.
 fn named<'t>(
     item: &Field<'t>,
     kind: &str,
@@ -120,11 +120,12 @@ fn named<'t>(
     Some((table, name))
 }
 
-/// Letters of the longest name: it stands in every message and at the head of columns.
+/// Number of letters of the longest name: it is repeated in every message and in the headers of
+/// columns.
 pub(crate) const LONGEST_NAME: usize = 1000;
 
-/// Why a name cannot stand at the head of a column, if it cannot: tables have one line for their
-/// header, and are opened by spreadsheets. And what to say at its place.
+/// The reason why a name cannot be used in the header of a column, if it cannot, and a suggestion:
+/// tables have one line for their header and are opened by spreadsheets.
 fn unfit(name: &str) -> Option<(String, &'static str)> {
     if name.trim().is_empty() {
         return Some(("is empty".to_owned(), "expected a name"));

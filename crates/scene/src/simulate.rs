@@ -1,4 +1,4 @@
-//! `[simulate]`: what a run is asked to do.
+//! `[simulate]`: options of a run.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -97,7 +97,7 @@ fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
     all.iter().map(|value| name(*value)).collect()
 }
 
-/// Rows of the step that a refusal proposes.
+/// Number of rows for the step that an error message proposes.
 const USEFUL_ROWS: f64 = 1e4;
 
 /// The section with the places that later checks need.
@@ -147,7 +147,7 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
     })
 }
 
-/// Reports an output of more rows than a disk should hold.
+/// Reports an output with too many rows for a disk.
 fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &mut Findings) {
     let MotionOptions {
         t_end, output_step, ..
@@ -172,7 +172,7 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &m
     findings.report(too_small);
 }
 
-/// A number within its bounds, refused in the words of `dynamics`.
+/// A number within its bounds; errors have the text of `dynamics`.
 fn bounded(field: &Field, key: &Key, findings: &mut Findings) -> Option<f64> {
     let value = field.number(findings)?;
     if key.allows(value) {
@@ -218,8 +218,8 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     None
 }
 
-/// A run has one formulation, and Baumgarte's method no gains: keys of these names are reported
-/// where they have gone.
+/// Reports keys of former options, with their replacement: a run has one formulation, and
+/// Baumgarte's method has no gains.
 fn refuse_moved(table: &mut Table, findings: &mut Findings) {
     for (key, of) in [
         ("formulation", "formulation"),
@@ -242,7 +242,7 @@ fn refuse_moved(table: &mut Table, findings: &mut Findings) {
     }
 }
 
-/// Rows to drop, counted from 1 in the file and from 0 in the result. That they exist is checked
+/// Rows to drop, counted from 1 in the file and from 0 in the result. Their existence is checked
 /// when the mechanism is built.
 fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
     const EXPECTED: &str = DROP.expected;

@@ -1,4 +1,4 @@
-//! Where everything stands in the file, for problems that show only later.
+//! Places of all items in the file, for problems that are found later.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -10,9 +10,9 @@ use crate::text::SourceText;
 /// Places of a table and of its values.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Entry {
-    /// The name of what the table describes; of a section, its own name.
+    /// The name of the item that the table describes; for a section, its own name.
     pub name: String,
-    /// The header, as `[[body]]`.
+    /// Place of the header, such as `[[body]]`.
     pub header: Range<usize>,
     /// The values with their keys, in the order of the keys.
     pub keys: Box<[(Cow<'static, str>, Range<usize>)]>,
@@ -27,26 +27,26 @@ impl Entry {
         }
     }
 
-    /// The value of `name`, or the header where the table has no name.
+    /// Place of the value of `name`, or of the header if the table has no name.
     #[must_use]
     pub fn name_span(&self) -> Range<usize> {
         self.value("name").unwrap_or_else(|| self.header.clone())
     }
 
-    /// The value of a key, or the name where the key is not given.
+    /// Place of the value of a key, or of the name if the key is not given.
     #[must_use]
     pub fn span(&self, key: &str) -> Range<usize> {
         self.value(key).unwrap_or_else(|| self.name_span())
     }
 
-    /// The value of a key, if it is given.
+    /// Place of the value of a key, if it is given.
     fn value(&self, key: &str) -> Option<Range<usize>> {
         let mut keys = self.keys.iter();
         keys.find(|(name, _)| name == key)
             .map(|(_, span)| span.clone())
     }
 
-    /// The value of the first of these keys that is given, or the name.
+    /// Place of the value of the first of these keys that is given, or of the name.
     #[must_use]
     pub fn first_of(&self, keys: &[&str]) -> Range<usize> {
         let given = keys.iter().find_map(|key| self.value(key));
@@ -54,9 +54,9 @@ impl Entry {
     }
 }
 
-/// Keys that say where something acts.
+/// Keys for the place of an element.
 pub(crate) const PLACE_KEYS: [&str; 3] = ["at", "points", "point"];
-/// Keys that say on which bodies.
+/// Keys for its bodies.
 pub(crate) const BODY_KEYS: [&str; 2] = ["bodies", "body"];
 
 /// The places of a scene, in the order of its lists.
@@ -64,39 +64,40 @@ pub(crate) const BODY_KEYS: [&str; 2] = ["bodies", "body"];
 pub struct SourceMap {
     /// The text.
     pub text: SourceText,
-    /// As the bodies of the description.
+    /// In the order of the bodies of the description.
     pub bodies: Vec<Entry>,
-    /// As its joints.
+    /// In the order of its joints.
     pub joints: Vec<Entry>,
-    /// As its drives.
+    /// In the order of its drives.
     pub drives: Vec<Entry>,
-    /// As its forces.
+    /// In the order of its forces.
     pub forces: Vec<Entry>,
-    /// As the groups of the scene.
+    /// In the order of the groups of the scene.
     pub groups: Vec<Entry>,
-    /// `scene`, `start`, `simulate` and `output`, where they are given.
+    /// `scene`, `start`, `simulate` and `output`, if they are given.
     pub sections: BTreeMap<String, Entry>,
 }
 
 impl SourceMap {
-    /// Joints, drives and forces: they share one space of names.
+    /// Joints, drives and forces, which share one name space.
     pub fn elements(&self) -> impl Iterator<Item = &Entry> {
         self.joints.iter().chain(&self.drives).chain(&self.forces)
     }
 
-    /// The body of this name.
+    /// The body with this name.
     #[must_use]
     pub fn body(&self, name: &str) -> Option<&Entry> {
         self.bodies.iter().find(|entry| entry.name == name)
     }
 
-    /// The joint, drive or force of this name.
+    /// The joint, drive or force with this name.
     #[must_use]
     pub fn element(&self, name: &str) -> Option<&Entry> {
         self.elements().find(|entry| entry.name == name)
     }
 
-    /// The value of a key of a section; its header, or that of `[scene]`, where it is not given.
+    /// Place of the value of a key of a section; if it is not given, of the header of the section,
+    /// or of `[scene]`.
     #[must_use]
     pub fn section(&self, section: &str, key: &str) -> Range<usize> {
         self.sections

@@ -1,4 +1,4 @@
-//! `[start]`: what a start may and may not do.
+//! `[start]`: options of the start.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -72,7 +72,7 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
     table.close(findings);
     StartOptions {
         keep: kept,
-        // Stand with the bodies.
+        // Positions are given with the bodies.
         correction: match allowed {
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,
@@ -80,7 +80,7 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
     }
 }
 
-/// A coordinate as `body.angle`.
+/// Parses a coordinate such as `body.angle`.
 fn coordinate(item: &Field, bodies: &Bodies, findings: &mut Findings) -> Option<Coordinate> {
     const EXPECTED: &str = "a coordinate of a body, as \"crank.angle\"";
     let text = item.text(EXPECTED, findings)?;

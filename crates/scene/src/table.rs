@@ -1,4 +1,4 @@
-//! A table of the file. It remembers which keys were asked for: what is left over is unknown.
+//! A table of the file. It records which keys were read: all others are unknown.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -14,13 +14,13 @@ use crate::nearest::{list, nearest};
 
 /// A table and what it describes.
 pub(crate) struct Table<'t> {
-    /// What it describes, as messages begin: joint `A`, or `[simulate]`.
+    /// Description of the table at the beginning of messages: joint `A`, or `[simulate]`.
     pub(crate) subject: Rc<str>,
     /// Its header, or the braces of an inline table.
     pub(crate) header: Range<usize>,
     entries: &'t DeTable<'t>,
     known: Vec<&'static str>,
-    /// Keys that are missing, with the place of the problem in the findings.
+    /// Keys that are missing, with the index of the problem in the findings.
     missing: Vec<(&'static str, usize)>,
 }
 
@@ -39,7 +39,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// The value of a key that may be left out.
+    /// The value of an optional key.
     pub(crate) fn optional(&mut self, key: impl Into<&'static str>) -> Option<Field<'t>> {
         let key = key.into();
         if !self.known.contains(&key) {
@@ -53,12 +53,12 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// The value of a key that must be there.
+    /// The value of a required key.
     pub(crate) fn required(&mut self, key: &Key, findings: &mut Findings) -> Option<Field<'t>> {
         self.needed(key.name, key.expected, findings)
     }
 
-    /// The value of a key that must be there, and of which a definition says what it takes.
+    /// The value of a required key whose type is stated by a definition.
     pub(crate) fn needed(
         &mut self,
         key: &'static str,
@@ -73,7 +73,7 @@ impl<'t> Table<'t> {
         field
     }
 
-    /// Reports that a key is missing. Should it turn out to be misspelt, that is said instead.
+    /// Reports that a key is missing. If it turns out to be misspelt, that is reported instead.
     pub(crate) fn lacks(
         &mut self,
         key: &'static str,
@@ -99,17 +99,17 @@ impl<'t> Table<'t> {
         self.entries.iter().map(field).collect()
     }
 
-    /// Whether a key is written; it does not become known.
+    /// Whether a key is written; this does not mark it as known.
     pub(crate) fn has(&self, key: &str) -> bool {
         self.entries.contains_key(key)
     }
 
-    /// The text under a key, if there is one; the key does not become known.
+    /// The text of a key, if there is one; this does not mark it as known.
     pub(crate) fn peek(&self, key: &str) -> Option<&'t str> {
         self.entries.get(key)?.get_ref().as_str()
     }
 
-    /// Spans of all values by key. Keys that were asked for cost no memory.
+    /// Places of all values by key. Known keys need no additional memory.
     pub(crate) fn spans(&self) -> impl Iterator<Item = (Cow<'static, str>, Range<usize>)> {
         self.entries.iter().map(|(key, value)| {
             let name: &str = key.get_ref();
@@ -119,14 +119,14 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// Where the value of a key stands, or the header where there is none.
+    /// Place of the value of a key, or of the header if there is none.
     pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
         let value = self.entries.get(key);
         value.map_or_else(|| self.header.clone(), toml::Spanned::span)
     }
 
-    /// Reports keys that nobody asked for. One that is meant as a missing key is one problem with
-    /// it.
+    /// Reports unknown keys. An unknown key that is similar to a missing key is reported together
+    /// with it.
     pub(crate) fn close(self, findings: &mut Findings) {
         let known = || self.known.iter().copied();
         for key in self.entries.keys() {

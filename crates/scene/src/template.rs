@@ -1,8 +1,8 @@
-//! A scene in which some numbers are open: the text with other values in their places. The rest of
-//! the text stays as it is, so that [`read`](crate::read()) judges what comes out like any other
+//! A scene in which some numbers are variable: the text with other values in their places. The rest
+//! of the text is unchanged, so that [`read`](crate::read()) checks the result like any other
 //! scene, line by line.
 //!
-//! Not here: which values; and whether a value makes sense.
+//! The values are chosen by the caller and are not checked here.
 
 mod key;
 #[cfg(test)]
@@ -16,15 +16,16 @@ pub use key::KeyError;
 
 use crate::limits;
 
-/// Whole numbers below this are written without a point: some keys take nothing else.
+/// Whole numbers below this are written without a decimal point, because some keys accept only
+/// integers.
 const WHOLE: f64 = 9_007_199_254_740_992.0;
 
-/// The text of a scene with places for numbers.
+/// The text of a scene with variable numbers.
 ///
-/// A key is written as people say it: `body.platform.mass`, `joint.H.axis[0]`,
-/// `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Things with names go by
-/// their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key that the text
-/// leaves out is added to its table, which must be there.
+/// A key has the form `body.platform.mass`, `joint.H.axis[0]`, `drive.steer.motion.steps[0].by`,
+/// `scene.gravity[1]`, `simulate.rtol`. Named items are given by their names or by `[0]`, `[1]`, …;
+/// entries of lists are counted from 0. A key that the text does not contain is added to its table,
+/// which must exist.
 ///
 /// ```
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
@@ -39,11 +40,11 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 #[derive(Clone, Debug)]
 pub struct Template {
     text: String,
-    /// In the order of the text, each with the position of its key.
+    /// The numbers in the order of the text, each with the index of its key.
     slots: Vec<(usize, Slot)>,
 }
 
-/// Where a number goes, and what else is written there.
+/// Place of a number, and other text that is written there.
 #[derive(Clone, Debug)]
 struct Slot {
     span: Range<usize>,
@@ -52,14 +53,14 @@ struct Slot {
 }
 
 impl Template {
-    /// Opens the numbers under these keys.
+    /// Finds the numbers with these keys.
     ///
     /// # Errors
-    /// - [`KeyError::NotToml`]: the text cannot be taken apart; [`read`](crate::read()) says why.
-    /// - [`KeyError::Unknown`], [`KeyError::Index`]: a key names nothing.
-    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be put
-    ///   there.
-    /// - [`KeyError::Repeated`]: two keys name the same number.
+    /// - [`KeyError::NotToml`]: the text cannot be parsed; [`read`](crate::read()) reports the
+    ///   reason.
+    /// - [`KeyError::Unknown`], [`KeyError::Index`]: a key does not exist.
+    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be added.
+    /// - [`KeyError::Repeated`]: two keys refer to the same number.
     pub fn new(text: &str, keys: &[&str]) -> Result<Self, KeyError> {
         if limits::excess(text).is_some() {
             return Err(KeyError::NotToml);
@@ -88,7 +89,7 @@ impl Template {
     /// The text with these values, in the order of the keys.
     ///
     /// # Panics
-    /// If there are not as many values as keys.
+    /// If the number of values differs from the number of keys.
     #[must_use]
     pub fn with(&self, values: &[f64]) -> String {
         let n = self.slots.len();

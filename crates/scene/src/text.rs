@@ -14,7 +14,7 @@ pub struct SourceText {
 }
 
 impl SourceText {
-    /// A text under the name that diagnostics give it.
+    /// A text with the name used in diagnostics.
     #[must_use]
     pub fn new(name: &str, text: &str) -> Self {
         let after_breaks = text.match_indices('\n').map(|(at, _)| at + 1);
@@ -54,7 +54,7 @@ impl SourceText {
             .max(1)
     }
 
-    /// A label on a range of bytes. A range that leaves the text or cuts a character is shortened.
+    /// A label for a range of bytes. A range outside the text, or within a character, is shortened.
     #[must_use]
     pub fn label(&self, span: Range<usize>, text: impl Into<String>) -> Label {
         let start = self.boundary(span.start);
@@ -68,7 +68,7 @@ impl SourceText {
         }
     }
 
-    /// The nearest beginning of a character at or before the offset.
+    /// The beginning of the character at or before the offset.
     fn boundary(&self, offset: usize) -> usize {
         self.text.floor_char_boundary(offset)
     }

@@ -1,4 +1,4 @@
-//! `tolerance` and `angle_tolerance`: what the numbers of a scene are known to.
+//! `tolerance` and `angle_tolerance`: the uncertainty of the numbers of a scene.
 
 use model::Tolerance;
 
@@ -6,12 +6,12 @@ use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::table::Table;
 
-/// The key `tolerance` of what it is said of.
+/// The key `tolerance` with this description.
 pub(crate) const fn length(doc: &'static str) -> Key {
     positive("tolerance").unit("m").doc(doc)
 }
 
-/// That of a joint.
+/// The key of a joint.
 pub(crate) const OF_JOINT: Key = length(
     "What the points, directions and numbers of the joint are known to; that of its bodies, or of the scene, where it is not given",
 );
@@ -29,13 +29,13 @@ const fn positive(name: &'static str) -> Key {
     Key::optional(name, "a number > 0", Takes::Number(Interval::Positive))
 }
 
-/// A tolerance, if it is given. Whether it is positive is judged with the mechanism.
+/// Reads a tolerance, if it is given. Its sign is checked with the mechanism.
 pub(crate) fn read(table: &mut Table, key: &Key, findings: &mut Findings) -> Option<f64> {
     let field = table.optional(key)?;
     field.number_expected(key.expected, findings)
 }
 
-/// Those of `[scene]`.
+/// Reads the tolerances of `[scene]`.
 pub(crate) fn of_scene(table: &mut Table, findings: &mut Findings) -> Tolerance {
     Tolerance {
         length: read(table, &OF_SCENE, findings),

@@ -1,10 +1,10 @@
-//! Numbers with units, as people write them. The format has none: what is meant is said in its
-//! units, so that advice can be followed as it is.
+//! Numbers with units, as people write them. The format has no units: the advice gives the number
+//! in the units of the format, so that it can be copied.
 
 use std::f64::consts::PI;
 
-/// Units beside those of the format, as `times/over`: quotients stay exact where the factor is
-/// none.
+/// Units other than those of the format, as `times/over`: quotients stay exact if the factor is
+/// not.
 const OTHERS: [(&str, f64, f64); 26] = [
     ("mm", 1.0, 1e3),
     ("cm", 1.0, 1e2),
@@ -40,7 +40,7 @@ const OWN: [&str; 18] = [
     "Nm", "N/m", "N·m/rad", "N·s/m", "1/s",
 ];
 
-/// What to write instead of a text that begins with a number and a unit, if it is one.
+/// What to write instead of a text that begins with a number and a unit, if it does.
 pub(crate) fn advice(text: &str) -> Option<String> {
     let (number, between, unit) = split(text)?;
     const RULE: &str = "numbers stand without units, in SI and radians";
@@ -54,9 +54,9 @@ pub(crate) fn advice(text: &str) -> Option<String> {
     ))
 }
 
-/// A number, blanks, and the unit behind them.
+/// A number, spaces, and the unit after them.
 fn split(text: &str) -> Option<(&str, &str, &str)> {
-    // The longest beginning that is a number: the `e` of `2 e` or `2eggs` is none of its exponent.
+    // The longest beginning that is a number: the `e` of `2 e` or `2eggs` is not an exponent.
     let sign = |c: char| c.is_ascii_digit() || "+-.eE_".contains(c);
     let most = text.find(|c| !sign(c)).unwrap_or(text.len());
     let ends = (1..=most).rev();
@@ -99,7 +99,7 @@ mod tests {
             let said = advice(text).unwrap_or_default();
             assert!(said.ends_with(expected), "{text}: {said}");
         }
-        // No factor is guessed.
+        // No conversion factor is guessed.
         let rule = "numbers stand without units, in SI and radians";
         assert_eq!(advice("3 furlongs").as_deref(), Some(rule));
         for silent in [

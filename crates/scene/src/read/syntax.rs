@@ -1,11 +1,10 @@
-//! What is not TOML, in the words of who writes scenes: what people mean by the signs that they
-//! write.
+//! Explains text that is not TOML in the terms of authors of scenes, guessing what was intended.
 
 use std::ops::Range;
 
 use crate::units;
 
-/// What is said about a text that is not TOML, instead of the parser's words.
+/// The explanation that replaces the message of the parser.
 pub(super) struct Fault {
     pub(super) span: Range<usize>,
     pub(super) message: String,
@@ -26,7 +25,7 @@ pub(super) fn twice(text: &str, key: Range<usize>) -> Option<Fault> {
     })
 }
 
-/// A bracket that is still open where the first error is, in a text that ends before it is closed.
+/// A bracket that is still open at the first error, in a text that ends before it is closed.
 pub(super) fn never_closed(text: &str, first_error: usize) -> Option<Fault> {
     let at = open_bracket(text, text.floor_char_boundary(first_error))?;
     let closing = match text.as_bytes()[at] {
@@ -41,7 +40,7 @@ pub(super) fn never_closed(text: &str, first_error: usize) -> Option<Fault> {
     })
 }
 
-/// An error at this place, if it can be guessed what is meant there.
+/// The explanation of an error at this place, if the intention can be guessed.
 pub(super) fn fault(text: &str, span: Range<usize>) -> Option<Fault> {
     let at = text.floor_char_boundary(span.start);
     let begin = text[..at].rfind('\n').map_or(0, |k| k + 1);
@@ -55,7 +54,7 @@ pub(super) fn fault(text: &str, span: Range<usize>) -> Option<Fault> {
     })
 }
 
-/// What is wrong with a line that cannot be read from this place on, and what to write.
+/// The fault of a line that cannot be read from this place on, and what to write instead.
 fn meant(line: &str, at: usize) -> Option<(&'static str, String)> {
     if line.starts_with('[') && is_key(line.trim_matches(['[', ']', ' '])) {
         return Some((
@@ -93,7 +92,7 @@ fn meant(line: &str, at: usize) -> Option<(&'static str, String)> {
             "a text ends on its line, with the quote that it began with".to_owned(),
         ));
     }
-    // Inside of a list, what stands at the place.
+    // Within a list, the text at the place.
     let value = if value.starts_with(['[', '{']) {
         line.get(at..).unwrap_or_default()
     } else {
@@ -108,7 +107,7 @@ fn is_key(word: &str) -> bool {
     word.starts_with(|c: char| c.is_ascii_alphabetic()) && word.chars().all(letter)
 }
 
-/// Quotes of typography.
+/// Typographic quotation marks.
 const CURLED: [char; 5] = ['“', '”', '„', '‘', '’'];
 
 const COMPUTED: (&str, &str) = (
@@ -158,7 +157,7 @@ fn word(key: &str, value: &str) -> Option<(&'static str, String)> {
     if word.contains(['/', '*', '^', '+', '(']) {
         return Some((COMPUTED.0, COMPUTED.1.to_owned()));
     }
-    // Of a list, only the word itself.
+    // In a list, only the word itself.
     let help = if value.len() == word.len() && !key.is_empty() {
         format!("texts stand in quotes: `{key} = \"{word}\"`")
     } else {
@@ -182,8 +181,8 @@ fn open_bracket(text: &str, at: usize) -> Option<usize> {
     }
 }
 
-/// Brackets that a line opens and does not close, and how many more it closes, outside of texts and
-/// remarks.
+/// Brackets that a line opens and does not close, and the number that it closes in addition,
+/// ignoring texts and comments.
 fn open_brackets(line: &str) -> (Vec<usize>, usize) {
     let mut quote = None;
     let (mut open, mut excess) = (Vec::new(), 0);
@@ -262,8 +261,7 @@ mod tests {
         assert_eq!(fault.span.start, text.find("[0.0").expect("there"));
         assert!(never_closed("[[body]]\n", 0).is_none());
         assert_eq!(open_brackets("keep = [\"a]\", # ]"), (vec![7], 0));
-        // Of two that are open, the inner one; of one that is closed further down, the one above
-        // it.
+        // If two brackets are open, the inner one; if it is closed further down, the one above it.
         assert_eq!(open_bracket("a = [\n [1,\n", 11), Some(7));
         assert_eq!(open_bracket("a = [\n [1,\n 2],\n", 16), Some(4));
     }

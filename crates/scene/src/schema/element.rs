@@ -13,7 +13,7 @@ use crate::place::{AT, local_key, owners};
 use crate::section::NAME;
 use crate::tolerance;
 
-/// What a section holds.
+/// Kind of element in a section.
 #[derive(Clone, Copy)]
 pub(super) enum Kind {
     Joint,
@@ -26,7 +26,7 @@ pub(super) fn elements(registry: &Registry, kind: Kind) -> Value {
         Kind::Joint => ("Joint", registry.constraint_specs().collect()),
         Kind::Force => ("Force", registry.force_specs().collect()),
     };
-    // Definitions that share a type side by side.
+    // Definitions with the same type follow each other.
     specs.sort_by_key(|spec| spec.scene_type);
     let tables: Vec<Value> = specs.iter().map(|spec| table(spec, kind, title)).collect();
     json!({ "title": title, "type": "object", "oneOf": tables })
@@ -126,7 +126,7 @@ fn global(spec: &Spec, n: usize) -> Value {
     place
 }
 
-/// A place with what its points are for.
+/// A place with the purpose of its points.
 fn with_points(words: impl Into<String>, spec: &Spec) -> String {
     let is_point = |p: &&Parameter| matches!(p.shape, Shape::Point { .. }) && !p.doc.is_empty();
     let points = spec.parameters.iter().filter(is_point);
@@ -168,7 +168,7 @@ fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
     })
 }
 
-/// The value of a parameter: what it is for, and what it takes.
+/// The value of a parameter: its purpose and its type.
 fn value(parameter: &Parameter, spec: &Spec) -> Value {
     let mut schema = match parameter.shape {
         Shape::Point { .. } => reference("point"),
@@ -198,7 +198,7 @@ fn value(parameter: &Parameter, spec: &Spec) -> Value {
     schema
 }
 
-/// The body of a slot, in words.
+/// The body of a slot, as text.
 fn owner(spec: &Spec, slot: usize) -> String {
     match (listed(spec), slot) {
         (1, 0) => "the body".to_owned(),
@@ -216,7 +216,7 @@ fn range(unit: Unit) -> Interval {
     }
 }
 
-/// One value stands without brackets.
+/// A single value is written without brackets.
 fn one_or_many(mut items: Vec<Value>) -> Value {
     match items.len() {
         1 => items.remove(0),
@@ -224,7 +224,7 @@ fn one_or_many(mut items: Vec<Value>) -> Value {
     }
 }
 
-/// Without the breaks of its lines.
+/// Text without line breaks.
 fn in_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

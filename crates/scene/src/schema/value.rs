@@ -1,18 +1,19 @@
-//! What one key takes, as a schema.
+//! The value of one key, as a schema.
 
 use serde_json::{Value, json};
 
 use crate::key::{Interval, Key, Takes};
 use crate::section::LONGEST_NAME;
 
-/// A key's value with its meaning, its unit and what holds without it.
+/// The value of a key with its meaning, its unit and its default.
 pub(super) fn described(key: &Key) -> Value {
     let mut schema = match key.takes {
         Takes::Name => json!({
             "type": "string",
             "minLength": 1,
             "maxLength": LONGEST_NAME,
-            // What begins as a formula is one in a spreadsheet, and names have one line.
+            // A name that begins like a formula would be a formula in a spreadsheet; and names have
+            // one line.
             "pattern": r"^[^=+@\x00-\x1f\x7f-\x9f-][^\x00-\x1f\x7f-\x9f]*$",
         }),
         Takes::Text => json!({ "type": "string" }),
@@ -40,7 +41,7 @@ pub(super) fn described(key: &Key) -> Value {
     schema
 }
 
-/// What something means, and its unit.
+/// The meaning of a value, and its unit.
 pub(super) fn in_unit(meaning: &str, unit: &str) -> String {
     match unit {
         "" => meaning.to_owned(),

@@ -1,4 +1,4 @@
-//! From a key to the place of its number in the text.
+//! Finds the place of a number in the text by its key.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -7,31 +7,31 @@ use super::Slot;
 use crate::field::{as_number, found};
 use crate::nearest::{list, nearest};
 
-/// Names that a message lists.
+/// Largest number of names in a message.
 const LISTED: usize = 12;
 
-/// Why a key names no number of a scene.
+/// Reason why a key does not refer to a number of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KeyError {
     /// The text is not TOML.
     #[error("the scene cannot be read")]
     NotToml,
-    /// A part of the key that does not exist.
+    /// A part of the key does not exist.
     #[error("`{key}`: there is no `{part}` in `{within}`{}", advice(.nearest.as_deref(), .known))]
     Unknown {
         /// The key.
         key: String,
         /// The part that does not exist.
         part: String,
-        /// What was found up to there.
+        /// The part of the key that was found.
         within: String,
-        /// The name that was probably meant.
+        /// The name that was probably intended.
         nearest: Option<String>,
         /// The names that exist.
         known: Vec<String>,
     },
-    /// An entry beyond the end of a list.
+    /// An index is beyond the end of a list.
     #[error(
         "`{key}`: `{within}` has {length} entries, counted from 0; there is no entry `{index}`"
     )]
@@ -40,28 +40,28 @@ pub enum KeyError {
         key: String,
         /// The list.
         within: String,
-        /// What stands in brackets.
+        /// The text in brackets.
         index: String,
-        /// How many there are.
+        /// Number of entries.
         length: usize,
     },
-    /// Something else than a number.
+    /// The key refers to something other than a number.
     #[error("`{key}` is {found}, not a number{}", inside(.parts))]
     NotANumber {
         /// The key.
         key: String,
-        /// What it is.
+        /// What it refers to.
         found: String,
-        /// How its parts are named.
+        /// The names of its parts.
         parts: Vec<String>,
     },
-    /// A key that the text leaves out, in a table that has neither a header nor braces.
+    /// The key is not in the text, and its table has neither a header nor braces.
     #[error("`{key}` is not in the scene; write it there, with any number")]
     NoRoom {
         /// The key.
         key: String,
     },
-    /// The same number twice.
+    /// Two keys refer to the same number.
     #[error("`{key}` and `{first}` are the same number")]
     Repeated {
         /// The second key.
@@ -108,37 +108,37 @@ pub(super) fn find(key: &str, text: &str, root: &DeTable) -> Result<Slot, KeyErr
     }
 }
 
-/// How far a key has been followed.
+/// A key, and how much of it has been resolved.
 struct Walk<'k> {
     key: &'k str,
-    /// What is left of it.
+    /// The rest of the key.
     rest: &'k str,
 }
 
 impl<'k> Walk<'k> {
-    /// The key up to here.
+    /// The resolved part of the key.
     fn within(&self) -> &'k str {
         let within = &self.key[..self.key.len() - self.rest.len()];
         within.strip_suffix('.').unwrap_or(within)
     }
 
-    /// The part that comes next, if it is a plain one.
+    /// The next part, if it has no brackets.
     fn part(&self) -> &'k str {
         let end = self.rest.find(['.', '[']).filter(|end| *end > 0);
         &self.rest[..end.unwrap_or(self.rest.len())]
     }
 
-    /// Whether the rest begins with this name; names may have dots and brackets in them.
+    /// Whether the rest begins with this name; names may contain dots and brackets.
     fn begins_with(&self, name: &str) -> bool {
         let after = self.rest.strip_prefix(name).map(|rest| rest.bytes().next());
         !name.is_empty() && matches!(after, Some(None | Some(b'.' | b'[')))
     }
 
-    /// Goes on behind so many bytes.
+    /// Continues after this number of bytes.
     fn pass(&mut self, length: usize) {
         let rest = &self.rest[length..];
         self.rest = match rest.strip_prefix('.') {
-            // A dot at the end is part of what is not found.
+            // A dot at the end belongs to the part that is not found.
             Some(next) if !next.is_empty() => next,
             _ => rest,
         };
@@ -158,7 +158,7 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// The value under the next part, the longest name that fits.
+    /// The value of the next part; the longest name that fits.
     fn named<'t, X>(&mut self, items: &[(&str, &'t X)]) -> Result<&'t X, KeyError> {
         let fitting = items.iter().filter(|(name, _)| self.begins_with(name));
         let Some((name, item)) = fitting.max_by_key(|(name, _)| name.len()) else {
@@ -174,7 +174,7 @@ impl<'k> Walk<'k> {
         self.named(&entries.collect::<Vec<_>>())
     }
 
-    /// An entry of a list, by its number or by its name.
+    /// An entry of a list, by its index or by its name.
     fn item<'t>(
         &mut self,
         items: &'t [Spanned<DeValue<'t>>],
@@ -226,8 +226,8 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// A place for a last key that the text leaves out: behind the header of its table, or its
-    /// brace. Whether there is such a key is for the reader of scenes to say.
+    /// A place for a last key that is not in the text: after the header of its table, or after its
+    /// brace. Whether the key is valid is checked by the reader of scenes.
     fn addition(
         &self,
         node: &Spanned<DeValue>,

@@ -1,4 +1,4 @@
-//! Numbers are found where people name them, and nothing but them is changed.
+//! Numbers are found by their keys, and nothing else is changed.
 
 use model::Registry;
 
@@ -45,7 +45,7 @@ fn changed(keys: &[&str], values: &[f64]) -> String {
         .with(values)
 }
 
-/// What a key does to the text, as the line that changes.
+/// Checks the one line that a key changes.
 #[track_caller]
 fn check_line(key: &str, value: f64, expected: &str) {
     let text = changed(&[key], &[value]);
@@ -76,7 +76,7 @@ fn numbers_are_found_by_their_names() {
         0.25,
         "motion = { type = \"steps\", steps = [{ from = 0.0, to = 1.0, by = 0.25 }] }",
     );
-    // What the text leaves out is added.
+    // A key that is not in the text is added.
     check_line("simulate.rtol", 1e-6, "rtol = 1e-6");
     check_line("body.cart.2.angle", 2.0, "angle = 2");
     check_line(
@@ -111,7 +111,7 @@ fn every_number_comes_back_with_its_bits() {
         let scene = read("", &template.with(&[value]), &Registry::planar()).expect("right");
         assert_eq!(scene.description.bodies[0].mass.to_bits(), value.to_bits());
     }
-    // These are for the reader to refuse, not for TOML.
+    // These values are refused by the reader, not by TOML.
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let problems = read("", &template.with(&[value]), &Registry::planar()).err();
         let message = problems.expect("refused")[0].message.clone();
@@ -167,7 +167,7 @@ fn wrong_keys_say_what_there_is() {
     ] {
         assert!(Template::new(SCENE, &[key]).is_err(), "{key:?}");
     }
-    // A misspelt last key is added; the reader refuses it and knows the right one.
+    // A misspelt last key is added; the reader refuses it and suggests the right one.
     let problems = read(
         "",
         &changed(&["body.cart.mas"], &[1.0]),
@@ -191,7 +191,7 @@ fn the_same_number_twice_is_refused() {
         Template::new("a = = 1", &["a"]).err(),
         Some(KeyError::NotToml)
     );
-    // Nor one that the reader would refuse by its size.
+    // A text that the reader would refuse because of its size is refused as well.
     let long = format!("a = 1\nb = [{}]", "0,".repeat(3_000_000));
     assert_eq!(Template::new(&long, &["a"]).err(), Some(KeyError::NotToml));
     let dotted = "[scene]\nmotion.rate = 1.0\n";

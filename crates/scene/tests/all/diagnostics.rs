@@ -1,10 +1,10 @@
-//! The texts and places of diagnostics: one broken thing per case, and one file with many.
+//! The texts and places of diagnostics: one fault per case, and one file with many.
 
 use scene::Diagnostic;
 
 use crate::read;
 
-/// A small scene without faults. Cases replace one part of it.
+/// A small scene without faults, of which cases replace one part.
 const SCENE: &str = r#"[scene]
 name = "small"
 space = "plane"
@@ -53,8 +53,8 @@ t_end = 2.0
 drop = [1]
 "#;
 
-/// A fault: a part of the scene, what stands there instead with «» around the place that must be
-/// marked, the message, and the label.
+/// A case: a part of the scene, its replacement with «» around the place that must be marked, the
+/// message, and the label.
 type Case = (&'static str, &'static str, &'static str, &'static str);
 
 fn check(cases: &[Case]) {
@@ -653,8 +653,8 @@ fn help_lists_what_there_is() {
 }
 
 /// Faults of all kinds in one file: all are reported, none twice, and none that is only a
-/// consequence of another. `name` is misspelt, not missing, and `chasis` may be what the third body
-/// should be called.
+/// consequence of another. `name` is misspelt, not missing, and `chasis` may be the name of the
+/// third body.
 #[test]
 fn a_file_with_many_faults_reports_all_of_them() {
     let text = r#"
@@ -751,7 +751,7 @@ fn a_text_that_is_not_toml_is_judged_line_by_line() {
     );
 }
 
-/// What follows a bracket that is never closed is not a list of faults of its own.
+/// The text after a bracket that is never closed is not reported as separate faults.
 #[test]
 fn a_bracket_that_is_never_closed_hides_its_consequences() {
     let text = SCENE.replace("\"crank\"]\nat = [1.0, 0.0]", "\"crank\"\nat = [1.0, 0.0]");
@@ -761,7 +761,7 @@ fn a_bracket_that_is_never_closed_hides_its_consequences() {
     );
 }
 
-/// Each body without a name of its own explains one name that no body has, and no more.
+/// Each body without a name explains one name that no body has, and no more.
 #[test]
 fn names_of_unnamed_bodies_are_not_reported_again() {
     let unknown = |text: &str| -> Vec<String> {
@@ -793,7 +793,7 @@ fn dropped_rows_are_checked_beside_other_faults() {
     );
 }
 
-/// Finite numbers whose difference is not.
+/// Finite numbers whose difference overflows.
 #[test]
 fn places_too_far_away_are_refused() {
     let text = SCENE
@@ -808,8 +808,8 @@ fn places_too_far_away_are_refused() {
     );
 }
 
-/// Every one of thousands is reported, also the joints that refer to bodies which are not there,
-/// and soon.
+/// All of thousands of problems are reported in short time, including joints that refer to missing
+/// bodies.
 #[test]
 fn thousands_of_problems_are_reported() {
     let body = |k| format!("[[body]]\nname = \"b{k}\"\nmass = 1\ninertia = 1\n");
@@ -827,7 +827,7 @@ fn thousands_of_problems_are_reported() {
     assert_eq!(problems[4999].primary.text, "no such body");
 }
 
-/// Nothing at all.
+/// An empty text.
 #[test]
 fn an_empty_file_says_what_a_scene_needs() {
     let problems = read("").expect_err("nothing");

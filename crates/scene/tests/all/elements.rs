@@ -1,10 +1,10 @@
-//! Every joint and force type of the contract, with its parameters checked by what its kernels make
-//! of them.
+//! Every joint and force type of the contract, with its parameters checked by the values of its
+//! kernels.
 //!
-//! The bodies are described at (1, 2) turned by a right angle (a), (3, 2) (b) and (0, 0) (c). The
+//! The bodies are described at (1, 2) rotated by a right angle (a), (3, 2) (b) and (0, 0) (c). The
 //! global point (1, 4) is (2, 0) in the frame of a and (−2, 2) in the frame of b. Initial values
 //! are those of the described configuration; the kernels are then called with all bodies at the
-//! origin, where local coordinates show directly.
+//! origin, so that local coordinates can be read directly.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI, SQRT_2};
 
@@ -60,7 +60,7 @@ const AB: &str = "bodies = [\"a\", \"b\"]\n";
 fn revolute() {
     let at = format!("type = \"revolute\"\n{AB}at = [1.0, 4.0]");
     assert_close(&phi(&at, &[0.0; 2]), &[4.0, -2.0]);
-    // The same in body frames; the order of the table does not matter, integers are numbers.
+    // The same in body frames; the order of the table has no effect, and integers are numbers.
     let points = format!("type = \"revolute\"\n{AB}points = {{ b = [-2, 2], a = [2, 0] }}");
     assert_close(&phi(&points, &[0.0; 2]), &[4.0, -2.0]);
     let ground = "type = \"revolute\"\nbodies = [\"ground\", \"b\"]\nat = [1.0, 4.0]";
@@ -215,8 +215,8 @@ axis = [1.0, 0.0]
             .phi(&[Pose::GROUND; 2], &[[0.125, 0.0, 0.0]], &mut out);
         out[0]
     };
-    // Measures at the origin minus described ones minus 0.125; d = (−4, 2) at the origin and 0 as
-    // described.
+    // Measures at the origin minus the described ones minus 0.125; d = (−4, 2) at the origin and 0
+    // in the described configuration.
     assert_close(
         &[value(0), value(1), value(2), value(3)],
         &[
@@ -233,7 +233,7 @@ axis = [1.0, 0.0]
     assert_eq!(d.drives[3].motion.jet(1.0), [0.0; 3]);
 }
 
-/// Two drives of one measure are redundant, not wrong.
+/// Two drives of one measure are redundant, which is not an error.
 #[test]
 fn redundant_drives_are_legal() {
     let joint =
@@ -271,13 +271,13 @@ const REST: Twist = Twist {
 
 #[test]
 fn spring_damper() {
-    // From (2, 0) of a to (0, 0) of b: length 2 at the origin, √8 as described. b moves to the left
-    // by 1: l̇ = 1.
+    // From (2, 0) of a to (0, 0) of b: length 2 at the origin, √8 in the described configuration. b
+    // moves to the left by 1: l̇ = 1.
     let v = [REST, Twist { x: -1.0, ..REST }];
     let text = format!(
         "type = \"spring-damper\"\n{AB}at = [[1, 4], [3, 2]]\nstiffness = 10.0\ndamping = 3.0\n"
     );
-    // Tension 10·(2 − 0.5) + 3 = 18 pulls a to the left and b to the right; it has no arm.
+    // Tension 10·(2 − 0.5) + 3 = 18 pulls a to the left and b to the right, without a lever arm.
     let tension = q(&format!("{text}free_length = 0.5"), &v);
     assert_close(&tension, &[-18.0, 0.0, 0.0, 18.0, 0.0, 0.0]);
     let tension = 10.0 * (2.0 - 8.0_f64.sqrt()) + 3.0;
@@ -291,15 +291,15 @@ fn torsion_spring_damper() {
     // −10·(0 − 0.5) − 3·2 = −1
     let torque = q(&format!("{text}free_angle = 0.5"), &v);
     assert_close(&torque, &[0.0, 0.0, 1.0, 0.0, 0.0, -1.0]);
-    // Without it the described angle −π/2: −10·π/2 − 6.
+    // Without it, the described angle −π/2 is used: −10·π/2 − 6.
     let torque = -10.0 * FRAC_PI_2 - 6.0;
     assert_close(&q(&text, &v), &[0.0, 0.0, -torque, 0.0, 0.0, torque]);
 }
 
 #[test]
 fn bushing() {
-    // d = (−2, 2) − (2, 0) = (−4, 2), zero as described; the twist was −π/2. Force on b (4·1,
-    // −2·10) at (−2, 2).
+    // d = (−2, 2) − (2, 0) = (−4, 2), zero in the described configuration; the angle was −π/2.
+    // Force on b (4·1, −2·10) at (−2, 2).
     let text = format!(
         "type = \"bushing\"\n{AB}at = [1, 4]\nstiffness = [1, 10, 100]\ndamping = [0, 0, 0]"
     );
@@ -310,7 +310,7 @@ fn bushing() {
         &found,
         &[-4.0, 20.0, -torque - moment, 4.0, -20.0, torque + moment],
     );
-    // The rates of d are those of body b here.
+    // The rates of d are those of body b.
     let text = format!(
         "type = \"bushing\"\n{AB}at = [1, 4]\nstiffness = [0, 0, 0]\ndamping = [1, 10, 100]"
     );
@@ -360,7 +360,7 @@ fn torque() {
     assert_close(&q(&text, &[REST; 2]), &[0.0, 0.0, -5.0, 0.0, 0.0, 5.0]);
 }
 
-/// The tests above are complete: the registry has no other scene type than the contract.
+/// The tests above are complete: the registry has no scene type that is not in the contract.
 #[test]
 fn the_types_are_those_of_the_contract() {
     let registry = Registry::planar();

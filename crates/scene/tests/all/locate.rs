@@ -1,4 +1,4 @@
-//! Errors that come after reading, turned into places.
+//! Places of errors that are found after reading.
 
 use dynamics::{DropError, MotionError, MotionFault, RowChoice, prepare};
 use model::start::Misfit;
@@ -86,7 +86,7 @@ fn errors_of_a_run_point_at_rows_bodies_and_options() {
     assert_eq!(marked(&option), "[simulate]");
 }
 
-/// Body c turns about the origin, with two drives that disagree.
+/// Body c rotates about the origin, with two drives that contradict each other.
 const TWO_DRIVES: &str = r#"[[joint]]
 name = "A"
 type = "revolute"
@@ -106,7 +106,7 @@ motion = { type = "constant-rate", rate = 2.0 }
 t_end = 1.0
 "#;
 
-/// What is marked, first and besides.
+/// The first mark and the other marks.
 fn marks(scene: &Scene, error: &MotionError) -> (String, Vec<String>) {
     let d = scene.locate_motion(error).expect("a place");
     let marked = |label: &Label| text_of(scene)[label.span.clone()].to_owned();
@@ -161,7 +161,7 @@ fn velocities_that_do_not_exist_point_at_the_drive() {
     assert_eq!(others, ["[\"c.omega\"]"]);
 }
 
-/// A description that was changed after reading, as a sweep does.
+/// A description that was changed after reading, as in a sweep.
 #[test]
 fn changed_numbers_point_at_their_keys() {
     let mut scene = scene();
@@ -175,7 +175,7 @@ fn changed_numbers_point_at_their_keys() {
             text_of(&scene)[d.primary.span].to_owned()
         })
         .collect();
-    // Body c gives no angular velocity: its name is marked.
+    // Body c has no angular velocity, so its name is marked.
     assert_eq!(places, ["1.0", "\"c\""]);
     let unknown = BuildError::GroundOnly {
         name: "nobody".into(),

@@ -16,7 +16,7 @@ use scene::{Diagnostic, Scene};
 /// The mechanism of the published paper.
 const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
 
-/// Bodies a, b and c: a at (1, 2), turned by a right angle, b at (3, 2), c at (0, 0).
+/// Bodies a, b and c: a at (1, 2), rotated by a right angle, b at (3, 2), c at (0, 0).
 const BODIES: &str = r#"[scene]
 name = "small"
 space = "plane"
@@ -41,20 +41,20 @@ inertia = 1.0
 
 "#;
 
-/// Reads a text with the shipped joints and forces.
+/// Reads a text with the joints and forces of the library.
 fn read(text: &str) -> Result<Scene, Vec<Diagnostic>> {
     scene::read("x.toml", text, &Registry::planar())
 }
 
-/// Reads the three bodies and more.
+/// Reads the three bodies and further text.
 fn read_more(text: &str) -> Scene {
     read(&format!("{BODIES}{text}")).unwrap_or_else(|problems| panic!("{text}\n{problems:#?}"))
 }
 
-/// Rounding of a handful of operations on numbers of size one.
+/// Rounding of several operations on numbers of size one.
 const ROUNDING: f64 = 1e-14;
 
-/// Compares with numbers found by hand.
+/// Compares with numbers derived by hand.
 #[track_caller]
 fn assert_close(found: &[f64], expected: &[f64]) {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING;

@@ -1,12 +1,11 @@
-//! Broken files: whatever is done to a file, reading it ends with a scene or with diagnostics
-//! inside the text.
+//! Broken files: after any change, reading ends with a scene or with diagnostics within the text.
 
 use model::{Mechanism, Registry};
 use proptest::prelude::*;
 
 use crate::ROBOT;
 
-/// What to do to the text at one of its tokens or lines.
+/// A change of the text at one of its tokens or lines.
 #[derive(Clone, Debug)]
 enum Mutation {
     Delete,
@@ -123,7 +122,7 @@ fn check(text: &str) {
     }
 }
 
-/// Values of all kinds that are valid TOML, right in one place and wrong in most.
+/// Values of all kinds that are valid TOML, correct at one place and wrong at most others.
 const VALUES: [&str; 34] = [
     "nan",
     "-inf",
@@ -161,7 +160,7 @@ const VALUES: [&str; 34] = [
     "\"auto\"",
 ];
 
-/// Keys and types that make one kind of thing into another.
+/// Keys and types that change the kind of an item.
 const LINES: [&str; 24] = [
     "type = \"gear\"",
     "type = \"distance\"",
@@ -189,8 +188,7 @@ const LINES: [&str; 24] = [
     "rate = [0, { type = \"steps\", steps = [] }]",
 ];
 
-/// Changes whole lines in ways that mostly leave the text valid TOML, so that the reader itself is
-/// reached.
+/// Changes whole lines so that the text mostly stays valid TOML and the reader itself is tested.
 fn change_line(text: &str, at: usize, kind: u8, piece: usize) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let at = at % lines.len();

@@ -1,4 +1,4 @@
-//! A joint that is not shipped is read as soon as it is registered.
+//! A joint that is not part of the library can be read after registration.
 
 use joint_macro::joint;
 use joints::Pose;

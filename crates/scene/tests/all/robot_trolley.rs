@@ -1,4 +1,4 @@
-//! The published robot with its trolley: counts, rows, and that its joints close.
+//! The published robot with its trolley: counts, rows, and the closing of its joints.
 
 use dynamics::{MotionOptions, RowChoice};
 use model::{Mechanism, StartOptions, System};
@@ -17,7 +17,7 @@ fn the_robot_reads() {
     assert_eq!(scene.start, StartOptions::default());
     assert_eq!(scene.output, Output::default());
     assert!(scene.groups.is_empty());
-    // The drive adds up to 0.02 m at t = 2 and to nothing at t = 4.
+    // The drive has moved 0.02 m at t = 2 and is back at t = 4.
     let motion = &d.drives[0].motion;
     assert_eq!(motion.jet(2.5), [0.02, 0.0, 0.0]);
     assert_eq!(motion.jet(5.0), [0.0, 0.0, 0.0]);
@@ -54,7 +54,7 @@ fn rows_have_the_numbers_of_the_contract() {
     assert_eq!(groups, expected);
 }
 
-/// A global point is the same in the frames of both bodies, so nothing has to be corrected.
+/// A global point is the same point in the frames of both bodies, so no correction is needed.
 #[test]
 fn the_joints_close_without_correction() {
     let scene = read(ROBOT).expect("a scene");
@@ -147,7 +147,7 @@ fn combinations_of_the_command_line_are_read_with_the_names_of_the_scene() {
     };
     assert_eq!(terms("W3.N + W4.N"), ("components", 2));
     assert_eq!(terms("W3 + W4"), ("wrenches", 2));
-    // Identically zero, and a question all the same.
+    // Identically zero, but may be requested.
     assert_eq!(terms("W3.T"), ("components", 1));
     assert_eq!(
         scene.combination("A.N").expect_err("unknown").to_string(),

@@ -1,5 +1,5 @@
-//! The schema says what the reader says, as far as form goes: keys, kinds of values, ranges,
-//! choices.
+//! The schema agrees with the reader in everything that a schema can express: keys, kinds of
+//! values, ranges, choices.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -39,7 +39,7 @@ fn scenes() -> Vec<PathBuf> {
     found
 }
 
-/// What a parameter is for, what it takes, in which unit and frame, and what holds without it.
+/// The purpose of a parameter, its type, its unit and frame, and its default.
 #[test]
 fn keys_of_joints_and_forces_are_explained() {
     let schema = schema();
@@ -103,7 +103,7 @@ fn every_scene_of_the_repository_is_valid() {
     }
 }
 
-/// Things of every kind, with all that may be written.
+/// Items of every kind, with all their keys.
 const MORE: &str = r#"
 [[joint]]
 name = "A"
@@ -168,7 +168,7 @@ fn all_forms_are_valid() {
     assert_eq!(verdict(&text), None);
 }
 
-/// One change each, and the reader refuses the form of the result.
+/// One change each, after which the reader refuses the form of the text.
 const WRONG: [(&str, &str); 51] = [
     ("space = \"plane\"", "space = \"space\""),
     ("space = \"plane\"", ""),
@@ -257,7 +257,7 @@ fn what_the_reader_refuses_by_form_is_not_valid() {
     }
 }
 
-/// Keys that the reader knows for a table, from what it says of one that it does not know.
+/// Keys that the reader accepts for a table, as listed in its message about an unknown key.
 fn keys_of_reader(text: &str) -> BTreeSet<String> {
     let problems = read(text).expect_err("a key is unknown");
     let unknown = problems
@@ -277,7 +277,7 @@ fn keys_of_schema(table: &Value) -> BTreeSet<String> {
     properties.keys().cloned().collect()
 }
 
-/// A value of a key as the schema wants it, in TOML.
+/// A valid value of a key according to the schema, in TOML.
 fn example(key: &str, of: &Value) -> String {
     match key {
         "body" => "\"a\"".to_owned(),
@@ -299,14 +299,14 @@ fn keys_of_elements_are_those_of_the_reader() {
             .expect("tables");
         assert!(tables.len() >= 6, "{section}");
         for table in tables {
-            // Enough to tell which definition is meant.
+            // The keys that are sufficient to select a definition.
             let mut text = format!("{BODIES}[[{section}]]\nzzz = 1\n");
             for (key, of) in table["properties"].as_object().expect("keys") {
                 if ["name", "type", "body", "bodies", "frame"].contains(&key.as_str()) {
                     text.push_str(&format!("{key} = {}\n", example(key, of)));
                 }
             }
-            // Of a type with several definitions the reader names all ways to write the bodies.
+            // For a type with several definitions, the reader names all ways to write the bodies.
             let mut keys = keys_of_reader(&text);
             let type_of = |table: &Value| table["properties"]["type"]["const"].clone();
             let shared = |other: &&Value| type_of(other) == type_of(table);
@@ -371,7 +371,7 @@ fn keys_of_functions_are_those_of_the_reader() {
         .as_array()
         .expect("kinds");
     for table in kinds.iter().filter(|kind| kind["type"] == "object") {
-        // With values of a wrong form the reader goes no further than they.
+        // If values have a wrong form, the reader does not check further.
         let mut words = vec!["zzz = 1".to_owned()];
         for (key, of) in table["properties"].as_object().expect("keys") {
             let value = match (&of["const"], of["type"].as_str()) {

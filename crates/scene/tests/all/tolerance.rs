@@ -1,4 +1,4 @@
-//! Tolerances that a file states, in the description and at their places.
+//! Tolerances stated in a file, in the description and at their places.
 
 use model::{BuildError, Mechanism, Stated, Tolerance};
 
@@ -52,7 +52,7 @@ fn what_is_stated_is_read() {
     assert_eq!(bodies, [None, Some(1.0), None]);
     let joints: Vec<_> = d.joints.iter().map(|j| j.tolerance).collect();
     assert_eq!(joints, [Some(2e-5), None]);
-    // A drive has that of its joint.
+    // A drive has the tolerance of its joint.
     let drives: Vec<_> = d.drives.iter().map(|x| x.tolerance).collect();
     assert_eq!(drives, joints);
     assert_eq!(
@@ -85,7 +85,7 @@ fn every_wrong_one_has_its_place() {
         .iter()
         .map(|p| format!("{}: {}", &text[p.primary.span.clone()], p.message))
         .collect();
-    // Of one table the first; the drive of the joint is not told again.
+    // Of one table the first tolerance; the drive of the joint is not reported again.
     assert_eq!(
         told,
         [
@@ -99,7 +99,7 @@ fn every_wrong_one_has_its_place() {
     assert_eq!(&text[problems[0].primary.span.clone()], "-1.0");
 }
 
-/// A program may change what was read.
+/// A program may change a scene after reading.
 #[test]
 fn a_tolerance_that_became_wrong_is_found_in_the_text() {
     let mut scene = read(&with("tolerance = 1e-4\n", "")).expect("a scene");

@@ -1,11 +1,11 @@
-//! The part of JSON schema (draft 2020-12) that the schema of scenes uses. A keyword that it does
-//! not know fails the test, so that nothing passes unseen.
+//! A validator for the part of JSON schema (draft 2020-12) that the schema of scenes uses. An
+//! unknown keyword fails the test, so that nothing is ignored.
 
 use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-/// Keywords that say nothing of validity.
+/// Keywords without effect on validity.
 const WORDS: [&str; 6] = [
     "$schema",
     "$defs",
@@ -15,7 +15,7 @@ const WORDS: [&str; 6] = [
     "required",
 ];
 
-/// Why a value is none of the schema; `None` if it is one.
+/// The reason why a value does not satisfy the schema; `None` if it does.
 pub(crate) fn fault(root: &Value, schema: &Value, value: &Value) -> Option<String> {
     let schema = schema.as_object().expect("a schema is an object");
     if let Some(missing) = missing(schema.get("required"), value) {
