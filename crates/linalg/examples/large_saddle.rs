@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
 
-/// Runs of each size; the least time counts.
+/// Number of runs of each size; the smallest time counts.
 const RUNS: usize = 15;
 
 fn main() {
@@ -65,8 +65,8 @@ fn main() {
     }
 }
 
-/// Cells of two or three equal cranks and a coupler that the next cell stands on; of each third
-/// crank one row is left out.
+/// Cells of two or three equal cranks and a coupler on which the next cell is built; one row of
+/// each third crank is omitted.
 fn chain(cells: usize) -> (SparseMatrix, usize) {
     let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();
     let (mut bodies, mut base) = (0, None);
@@ -95,7 +95,7 @@ fn chain(cells: usize) -> (SparseMatrix, usize) {
             rows.extend(joint(base, [-x, -y], [place, 0.1]));
             let [along_x, along_y] = joint(Some(coupler), [x, y], [place, -0.1]);
             rows.push(along_x);
-            // The force along the third crank is redundant; y has the larger part of it, or nearly.
+            // The force along the third crank is redundant; its larger component is about along y.
             if k < 2 {
                 rows.push(along_y);
             }

@@ -1,8 +1,8 @@
 //! `DdMatrix`: a dense, row-major matrix of double-double numbers, for residuals and certificates.
 //!
 //! A constraint matrix evaluated in double-double at a point polished in double-double has singular
-//! values that are zero to 1e-30 where they are zero. Not here: factorisations; those are done in
-//! `f64` and corrected by residuals of this type.
+//! values of about 1e-30 if they are exactly zero. Factorisations are made in `f64` and corrected
+//! by residuals of this type.
 
 use std::ops::{Index, IndexMut};
 
@@ -92,7 +92,7 @@ impl DdMatrix {
     /// `D_r·C·D_c`, exact unless an entry leaves the range.
     ///
     /// # Panics
-    /// If the shape of the scaling is another.
+    /// If the scaling has another shape.
     #[must_use]
     pub fn scaled(&self, scaling: &Scaling) -> Self {
         assert_eq!(

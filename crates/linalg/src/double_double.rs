@@ -1,14 +1,14 @@
 //! Double-double numbers: an unevaluated sum `hi + lo` of two `f64`, about 32 digits.
 //!
 //! For residuals and certificates: a singular value that is zero falls from 1e-16 to 1e-32 when it
-//! is computed again in this format, one that is merely small stays. Not a general number type: no
-//! transcendental functions, no formatting of all digits.
+//! is computed again in this format, one that is merely small does not change. This is not a
+//! general number type: no transcendental functions, no formatting of all digits.
 //!
 //! Products are split after Dekker instead of using `f64::mul_add`. Both are exact, so both give
 //! the same bits on every platform; but on x86-64 without the FMA target feature `mul_add` is a
-//! call into a software routine, some twenty times slower. The price is range: operands of a
-//! product must stay below 2⁹⁹⁶ in absolute value, and products above 2⁻⁹⁶⁷, for the low part to be
-//! right.
+//! call into a software routine, some twenty times slower. The disadvantage is a smaller range: the
+//! low part is correct only if the operands of a product are below 2⁹⁹⁶ in absolute value and the
+//! product is above 2⁻⁹⁶⁷.
 //!
 //! Sources: T. J. Dekker, A floating-point technique for extending the available precision, Numer.
 //! Math. 18 (1971) 224–242; M. Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error bounds
@@ -71,7 +71,7 @@ impl Dd {
     pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
     /// One.
     pub const ONE: Self = Self { hi: 1.0, lo: 0.0 };
-    /// Relative rounding error of one operation is below this: 2⁻¹⁰².
+    /// Bound on the relative rounding error of one operation: 2⁻¹⁰².
     pub const EPSILON: f64 = 1.972_152_263_052_53e-31;
 
     /// The exact sum of two numbers.
@@ -148,7 +148,7 @@ impl Neg for Dd {
 impl Add for Dd {
     type Output = Self;
 
-    /// Accurate also under cancellation: `AccurateDWPlusDW`, algorithm 6 of Joldes et al.
+    /// Accurate even under cancellation: `AccurateDWPlusDW`, algorithm 6 of Joldes et al.
     fn add(self, y: Self) -> Self {
         let (s_hi, s_lo) = two_sum(self.hi, y.hi);
         let (t_hi, t_lo) = two_sum(self.lo, y.lo);

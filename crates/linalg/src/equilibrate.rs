@@ -1,9 +1,9 @@
 //! Row and column equilibration by powers of two.
 //!
-//! Rank decisions compare singular values, and those depend on units: metres beside radians,
-//! 1e-8 m beside 1e8 m. Equilibration replaces C by `D_r·C·D_c` with all row and column maxima near
-//! one. The factors are powers of two, so scaling is exact and the rank is untouched. Not for
-//! solving: nothing here looks at conditioning.
+//! Rank decisions compare singular values, which depend on units: metres and radians, 1e-8 m and
+//! 1e8 m. Equilibration replaces C by `D_r·C·D_c` with all row and column maxima near one. The
+//! factors are powers of two, so scaling is exact and the rank does not change. It is not meant for
+//! solving: the condition number is not considered.
 //!
 //! Source of the iteration: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms
 //! in matrices, RAL-TR-2001-034 (2001), with the maximum norm.
@@ -14,7 +14,7 @@ use crate::{Matrix, SparseMatrix};
 
 /// The diagonal matrices `D_r = diag(2^rows)` and `D_c = diag(2^cols)` of an equilibration.
 ///
-/// Exponents instead of factors: that the scaling is exact is then a property of the type.
+/// Exponents instead of factors, so that the scaling is exact by construction.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Scaling {
     /// Exponents of the row factors, length m.
@@ -38,9 +38,9 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
     ruiz((m, n), dense_exponents(c))
 }
 
-/// The same with one factor for each block of rows and each block of columns: what the axes of a
-/// body or of a joint are called must not decide how its components are scaled. `row_blocks` and
-/// `col_blocks` number the block of each row and column from 0.
+/// Like [`equilibrate`], with one factor for each block of rows and each block of columns: the
+/// choice of axes of a body or of a joint must not affect the scaling of its components.
+/// `row_blocks` and `col_blocks` number the block of each row and column from 0.
 ///
 /// ```
 /// use linalg::{Matrix, equilibrate_blocks};
@@ -51,7 +51,7 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
 /// ```
 ///
 /// # Panics
-/// If there is not one block for each row and each column.
+/// If the number of blocks differs from that of rows or columns.
 pub fn equilibrate_blocks(c: &Matrix, row_blocks: &[usize], col_blocks: &[usize]) -> Scaling {
     assert_eq!(
         (c.nrows(), c.ncols()),
@@ -69,7 +69,7 @@ pub fn equilibrate_blocks(c: &Matrix, row_blocks: &[usize], col_blocks: &[usize]
     }
 }
 
-/// As [`equilibrate`], for a sparse matrix.
+/// Like [`equilibrate`], for a sparse matrix.
 pub fn equilibrate_sparse(c: &SparseMatrix) -> Scaling {
     let entries = (0..c.nrows()).flat_map(|i| {
         c.entries(i)
@@ -78,7 +78,7 @@ pub fn equilibrate_sparse(c: &SparseMatrix) -> Scaling {
     ruiz((c.nrows(), c.ncols()), entries)
 }
 
-/// Row, column and exponent of the entries that are not zero.
+/// Row, column and exponent of the non-zero entries.
 fn dense_exponents(c: &Matrix) -> impl Iterator<Item = (usize, usize, i32)> + '_ {
     (0..c.nrows()).flat_map(|i| {
         let row = c.row(i).iter().enumerate();
@@ -88,7 +88,7 @@ fn dense_exponents(c: &Matrix) -> impl Iterator<Item = (usize, usize, i32)> + '_
 
 fn ruiz((m, n): (usize, usize), entries: impl Iterator<Item = (usize, usize, i32)>) -> Scaling {
     let mut scaling = Scaling::identity(m, n);
-    // Most entries are zero: the others are looked up once.
+    // Most entries are zero, so the others are collected once.
     let entries: Vec<(usize, usize, i32)> = entries.collect();
     let mut row_top = vec![None; m];
     let mut col_top = vec![None; n];
@@ -110,7 +110,8 @@ fn ruiz((m, n): (usize, usize), entries: impl Iterator<Item = (usize, usize, i32
     scaling
 }
 
-/// Subtracts half of each largest exponent, rounded towards zero; false when nothing moved.
+/// Subtracts half of each largest exponent, rounded towards zero; returns `false` if nothing
+/// changed.
 fn half_step(exponents: &mut [i32], top: &[Option<i32>]) -> bool {
     let mut moved = false;
     for (e, top) in exponents.iter_mut().zip(top) {
@@ -122,7 +123,7 @@ fn half_step(exponents: &mut [i32], top: &[Option<i32>]) -> bool {
 }
 
 impl Scaling {
-    /// No scaling of an m×n matrix.
+    /// The scaling of an m×n matrix with all factors 1.
     pub fn identity(m: usize, n: usize) -> Self {
         Self {
             rows: vec![0; m],
@@ -133,7 +134,7 @@ impl Scaling {
     /// `D_r·C·D_c`.
     ///
     /// # Panics
-    /// If the shape of `c` is not that of the scaling.
+    /// If the shape of `c` differs from that of the scaling.
     pub fn apply(&self, c: &Matrix) -> Matrix {
         self.map(c, 1)
     }
@@ -141,7 +142,7 @@ impl Scaling {
     /// `D_r·C·D_c` of a sparse matrix.
     ///
     /// # Panics
-    /// If the shape of `c` is not that of the scaling.
+    /// If the shape of `c` differs from that of the scaling.
     pub fn apply_sparse(&self, c: &SparseMatrix) -> SparseMatrix {
         self.check(c.nrows(), c.ncols());
         c.map(|i, j, c_ij| scale(c_ij, self.rows[i] + self.cols[j]))
@@ -150,7 +151,7 @@ impl Scaling {
     /// `D_r⁻¹·C·D_c⁻¹`, the inverse of [`Scaling::apply`].
     ///
     /// # Panics
-    /// If the shape of `c` is not that of the scaling.
+    /// If the shape of `c` differs from that of the scaling.
     pub fn undo(&self, c: &Matrix) -> Matrix {
         self.map(c, -1)
     }
@@ -192,7 +193,7 @@ impl Scaling {
 mod tests {
     use super::*;
 
-    /// Factors that are no numbers of their own are applied in parts.
+    /// Factors outside the range of numbers are applied in parts.
     #[test]
     fn factors_beyond_the_range_of_numbers() {
         let scaling = Scaling {

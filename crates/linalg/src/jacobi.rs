@@ -1,5 +1,5 @@
 //! Singular vectors of small matrices, by one-sided Jacobi rotations: blocks between null spaces, a
-//! few rows and columns. Not for the evidence of ranks (`singular_values`).
+//! few rows and columns. Not used as evidence for ranks (`singular_values`).
 //!
 //! Source: M. R. Hestenes, Inversion of matrices by biorthogonalization and related results, J.
 //! SIAM 6 (1958) 51–90.
@@ -12,11 +12,11 @@ use crate::{Matrix, kernels};
 /// if A is wide, are zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmallSvd {
-    /// m × k
+    /// Left singular vectors, m × k.
     pub u: Matrix,
-    /// Largest first, k values.
+    /// Singular values, largest first, k values.
     pub sigma: Vec<f64>,
-    /// n × k
+    /// Right singular vectors, n × k.
     pub v: Matrix,
 }
 
@@ -35,7 +35,7 @@ pub fn small_svd(a: &Matrix) -> SmallSvd {
         return SmallSvd { u: v, sigma, v: u };
     }
     let n = a.ncols();
-    // Columns as rows: contiguous.
+    // Columns stored as rows, so that they are contiguous.
     let mut columns = a.transpose();
     let mut turned = Matrix::identity(n);
     for _ in 0..JACOBI_SWEEPS {
@@ -62,7 +62,7 @@ pub fn small_svd(a: &Matrix) -> SmallSvd {
     }
 }
 
-/// Makes columns p and q orthogonal; whether they had to be turned.
+/// Makes columns p and q orthogonal; returns whether a rotation was necessary.
 fn rotate(columns: &mut Matrix, turned: &mut Matrix, p: usize, q: usize) -> bool {
     let (a, b) = (kernels::norm(columns.row(p)), kernels::norm(columns.row(q)));
     let c = kernels::dot(columns.row(p), columns.row(q));

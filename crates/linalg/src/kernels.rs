@@ -1,8 +1,8 @@
-//! The three inner loops everything here is made of: dot product, `y += s·x`, and a norm that
-//! neither overflows nor underflows.
+//! The three inner loops of this crate: dot product, `y += s·x`, and a norm that neither overflows
+//! nor underflows.
 //!
-//! Not a BLAS: slices only, and a fixed order of summation, so that the same input gives the same
-//! bits on every platform. For that reason there is no `mul_add` here.
+//! Slices only, and a fixed order of summation, so that the same input gives the same bits on every
+//! platform. For the same reason `mul_add` is not used.
 
 use crate::limits::{SQUARE_MAX, SQUARE_MIN};
 
@@ -32,7 +32,7 @@ pub fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// Euclidean norm, safe for entries whose squares leave the range of `f64`.
+/// Euclidean norm, also for entries whose squares overflow or underflow.
 #[must_use]
 pub fn norm(x: &[f64]) -> f64 {
     let sum = dot(x, x);
@@ -47,7 +47,7 @@ pub fn norm(x: &[f64]) -> f64 {
     largest * sum.sqrt()
 }
 
-/// Largest absolute entry, 0 for an empty slice; NaN entries are skipped.
+/// Largest absolute entry, 0 for an empty slice; NaN entries are ignored.
 #[must_use]
 pub fn max_abs(x: &[f64]) -> f64 {
     let larger = |largest: f64, a: f64| if a.abs() > largest { a.abs() } else { largest };
@@ -64,7 +64,7 @@ pub fn max_abs(x: &[f64]) -> f64 {
 }
 
 /// Smallest and largest entry, without branches: `[∞, −∞]` for an empty slice; NaN entries are
-/// skipped.
+/// ignored.
 #[must_use]
 pub fn extremes(x: &[f64]) -> [f64; 2] {
     let smaller = |a: f64, b: f64| if b < a { b } else { a };

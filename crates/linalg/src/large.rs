@@ -1,16 +1,16 @@
-//! The one file that knows faer: singular values of large matrices.
+//! Singular values of large matrices with faer. No other file uses faer.
 //!
-//! Why no more of it: up to some 150 rows our own pivoted QR is as fast, saddle solves of that size
-//! are called for every evaluation and must not allocate, and row choices should not depend on a
-//! feature. Singular values are only compared with limits well above the rounding error of either
-//! routine (tested below), so decisions are the same with and without faer. Functions are not
-//! generic on purpose: faer is compiled here and nowhere else.
+//! faer is used for nothing else: up to some 150 rows our own pivoted QR is as fast, saddle solves
+//! of that size are called for every evaluation and must not allocate, and row choices should not
+//! depend on a feature. Singular values are only compared with limits well above the rounding error
+//! of both routines (tested below), so decisions are the same with and without faer. The functions
+//! are deliberately not generic: faer is compiled here only.
 
 use faer::MatRef;
 
 use crate::Matrix;
 
-/// Singular values, largest first; `None` if faer's iteration did not converge.
+/// Singular values, largest first; `None` if the iteration of faer did not converge.
 pub(crate) fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
     let view = MatRef::from_row_major_slice(a.as_slice(), a.nrows(), a.ncols());
     let mut sigma = view.singular_values().ok()?;
@@ -23,8 +23,8 @@ mod tests {
     use super::*;
     use crate::singular_values::own as by_rotations;
 
-    /// Both sides of a decision must read the same numbers: agreement far below the smallest
-    /// tolerance τ = 10·eps·√(m·n) ≈ 2e-13 of this size.
+    /// Decisions must be the same with both routines: they agree far below the smallest tolerance τ
+    /// = 10·eps·√(m·n) ≈ 2e-13 of this size.
     #[test]
     fn agrees_with_our_own_kernel() {
         const RANK: usize = 70;

@@ -1,10 +1,10 @@
 //! LU factorisation of small square matrices with partial pivoting, for the linear systems of
-//! implicit methods. Not for ranks: nothing here says how independent the rows are, beyond a pivot
-//! that is exactly zero or not finite.
+//! implicit methods. It does not determine ranks: it detects only pivots that are exactly zero or
+//! not finite.
 
 use crate::kernels::{axpy, dot};
 
-/// `P·A = L·U` of an n×n matrix. Storage is made once; `factor` and `solve` allocate nothing.
+/// `P·A = L·U` of an n×n matrix. Storage is allocated once; `factor` and `solve` do not allocate.
 ///
 /// ```
 /// use linalg::Lu;
@@ -23,13 +23,13 @@ pub struct Lu {
     factors: Vec<f64>,
     /// Row i of `P·A` is row `permutation[i]` of A.
     permutation: Vec<usize>,
-    /// sign(P)
+    /// Sign of P.
     parity: f64,
     /// Scratch of `solve`.
     right: Vec<f64>,
 }
 
-/// A determinant whose value may be too large or too small for a number.
+/// A determinant whose value may overflow or underflow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Determinant {
     /// +1, −1, or 0.
@@ -39,13 +39,13 @@ pub struct Determinant {
 }
 
 impl Determinant {
-    /// That of a singular matrix.
+    /// The determinant of a singular matrix.
     pub const ZERO: Self = Self {
         sign: 0.0,
         log: f64::NEG_INFINITY,
     };
 
-    /// The number itself.
+    /// The value as a number.
     pub fn value(self) -> f64 {
         self.sign * self.log.exp()
     }
@@ -57,12 +57,12 @@ impl Determinant {
 pub struct SingularPivot {
     /// The column.
     pub column: usize,
-    /// The largest entry left in it.
+    /// The largest remaining entry in it.
     pub pivot: f64,
 }
 
 impl Lu {
-    /// Storage for n×n matrices; the factors are those of the identity.
+    /// Allocates storage for n×n matrices; the factors are those of the identity.
     pub fn new(n: usize) -> Self {
         let mut lu = Self {
             n,
@@ -77,8 +77,8 @@ impl Lu {
         lu
     }
 
-    /// Takes another order n, at most that of [`Lu::new`] if nothing is to be allocated; factor
-    /// before anything else.
+    /// Changes the order to n, which must be at most that of [`Lu::new`] to avoid an allocation;
+    /// call `factor` before anything else.
     pub(crate) fn resize(&mut self, n: usize) {
         self.n = n;
         self.factors.resize(n * n, 0.0);
@@ -89,7 +89,7 @@ impl Lu {
     /// Factors the matrix with entries `entry(i, j)`.
     ///
     /// # Errors
-    /// [`SingularPivot`]; there are no factors then, and `solve` gives no meaningful result.
+    /// [`SingularPivot`]; then there are no factors, and the result of `solve` has no meaning.
     pub fn factor(
         &mut self,
         mut entry: impl FnMut(usize, usize) -> f64,
@@ -125,7 +125,7 @@ impl Lu {
         Ok(())
     }
 
-    /// The determinant of the matrix that was factored last.
+    /// The determinant of the last factored matrix.
     ///
     /// ```
     /// let a = [[0.0, 2.0], [4.0, 1.0]];

@@ -1,8 +1,8 @@
-//! `Matrix`: a dense, row-major matrix of `f64`, as plain as possible.
+//! `Matrix`: a simple dense, row-major matrix of `f64`.
 //!
-//! A constraint matrix C is m×n with one contiguous row per constraint; everything in this crate
-//! pivots, drops or keeps *rows*, so rows are what the storage makes cheap. Not a linear algebra
-//! library: there are no operators, no views and no decompositions here.
+//! A constraint matrix C is m×n with one contiguous row per constraint; the algorithms of this
+//! crate pivot, drop or keep *rows*, so rows are contiguous. It has no operators, no views and no
+//! decompositions.
 
 use std::ops::{Index, IndexMut};
 
@@ -29,23 +29,23 @@ pub struct Matrix {
     data: Vec<f64>,
 }
 
-/// The number of values does not fill the asked shape.
+/// The number of values does not match the requested shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "a {nrows}×{ncols} matrix needs {} values, found {found}",
     nrows.saturating_mul(*ncols)
 )]
 pub struct ShapeError {
-    /// Rows asked for.
+    /// Requested number of rows.
     pub nrows: usize,
-    /// Columns asked for.
+    /// Requested number of columns.
     pub ncols: usize,
     /// Number of values given.
     pub found: usize,
 }
 
 impl Matrix {
-    /// All entries zero.
+    /// A matrix of zeros.
     pub fn zeros(nrows: usize, ncols: usize) -> Self {
         Self {
             nrows,
@@ -77,7 +77,7 @@ impl Matrix {
         }
     }
 
-    /// Takes over row-major values.
+    /// Takes ownership of row-major values.
     ///
     /// # Errors
     /// [`ShapeError`] unless `data.len() == nrows * ncols`.
@@ -177,7 +177,7 @@ impl Matrix {
     /// A·x; allocates.
     ///
     /// # Panics
-    /// If `x` is not of length `ncols`.
+    /// If the length of `x` is not `ncols`.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
         assert_eq!(self.ncols, x.len(), "A·x with {} columns", self.ncols);
         (0..self.nrows)
@@ -188,7 +188,7 @@ impl Matrix {
     /// Aᵀ·y; allocates.
     ///
     /// # Panics
-    /// If `y` is not of length `nrows`.
+    /// If the length of `y` is not `nrows`.
     pub fn transpose_times(&self, y: &[f64]) -> Vec<f64> {
         assert_eq!(self.nrows, y.len(), "Aᵀ·y with {} rows", self.nrows);
         let mut out = vec![0.0; self.ncols];

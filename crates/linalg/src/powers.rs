@@ -2,7 +2,7 @@
 
 use crate::kernels;
 
-/// Largest power of two whose inverse is normal too.
+/// Largest power of two whose inverse is also normal.
 pub(crate) const STEP: i32 = 1022;
 
 /// `2^e` for `−STEP ≤ e ≤ STEP`.
@@ -11,7 +11,7 @@ pub fn power(e: i32) -> f64 {
     f64::from_bits(((e + 1023) as u64) << 52)
 }
 
-/// `x·2^e`, exact unless the result leaves the range of normal numbers.
+/// `x·2^e`, exact unless the result is outside the range of normal numbers.
 #[must_use]
 pub fn scale(x: f64, e: i32) -> f64 {
     if (-STEP..=STEP).contains(&e) {

@@ -2,9 +2,9 @@
 //! the columns that are pivoted.
 //!
 //! The rows of a row-major C are the columns of Cᵀ. Factoring `Cᵀ·P = Q·R` therefore pivots the
-//! constraints themselves and touches contiguous memory only; the other reading, `C·P = Q·R`, is
-//! the same routine on the transposed storage. Not here: ranks and tolerances (`rank`), and plain
-//! QR without pivoting, which says nothing about rank.
+//! constraints themselves and touches contiguous memory only; the other form, `C·P = Q·R`, is the
+//! same routine on the transposed storage. Ranks and tolerances are in the crate `rank`. There is
+//! no QR without pivoting, which gives no information about the rank.
 //!
 //! Source: P. Businger, G. H. Golub, Linear least squares solutions by Householder transformations,
 //! Numer. Math. 7 (1965) 269–276; norm downdating after Z. Drmač, Z. Bujanović, On the failure of
@@ -40,7 +40,8 @@ pub struct PivotedQr {
 }
 
 impl PivotedQr {
-    /// Factors `Cᵀ·P = Q·R`: the *rows* of the m×n matrix `c` are pivoted. Takes the storage.
+    /// Factors `Cᵀ·P = Q·R`: the *rows* of the m×n matrix `c` are pivoted. Takes ownership of the
+    /// storage.
     pub fn of_rows(c: Matrix) -> Self {
         factor::factor(c)
     }
@@ -65,7 +66,8 @@ impl PivotedQr {
         self.tau.len()
     }
 
-    /// `R_kk` for k below [`PivotedQr::steps`]. Signs are free; absolute values do not rise.
+    /// `R_kk` for k below [`PivotedQr::steps`]. Signs are arbitrary; absolute values do not
+    /// increase.
     pub fn r_diagonal(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.steps()).map(|k| self.factors[(k, k)])
     }

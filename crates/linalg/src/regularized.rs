@@ -1,12 +1,12 @@
 //! One damped least-squares correction towards `res + J·dq = 0`, for rows that may be redundant or
 //! contradict each other.
 //!
-//! Only for assembling a start far from the constraint manifold, where nothing is known about rank.
-//! On the manifold use the kept rows and `KeptRowSaddle`, which keeps the order of the integrator.
+//! Only for assembling a start far from the constraint manifold, where the rank is not known. On
+//! the manifold use the kept rows and `KeptRowSaddle`, which preserves the order of the integrator.
 
 use crate::{Matrix, PivotedQr, powers};
 
-/// Why a correction step could not be computed.
+/// Reason why a correction step could not be computed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
@@ -25,7 +25,7 @@ pub enum StepError {
     NonFinite {
         /// Name of the argument.
         argument: &'static str,
-        /// Entry, row-major for J.
+        /// Index of the entry, row-major for J.
         index: usize,
         /// Its value.
         value: f64,
@@ -35,7 +35,7 @@ pub enum StepError {
     Negative {
         /// Name of the argument.
         argument: &'static str,
-        /// Entry.
+        /// Index of the entry.
         index: usize,
         /// Its value.
         value: f64,
@@ -59,22 +59,23 @@ pub enum StepError {
 
 /// The W-weighted correction `dq = W·Jᵀ·(J·W·Jᵀ + μ·S⁻²)⁻¹·(−res)`; allocates.
 ///
-/// S is the power-of-two row scaling that brings the largest entry of each row of `J·√W` into
-/// [1, 2), so μ compares with numbers near one whatever the units of the rows. dq minimises
-/// `μ·dqᵀ·W⁻¹·dq + ‖S·(J·dq + res)‖²`: small corrections, contradictions shared out.
+/// S is the power-of-two row scaling that brings the largest entry of each row of `J·√W` into [1,
+/// 2), so μ is relative to numbers near one, whatever the units of the rows. dq minimises
+/// `μ·dqᵀ·W⁻¹·dq + ‖S·(J·dq + res)‖²`: small corrections, with contradictions distributed among the
+/// rows.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
 /// | `j` | m×n | Jacobian of the residual, any rank, m may exceed n |
 /// | `residual` | m | res |
-/// | `weights` | n | diagonal of W ≥ 0; large moves easily, 0 holds the coordinate |
+/// | `weights` | n | diagonal of W ≥ 0; a coordinate with a large weight moves easily, one with weight 0 is held |
 /// | `mu` | – | damping ≥ 0; 1e-12 … 1e-2. With 0 the rows must be independent |
 ///
 /// Computed from a QR factorisation of `[S·J·√W, √μ·I]ᵀ`, so `J·W·Jᵀ` is never formed.
 ///
 /// ```
 /// use linalg::{Matrix, least_squares_step};
-/// // Two contradicting rows x = 1 and x = 3: the middle, up to the damping. y is not asked for.
+/// // Two contradicting rows x = 1 and x = 3: the middle, up to the damping. y does not move.
 /// let j = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0]]);
 /// let dq = least_squares_step(&j, &[-1.0, -3.0], &[1.0, 1.0], 1e-9)?;
 /// assert!((dq[0] - 2.0).abs() < 1e-8 && dq[1] == 0.0);
@@ -174,7 +175,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// Against the normal equations in nalgebra; with μ = 1e-2 they are well conditioned.
+        /// Compared with the normal equations in nalgebra, which are well conditioned for μ = 1e-2.
         #[test]
         fn agrees_with_the_normal_equations(
             m in 1..9_usize, n in 1..9_usize,

@@ -6,19 +6,18 @@
 //! ```
 //!
 //! LU with partial pivoting of the tall Cᵀ gives a null space basis N of C, the reduced mass
-//! `Nᵀ·M·N` (order k = n − r) is factored by Cholesky
-//! (as L·D·Lᵀ), and λ comes back through the same LU. M is
-//! never inverted, so masses may be zero as long as M is positive definite on ker C.
+//! `Nᵀ·M·N` (order k = n − r) is factored by Cholesky (as L·D·Lᵀ), and λ is computed with the same
+//! LU. M is never inverted, so masses may be zero as long as M is positive definite on ker C.
 //!
 //! This runs for every evaluation of a right-hand side: all storage is allocated in
-//! [`KeptRowSaddle::new`], `factor` and `solve` allocate nothing. Not for redundant rows: choose
-//! the kept ones with `decide` first (crate `rank`); no rank is decided here.
+//! [`KeptRowSaddle::new`]; `factor` and `solve` do not allocate. The rows must not be redundant:
+//! choose the kept ones with `decide` first (crate `rank`); no rank is decided here.
 //!
-//! Masses that differ by many powers of ten are graded: then, of the entries that are not much
-//! smaller than the largest, the pivot is that of the lightest coordinate. So the heavy coordinates
-//! are free, `Nᵀ·M·N` is their masses and little more, and λ comes from the equations of light
-//! bodies, where no large inertia cancels. What is left is rounding, which
-//! [`KeptRowSaddle::solve_refined`] removes.
+//! Masses that differ by many powers of ten are called graded. For graded masses the pivot is the
+//! entry of the lightest coordinate among those that are not much smaller than the largest. So the
+//! heavy coordinates are free, `Nᵀ·M·N` contains mainly their masses, and λ comes from the
+//! equations of light bodies, in which no large inertia cancels. [`KeptRowSaddle::solve_refined`]
+//! removes the remaining rounding.
 //!
 //! The algebra, with `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower trapezoidal and y = P·a:
 //! `C·a = γ ⇔ Lᵀ·y = U⁻ᵀ·γ`, `N = Pᵀ·[−L₁⁻ᵀ·L₂ᵀ; I]`, `(NᵀMN)·z = Nᵀ·(f − M·a_p)`,
@@ -47,11 +46,11 @@ use order::Order;
 pub use error::SaddleError;
 pub use refine::Refinement;
 
-/// Solver of the saddle equations of n coordinates and r independent constraint rows.
+/// Solver of the saddle equations for n coordinates and r independent constraint rows.
 ///
 /// ```
 /// use linalg::KeptRowSaddle;
-/// // Unit mass on the line x = y, pushed along x: a = (½, ½), λ = ½ on the row (1, −1).
+/// // Unit mass on the line x = y, pushed along x: a = (½, ½), λ = ½ for the row (1, −1).
 /// let c = [1.0, -1.0];
 /// let mut saddle = KeptRowSaddle::new(2, 1)?;
 /// saddle.factor(|_| &c, &[1.0, 1.0])?;
@@ -63,7 +62,7 @@ pub use refine::Refinement;
 #[derive(Debug, Clone)]
 pub struct KeptRowSaddle {
     rows: usize,
-    /// How a factorisation begins.
+    /// Order of elimination.
     order: Order,
     lu: TallLu,
     free: FreeMotions,
@@ -78,7 +77,7 @@ pub struct KeptRowSaddle {
 }
 
 impl KeptRowSaddle {
-    /// Storage for n coordinates and r rows.
+    /// Allocates storage for n coordinates and r rows.
     ///
     /// # Errors
     /// [`SaddleError::TooManyRows`] if r > n.
@@ -89,9 +88,9 @@ impl KeptRowSaddle {
         Self::with_columns(n, &vec![Vec::from_iter(0..n); r])
     }
 
-    /// Storage for n coordinates and rows of which each is zero outside its columns: entries there
-    /// are not looked at. The same solutions as with [`KeptRowSaddle::new`], bit for bit, for less
-    /// work where rows have few entries.
+    /// Allocates storage for n coordinates and rows that are zero outside the given columns:
+    /// entries outside are not read. The solutions are the same as with [`KeptRowSaddle::new`], bit
+    /// for bit, with less work if rows have few entries.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;
@@ -141,7 +140,7 @@ impl KeptRowSaddle {
         self.rows
     }
 
-    /// Number of rows that the last factorisation left out, see [`KeptRowSaddle::factor_above`].
+    /// Number of rows skipped by the last factorisation, see [`KeptRowSaddle::factor_above`].
     pub fn n_left_out(&self) -> usize {
         self.rows - self.lu.r
     }
@@ -152,31 +151,31 @@ impl KeptRowSaddle {
     }
 
     /// Whether the masses of the last factorisation are graded, so that light coordinates are
-    /// solved for: [`mass_spread`] from [`GRADED_MASSES`] on, and from a thousandth of it on beside
-    /// masses that are zero.
+    /// solved for: if [`mass_spread`] is at least [`GRADED_MASSES`], or at least a thousandth of it
+    /// and some masses are zero.
     pub fn is_graded(&self) -> bool {
         self.is_graded
     }
 
-    /// Whether a plain solution of the last factorisation may miss digits that
-    /// [`KeptRowSaddle::solve_refined`] has: [`mass_spread`] from [`GRADED_MASSES`] on, or
-    /// elimination has left less than 1e-3 of a reduced mass.
+    /// Whether a plain solution with the last factorisation may have fewer digits than
+    /// [`KeptRowSaddle::solve_refined`]: if [`mass_spread`] is at least [`GRADED_MASSES`], or if
+    /// less than 1e-3 of a reduced mass remained after elimination.
     pub fn wants_refinement(&self) -> bool {
         self.mass_spread >= GRADED_MASSES || self.free.mass_ratio < CANCELLED
     }
 
-    /// Smallest `|pivot| / largest entry of its row` of the last factorisation, rows left out
-    /// included, infinite for r = 0: the monitor for near-singular configurations. It changes
-    /// smoothly along a motion except where the pivot order changes, and falls towards zero as the
-    /// kept rows become dependent.
+    /// Smallest `|pivot| / largest entry of its row` of the last factorisation, including skipped
+    /// rows; infinite for r = 0. It indicates near-singular configurations: it changes smoothly
+    /// along a motion except when the pivot order changes, and tends to zero as the kept rows
+    /// become dependent.
     pub fn pivot_ratio(&self) -> f64 {
         self.lu.pivot_ratio
     }
 }
 
-/// The heaviest mass divided by the lightest that is not zero; 1 where none is positive.
+/// The largest mass divided by the smallest non-zero mass; 1 if no mass is positive.
 ///
-/// Moments of inertia count as they are, in kg·m²: lengths far from a metre show in it as well.
+/// Moments of inertia are used in kg·m²: lengths far from a metre increase it as well.
 ///
 /// ```
 /// assert_eq!(linalg::mass_spread(&[8.0, 0.0, 2.0]), 4.0);

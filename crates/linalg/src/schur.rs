@@ -6,16 +6,15 @@
 //! | C  0  | | λ | = | γ |        S = C·M⁻¹·Cᵀ,        M = diag(m) > 0 (n), C of full row rank (r×n), sparse
 //! ```
 //!
-//! S is symmetric and positive definite, so that no pivot has to be searched: the order of
-//! elimination is chosen once, from the bodies alone, and with it the place of every entry of L.
-//! What is left for an evaluation is arithmetic on small dense fronts. The work grows with the
-//! square of the width of the graph of bodies: linearly for chains and ladders, as n^1.5 for
-//! lattices.
+//! S is symmetric and positive definite, so no pivot has to be searched for: the order of
+//! elimination, and with it the place of every entry of L, is chosen once from the bodies alone.
+//! Each evaluation is then arithmetic on small dense fronts. The work grows with the square of the
+//! width of the graph of bodies: linearly for chains and ladders, as n^1.5 for lattices.
 //!
-//! The price: S has the square of the condition of C, and masses must not vanish. So every solution
-//! is compared with its rows, and what is missing is corrected by the same factors; rows that are
-//! dependent for an instant are left out. For small systems, zero masses and masses of many powers
-//! of ten there is [`KeptRowSaddle`](crate::KeptRowSaddle).
+//! The disadvantages: S has the square of the condition number of C, and masses must not vanish. So
+//! every solution is checked with the rows, and residuals are corrected with the same factors; rows
+//! that are dependent for an instant are skipped. For small systems, zero masses and masses of many
+//! powers of ten use [`KeptRowSaddle`](crate::KeptRowSaddle).
 //!
 //! Sources: range space method, M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle
 //! point problems, Acta Numerica 14 (2005) 1–137, section 5; multifrontal elimination, I. S. Duff,
@@ -31,13 +30,13 @@ mod tests;
 
 pub use structure::SchurStructure;
 
-/// Solver of the saddle equations of n coordinates and r independent, sparse constraint rows. All
-/// storage is made in [`SchurSaddle::new`]; factorisations and solutions allocate nothing unless
-/// they fail.
+/// Solver of the saddle equations for n coordinates and r independent, sparse constraint rows. All
+/// storage is allocated in [`SchurSaddle::new`]; factorisations and solutions do not allocate
+/// unless they fail.
 ///
 /// ```
 /// use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
-/// // Unit mass on the line x = y, pushed along x: a = (½, ½), λ = ½ on the row (1, −1).
+/// // Unit mass on the line x = y, pushed along x: a = (½, ½), λ = ½ for the row (1, −1).
 /// let c = SparseMatrix::from_rows(2, [[(0, 1.0), (1, -1.0)]])?;
 /// let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &[0..2]));
 /// saddle.factor(&c, &[1.0, 1.0])?;
@@ -55,16 +54,16 @@ pub struct SchurSaddle {
     work: Work,
 }
 
-/// `S = L·D·Lᵀ`, and what it was made of.
+/// Factors `S = L·D·Lᵀ`, and the data from which they were computed.
 #[derive(Clone, Debug)]
 struct Factors {
     /// Columns of L of each front, one after the other, below their unit diagonals.
     l: Vec<f64>,
-    /// 1/D of each row in the order of elimination, 0 for a row left out.
+    /// 1/D of each row in the order of elimination, 0 for a skipped row.
     inverse: Vec<f64>,
     /// S_kk of each row in the order of elimination.
     diagonal: Vec<f64>,
-    /// 1/m, n.
+    /// Inverse masses 1/m, n.
     inverse_mass: Vec<f64>,
     pivot_ratio: f64,
     n_left_out: usize,
@@ -75,9 +74,9 @@ struct Factors {
 struct Assembly {
     /// The present front.
     front: Vec<f64>,
-    /// Updates that wait for their parents, the last one on top.
+    /// Updates that have not been added to their parents, the last one on top.
     waiting: Vec<f64>,
-    /// C of one block, scaled by the roots of the inverse masses.
+    /// C of one block, scaled by the square roots of the inverse masses.
     element: Vec<f64>,
 }
 
@@ -88,14 +87,14 @@ struct Work {
     x: Vec<f64>,
     /// Entries of one front.
     local: Vec<f64>,
-    /// `M⁻¹·f`, the larger of it and a, and the sizes of all that has been added up to a, n each.
+    /// `M⁻¹·f`, the larger of it and a, and the sizes of all terms added to a, n each.
     free: Vec<f64>,
     terms: Vec<f64>,
     all: Vec<f64>,
 }
 
 impl SchurSaddle {
-    /// Storage for this structure.
+    /// Allocates storage for this structure.
     #[must_use]
     pub fn new(structure: SchurStructure) -> Self {
         let (n, r) = (structure.n_coordinates(), structure.n_rows());
@@ -126,20 +125,20 @@ impl SchurSaddle {
         }
     }
 
-    /// Where everything is.
+    /// The structure of the matrix and its factors.
     #[must_use]
     pub fn structure(&self) -> &SchurStructure {
         &self.structure
     }
 
-    /// Smallest share of a row, in the metric of the inverse masses, that the rows eliminated
+    /// Smallest fraction of a row, in the metric of the inverse masses, that the rows eliminated
     /// before it do not imply: small near singular configurations, infinite without rows.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
         self.factors.pivot_ratio
     }
 
-    /// Rows that the last factorisation left out.
+    /// Number of rows skipped by the last factorisation.
     #[must_use]
     pub fn n_left_out(&self) -> usize {
         self.factors.n_left_out

@@ -1,14 +1,15 @@
 //! Singular values, as evidence for rank decisions.
 //!
-//! Householder reflections from both sides make a matrix bidiagonal, Givens rotations with
-//! Wilkinson's shift make that diagonal; only values are carried along. Errors are a small multiple
-//! of `eps·σ₁`, which is what decisions compare with. No singular vectors: null spaces come from
-//! the row basis. Matrices of several hundred rows go to faer where that feature is on.
+//! Householder reflections from both sides make a matrix bidiagonal, and Givens rotations with
+//! Wilkinson's shift make it diagonal; only the values are computed. Errors are a small multiple of
+//! `eps·σ₁`, relative to which decisions are made. Singular vectors are not computed: null spaces
+//! come from the row basis. Matrices of several hundred rows are passed to faer if that feature is
+//! on.
 //!
-//! Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. (2013), §8.6. Should the
-//! rotations not come to an end, which is not known to happen, one-sided Jacobi rotations do: Z.
-//! Drmač, K. Veselić, New fast and accurate Jacobi SVD algorithm I, SIAM J. Matrix Anal. Appl. 29
-//! (2008) 1322–1342.
+//! Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. (2013), §8.6. If the rotations
+//! do not converge, which has never been observed, one-sided Jacobi rotations are used: Z. Drmač,
+//! K. Veselić, New fast and accurate Jacobi SVD algorithm I, SIAM J. Matrix Anal. Appl. 29 (2008)
+//! 1322–1342.
 
 use crate::limits::{JACOBI_SWEEPS, ZERO_SQUARED};
 use crate::{Matrix, PivotedQr, kernels, powers, qr};
@@ -17,7 +18,7 @@ mod diagonal;
 
 /// All `min(m, n)` singular values of `a`, largest first, to a small multiple of `eps·σ₁`.
 ///
-/// Entries must be finite; otherwise the values are meaningless (but there are still as many).
+/// Entries must be finite; otherwise the values have no meaning (but their number is the same).
 ///
 /// ```
 /// use linalg::{Matrix, singular_values};
@@ -35,7 +36,7 @@ pub fn singular_values(a: &Matrix) -> Vec<f64> {
     own(a)
 }
 
-/// [`singular_values`] by our own kernels at every size.
+/// [`singular_values`] with our own kernels at every size.
 pub(crate) fn own(a: &Matrix) -> Vec<f64> {
     let e = powers::unit_exponent(a.as_slice());
     let mut scaled = if a.nrows() < a.ncols() {
@@ -107,7 +108,8 @@ fn upper(d: &[f64], f: &[f64]) -> Matrix {
 /// Singular values of a matrix with entries near one by one-sided Jacobi rotations on the rows of R
 /// from a pivoted QR: slower, but they cannot fail, and small values have small errors too.
 pub(crate) fn by_jacobi(a: Matrix) -> Vec<f64> {
-    // The second QR makes a wide R square and moves it closer to a diagonal: fewer sweeps.
+    // The second QR makes a wide R square and closer to a diagonal, which reduces the number of
+    // sweeps.
     let r = PivotedQr::of_rows(a).r();
     let mut r = PivotedQr::of_rows(r).r();
     orthogonalise_rows(&mut r);
@@ -119,7 +121,7 @@ pub(crate) fn by_jacobi(a: Matrix) -> Vec<f64> {
 /// Rotates pairs of rows until all are orthogonal to working precision.
 fn orthogonalise_rows(r: &mut Matrix) {
     let n = r.nrows();
-    // The rounding error of a dot product: below it there is nothing left to rotate.
+    // The rounding error of a dot product; below it no rotation is needed.
     let tolerance = f64::EPSILON * r.ncols() as f64;
     let mut squares = vec![0.0; n];
     for _ in 0..JACOBI_SWEEPS {
@@ -140,7 +142,7 @@ fn orthogonalise_rows(r: &mut Matrix) {
                 }
                 rotated = true;
                 let zeta = (b - a) / (2.0 * g);
-                // An overflow of ζ² turns into t = 0, a rotation too small to matter.
+                // If ζ² overflows, t = 0, a rotation too small to matter.
                 let t = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
                 let c = 1.0 / (1.0 + t * t).sqrt();
                 let s = c * t;

@@ -1,4 +1,4 @@
-//! The saddle solvers allocate when they are made and nowhere else.
+//! The saddle solvers allocate only when they are created.
 
 use linalg::{KeptRowSaddle, Matrix, Refinement};
 

@@ -1,8 +1,8 @@
-//! The numbers that constraints store, as points, directions and single numbers, and how rows
-//! change with them.
+//! The numbers that constraints store, as points, directions and single numbers, and the
+//! derivatives of rows with respect to them.
 //!
-//! Not here: how a pose answers to a change of the data, and what a change means for a rank
-//! (`solvability`).
+//! How a pose follows a change of the data, and the effect of a change on a rank, is computed in
+//! `solvability`.
 
 mod gradients;
 
@@ -19,38 +19,39 @@ use crate::uncertainty::{ROUNDING, has_tolerances};
 
 pub use gradients::DataGradients;
 
-/// A point, a direction or a single number of a constraint: what changes together.
+/// A point, a direction or a single number of a constraint, whose components change together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataBlock {
-    /// The joint or drive, among the groups of the layout.
+    /// The joint or drive, as index of the groups of the layout.
     pub group: usize,
     /// Name of the parameter, or of the value kept from the start.
     pub name: &'static str,
-    /// Its numbers among all numbers of the mechanism: two for a point or a direction, one
-    /// otherwise.
+    /// Indices of its numbers among all numbers of the mechanism: two for a point or a direction,
+    /// otherwise one.
     pub numbers: Range<usize>,
-    /// What a change of it is measured in.
+    /// Unit of its changes.
     pub unit: DataUnit,
-    /// For a direction: the unit vector across it, in which its change is measured.
+    /// For a direction: the unit vector perpendicular to it, along which its change is measured.
     across: Option<[f64; 2]>,
-    /// The largest number that it is combined with: its rounding is a share of this (in its unit).
+    /// The largest number with which it is combined (in its unit); its rounding is proportional to
+    /// this.
     pub scale: f64,
-    /// The tolerance that is stated for it (in its unit), by its joint, its body or the scene.
+    /// The tolerance stated for it (in its unit) by its joint, its body or the scene.
     pub tolerance: Option<f64>,
 }
 
 /// Unit of a change of data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataUnit {
-    /// m
+    /// Metre.
     Length,
-    /// rad, and ratios of angles
+    /// Radian; also for ratios of angles.
     Angle,
 }
 
 impl DataBlock {
-    /// Its part of a gradient by all numbers, as a vector of its own change: two components for a
-    /// point, one otherwise.
+    /// Its part of a gradient with respect to all numbers, as a vector over its own change: two
+    /// components for a point, otherwise one.
     #[must_use]
     pub fn part(&self, gradient: &[f64]) -> [f64; 2] {
         let own = &gradient[self.numbers.clone()];
@@ -62,22 +63,22 @@ impl DataBlock {
         }
     }
 
-    /// The largest change of a number with this gradient, where it moves by so much.
+    /// The largest change of a value with this gradient, if the datum moves by `moved`.
     #[must_use]
     pub fn change(&self, gradient: &[f64], moved: f64) -> f64 {
         let [x, y] = self.part(gradient);
         x.hypot(y) * moved
     }
 
-    /// What it is known to: the tolerance that is stated, or its rounding.
+    /// Its uncertainty: the stated tolerance, or its rounding.
     #[must_use]
     pub fn known_to(&self) -> f64 {
         self.tolerance.unwrap_or(ROUNDING * self.scale)
     }
 }
 
-/// Rows that contradict each other within a stated tolerance miss by no more than so many times
-/// what their own data make of them: they share what others are wrong by.
+/// Rows that contradict each other within a stated tolerance have residuals of at most this
+/// multiple of the effect of their own data, because a residual is distributed among several rows.
 pub const SHARED: f64 = 3.0;
 
 /// The numbers that the constraints of a mechanism store.
@@ -85,7 +86,7 @@ pub const SHARED: f64 = 3.0;
 pub struct Data<'m>(&'m Mechanism);
 
 impl Mechanism {
-    /// The numbers that its constraints store.
+    /// The numbers stored by its constraints.
     #[must_use]
     pub fn data(&self) -> Data<'_> {
         Data(self)
@@ -97,7 +98,7 @@ impl<'m> Data<'m> {
         &self.0.elements.constraints
     }
 
-    /// How many numbers all constraints store.
+    /// Number of values stored by all constraints.
     #[must_use]
     pub fn count(self) -> usize {
         let counts = self.constraints().iter().map(|c| c.element.spec().n_data());
@@ -164,8 +165,8 @@ impl<'m> Data<'m> {
         blocks
     }
 
-    /// Adds the gradient of `λᵀ·C·v` by all numbers of the constraints, times `factor`, to `out`;
-    /// `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
+    /// Adds the gradient of `λᵀ·C·v` with respect to all numbers of the constraints, times
+    /// `factor`, to `out`; `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
     pub fn add_power(self, s: &Scratch, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
         let mut first = 0;
         let (mut still, mut slots, mut f) = (Vec::new(), Vec::new(), Vec::new());
@@ -180,7 +181,7 @@ impl<'m> Data<'m> {
                 let x = c.site.x(&s.slots);
                 slots.clear();
                 slots.extend(c.site.bodies.iter().map(|&body| twist_of(body, v)));
-                // Without velocities and functions of time Γ vanishes.
+                // Without velocities and functions of time, Γ vanishes.
                 still.resize(slots.len(), Twist::zero());
                 f.resize(c.site.functions.len(), [0.0; 3]);
                 element.d_residual_dp(x, &still, &slots, &f, lambda, &mut own);
@@ -192,8 +193,8 @@ impl<'m> Data<'m> {
         }
     }
 
-    /// Adds the gradient of `λᵀ·Φ` by all numbers of the constraints, times `factor`, to `out`;
-    /// `lambda` has at least m values.
+    /// Adds the gradient of `λᵀ·Φ` with respect to all numbers of the constraints, times `factor`,
+    /// to `out`; `lambda` has at least m values.
     pub fn add_phi(self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
         let m = self.0.layout().m;
         let mut first = 0;
@@ -217,8 +218,8 @@ impl<'m> Data<'m> {
         }
     }
 
-    /// The largest change of `λᵀ·Φ` where each datum moves by what `moved` tells; `lambda` has at
-    /// least m values.
+    /// The largest change of `λᵀ·Φ` if each datum moves by the value that `moved` returns; `lambda`
+    /// has at least m values.
     #[must_use]
     pub fn phi_change(
         self,
@@ -233,7 +234,8 @@ impl<'m> Data<'m> {
         changes.sum()
     }
 
-    /// Adds the gradient of `λᵀ·C·v` by the pose, n_v values along velocity directions, to `out`.
+    /// Adds the gradient of `λᵀ·C·v` with respect to the pose, n_v values along velocity
+    /// directions, to `out`.
     pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
         let mut own = Vec::new();
         for c in self.constraints() {
@@ -255,8 +257,8 @@ impl<'m> Data<'m> {
         }
     }
 
-    /// The largest length that the points of a constraint are combined with (m): their own, the
-    /// arms of its bodies, and where these stand.
+    /// The largest length with which the points of a constraint are combined (m): their own
+    /// coordinates, the arms of its bodies, and the positions of these.
     fn length_scale(self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
         let points = c.element.spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];
@@ -276,7 +278,7 @@ impl<'m> Data<'m> {
     }
 }
 
-/// The bodies of a constraint but the ground, with their poses.
+/// The bodies of a constraint except the ground, with their poses.
 fn moving_poses<'a>(
     c: &'a PlacedConstraint,
     s: &'a Scratch,
@@ -284,9 +286,10 @@ fn moving_poses<'a>(
     c.site.moving().map(|k| (k, &s.poses[k]))
 }
 
-/// Returns what data of this shape in a constraint are known to, in their unit, in a mechanism of
-/// this size (m). Lengths: as is stated of the constraint, else of the body whose frame they are
-/// in, else of the scene. Angles: as the scene states, else that length divided by the size.
+/// The uncertainty of data of this shape in a constraint, in their unit, in a mechanism of this
+/// size (m). Lengths: the tolerance stated for the constraint, or else for the body in whose frame
+/// they are, or else for the scene. Angles: the angle tolerance of the scene, or else that length
+/// divided by the size.
 fn tolerance_of(
     mechanism: &Mechanism,
     c: &PlacedConstraint,

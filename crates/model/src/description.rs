@@ -1,5 +1,5 @@
-//! A mechanism as plain data: what the reader of scenes makes of a text, and what a program writes
-//! directly. Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
+//! A mechanism as plain data: the result of reading a scene, or written directly by a program.
+//! Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
 
 use joints::Pose;
 
@@ -9,14 +9,14 @@ use crate::tolerance::Tolerance;
 
 /// A mechanism before it is assembled.
 ///
-/// Its lists are there to be read and changed; [`Description::body`] and its like add to them, one
-/// thing with one name each.
+/// Its lists may be read and changed directly; [`Description::body`] and similar methods add one
+/// item with one name.
 ///
 /// ```
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Mechanism, System};
 ///
-/// // A rod that hangs in space at (1, 2), its centre of mass half a metre below.
+/// // A rod at (1, 2), with its centre of mass half a metre below.
 /// let mut pendulum = Description { gravity: [0.0, -9.81], ..Description::new("pendulum") };
 /// let rod = pendulum.body(Body { position: [1.0, 1.5], ..Body::new("rod", 2.0, 0.2) });
 /// let s_j = pendulum.local(rod, [1.0, 2.0]);
@@ -24,7 +24,7 @@ use crate::tolerance::Tolerance;
 /// pendulum.joint("pivot", &[BodyRef::Ground, rod], Revolute { s_i: [1.0, 2.0], s_j });
 /// assert_eq!(Mechanism::build(&pendulum).unwrap().layout().rows(), 2);
 ///
-/// // A second thing of the same name is found when it is built.
+/// // A second item with the same name is reported when it is built.
 /// pendulum.joint("pivot", &[rod, BodyRef::Ground], Revolute { s_i: s_j, s_j: [1.0, 2.0] });
 /// let faults = Mechanism::build(&pendulum).err().unwrap();
 /// assert_eq!(faults[0].to_string(), "the name `pivot` is used twice");
@@ -43,12 +43,12 @@ pub struct Description {
     pub drives: Vec<Drive>,
     /// Forces.
     pub forces: Vec<Force>,
-    /// What the numbers are known to where nothing is said of their joint or body.
+    /// Tolerance of the numbers, unless one is stated for their joint or body.
     pub tolerance: Tolerance,
 }
 
 impl Description {
-    /// Nothing yet but a name.
+    /// A description without bodies.
     #[must_use]
     pub fn new(name: &str) -> Self {
         Self {
@@ -57,14 +57,14 @@ impl Description {
         }
     }
 
-    /// Adds a body, and says how joints refer to it.
+    /// Adds a body and returns the reference by which joints refer to it.
     pub fn body(&mut self, body: Body) -> BodyRef {
         self.bodies.push(body);
         BodyRef::Body(self.bodies.len() - 1)
     }
 
-    /// Adds a joint, points in the frames of its bodies. Of a joint that depends on time the
-    /// functions are added to the result.
+    /// Adds a joint, with points in the frames of its bodies. If the joint depends on time, its
+    /// functions are to be added to the result.
     pub fn joint(
         &mut self,
         name: &str,
@@ -91,8 +91,8 @@ impl Description {
         });
     }
 
-    /// Adds a force, points in the frames of its bodies. Of a force that depends on time the
-    /// functions are added to the result.
+    /// Adds a force, with points in the frames of its bodies. If the force depends on time, its
+    /// functions are to be added to the result.
     pub fn force(
         &mut self,
         name: &str,
@@ -107,7 +107,7 @@ impl Description {
         })
     }
 
-    /// Where a point of space (m) is in the frame of a body as described; see
+    /// Coordinates of a global point (m) in the frame of a body as described; see
     /// [`BodyRef::to_local`].
     #[must_use]
     pub fn local(&self, body: BodyRef, point: [f64; 2]) -> [f64; 2] {
@@ -128,19 +128,19 @@ pub struct Body {
     pub position: [f64; 2],
     /// Angle (rad).
     pub angle: f64,
-    /// Velocity of the centre of mass (m/s). `None`: it follows from the given velocities and from
-    /// what moves by itself, with the least kinetic energy.
+    /// Velocity of the centre of mass (m/s). `None`: it follows from the given velocities and the
+    /// prescribed motions, with the least kinetic energy.
     pub velocity: Option<[f64; 2]>,
     /// Angular velocity (rad/s). `None`: it follows in the same way.
     pub angular_velocity: Option<f64>,
-    /// What points and directions in its frame are known to (m; directions: divided by the size of
-    /// the mechanism); goes before that of the scene.
+    /// Tolerance of points and directions in its frame (m; directions: divided by the size of the
+    /// mechanism); takes precedence over that of the scene.
     pub tolerance: Option<f64>,
 }
 
 impl Body {
-    /// A body of this mass (kg) and moment of inertia about the centre of mass (kg·m²), at the
-    /// origin, its velocities not given.
+    /// A body with this mass (kg) and moment of inertia about the centre of mass (kg·m²), at the
+    /// origin, with velocities not given.
     #[must_use]
     pub fn new(name: &str, mass: f64, inertia: f64) -> Self {
         Self {
@@ -158,17 +158,17 @@ impl Body {
     }
 }
 
-/// A body of the mechanism, by its place in the list, or the ground.
+/// A body of the mechanism, by its index in the list, or the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum BodyRef {
     /// The ground.
     Ground,
-    /// The body at this place.
+    /// The body with this index.
     Body(usize),
 }
 
 impl BodyRef {
-    /// Its place in the list; nothing for the ground.
+    /// Its index in the list; `None` for the ground.
     #[must_use]
     pub fn moving(self) -> Option<usize> {
         match self {
@@ -177,8 +177,8 @@ impl BodyRef {
         }
     }
 
-    /// Where a point of space (m) is in the frame of this body, one of `bodies` as described:
-    /// `Rᵀ·(point − r)`. Of the ground, and of a body that is not there, the point itself.
+    /// Coordinates of a global point (m) in the frame of this body, one of `bodies` as described:
+    /// `Rᵀ·(point − r)`. For the ground, and for a body that does not exist, the point itself.
     #[must_use]
     pub fn to_local(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
         let described = self.moving().and_then(|at| bodies.get(at));
@@ -197,8 +197,8 @@ pub struct Joint {
     pub element: Box<dyn PlaneConstraint>,
     /// Its functions of time, in the order of the definition.
     pub functions: Vec<Function>,
-    /// What its points, directions and numbers are known to (m; angles: divided by the size of the
-    /// mechanism); goes before those of its bodies and of the scene.
+    /// Tolerance of its points, directions and numbers (m; angles: divided by the size of the
+    /// mechanism); takes precedence over those of its bodies and of the scene.
     pub tolerance: Option<f64>,
 }
 
@@ -222,12 +222,11 @@ pub struct Drive {
     pub name: String,
     /// One body for each slot of the joint's definition.
     pub bodies: Vec<BodyRef>,
-    /// The drive of one measure of the joint, with the joint's parameters.
+    /// The element that drives one measure of the joint, with the parameters of the joint.
     pub element: Box<dyn PlaneConstraint>,
-    /// f
+    /// The function f.
     pub motion: Function,
-    /// What its points, directions and numbers are known to (m), as of a joint: that of the joint
-    /// that it drives.
+    /// Tolerance of its points, directions and numbers (m): that of the driven joint.
     pub tolerance: Option<f64>,
 }
 

@@ -1,10 +1,10 @@
-//! Constraints in double-double at a configuration polished beyond `f64`: what a certificate of the
-//! rank is made from.
+//! Constraints in double-double at a configuration polished beyond `f64`, from which a certificate
+//! of the rank is computed.
 //!
-//! At a configuration stored in `f64` a singular value that is zero is about 1e-16, like one that
-//! is merely tiny. Here Φ is driven to 1e-32 in the kept rows; then a true zero falls to 1e-32 as
-//! well, and a misalignment of the data stays what it is. Not for motion: this allocates and is a
-//! hundred times slower than the kernels in `f64`.
+//! At a configuration stored in `f64`, a singular value that is exactly zero is computed as about
+//! 1e-16, like one that is only very small. Here Φ is reduced to 1e-32 in the kept rows; then an
+//! exact zero decreases to 1e-32 as well, while a misalignment of the data stays the same. This is
+//! not for motion: it allocates and is a hundred times slower than the kernels in `f64`.
 
 use joints::Pose;
 use linalg::{Dd, DdMatrix, StepError, least_squares_step};
@@ -14,36 +14,36 @@ use crate::size::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
 
-/// A configuration that satisfies the kept holonomic rows to double-double, and what the others
-/// miss there.
+/// A configuration that satisfies the kept holonomic rows to double-double, with the residuals of
+/// the other rows.
 #[derive(Clone, Debug)]
 pub struct Polished {
     /// Time (s).
     pub t: f64,
     /// Coordinates, n_q.
     pub q: Vec<Dd>,
-    /// Φ, m values: rounding in the kept rows, in the others what the data leave open.
+    /// Φ, m values: rounding in the kept rows; in the others the residuals that the data allow.
     pub phi: Vec<Dd>,
     /// C, (m+h) × n_v.
     pub c: DdMatrix,
 }
 
-/// Corrections at most. Each gains the digits of a factorisation in `f64`; near a singular
-/// configuration fewer.
+/// Largest number of corrections. Each gains the digits of a factorisation in `f64`, or fewer near
+/// a singular configuration.
 const CORRECTIONS: usize = 6;
 
-/// Below this many roundings of double-double there is nothing left to correct.
+/// A residual below this many roundings of double-double needs no further correction.
 const ROUNDINGS: f64 = 16.0;
 
 impl Polished {
     /// Polishes the coordinates q, which satisfy Φ = 0 to `f64`, in the rows `kept` of Φ, which are
-    /// independent. The correction is the smallest one; it ends when it no longer shrinks, or would
-    /// move a body farther than a stated tolerance says where it is.
+    /// independent. Each correction is the smallest possible. The iteration ends when corrections
+    /// no longer become smaller, or would move a body farther than a stated tolerance allows.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
     /// | `q` | n_q | coordinates on the constraints |
-    /// | `kept` | ≤ m | independent holonomic rows, from 0; rows that do not exist are left out |
+    /// | `kept` | ≤ m | independent holonomic rows, from 0; rows that do not exist are ignored |
     ///
     /// # Errors
     /// If the kept rows are dependent or an entry is not finite.
@@ -58,8 +58,8 @@ impl Polished {
             .iter()
             .map(|&i| mechanism.scales(&s).position(i))
             .collect();
-        // A correction is small beside the mechanism; counted in radians alone it would turn large
-        // bodies first.
+        // Corrections are small relative to the mechanism; if rotations were counted in radians
+        // only, large bodies would be rotated first.
         let rotation = scene_size(mechanism, q).powi(-2);
         let weights: Vec<f64> = (0..mechanism.layout().n_v)
             .map(|k| if k % N_BODY == 2 { rotation } else { 1.0 })
@@ -156,7 +156,7 @@ mod tests {
     use super::*;
     use crate::{Body, BodyRef, Description, Joint};
 
-    /// Two bars in a row on one pivot, at angles that are no numbers of the format.
+    /// Two bars in a row on one pivot, at angles that `f64` cannot represent.
     fn chain() -> Mechanism {
         let bar = |name: &str| Body {
             name: name.into(),
@@ -209,8 +209,8 @@ mod tests {
         for (p, q) in polished.q.iter().zip(q) {
             assert!((p.to_f64() - q).abs() < 1e-15);
         }
-        // C against the kernels in f64, and its entry −(R·s)_y = 0.7·sin a of the first row beyond
-        // f64.
+        // C compared with the kernels in f64, and its entry −(R·s)_y = 0.7·sin a of the first row
+        // with more digits than f64.
         let mut s = mechanism.scratch();
         mechanism.pose(0.0, &q, &mut s);
         mechanism.c(&mut s);

@@ -1,5 +1,5 @@
-//! Functions of time, with their first two derivatives and the times where a derivative jumps.
-//! Nothing else in the house depends on time.
+//! Functions of time, with their first two derivatives and the times at which a derivative jumps.
+//! Nothing else in the crates depends on time.
 
 mod lines;
 mod parts;
@@ -49,19 +49,19 @@ struct Step {
     by: f64,
 }
 
-/// What is wrong with a function of time.
+/// Error in a function of time.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FunctionError {
     /// A number is NaN or infinite.
     #[error("`{name}` is {value}, need finite numbers")]
     NotFinite {
-        /// Which number.
+        /// Name of the number.
         name: &'static str,
         /// The number.
         value: f64,
     },
-    /// A step that ends before it begins.
+    /// A step that ends at or before its beginning.
     #[error("step {step} runs from t = {from} to t = {to}; `to` must be later than `from`")]
     EmptyStep {
         /// Number of the step, from 1.
@@ -77,7 +77,7 @@ pub enum FunctionError {
         /// Number of points.
         found: usize,
     },
-    /// Times and values differ in number.
+    /// The numbers of times and of values differ.
     #[error("{times} times and {values} values; a table needs as many of both")]
     Uneven {
         /// Number of times.
@@ -85,20 +85,20 @@ pub enum FunctionError {
         /// Number of values.
         values: usize,
     },
-    /// Times that do not grow.
+    /// Times that are not increasing.
     #[error("times must grow: times[{index}] = {later} follows {earlier}")]
     NotIncreasing {
-        /// Place of the later time, from 0.
+        /// Index of the later time, from 0.
         index: usize,
         /// The time before it.
         earlier: f64,
-        /// The time that does not grow.
+        /// The time that is not larger.
         later: f64,
     },
 }
 
 impl Function {
-    /// The same value at all times.
+    /// The constant function.
     ///
     /// # Errors
     /// If it is not finite.
@@ -146,11 +146,11 @@ impl Function {
         }))
     }
 
-    /// `start` and smooth steps `[from, to, by]`: between its times each adds
+    /// The value `start`, followed by smooth steps `[from, to, by]`: between its times each adds
     /// `by·(10s³ − 15s⁴ + 6s⁵)`.
     ///
     /// # Errors
-    /// If a number is not finite or a step does not take time.
+    /// If a number is not finite or a step has no duration.
     pub fn steps(start: f64, steps: &[[f64; 3]]) -> Result<Self, FunctionError> {
         finite("start", &[start])?;
         for (k, &[from, to, by]) in steps.iter().enumerate() {
@@ -175,14 +175,14 @@ impl Function {
     /// The natural cubic spline through a table, continued as a straight line on both sides.
     ///
     /// # Errors
-    /// If there are fewer than two points, times do not grow, or a number is not finite.
+    /// If there are fewer than two points, times are not increasing, or a number is not finite.
     pub fn table(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later > earlier)?;
         Ok(Self(Law::Table(Spline::natural(times, values))))
     }
 
-    /// Straight lines through a table, the outer ones continued on both sides. Two points of one
-    /// time make the value jump there; at other points the rate jumps.
+    /// The piecewise linear function through a table; the outer lines are continued on both sides.
+    /// If two points have the same time, the value jumps there; at other points the rate jumps.
     ///
     /// ```
     /// use model::Function;
@@ -193,8 +193,8 @@ impl Function {
     /// ```
     ///
     /// # Errors
-    /// If there are fewer than two points, times fall or more than two are equal or the first or
-    /// last two are, or a number is not finite.
+    /// If there are fewer than two points, times decrease, more than two are equal, the first or
+    /// last two are equal, or a number is not finite.
     pub fn lines(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later >= earlier)?;
         let last = times.len() - 1;
@@ -275,7 +275,7 @@ impl Step {
     }
 }
 
-/// Points of a table, their times in order.
+/// Points of a table, checked for the order of their times.
 fn points(
     times: &[f64],
     values: &[f64],

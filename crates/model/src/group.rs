@@ -1,4 +1,4 @@
-//! Joints and drives with their rows: names, sizes, and which components a reaction has.
+//! Joints and drives with their rows: names, sizes, and the components of their reactions.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use joints::spec::{ConstraintSpec, Entry};
 
 use crate::description::BodyRef;
 
-/// Place of a joint or drive in [`crate::Layout::groups`].
+/// Index of a joint or drive in [`crate::Layout::groups`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ConstraintId(pub usize);
 
@@ -26,7 +26,7 @@ pub struct ConstraintGroup {
     pub name: String,
     /// Joint or drive.
     pub kind: ConstraintKind,
-    /// Facts of its definition.
+    /// Description of its definition.
     pub spec: &'static ConstraintSpec,
     /// Its bodies.
     pub bodies: Vec<BodyRef>,
@@ -37,18 +37,18 @@ pub struct ConstraintGroup {
 /// Names of the three components of a planar wrench.
 pub const COMPONENTS: [&str; 3] = ["Fx", "Fy", "T"];
 
-/// Place of the torque in [`COMPONENTS`], and of the rotation among the degrees of freedom of a
+/// Index of the torque in [`COMPONENTS`], and of the rotation among the degrees of freedom of a
 /// body.
 pub(crate) const TORQUE: usize = 2;
 
 impl ConstraintGroup {
-    /// Whether it only prescribes a motion: a drive, listed apart from the joints.
+    /// Whether it only prescribes a motion: a drive, which is listed separately from the joints.
     #[must_use]
     pub fn is_drive(&self) -> bool {
         self.kind == ConstraintKind::Drive
     }
 
-    /// Components of the reaction that are not identically zero, as places in [`COMPONENTS`].
+    /// Components of the reaction that are not identically zero, as indices of [`COMPONENTS`].
     #[must_use]
     pub fn components(&self) -> Vec<usize> {
         let entries = self.wrench_entries();
@@ -82,8 +82,8 @@ impl ConstraintGroup {
             .any(|[component, at]| *at == row && *component < TORQUE)
     }
 
-    /// Entries of the block of C, with their places in it, of other slots that the first body
-    /// takes, too.
+    /// Entries of the block of C that belong to further slots with the same body as the first slot,
+    /// with their indices in the block.
     pub(crate) fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
         let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
         self.spec
@@ -94,7 +94,7 @@ impl ConstraintGroup {
     }
 }
 
-/// What a column of C belongs to.
+/// Kind of velocity that belongs to a column of C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
     /// A velocity in m/s; the generalised force is a force.

@@ -23,14 +23,14 @@
 //! | [`description`] | bodies, joints, drives and forces as plain data |
 //! | `data` | points, directions and numbers of constraints, and how rows change with them |
 //! | [`mechanism`] | the assembled equations |
-//! | [`system`] | what a solver sees of them |
+//! | [`system`] | the interface of the equations for solvers |
 //! | [`extended`] | constraints in double-double, for certificates |
 //! | [`record`] | the equations as operations, for generators of code |
 //! | `group` | joints and drives with their rows |
-//! | `size` | the length by which a mechanism is measured |
-//! | `scale` | what residuals are compared with |
-//! | `tolerance` | what the data are known to, where that is stated |
-//! | `uncertainty` | what the entries of C are known to |
+//! | `size` | the length scale of a mechanism |
+//! | `scale` | the sizes with which residuals are compared |
+//! | `tolerance` | stated tolerances of the data |
+//! | `uncertainty` | the uncertainty of the entries of C |
 //! | [`space`] | coordinates of bodies, and how a configuration moves along velocities |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |

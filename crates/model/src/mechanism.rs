@@ -1,5 +1,5 @@
 //! The assembled mechanism: elements in a list, each with its bodies, rows and entries. Building
-//! checks everything that can be wrong; what is built has no invalid state.
+//! checks everything that can be wrong; a built mechanism has no invalid state.
 
 mod build;
 mod derivatives;
@@ -28,7 +28,7 @@ pub(crate) use initial::{initialise, unmet_requirement};
 pub use part::{Part, Places};
 pub use work::Work;
 
-/// A mechanism in the plane: bodies, constraints, forces, and the equations they make.
+/// A mechanism in the plane: bodies, constraints, forces, and the equations formed from them.
 ///
 /// ```
 /// use joints::Revolute;
@@ -71,12 +71,12 @@ pub struct Mechanism {
     tolerance: Tolerance,
     /// Longest arm of each body in the initial configuration (m).
     reach: Vec<f64>,
-    /// Bodies whose angle rows of angles hold.
+    /// Whether rows of angles keep the angle of each body constant.
     held: Vec<bool>,
     layout: Layout,
 }
 
-/// The elements of a mechanism in their places, and what their kernels take.
+/// The elements of a mechanism with their indices, and the arguments of their kernels.
 #[derive(Clone, Default)]
 pub(crate) struct Elements {
     pub(crate) constraints: Vec<PlacedConstraint>,
@@ -90,7 +90,7 @@ pub(crate) struct Elements {
 }
 
 impl Elements {
-    /// The places of all constraints and forces.
+    /// The sites of all constraints and forces.
     pub(crate) fn sites(&self) -> impl Iterator<Item = &Site> {
         let constraints = self.constraints.iter().map(|c| &c.site);
         constraints.chain(self.forces.iter().map(|f| &f.site))
@@ -109,17 +109,17 @@ impl Elements {
     }
 }
 
-/// A constraint in its place.
+/// A constraint with its indices in the mechanism.
 #[derive(Clone)]
 pub(crate) struct PlacedConstraint {
     pub(crate) element: Box<dyn PlaneConstraint>,
     pub(crate) site: Site,
     /// Its entries of C in the scratch.
     pub(crate) entries: Range<usize>,
-    /// Places of the varying entries, relative to `entries`.
+    /// Indices of the varying entries, relative to `entries`.
     pub(crate) varying: Vec<usize>,
     pub(crate) rows: Range<usize>,
-    /// What its data are known to (m), where that is stated.
+    /// Tolerance of its data (m), if stated.
     pub(crate) tolerance: Option<f64>,
 }
 
@@ -134,32 +134,32 @@ impl PlacedConstraint {
         self.element.spec().rheonomic
     }
 
-    /// Whether Γ of its rows may differ from zero: C of the others is constant, so that `C·v̇ = 0`.
+    /// Whether Γ of its rows may differ from zero. C of the other rows is constant, so `C·v̇ = 0`.
     pub(crate) fn has_gamma(&self) -> bool {
         self.has_varying_entries() || self.depends_on_time()
     }
 }
 
-/// A force in its place.
+/// A force with its indices in the mechanism.
 #[derive(Clone)]
 pub(crate) struct PlacedForce {
     pub(crate) name: String,
     pub(crate) element: Box<dyn PlaneForce>,
     pub(crate) site: Site,
-    /// Column of Q for each value of the kernel; nothing for the ground.
+    /// Column of Q for each value of the kernel; `None` for the ground.
     pub(crate) columns: Vec<Option<usize>>,
 }
 
-/// A function of time as an element takes it.
+/// A function of time as passed to an element.
 #[derive(Clone)]
 pub(crate) struct TimeFunction {
     function: Function,
-    /// f(0) for drives, which follow f(t) − f(0).
+    /// f(0) for drives, which follow f(t) − f(0); otherwise zero.
     offset: f64,
 }
 
 impl TimeFunction {
-    /// The function, and what is subtracted from it.
+    /// The function, and the value that is subtracted from it.
     pub(crate) fn parts(&self) -> (&Function, f64) {
         (&self.function, self.offset)
     }
@@ -177,14 +177,14 @@ impl Mechanism {
         &self.name
     }
 
-    /// The space that its bodies move in.
+    /// The space in which its bodies move.
     #[must_use]
     pub fn space(&self) -> SpaceKind {
         self.space
     }
 
-    /// The same mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), not yet
-    /// started.
+    /// The same mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), before its
+    /// start is assembled.
     #[cfg(feature = "unit-circle")]
     #[must_use]
     pub fn on_unit_circle(mut self) -> Self {
@@ -193,7 +193,7 @@ impl Mechanism {
         self
     }
 
-    /// What its numbers are known to if nothing is said of their joint or body.
+    /// Tolerance of its numbers, unless one is stated for their joint or body.
     #[must_use]
     pub fn tolerance(&self) -> Tolerance {
         self.tolerance
@@ -206,7 +206,7 @@ impl Mechanism {
     }
 
     /// Coordinates and velocities as described, not corrected; velocities that are not given are
-    /// zero here.
+    /// zero.
     #[must_use]
     pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
         let mut q = vec![0.0; self.layout.n_q];
@@ -229,8 +229,7 @@ impl Mechanism {
         self.bodies.iter().flat_map(of).collect()
     }
 
-    /// Whether forces are applied that a potential of the weight does not explain: energy may be
-    /// fed or lost.
+    /// Whether forces other than the weight are applied, which may add or remove energy.
     #[must_use]
     pub fn has_applied_forces(&self) -> bool {
         !self.elements.forces.is_empty()
@@ -251,7 +250,7 @@ impl Mechanism {
         terms.map(|((m, a), (w, v))| (m * a - w) * v).sum()
     }
 
-    /// Name of the body and of its coordinate that changes with a column of C.
+    /// Names of the body and of its coordinate that change with a column of C.
     #[must_use]
     pub fn coordinate(&self, column: usize) -> (&str, &'static str) {
         (
@@ -260,7 +259,7 @@ impl Mechanism {
         )
     }
 
-    /// Name of the body and of one of the coordinates q.
+    /// Names of the body and of the coordinate for an entry of q.
     #[must_use]
     pub fn coordinate_name(&self, k: usize) -> (&str, &'static str) {
         let n = self.space.n_q();
@@ -285,15 +284,15 @@ impl Mechanism {
             .sum()
     }
 
-    /// Longest arm of a body in the initial configuration (m): its position matters to about the
-    /// rounding of this, wherever it is.
+    /// Longest arm of a body in the initial configuration (m): its position is accurate to about
+    /// the rounding of this, wherever it is.
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
     }
 }
 
-/// The pose of a body, among those of all.
+/// The pose of a body, taken from those of all.
 pub(crate) fn pose_of<T: Ring>(poses: &[Pose<T>], body: BodyRef) -> Pose<T> {
     match body {
         BodyRef::Ground => Pose::GROUND.cast(),
@@ -301,7 +300,7 @@ pub(crate) fn pose_of<T: Ring>(poses: &[Pose<T>], body: BodyRef) -> Pose<T> {
     }
 }
 
-/// The velocity of a body, among those of all.
+/// The velocity of a body, taken from those of all.
 pub(crate) fn twist_of(body: BodyRef, v: &[f64]) -> Twist {
     match body {
         BodyRef::Ground => Twist::zero(),

@@ -1,9 +1,9 @@
-//! From multipliers to what an engineer calls a reaction: force and torque on the first body of the
-//! joint, at the joint's place.
+//! From multipliers to reactions: force and torque on the first body of the joint, at the place of
+//! the joint.
 //!
-//! It is all that the joint does to that body, so that M·a − Q of the body is the sum of the
-//! reactions on it. Where the first body takes several slots, as the ground may that is also the
-//! carrier of a gear, their parts add up.
+//! The reaction is the total effect of the joint on that body, so that M·a − Q of the body is the
+//! sum of its reactions. If the first body has several slots, like the ground that is also the
+//! carrier of a gear, their parts are added.
 
 use joints::Direction;
 use linalg::Matrix;
@@ -15,21 +15,21 @@ use crate::system::{Layout, Scratch, System};
 
 pub use crate::group::{COMPONENTS, ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind};
 
-/// A row counts as vanishing on rigid motions below this share of its terms: rounding of points
-/// that a joint makes one, far from the origin. Rows above it are taken to act against the ground,
-/// which is the careful reading.
+/// A row counts as vanishing on rigid motions below this fraction of its terms, which allows for
+/// the rounding of common points far from the origin. Rows above it are assumed to act against the
+/// ground, which is the cautious choice.
 const ROUNDING: f64 = 1e-10;
 
-/// Axes along which the force of a reaction is taken apart.
+/// Axes in which the force of a reaction is expressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
     /// The global x and y.
     Global,
-    /// The x and y of the first body of the joint; those of the ground are global.
+    /// The x and y axes of the first body of the joint; global for the ground.
     FirstBody,
-    /// Along the one direction in which the joint can push, then across it (that turned by +90°):
-    /// normal and along for a knife edge, across and along the axis for a slot. Joints with no row
-    /// or several rows that push have no such frame.
+    /// The only direction in which the joint can transmit a force, followed by the direction
+    /// rotated by +90°: normal and along for a knife edge, across and along the axis for a slot.
+    /// Joints with no row, or several rows, that have a force do not have this frame.
     Edge,
 }
 
@@ -51,15 +51,15 @@ impl Frame {
 /// A reaction: force (global components, N) and torque about the place (N·m), on the first body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reaction {
-    /// Fx, Fy
+    /// Force Fx, Fy (N).
     pub force: [f64; 2],
-    /// T
+    /// Torque T (N·m).
     pub torque: f64,
     /// The named component of the definition: `N` of a knife edge, `drive` of a drive.
     pub component: Option<f64>,
 }
 
-/// The reactions of a mechanism at the poses of a scratch.
+/// Computes the reactions of a mechanism at the poses of a scratch.
 ///
 /// Methods panic if the mechanism has no such joint or drive.
 #[derive(Clone, Copy)]
@@ -116,7 +116,7 @@ impl<'a> Reactions<'a> {
         map
     }
 
-    /// Adds −Cᵀ of the other slots that the first body takes, moved from its origin to the place.
+    /// Adds −Cᵀ of further slots with the first body, moved from its origin to the place.
     fn add_repeated(self, id: ConstraintId, map: &mut Matrix) {
         let group = self.group(id);
         if group.repeated().next().is_none() {
@@ -141,7 +141,7 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// The same map with the torque about a global point: `T + (place − about) × F`.
+    /// Like [`Self::wrench_map`], with the torque about a global point: `T + (place − about) × F`.
     #[must_use]
     pub fn wrench_map_about(self, id: ConstraintId, about: [f64; 2]) -> Matrix {
         let mut map = self.wrench_map(id);
@@ -154,8 +154,8 @@ impl<'a> Reactions<'a> {
     }
 
     /// The map (3 × m + h) from all multipliers to the total of the reactions on one body, `−Cᵀ·λ`:
-    /// force, and torque about a global point. `None` if there is no such body. Needs C at the pose
-    /// of the scratch; allocates.
+    /// force, and torque about a global point. Returns `None` if there is no such body. Needs C at
+    /// the pose of the scratch; allocates.
     #[must_use]
     pub fn body_wrench_map(self, body: usize, about: [f64; 2]) -> Option<Matrix> {
         let pose = self.s.poses.get(body)?;
@@ -171,9 +171,10 @@ impl<'a> Reactions<'a> {
         Some(map)
     }
 
-    /// Unit vectors (global components) of the axes in which the force of a reaction is taken
-    /// apart. The first axis of [`Frame::Edge`] has the sign for which the named component of the
-    /// definition, or else the multiplier, is positive. `None` if the reaction has no such frame.
+    /// Unit vectors (global components) of the axes in which the force of a reaction is expressed.
+    /// The first axis of [`Frame::Edge`] has the sign for which the named component of the
+    /// definition, or else the multiplier, is positive. Returns `None` if the reaction has no such
+    /// frame.
     #[must_use]
     pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<[[f64; 2]; 2]> {
         let first = match (frame, self.group(id).bodies.first()) {
@@ -202,8 +203,8 @@ impl<'a> Reactions<'a> {
     }
 
     /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or
-    /// drive: `Fx`, `Fy`, `T`, or the named component of its definition. `None` if it has no such
-    /// component; allocates.
+    /// drive: `Fx`, `Fy`, `T`, or the named component of its definition. Returns `None` if it has
+    /// no such component; allocates.
     #[must_use]
     pub fn component_coefficients(self, id: ConstraintId, name: &str) -> Option<Vec<f64>> {
         if let Some(k) = COMPONENTS.iter().position(|c| *c == name) {
@@ -237,9 +238,9 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// Whether a joint or drive acts against the ground: one of its rows does not vanish when all
-    /// bodies move as one rigid body. The list of its bodies does not tell: an absolute velocity
-    /// refers to the ground without naming it. Needs C at the pose of the scratch.
+    /// Whether a joint or drive acts against the ground: one of its rows does not vanish if all
+    /// bodies move as one rigid body. This does not follow from the list of its bodies: an absolute
+    /// velocity refers to the ground without listing it. Needs C at the pose of the scratch.
     #[must_use]
     pub fn acts_on_ground(self, id: ConstraintId) -> bool {
         let [x, y] = self.place(id);

@@ -1,6 +1,6 @@
-//! The equations of a mechanism as operations: every kernel runs once on numbers that write down
-//! what is done with them. What comes out holds for this mechanism with its parameters and initial
-//! values, and for no other; generators of code for one scene begin here.
+//! The equations of a mechanism as operations: every kernel runs once on numbers that record the
+//! operations applied to them. The result is valid for this mechanism with its parameters and
+//! initial values only; generators of code for one scene start from it.
 
 use joints::recorded::{Operation, Recorded, record};
 use joints::{Pose, Twist};
@@ -10,22 +10,22 @@ use crate::function::Function;
 use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
 use crate::system::System;
 
-/// What an input of a recording stands for.
+/// Meaning of an input of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
-    /// A coordinate, by its place in q.
+    /// A coordinate, by its index in q.
     Coordinate(usize),
-    /// The cosine of the coordinate at this place in q.
+    /// The cosine of the coordinate with this index in q.
     Cos(usize),
-    /// Its sine.
+    /// The sine of the coordinate with this index in q.
     Sin(usize),
-    /// A velocity, by its place in v.
+    /// A velocity, by its index in v.
     Velocity(usize),
-    /// A function of time as the mechanism takes it, or a derivative of it.
+    /// A function of time as used by the mechanism, or a derivative of it.
     Function {
-        /// Which function, in the order of [`Mechanism::functions`].
+        /// Index of the function, in the order of [`Mechanism::functions`].
         function: usize,
-        /// 0, 1 or 2.
+        /// Order of the derivative: 0, 1 or 2.
         derivative: usize,
     },
 }
@@ -33,23 +33,23 @@ pub enum Input {
 /// The equations of one mechanism as operations on inputs.
 #[derive(Clone, Debug)]
 pub struct RecordedEquations {
-    /// All operations; results are places in it.
+    /// All operations; results are indices of it.
     pub tape: Vec<Operation>,
-    /// What each input stands for.
+    /// Meaning of each input.
     pub inputs: Vec<Input>,
     /// Φ, m values.
     pub phi: Vec<Recorded>,
-    /// C by rows, m + h: column and value; entries of one place are to be added.
+    /// C by rows, m + h: column and value; entries at the same place are to be added.
     pub c: Vec<Vec<(usize, Recorded)>>,
     /// b, m + h values.
     pub b: Vec<Recorded>,
     /// Γ, m + h values.
     pub gamma: Vec<Recorded>,
-    /// Q, n_v values, the weight included.
+    /// Q, n_v values, including the weight.
     pub force: Vec<Recorded>,
 }
 
-/// Poses, twists and jets as inputs.
+/// Poses, twists and functions of time as inputs.
 struct Inputs {
     list: Vec<Input>,
     poses: Vec<Pose<Recorded>>,
@@ -111,7 +111,7 @@ impl Inputs {
     }
 }
 
-/// What is computed of a recording while it runs.
+/// Results collected while the kernels run.
 struct Results {
     phi: Vec<Recorded>,
     entries: Vec<Recorded>,

@@ -1,5 +1,5 @@
-//! Definitions by their scene type: what lets a scene reader build joints and forces that it does
-//! not know.
+//! Definitions by their scene type, so that a reader of scenes can build joints and forces without
+//! knowing them.
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
 use joints::{
@@ -7,13 +7,13 @@ use joints::{
 };
 use linalg::Dd;
 
-/// A planar constraint as an object: kernels in `f64` for motion, and in other numbers.
+/// A planar constraint as a trait object: kernels in `f64` for motion, and in other number types.
 pub trait PlaneConstraint: Element {
     /// Kernels for certificates.
     fn extended(&self) -> &dyn Element<Dd>;
-    /// Kernels for bounds of the rounding of data.
+    /// Kernels for bounds on the rounding of data.
     fn magnitude(&self) -> &dyn Element<Magnitude>;
-    /// Kernels that write down their operations.
+    /// Kernels that record their operations.
     fn recorded(&self) -> &dyn Element<Recorded>;
     /// A copy.
     fn boxed(&self) -> Box<dyn PlaneConstraint>;
@@ -40,9 +40,9 @@ impl Clone for Box<dyn PlaneConstraint> {
     }
 }
 
-/// A planar force as an object.
+/// A planar force as a trait object.
 pub trait PlaneForce: ForceElement {
-    /// Kernels that write down their operations.
+    /// Kernels that record their operations.
     fn recorded(&self) -> &dyn ForceElement<Recorded>;
     /// A copy.
     fn boxed(&self) -> Box<dyn PlaneForce>;
@@ -72,18 +72,18 @@ pub type BuildForce = fn(&[Argument]) -> Result<Box<dyn PlaneForce>, ArgumentErr
 /// A constraint definition.
 #[derive(Clone, Debug)]
 pub struct ConstraintDefinition {
-    /// Its facts.
+    /// Its description.
     pub spec: &'static ConstraintSpec,
     /// Its constructor.
     pub build: BuildConstraint,
-    /// The drives of its measures, in their order.
+    /// The drives of its measures, in the same order.
     pub drives: Vec<DriveDefinition>,
 }
 
-/// The drive of a measure. It takes the arguments of its joint and one function of time.
+/// The drive of a measure. It has the arguments of its joint and one function of time.
 #[derive(Clone, Debug)]
 pub struct DriveDefinition {
-    /// Its facts.
+    /// Its description.
     pub spec: &'static ConstraintSpec,
     /// Its constructor.
     pub build: BuildConstraint,
@@ -92,13 +92,13 @@ pub struct DriveDefinition {
 /// A force definition.
 #[derive(Clone, Debug)]
 pub struct ForceDefinition {
-    /// Its facts.
+    /// Its description.
     pub spec: &'static ForceSpec,
     /// Its constructor.
     pub build: BuildForce,
 }
 
-/// All definitions that a scene may name.
+/// All definitions to which a scene may refer.
 ///
 /// ```
 /// use model::Registry;
@@ -114,13 +114,13 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// No definition at all.
+    /// A registry without definitions.
     #[must_use]
     pub fn empty() -> Self {
         Self::default()
     }
 
-    /// All planar definitions that are shipped.
+    /// All planar definitions of the library.
     #[must_use]
     pub fn planar() -> Self {
         let mut registry = Self::empty();
@@ -139,8 +139,8 @@ impl Registry {
         self.force::<K>();
     }
 
-    /// Constraints of a scene type; several may share one and differ by a key or the number of
-    /// bodies.
+    /// Constraints of a scene type. Several may share a type and differ in a key or in the number
+    /// of bodies.
     pub fn constraints<'a>(
         &'a self,
         scene_type: &'a str,
@@ -157,12 +157,12 @@ impl Registry {
             .filter(move |d| d.spec.common.scene_type == scene_type)
     }
 
-    /// Facts of all constraints.
+    /// Descriptions of all constraints.
     pub fn constraint_specs(&self) -> impl Iterator<Item = &'static Spec> + '_ {
         self.constraints.iter().map(|d| &d.spec.common)
     }
 
-    /// Facts of all forces.
+    /// Descriptions of all forces.
     pub fn force_specs(&self) -> impl Iterator<Item = &'static Spec> + '_ {
         self.forces.iter().map(|d| &d.spec.common)
     }
@@ -193,7 +193,7 @@ impl Visitor for Registry {
         });
     }
 
-    /// Drives come with their constraint.
+    /// Drives are added with their constraint.
     fn drive<K: Constraint>(&mut self) {}
 
     fn force<K: Force>(&mut self) {

@@ -1,5 +1,6 @@
-//! What residuals are compared with. Each row has a size of its own, made of the terms that cancel
-//! in it, so that nothing depends on units, on the size of a mechanism or on where it stands.
+//! Sizes with which residuals are compared. Each row has a size of its own, computed from the terms
+//! that cancel in it, so that nothing depends on units, on the size of a mechanism or on its
+//! position.
 
 use linalg::Scaling;
 
@@ -7,8 +8,8 @@ use crate::mechanism::{Mechanism, N_BODY};
 use crate::space::unit;
 use crate::system::{Scratch, System};
 
-/// What residuals of a mechanism are compared with, at the pose of a scratch. Positions need C
-/// there, velocities C and b, accelerations C and Γ.
+/// Sizes with which residuals of a mechanism are compared, at the pose of a scratch. Positions need
+/// C in the scratch, velocities C and b, accelerations C and Γ.
 #[derive(Clone, Copy)]
 pub struct Scales<'a> {
     pub(crate) mechanism: &'a Mechanism,
@@ -16,7 +17,7 @@ pub struct Scales<'a> {
 }
 
 impl Mechanism {
-    /// What its residuals are compared with at the pose of the scratch.
+    /// The sizes with which its residuals are compared at the pose of the scratch.
     #[must_use]
     pub fn scales<'a>(&'a self, s: &'a Scratch) -> Scales<'a> {
         Scales { mechanism: self, s }
@@ -24,9 +25,9 @@ impl Mechanism {
 }
 
 impl Scales<'_> {
-    /// Size of the terms of row `i` of Φ at the pose of the scratch: `Σ |C_ij|·|q_j|`, an angle
-    /// counting at least one radian, because arms turn with it, and a position at least the longest
-    /// arm of its body, because it is where the arms put it. Needs C there.
+    /// Size of the terms of row `i` of Φ at the pose of the scratch: `Σ |C_ij|·|q_j|`. An angle
+    /// counts as at least one radian, because arms rotate with it, and a position as at least the
+    /// longest arm of its body, because it is accurate to the rounding of the arms. Needs C.
     #[must_use]
     pub fn position(self, i: usize) -> f64 {
         let term = |(j, c): (usize, f64)| {
@@ -43,9 +44,9 @@ impl Scales<'_> {
         self.mechanism.layout().row(self.s, i).map(term).sum()
     }
 
-    /// What the entries of row `i` of C are at most whichever way the bodies point: column and
-    /// bound. A force on a body has one size in all directions, and an arm is no longer than the
-    /// body's longest one. Needs C at the pose of the scratch; allocates.
+    /// Bounds on the entries of row `i` of C for any orientation of the bodies: column and bound. A
+    /// force on a body has the same size in all directions, and an arm is no longer than the
+    /// longest arm of the body. Needs C at the pose of the scratch; allocates.
     #[must_use]
     pub fn entry_bounds(self, i: usize) -> Vec<(usize, f64)> {
         let row: Vec<(usize, f64)> = self.mechanism.layout().row(self.s, i).collect();
@@ -64,8 +65,7 @@ impl Scales<'_> {
         bounds.collect()
     }
 
-    /// Size of the terms of row `i` of Φ for entries below `bounds`: as
-    /// [`Scales::position`].
+    /// Size of the terms of row `i` of Φ for entries below `bounds`, as in [`Scales::position`].
     #[must_use]
     pub fn bounded_position(mechanism: &Mechanism, bounds: &[(usize, f64)], q: &[f64]) -> f64 {
         let place = |j: usize| mechanism.space().position(q, j).abs();
@@ -84,17 +84,17 @@ impl Scales<'_> {
         terms.sum::<f64>() + self.s.b[i].abs()
     }
 
-    /// Size of the terms of row `i` of `C·v − b` whichever way the bodies point: a row that happens
-    /// to be perpendicular to the motion is known to the rounding of these, not to that of the
-    /// terms it has. Needs C and b at the pose of the scratch; allocates.
+    /// Size of the terms of row `i` of `C·v − b` for any orientation of the bodies: a row that
+    /// happens to be perpendicular to the motion is accurate to the rounding of these terms, not of
+    /// its present ones. Needs C and b at the pose of the scratch; allocates.
     #[must_use]
     pub fn bounded_velocity(self, i: usize, v: &[f64]) -> f64 {
         let bounds = self.entry_bounds(i).into_iter();
         bounds.map(|(j, c)| c * v[j].abs()).sum::<f64>() + self.s.b[i].abs()
     }
 
-    /// Size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and what the row makes
-    /// of the centripetal terms of its bodies, `|C_ij|·(|v_j|·ω + size·ω²)` for translations and
+    /// Size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and the contributions of
+    /// the centripetal terms of its bodies, `|C_ij|·(|v_j|·ω + size·ω²)` for translations and
     /// `|C_ij|·ω²` for rotations, with the largest |ω| of the row. Needs C and Γ.
     #[must_use]
     pub fn acceleration(self, i: usize, v: &[f64], size: f64) -> f64 {
@@ -112,8 +112,8 @@ impl Scales<'_> {
         row().map(term).sum::<f64>() + self.s.gamma[i].abs()
     }
 
-    /// Size of what the functions of time prescribe in row `i` at the time of the scratch: the sum
-    /// of `|f| + |ḟ| + |f̈|`. A rate that is rounding beside it is zero.
+    /// Size of the values that functions of time prescribe in row `i` at the time of the scratch:
+    /// the sum of `|f| + |ḟ| + |f̈|`. A rate that is rounding relative to it counts as zero.
     #[must_use]
     pub fn prescribed(self, i: usize) -> f64 {
         // Rows are numbered in the order of the constraints.
@@ -124,10 +124,10 @@ impl Scales<'_> {
         jets.iter().flatten().map(|x| x.abs()).sum()
     }
 
-    /// Scaling of the columns of a dimensionless C as bodies feel them: one unit for all lengths,
-    /// and for the rotation of each body the distance of its farthest joint, where it has one.
-    /// Unlike an equilibration it does not depend on the directions of joints. Needs the poses of
-    /// the scratch.
+    /// Scaling of the columns of a dimensionless C by the arms of the bodies: one unit for all
+    /// lengths, and for the rotation of each body the distance of its farthest joint, if it has
+    /// one. Unlike an equilibration it does not depend on the directions of joints. Needs the poses
+    /// of the scratch.
     #[must_use]
     pub fn felt_scaling(self, size: f64) -> Scaling {
         let mut arms = vec![0.0_f64; self.mechanism.bodies().len()];
@@ -148,8 +148,8 @@ impl Scales<'_> {
         scaling
     }
 
-    /// What the entries of a dimensionless C may be wrong by at a configuration: the largest |Φ_i|,
-    /// and at least the rounding of its terms, relative to what row `i` changes by when the
+    /// Bound on the error of the entries of a dimensionless C at a configuration: the largest
+    /// |Φ_i|, and at least the rounding of its terms, relative to the change of row `i` if the
     /// mechanism moves by its own size. Needs Φ and C.
     #[must_use]
     pub fn relative_residual(self, size: f64) -> f64 {
@@ -161,7 +161,7 @@ impl Scales<'_> {
         (0..layout.m).map(of_row).fold(0.0, f64::max)
     }
 
-    /// `x` relative to what row `i` changes by when the mechanism moves by its own size. Needs C.
+    /// `x` relative to the change of row `i` if the mechanism moves by its own size. Needs C.
     #[must_use]
     pub fn relative_to_reach(self, i: usize, size: f64, x: f64) -> f64 {
         let reach = |(j, c): (usize, f64)| c.abs() * unit(j, size);
@@ -170,7 +170,7 @@ impl Scales<'_> {
     }
 }
 
-/// What a coordinate counts at least.
+/// Smallest size of a coordinate in the terms of a row.
 fn least(mechanism: &Mechanism, j: usize) -> f64 {
     if j % N_BODY == 2 {
         1.0

@@ -1,14 +1,14 @@
-//! The length by which a mechanism is measured: how far its bodies and joints are apart.
+//! The length scale of a mechanism: the extent of its bodies and joints.
 
 use crate::mechanism::Mechanism;
 use crate::system::{Scratch, System};
 use crate::uncertainty::ROUNDING;
 
-/// Places that are no farther apart than so many roundings of where they stand are one place.
+/// Points whose distance is at most this many roundings of their coordinates coincide.
 const COINCIDE: f64 = 1e3;
 
-/// Diagonal of the box around all bodies and joints; where these are one place, around all points
-/// of the joints; 1 m where these are, too.
+/// Diagonal of the box around all bodies and joints; if these coincide, around all points of the
+/// joints; 1 m if these coincide as well.
 #[must_use]
 pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     let mut s = mechanism.scratch();
@@ -16,7 +16,7 @@ pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     size_of(mechanism, &s)
 }
 
-/// The same at the poses of the scratch.
+/// Like [`scene_size`], at the poses of the scratch.
 pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
     let bodies = s.poses.iter().map(|p| [p.x, p.y]);
     let places = mechanism
@@ -44,7 +44,7 @@ pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
     diagonal(&points).unwrap_or(1.0)
 }
 
-/// Diagonal of the box around points. `None` if they are one place.
+/// Diagonal of the box around points. Returns `None` if they coincide.
 fn diagonal(points: &[[f64; 2]]) -> Option<f64> {
     let span = |k: usize| {
         let low = points.iter().fold(f64::INFINITY, |a, p| a.min(p[k]));

@@ -1,12 +1,12 @@
-//! Spaces: how the coordinates of a body make its pose, and how a configuration moves along
+//! Spaces: how the pose of a body follows from its coordinates, and how a configuration moves along
 //! velocities.
 //!
-//! Coordinates and velocities are two things: a body has n_q of the ones and n_v of the others, and
-//! nothing outside this module adds a velocity to a coordinate. A configuration is moved by
+//! Coordinates and velocities are different: a body has n_q coordinates and n_v velocities, and no
+//! code outside this module adds a velocity to a coordinate. A configuration is moved by
 //! [`Space::displace`] and compared by [`Space::difference`], both in the directions of velocities:
 //! `(x, y)` along the axes of the ground, then the rotation.
 //!
-//! Not here: constraints and their kernels, which see poses and twists only.
+//! Constraints and their kernels use poses and twists only.
 
 use std::ops::Range;
 
@@ -15,13 +15,13 @@ use linalg::Dd;
 
 use crate::description::Body;
 
-/// Velocities of a planar body: (ẋ, ẏ, ω).
+/// Number of velocities of a planar body: (ẋ, ẏ, ω).
 pub(crate) const N_BODY: usize = 3;
 
-/// Coordinates of a body at most.
+/// Largest number of coordinates of a body.
 const MOST_COORDINATES: usize = 4;
 
-/// A number that angles can be made of.
+/// A number type with angles.
 pub trait Number: Ring {
     /// Sine and cosine.
     #[must_use]
@@ -31,7 +31,7 @@ pub trait Number: Ring {
     #[must_use]
     fn atan2(y: Self, x: Self) -> Self;
 
-    /// (x, y) at length one; it must not be zero.
+    /// The vector (x, y) scaled to length one; it must not be zero.
     #[must_use]
     fn normalised(x: Self, y: Self) -> (Self, Self);
 }
@@ -56,7 +56,7 @@ impl Number for Dd {
         Dd::sin_cos(self)
     }
 
-    /// The angle in `f64`, turned on by what is left: its square is below the last digit.
+    /// The angle in `f64`, corrected by the remaining angle, whose square is below the last digit.
     fn atan2(y: Self, x: Self) -> Self {
         let (x, y) = Self::normalised(x, y);
         let near = Self::from(y.to_f64().atan2(x.to_f64()));
@@ -70,13 +70,13 @@ impl Number for Dd {
     }
 }
 
-/// A space that bodies move in. All slices are those of one body: `q` has [`Space::N_Q`] values,
-/// `v` and `d` have three.
+/// A space in which bodies move. All slices belong to one body: `q` has [`Space::N_Q`] values, `v`
+/// and `d` have three.
 pub trait Space {
-    /// Coordinates of a body; its place comes first.
+    /// Number of coordinates of a body; the position comes first.
     const N_Q: usize;
 
-    /// What they are called.
+    /// Names of the coordinates.
     const COORDINATES: &'static [&'static str];
 
     /// Coordinates of a body as described.
@@ -106,13 +106,13 @@ pub trait Space {
     /// q̇ = T(q)·v.
     fn rate(q: &[f64], v: &[f64], qd: &mut [f64]);
 
-    /// The velocity of one freedom, 0 … 2, as factors of q̇ = T(q)·v; what of q̇ leaves the poses
-    /// does not count. Factors beyond the coordinates are zero.
+    /// The velocity of one freedom, 0 … 2, as factors of q̇ = T(q)·v; components of q̇ that change
+    /// no pose are ignored. Factors beyond the coordinates are zero.
     #[must_use]
     fn velocity_from_rate(q: &[f64], dof: usize) -> [f64; MOST_COORDINATES];
 
-    /// The direction of q̇ in which no pose changes, of length one; none where every q̇ is that of
-    /// a velocity.
+    /// The unit direction of q̇ along which no pose changes; `None` if every q̇ belongs to a
+    /// velocity.
     #[must_use]
     fn normal(_q: &[f64]) -> Option<[f64; MOST_COORDINATES]> {
         None
@@ -124,8 +124,8 @@ pub trait Space {
     /// The d by which [`Space::displace`] moves `from` to `q`.
     fn difference(q: &[f64], from: &[f64], d: &mut [f64]);
 
-    /// Takes one freedom of velocity, 0 … 2, over from another configuration: exactly, where a
-    /// difference would round.
+    /// Copies one freedom of velocity, 0 … 2, from another configuration exactly; a difference
+    /// would be rounded.
     fn take(q: &mut [f64], from: &[f64], dof: usize);
 }
 
@@ -174,13 +174,13 @@ impl Space for Plane {
     }
 }
 
-/// The plane with a point of the unit circle in the place of the angle: q = (x, y, cos φ, sin φ),
-/// n_q = 4. For tests alone: a space in which coordinates and velocities differ, as quaternions and
+/// The plane with a point of the unit circle instead of the angle: q = (x, y, cos φ, sin φ), n_q =
+/// 4. Only for tests: a space in which coordinates and velocities differ, as quaternions and
 /// angular velocities do.
 ///
-/// Of (c, s) only the direction counts, so that a stage of an integrator off the circle does no
-/// harm; a displacement leaves it on the circle. Angles are known up to full turns, so that rows
-/// which measure them hold within half a turn only.
+/// Only the direction of (c, s) counts, so a stage of an integrator may leave the circle; a
+/// displacement keeps the point on the circle. Angles are determined up to full revolutions, so
+/// rows that measure them are valid within half a revolution only.
 #[cfg(feature = "unit-circle")]
 #[derive(Clone, Copy, Debug)]
 pub struct UnitCircle;
@@ -255,7 +255,7 @@ pub enum SpaceKind {
     UnitCircle,
 }
 
-/// Evaluates an expression with `$space` standing for the type of a [`SpaceKind`].
+/// Evaluates an expression in which `$space` is the type of a [`SpaceKind`].
 macro_rules! in_space {
     ($kind:expr, $space:ident => $body:expr) => {
         match $kind {
@@ -274,12 +274,12 @@ macro_rules! in_space {
 pub(crate) use in_space;
 
 impl SpaceKind {
-    /// Coordinates of a body.
+    /// Number of coordinates of a body.
     pub(crate) fn n_q(self) -> usize {
         in_space!(self, S => S::N_Q)
     }
 
-    /// Places of the coordinates of a body in q.
+    /// Indices of the coordinates of a body in q.
     #[must_use]
     pub fn coordinates(self, body: usize) -> Range<usize> {
         let n = self.n_q();
@@ -320,7 +320,7 @@ impl SpaceKind {
         });
     }
 
-    /// The same as a vector; allocates.
+    /// Like [`Self::difference`], as a vector; allocates.
     #[must_use]
     pub fn difference_of(self, q: &[f64], from: &[f64]) -> Vec<f64> {
         let mut d = vec![0.0; N_BODY * (q.len() / self.n_q())];
@@ -328,8 +328,8 @@ impl SpaceKind {
         d
     }
 
-    /// The column of C along which two configurations differ most, and by how much: lengths as
-    /// share of `size`, angles in radians.
+    /// The column of C along which two configurations differ most, and the difference: lengths as a
+    /// fraction of `size`, angles in radians.
     #[must_use]
     pub fn largest_difference(self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let mut largest = (0, 0.0);
@@ -348,7 +348,7 @@ impl SpaceKind {
         largest
     }
 
-    /// Takes the freedoms of these columns of C over from another configuration, exactly.
+    /// Copies the freedoms of these columns of C from another configuration, exactly.
     pub fn take(self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         in_space!(self, S => {
             for column in columns {
@@ -358,8 +358,8 @@ impl SpaceKind {
         });
     }
 
-    /// The velocity of a column of C as a sum over q̇ at the configuration q: places in q̇ with
-    /// their coefficients, into `terms`.
+    /// Writes the velocity of a column of C as a sum over q̇ at the configuration q to `terms`:
+    /// indices of q̇ with their coefficients.
     pub fn read_velocity(self, q: &[f64], column: usize, terms: &mut Vec<(usize, f64)>) {
         let body = self.coordinates(column / N_BODY);
         let first = body.start;
@@ -371,8 +371,8 @@ impl SpaceKind {
         });
     }
 
-    /// Directions of q̇ in which no pose changes at the configuration q, of length one: places in
-    /// q̇ with their entries.
+    /// Unit directions of q̇ along which no pose changes at the configuration q: indices of q̇ with
+    /// their entries.
     #[must_use]
     pub fn normals(self, q: &[f64]) -> Vec<Vec<(usize, f64)>> {
         in_space!(self, S => {
@@ -386,8 +386,8 @@ impl SpaceKind {
         })
     }
 
-    /// Where a body is at coordinates q, in the direction of a column of C: a place (m) or an angle
-    /// (rad).
+    /// Position of a body at coordinates q in the direction of a column of C: a coordinate (m) or
+    /// an angle (rad).
     #[must_use]
     pub fn position(self, q: &[f64], column: usize) -> f64 {
         let q = &q[self.coordinates(column / N_BODY)];
@@ -398,7 +398,7 @@ impl SpaceKind {
     }
 }
 
-/// What motions along column `j` of C are measured by: lengths by `size`, angles by one radian.
+/// Unit of motions along column `j` of C: `size` for lengths, one radian for angles.
 #[must_use]
 pub fn unit(j: usize, size: f64) -> f64 {
     if j % N_BODY == 2 { 1.0 } else { size }

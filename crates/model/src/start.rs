@@ -1,8 +1,10 @@
-//! A consistent start: the configuration nearest to the described one, in the mass metric, that the
-//! constraints allow. Rows that keep an initial value do not restrict it: they hold at any start.
+//! A consistent start: the configuration closest to the described one, in the mass metric, that
+//! satisfies the constraints. Rows that store an initial value do not restrict it: they hold at any
+//! start.
 //!
-//! No rank is decided here: away from the constraints a redundant row is not yet redundant. The
-//! correction is the regularised least-squares step of `linalg`, repeated to rounding.
+//! No rank is decided here: at a configuration that violates the constraints, a redundant row is
+//! not yet redundant. The correction is the regularised least-squares step of `linalg`, repeated to
+//! rounding.
 
 mod blame;
 mod conflict;
@@ -32,31 +34,34 @@ pub use velocity::{StartVelocity, consistent_velocity};
 pub struct Assembly {
     /// Coordinates on the constraints.
     pub q: Vec<f64>,
-    /// How far it is from the described coordinates, n_v.
+    /// Displacement from the described coordinates, n_v.
     pub correction: Vec<f64>,
     /// Largest |Φ|.
     pub residual: f64,
-    /// Length by which positions are measured (m).
+    /// Size of the mechanism, the unit of positions (m).
     pub size: f64,
 }
 
-/// Rows that miss by less than this share of the worst one are not named.
+/// Rows with a residual below this fraction of the largest one are not named.
 const NAMED_MISFIT: f64 = 1e-2;
 
-/// Iterations of the assembly; each gains digits linearly with the size of the correction.
+/// Largest number of iterations of the assembly; convergence is linear, with a rate that depends on
+/// the size of the correction.
 const ITERATIONS: usize = 60;
 
 /// Finds a consistent configuration and takes the initial values of joints, drives and forces from
 /// it.
 ///
 /// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0; coordinates without mass or
-/// inertia weigh as the smallest one that has it, kept ones do not move.
+/// inertia have the weight of the smallest one with mass or inertia, and kept coordinates do not
+/// move.
 ///
 /// # Errors
-/// - [`StartError::NoAssembly`]: the constraints contradict each other or the start is too far off.
+/// - [`StartError::NoAssembly`]: the constraints contradict each other or the start is too far
+///   away.
 /// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
-/// - [`StartError::TooLarge`]: the correction takes a matrix beyond memory.
-/// - [`StartError::Requirement`]: a definition's requirement does not hold.
+/// - [`StartError::TooLarge`]: the correction needs a matrix that is too large for the memory.
+/// - [`StartError::Requirement`]: a requirement of a definition does not hold.
 /// - [`StartError::NoCoordinate`]: a coordinate that `options` keep does not exist.
 pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Assembly, StartError> {
     let (described, _) = mechanism.described_state();
@@ -79,7 +84,8 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     } else {
         q
     };
-    // What a definition asks of its numbers explains more than rows that miss because of them.
+    // A violated requirement of a definition explains more than the rows that are violated because
+    // of it.
     let q = q.map_err(|error| match unmet_requirement(mechanism, &described) {
         Some((name, requirement)) => StartError::Requirement { name, requirement },
         None => error,
@@ -103,21 +109,21 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     })
 }
 
-/// How it is measured which configuration is nearest.
+/// Metric that defines the closest configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
-    /// By masses and inertias, as a start is assembled.
+    /// Masses and inertias; used for the start.
     Mass,
-    /// By lengths, angles times the size of the mechanism: masses say nothing of where a mechanism
-    /// can be, and on the long arm of a light body the mass metric would rather turn it far than
-    /// move its heavy neighbour a little.
+    /// Lengths, with angles times the size of the mechanism. Masses do not determine where a
+    /// mechanism can be: with a light body of large size, the mass metric would rather rotate this
+    /// body far than move its heavy neighbour slightly.
     Length,
 }
 
-/// The configuration nearest to q on the given rows of Φ at time t; allocates.
+/// The configuration closest to q on the given rows of Φ at time t; allocates.
 ///
 /// # Errors
-/// - [`StartError::NoAssembly`]: there is none near q.
+/// - [`StartError::NoAssembly`]: there is no such configuration near q.
 pub fn nearest_configuration(
     mechanism: &Mechanism,
     t: f64,
@@ -154,7 +160,7 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
         .collect()
 }
 
-/// Inverse weights of the coordinates in the mass metric, zero for those that are kept.
+/// Inverse weights of the coordinates in the mass metric; zero for those that are kept.
 fn position_weights(
     mechanism: &Mechanism,
     options: &StartOptions,
@@ -168,8 +174,8 @@ fn position_weights(
 }
 
 /// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to
-/// rounding; if rows disagree, until the sum of squares of Φ is least, where that is `within` the
-/// tolerances that the scene states.
+/// rounding. If rows contradict each other, the sum of squares of Φ is minimised, and the result is
+/// accepted if it is `within` the stated tolerances.
 fn nearest(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -186,13 +192,14 @@ fn nearest(
         mechanism.phi(s);
         mechanism.c(s);
         let ratio = |r: usize| s.phi[r].abs() / mechanism.scales(s).position(r);
-        // A row without any term is satisfied or not a number.
+        // A row without terms is either satisfied or not a number.
         let misses = |r: usize| if s.phi[r] == 0.0 { 0.0 } else { ratio(r) };
         let (_, residual) = largest(rows.iter().map(|&r| (r, misses(r))));
         let tolerance = ROUNDINGS * f64::EPSILON;
         stalled = if residual < best { 0 } else { stalled + 1 };
         best = best.min(residual);
-        // Rounding may leave a little more than the tolerance: a stalled iteration near it is done.
+        // Rounding may leave slightly more than the tolerance: an iteration that stalls near it has
+        // converged.
         if residual <= tolerance || (stalled > 1 && residual <= ROUNDINGS * tolerance) {
             return Ok(q);
         }
@@ -217,7 +224,7 @@ fn nearest(
             .map(|(&r, m)| s.phi[r] + m)
             .collect();
         let mut step = least_squares_step(&c, &misfit, weights, DAMPING)?;
-        // The damping leaves a small misfit; one more step removes it where the rows agree.
+        // Damping leaves a small residual; one more step removes it if the rows agree.
         let left = c.times(&step);
         let misfit: Vec<f64> = misfit.iter().zip(&left).map(|(a, b)| a + b).collect();
         for (a, b) in step
@@ -231,8 +238,8 @@ fn nearest(
     unreachable!("the last iteration returns")
 }
 
-/// Rows that miss, the worst first. What a least-squares solution leaves is orthogonal to all
-/// motions, so these rows are the ones that cannot hold together.
+/// Violated rows, the worst first. The residual of a least-squares solution is orthogonal to all
+/// motions, so these rows contradict each other.
 fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<Misfit> {
     let worst = rows.iter().fold(0.0_f64, |a, &r| a.max(s.phi[r].abs()));
     let missing = |r: &&usize| {

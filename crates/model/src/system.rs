@@ -1,5 +1,5 @@
-//! What a solver sees of a mechanism: sizes, patterns and kernels on the caller's storage. No
-//! kernel allocates; each computes one thing, so that nobody pays for what he does not ask.
+//! The interface of a mechanism for solvers: sizes, patterns and kernels in storage of the caller.
+//! No kernel allocates; each computes one result, so that no unused result is computed.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::space::N_BODY;
 /// The equations of a mechanism.
 ///
 /// Order of calls at one instant: [`System::pose`]; then any of [`System::phi`], [`System::c`],
-/// [`System::b`]; [`System::twist`]; then [`System::gamma`] and [`System::force`]. Results stand in
+/// [`System::b`]; [`System::twist`]; then [`System::gamma`] and [`System::force`]. Results are in
 /// the [`Scratch`].
 pub trait System: Sync {
     /// Sizes, patterns and labels.
@@ -25,28 +25,28 @@ pub trait System: Sync {
     /// Storage for one evaluation at a time.
     fn scratch(&self) -> Scratch;
 
-    /// Takes time and coordinates: poses of bodies, values of functions of time.
+    /// Sets time and coordinates: evaluates poses of bodies and values of functions of time.
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch);
 
-    /// `s.phi`: Φ(q, t), m values.
+    /// Computes `s.phi`: Φ(q, t), m values.
     fn phi(&self, s: &mut Scratch);
 
-    /// `s.entries`: the entries of C.
+    /// Computes `s.entries`: the entries of C.
     fn c(&self, s: &mut Scratch);
 
-    /// `s.b`: b of C·v = b, m + h values.
+    /// Computes `s.b`: b of C·v = b, m + h values.
     fn b(&self, s: &mut Scratch);
 
-    /// Takes velocities.
+    /// Sets velocities.
     fn twist(&self, v: &[f64], s: &mut Scratch);
 
-    /// `s.gamma`: Γ of C·v̇ = Γ, m + h values.
+    /// Computes `s.gamma`: Γ of C·v̇ = Γ, m + h values.
     fn gamma(&self, s: &mut Scratch);
 
-    /// `s.force`: Q, n_v values.
+    /// Computes `s.force`: Q, n_v values.
     fn force(&self, s: &mut Scratch);
 
-    /// q̇ = T(q)·v.
+    /// Computes q̇ = T(q)·v.
     fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]);
 
     /// Moves the configuration q (n_q) by d (n_v): translations (m) and rotations (rad).
@@ -86,7 +86,7 @@ pub struct Layout {
     pub groups: Vec<ConstraintGroup>,
     /// One label for each row.
     pub labels: Vec<RowLabel>,
-    /// Times at which a function of time has a jump in a derivative, ascending.
+    /// Times at which a derivative of a function of time jumps, ascending.
     pub break_times: Vec<f64>,
     /// Whether a row depends on time explicitly.
     pub rheonomic: bool,
@@ -124,7 +124,7 @@ impl Layout {
         N_BODY * body..N_BODY * (body + 1)
     }
 
-    /// What each column of C belongs to, n_v entries.
+    /// Kind of velocity of each column of C, n_v entries.
     #[must_use]
     pub fn column_kinds(&self) -> Vec<ColumnKind> {
         let kind = |k| match k % N_BODY {
@@ -134,7 +134,7 @@ impl Layout {
         (0..self.n_v).map(kind).collect()
     }
 
-    /// Whether row `i` compares angles: no translation takes part in it.
+    /// Whether row `i` compares angles: it contains no translation.
     #[must_use]
     pub fn is_angular(&self, i: usize) -> bool {
         let columns = &self.pattern.column[self.pattern.row(i)];
@@ -181,32 +181,32 @@ impl Layout {
     }
 }
 
-/// Pattern of C by rows. Entries of one row stand at `start[i]..start[i + 1]`.
+/// Pattern of C by rows. The entries of row i have the indices `start[i]..start[i + 1]`.
 #[derive(Clone, Debug, Default)]
 pub struct Pattern {
-    /// Where each row starts; one more than rows.
+    /// Index of the first entry of each row; one more than rows.
     pub start: Vec<usize>,
     /// Column of each entry.
     pub column: Vec<usize>,
-    /// Place of each entry in [`Scratch::entries`].
+    /// Index of each entry in [`Scratch::entries`].
     pub entry: Vec<usize>,
 }
 
 impl Pattern {
-    /// Places of the entries of row `i`.
+    /// Indices of the entries of row `i`.
     pub(crate) fn row(&self, i: usize) -> Range<usize> {
         self.start[i]..self.start[i + 1]
     }
 }
 
-/// Name of a row: joint and row of the joint.
+/// Name of a row: the joint, and the row within the joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RowLabel {
     /// Number of the row, from 1.
     pub number: usize,
     /// Name of the joint or drive.
     pub joint: String,
-    /// Name of the row inside it.
+    /// Name of the row within the joint.
     pub row: &'static str,
 }
 
@@ -216,19 +216,20 @@ impl std::fmt::Display for RowLabel {
     }
 }
 
-/// Storage of one evaluation. Made by [`System::scratch`]; holds the results of the kernels, and
-/// serves the mechanism that made it: what is known from the last evaluation is not computed again.
+/// Storage of one evaluation, created by [`System::scratch`]. It holds the results of the kernels
+/// and belongs to the mechanism that created it: results of the last evaluation are not computed
+/// again.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// Time of the poses.
     pub t: f64,
     /// Pose of each body.
     pub poses: Vec<Pose>,
-    /// Angles of their sines and cosines; NaN at the beginning.
+    /// Angles for which sine and cosine were computed; NaN at the beginning.
     pub(crate) turned_to: Vec<f64>,
     /// Φ, m values.
     pub phi: Vec<f64>,
-    /// Entries of the blocks of C, constraint by constraint, ground columns included.
+    /// Entries of the blocks of C, constraint by constraint, including columns of the ground.
     pub entries: Vec<f64>,
     /// b, m + h values.
     pub b: Vec<f64>,
@@ -236,15 +237,15 @@ pub struct Scratch {
     pub gamma: Vec<f64>,
     /// Q, n_v values.
     pub force: Vec<f64>,
-    /// What the kernels of all elements take.
+    /// Arguments of the kernels of all elements.
     pub(crate) slots: Slots,
-    /// Time of the functions of time in it; NaN at the beginning.
+    /// Time at which its functions of time were evaluated; NaN at the beginning.
     pub(crate) jets_at: f64,
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,
 }
 
-/// What the kernels of all elements take, one after the other: constraints, then forces.
+/// Arguments of the kernels of all elements, one after the other: constraints, then forces.
 #[derive(Clone, Debug)]
 pub(crate) struct Slots {
     /// Poses of the bodies in their slots.
@@ -255,7 +256,7 @@ pub(crate) struct Slots {
     pub(crate) jets: Vec<[f64; 3]>,
 }
 
-/// Where an element is: its bodies, and its places in [`Slots`].
+/// Indices of an element: its bodies, and its ranges in [`Slots`].
 #[derive(Clone)]
 pub(crate) struct Site {
     pub(crate) bodies: Vec<BodyRef>,
@@ -284,7 +285,7 @@ impl Site {
         (self.x(all), self.v(all), self.f(all))
     }
 
-    /// Its bodies but the ground.
+    /// Its bodies except the ground.
     pub(crate) fn moving(&self) -> impl Iterator<Item = usize> + '_ {
         self.bodies.iter().filter_map(|b| b.moving())
     }

@@ -1,11 +1,10 @@
-//! What the numbers of a scene are known to, where somebody says so. Without that they are known to
-//! their rounding.
+//! The stated uncertainty of the numbers of a scene. Without a statement it is their rounding.
 //!
-//! Not here: what a tolerance means for a rank (`solvability`).
+//! The effect of a tolerance on a rank is computed in `solvability`.
 
 use std::fmt;
 
-/// What the numbers of a scene are known to, where nothing is said of their joint or body.
+/// The tolerances of a scene, valid unless one is stated for a joint or body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {
     /// Of points and lengths (m).
@@ -15,8 +14,8 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// That of angles in a mechanism of this size (m): the one stated, or the length tolerance
-    /// divided by the size. Returns `None` if neither is stated.
+    /// The tolerance of angles in a mechanism of this size (m): the stated one, or the length
+    /// tolerance divided by the size. Returns `None` if neither is stated.
     ///
     /// ```
     /// use model::Tolerance;
@@ -31,7 +30,7 @@ impl Tolerance {
             .or_else(|| self.length.map(|length| length / size))
     }
 
-    /// This one, and for what it does not state the other one.
+    /// These tolerances; values that are not stated are taken from `other`.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -47,7 +46,7 @@ impl Tolerance {
     }
 }
 
-/// Where a tolerance is stated.
+/// The item for which a tolerance is stated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Stated {
     /// For the whole scene.

@@ -1,6 +1,6 @@
-//! What the entries of C are known to. Data stand in `f64`, rounded: an entry that is made of terms
-//! of size one and is 1e-17 may as well be zero, one that is made of terms of size 1e-8 and is 1e-9
-//! means something.
+//! The uncertainty of the entries of C. Data are rounded to `f64`: an entry of 1e-17 that is a sum
+//! of terms of size one may be zero, while an entry of 1e-9 that is a sum of terms of size 1e-8 is
+//! significant.
 
 use std::ops::Range;
 
@@ -11,26 +11,27 @@ use crate::mechanism::{Mechanism, N_BODY, pose_of};
 use crate::scale::Scales;
 use crate::system::System;
 
-/// Relative error of the numbers of a scene, and of what is made of them: half a unit in the last
-/// place for each of eight roundings, which are reading of the number, the place of its body (two),
-/// its turn into the frame of the body (two), sine and cosine, and the evaluation of C (two).
+/// Relative error of the numbers of a scene and of values computed from them: half a unit in the
+/// last place for each of eight roundings, which are reading of the number, the position of its
+/// body (two), its rotation into the frame of the body (two), sine and cosine, and the evaluation
+/// of C (two).
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON / 2.0;
 
-/// An assembled start is closed to so many roundings.
+/// Number of roundings to which an assembled start satisfies the constraints.
 const CLOSED: f64 = 10.0;
 
-/// How well a configuration is known along the motions that the constraints leave free.
+/// Accuracy of a configuration along the motions that the constraints leave free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
-    /// As stored: it is the one that is meant.
+    /// Exactly as stored.
     AsStored,
-    /// To this share of a radian and of the lengths of the mechanism: what an integrator reached
-    /// with about this tolerance.
+    /// To this fraction of a radian and of the lengths of the mechanism: the result of an
+    /// integrator with about this tolerance.
     To(f64),
 }
 
 impl Known {
-    /// By how many radians bodies may be turned, beyond rounding.
+    /// Angle by which bodies may be rotated beyond rounding (rad).
     fn turned(self) -> f64 {
         match self {
             Self::AsStored => 0.0,
@@ -39,7 +40,7 @@ impl Known {
     }
 }
 
-/// Whether anything is stated of any number of a mechanism.
+/// Whether a tolerance is stated for any number of a mechanism.
 pub(crate) fn has_tolerances(mechanism: &Mechanism) -> bool {
     mechanism.tolerance().is_stated()
         || mechanism
@@ -54,16 +55,17 @@ pub(crate) fn has_tolerances(mechanism: &Mechanism) -> bool {
 }
 
 impl Scales<'_> {
-    /// How far each entry of C may be from that of the mechanism meant, (m+h) × n_v, in the units
-    /// of C; allocates.
+    /// Bound on the distance of each entry of C from that of the intended mechanism, (m+h) × n_v,
+    /// in the units of C; allocates.
     ///
-    /// A number is known to the relative error of the data times the size of the terms it adds up,
-    /// which its kernel on magnitudes gives, but never entry by entry: of a force and of the place
-    /// of a point all components are known equally well, whichever way the axes point, and no zero
-    /// is exact. A lever is known to the rounding of the longest arm of its body and of where its
-    /// bodies stand, and to what the constraints leave open, |Φ_i|: where a tolerance is stated no
-    /// more than rounding, for what contradicting rows miss within it is no fault of the entries.
-    /// `size` is that of the mechanism. Needs Φ and C at the pose of the scratch.
+    /// The uncertainty of a number is the relative error of the data times the size of the terms
+    /// that are added, which its kernel on magnitudes computes. It is never taken entry by entry:
+    /// all components of a force, or of the position of a point, have the same uncertainty,
+    /// whatever the direction of the axes, and no zero is exact. The uncertainty of a lever is the
+    /// rounding of the longest arm of its body and of the positions of its bodies, plus the
+    /// residual |Φ_i| of the constraints; if a tolerance is stated, plus rounding only, because
+    /// residuals of contradicting rows within the tolerance are not an error of the entries. `size`
+    /// is that of the mechanism. Needs Φ and C at the pose of the scratch.
     #[must_use]
     pub fn uncertainty(self, size: f64, known: Known) -> Matrix {
         let layout = self.mechanism.layout();
@@ -77,13 +79,14 @@ impl Scales<'_> {
         u
     }
 
-    /// The same for each entry of the pattern of C, in its order.
+    /// Like [`Self::uncertainty`], for each entry of the pattern of C, in its order.
     #[must_use]
     pub fn uncertainty_of_entries(self, size: f64, known: Known) -> Vec<f64> {
         let layout = self.mechanism.layout();
         let pattern = &layout.pattern;
         let magnitudes = self.magnitudes();
-        // How far bodies may be turned; a mechanism that stands far away is turned about itself.
+        // Angle by which bodies may be rotated; a mechanism far from the origin is rotated about
+        // itself.
         let has_tolerances = has_tolerances(self.mechanism);
         let opening = |i: usize| {
             let missed = self.s.phi.get(i).map_or(0.0, |phi| phi.abs());
@@ -98,7 +101,7 @@ impl Scales<'_> {
         let mut u = Vec::with_capacity(pattern.column.len());
         for i in 0..layout.rows() {
             let row = pattern.row(i);
-            // Forces on the bodies of the row, and how far they stand from the origin.
+            // Forces on the bodies of the row, and the distances of the bodies from the origin.
             let forces: Vec<(usize, f64, f64)> = self.forces_of_row(&magnitudes, row.clone());
             let places = |&(body, force, _): &(usize, f64, f64)| {
                 force * self.s.poses[body].x.hypot(self.s.poses[body].y)
@@ -111,8 +114,7 @@ impl Scales<'_> {
                 u.push(match dof {
                     2 => {
                         let lever = force * self.mechanism.reach(body);
-                        // A rotation that comes without a force, as that of a rolling wheel, has no
-                        // lever.
+                        // A rotation without a force, like that of a rolling wheel, has no lever.
                         let moved = if force > 0.0 || forces.is_empty() {
                             shift
                         } else {
@@ -129,8 +131,8 @@ impl Scales<'_> {
         u
     }
 
-    /// Of each body that this row of the pattern pushes: the body, the size of the force, and the
-    /// size of the terms that it is made of.
+    /// For each body on which this row of the pattern exerts a force: the body, the size of the
+    /// force, and the size of the terms that are added in it.
     fn forces_of_row(self, magnitudes: &[Magnitude], row: Range<usize>) -> Vec<(usize, f64, f64)> {
         let pattern = &self.mechanism.layout().pattern;
         let mut forces: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
@@ -180,8 +182,8 @@ impl Scales<'_> {
     }
 }
 
-/// Sizes of what a pose contributes to a polynomial; cosine and sine are known to the rounding of
-/// their angle.
+/// Sizes of the contributions of a pose to a polynomial; cosine and sine are accurate to the
+/// rounding of their angle.
 fn magnitude(pose: &Pose) -> Pose<Magnitude> {
     let turned = Magnitude::from(pose.angle.abs().max(1.0));
     Pose {

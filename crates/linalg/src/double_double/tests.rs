@@ -76,8 +76,8 @@ proptest! {
 }
 
 /// √2 = 1.41421356237309504880168872420969807856967187537694807317668…; the digits are compared by
-/// squaring the truncated integer root, so no constant of this file is trusted: 2·10³⁰ lies between
-/// the squares of two neighbouring integers.
+/// squaring the truncated integer root, so the test does not rely on a constant in this file:
+/// 2·10³⁰ lies between the squares of two neighbouring integers.
 #[test]
 fn root_of_two_to_thirty_digits() {
     let root: i128 = 1_414_213_562_373_095;

@@ -1,8 +1,8 @@
 //! Sine and cosine in double-double, for poses at which a rank is certified.
 //!
-//! The argument is reduced by multiples of π/2 held to 159 bits and halved three times; what is
-//! left is below 0.1 and its Taylor series ends. Doubling the angle works on `1 − cos`, which does
-//! not cancel.
+//! The argument is reduced by multiples of π/2 stored with 159 bits and halved three times; the
+//! remainder is below 0.1, so that its Taylor series converges fast. Doubling the angle uses
+//! `1 − cos`, which does not cancel.
 
 use super::Dd;
 
@@ -13,23 +13,23 @@ const HALF_PI: [f64; 3] = [
     -1.497_384_904_859_169_8e-33,
 ];
 
-/// The reduced argument is halved so often.
+/// Number of halvings of the reduced argument.
 const HALVINGS: i32 = 3;
 
 /// Terms of each series: 0.1³⁸ / 38! is far below the rounding of the format.
 const TERMS: u32 = 11;
 
-/// Above it the multiple of π/2 is no longer exact in the reduction, and the result is that of
+/// Above this argument the multiple of π/2 is not exact in the reduction, and the result is that of
 /// `f64`.
 const LARGEST: f64 = 1e15;
 
 impl Dd {
-    /// Sine and cosine. Absolute error below 10⁻³¹·(1 + |x|), the rounding of the argument; that of
-    /// `f64` above 10¹⁵. NaN for what is not finite.
+    /// Sine and cosine. The absolute error is below 10⁻³¹·(1 + |x|), the rounding of the argument;
+    /// above 10¹⁵ it is that of `f64`. NaN if the argument is not finite.
     ///
     /// ```
     /// use linalg::Dd;
-    /// // 3-4-5: the angle is not a number of the format, its cosine and sine still lie on the circle.
+    /// // 3-4-5: the angle cannot be represented exactly, but cosine and sine are on the circle to rounding.
     /// let (s, c) = Dd::from(0.6f64.acos()).sin_cos();
     /// assert!((s * s + c * c - Dd::ONE).abs() < Dd::from(1e-31));
     /// assert_eq!(c.to_f64(), 0.6);
@@ -99,7 +99,7 @@ mod tests {
         close(c, Dd::from(0.5).sqrt());
     }
 
-    /// Addition theorem across quadrants, for arguments up to thousands of turns.
+    /// Addition theorem across quadrants, for arguments up to thousands of revolutions.
     #[test]
     fn addition_theorem() {
         for k in -40..40 {

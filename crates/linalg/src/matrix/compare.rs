@@ -1,5 +1,5 @@
-//! Comparison of matrices up to rounding through `approx`: shapes must agree, entries nearly. For
-//! tests.
+//! Comparison of matrices up to rounding with `approx`: shapes must be equal, entries nearly equal.
+//! For tests.
 
 use approx::{AbsDiffEq, RelativeEq};
 

@@ -1,5 +1,5 @@
-//! What the factors are used for: products with Q and Qᵀ, explicit columns of Q, and triangular
-//! solves with leading blocks of R.
+//! Uses of the factors: products with Q and Qᵀ, explicit columns of Q, and triangular solves with
+//! leading blocks of R.
 
 use super::{PivotedQr, factor};
 use crate::{Matrix, kernels};
@@ -8,7 +8,7 @@ impl PivotedQr {
     /// `x ← Q·x`.
     ///
     /// # Panics
-    /// If `x` is not of length [`PivotedQr::dimension`].
+    /// If the length of `x` is not [`PivotedQr::dimension`].
     pub fn q_mul(&self, x: &mut [f64]) {
         self.assert_dimension(x);
         for k in (0..self.steps()).rev() {
@@ -19,7 +19,7 @@ impl PivotedQr {
     /// `x ← Qᵀ·x`.
     ///
     /// # Panics
-    /// If `x` is not of length [`PivotedQr::dimension`].
+    /// If the length of `x` is not [`PivotedQr::dimension`].
     pub fn q_transpose_mul(&self, x: &mut [f64]) {
         self.assert_dimension(x);
         for k in 0..self.steps() {

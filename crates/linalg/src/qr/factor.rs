@@ -13,7 +13,7 @@ struct Length {
     exact: f64,
 }
 
-/// Factors completely; the rows of `a` are the columns that are pivoted.
+/// Factors the whole matrix; the rows of `a` are the columns that are pivoted.
 pub(super) fn factor(mut a: Matrix) -> PivotedQr {
     let (m, steps) = (a.nrows(), a.nrows().min(a.ncols()));
     let (mut tau, mut permutation) = (vec![0.0; steps], Vec::from_iter(0..m));
@@ -42,7 +42,7 @@ pub(super) fn factor(mut a: Matrix) -> PivotedQr {
     }
 }
 
-/// First index from `k` on with the largest length, so that ties do not reorder.
+/// First index from `k` on with the largest length, so that equal lengths are not reordered.
 fn longest(lengths: &[Length], k: usize) -> usize {
     let mut best = k;
     for j in k + 1..lengths.len() {

@@ -1,4 +1,4 @@
-//! Factors against products of known matrices; pivots against norms.
+//! Factors compared with products of known matrices; pivots compared with norms.
 use proptest::prelude::*;
 
 use super::*;
@@ -14,7 +14,7 @@ fn any_matrix() -> impl Strategy<Value = Matrix> {
 }
 
 /// Kahan's matrix; the columns shrink by 1e-12 each, so that pivoting keeps their order in spite of
-/// rounding (they are all tied in exact arithmetic).
+/// rounding (they are all equal in exact arithmetic).
 fn kahan(n: usize, angle: f64) -> Matrix {
     let (s, c) = angle.sin_cos();
     Matrix::from_fn(n, n, |i, j| {
@@ -83,7 +83,7 @@ fn zero_and_empty_matrices() {
     }
 }
 
-/// Known defect of pivoted QR, and the reason why ranks are read from singular values: on Kahan's
+/// Known defect of pivoted QR, and the reason why ranks are decided by singular values: on Kahan's
 /// matrix the last pivot is far above the smallest singular value.
 #[test]
 fn last_pivot_of_kahan_hides_the_smallest_singular_value() {
@@ -98,7 +98,7 @@ fn last_pivot_of_kahan_hides_the_smallest_singular_value() {
 
 #[test]
 fn graded_columns_downdate_safely() {
-    // Columns that agree in all but their last digits: plain downdating would return noise.
+    // Columns that agree in all but their last digits: plain downdating would give only noise.
     let c = Matrix::from_fn(6, 8, |i, j| {
         1.0 + if j == i + 1 {
             1e-9 * (i + 1) as f64

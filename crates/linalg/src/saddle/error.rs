@@ -1,17 +1,17 @@
-//! Why saddle equations are not solved, and the checks of their arguments.
+//! Reasons why saddle equations are not solved, and the checks of their arguments.
 
 use crate::kernels::all_finite;
 
-/// Why the saddle equations have no (unique) solution.
+/// Reason why the saddle equations have no (unique) solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SaddleError {
-    /// More rows than coordinates cannot be independent.
+    /// There are more rows than coordinates, so they cannot be independent.
     #[error("{r} independent rows in {n} coordinates are impossible: keep at most {n}")]
     TooManyRows {
-        /// Coordinates.
+        /// Number of coordinates.
         n: usize,
-        /// Rows.
+        /// Number of rows.
         r: usize,
     },
     /// An argument has the wrong length.
@@ -24,22 +24,22 @@ pub enum SaddleError {
         /// The length it must have.
         expected: usize,
     },
-    /// A column that there is not.
+    /// A column does not exist.
     #[error("row {row} has an entry in column {column}, need columns below {n}")]
     Column {
         /// Number of the row.
         row: usize,
         /// The column.
         column: usize,
-        /// Coordinates.
+        /// Number of coordinates.
         n: usize,
     },
-    /// Coordinates that cannot be solved for.
+    /// These coordinates cannot be solved for.
     #[error("coordinate {coordinate} cannot be solved for: need different coordinates below {n}")]
     Partition {
         /// The coordinate.
         coordinate: usize,
-        /// Coordinates.
+        /// Number of coordinates.
         n: usize,
     },
     /// A NaN or infinite entry.
@@ -47,7 +47,7 @@ pub enum SaddleError {
     NonFinite {
         /// Name of the argument.
         argument: &'static str,
-        /// Entry; for the rows of C the index in row-major order.
+        /// Index of the entry; for the rows of C in row-major order.
         index: usize,
         /// Its value.
         value: f64,
@@ -55,27 +55,27 @@ pub enum SaddleError {
     /// A negative mass.
     #[error("mass {index} is {value:.3e}, need a number that is not negative")]
     NegativeMass {
-        /// Coordinate.
+        /// Index of the coordinate.
         index: usize,
         /// Its mass.
         value: f64,
     },
-    /// A coordinate without mass, where every one needs some.
+    /// A coordinate has no mass, but the solver needs one for every coordinate.
     #[error(
         "mass {index} is {value:.3e}: the solver of large mechanisms needs mass and inertia for every coordinate; give it some"
     )]
     ZeroMass {
-        /// Coordinate.
+        /// Index of the coordinate.
         index: usize,
         /// Its mass.
         value: f64,
     },
-    /// What only the dense solver can do.
+    /// Only the dense solver supports this.
     #[error(
         "{rows} rows are solved sparsely, without independent coordinates: take an explicit method on kept rows, with projection"
     )]
     Large {
-        /// Rows.
+        /// Number of rows.
         rows: usize,
     },
     /// A kept row depends on the rows before it.
@@ -86,20 +86,20 @@ pub enum SaddleError {
     RankLost {
         /// Number of the kept row.
         row: usize,
-        /// Largest entry left of it.
+        /// Its largest remaining entry.
         pivot: f64,
-        /// Largest entry of it before elimination.
+        /// Its largest entry before elimination.
         scale: f64,
     },
-    /// A motion that the constraints allow moves no mass.
+    /// The constraints allow a motion without mass.
     #[error(
         "the mass is not positive definite on the allowed motions: reduced mass {reduced:.3e} of \
          {size:.3e}; give mass or inertia to what moves along the massless motion {motion:?}"
     )]
     MasslessMotion {
-        /// What is left of the reduced mass.
+        /// The remaining reduced mass.
         reduced: f64,
-        /// The size that it must be compared with.
+        /// The size with which it is compared.
         size: f64,
         /// The motion, largest entry 1.
         motion: Vec<f64>,
@@ -110,9 +110,9 @@ pub enum SaddleError {
          the equations are singular to working precision"
     )]
     Unrefined {
-        /// Rounds made.
+        /// Number of rounds.
         rounds: usize,
-        /// Largest change of the last one, relative to the size of what changed.
+        /// Largest change in the last round, relative to the size of the changed quantity.
         change: f64,
     },
     /// `solve` without a successful `factor`.

@@ -7,15 +7,15 @@ use crate::kernels::extremes;
 use crate::limits::{GRADED_BESIDE_MASSLESS, GRADED_MASSES, PIVOT_FLOOR};
 
 impl KeptRowSaddle {
-    /// Factors for the kept rows of C and the masses.
+    /// Computes the factors for the kept rows of C and the masses.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
     /// | `row` | r calls, each n | `row(k)` is the k-th kept row of C |
     /// | `mass` | n | diagonal of M, entries ≥ 0 |
     ///
-    /// Cost about n·r² + k·r²/2 + k²·r/2 multiplications; allocates nothing unless it fails.
-    /// After an error the solver holds no factorisation.
+    /// Costs about n·r² + k·r²/2 + k²·r/2 multiplications; does not allocate unless it fails. After
+    /// an error the solver has no factorisation.
     ///
     /// # Errors
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
@@ -44,9 +44,9 @@ impl KeptRowSaddle {
         self.finish(row, mass)
     }
 
-    /// As [`KeptRowSaddle::factor`], but a row whose pivot is at most `floor` of its largest entry
-    /// is left out: where rows are dependent for an instant, the others determine the solution. The
-    /// multiplier of a row left out is zero, and its equation does not hold.
+    /// Like [`KeptRowSaddle::factor`], but skips rows whose pivot is at most `floor` of their
+    /// largest entry: if rows are dependent for an instant, the others determine the solution. The
+    /// multiplier of a skipped row is zero, and its equation does not hold.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;

@@ -1,9 +1,9 @@
-//! Which entries of L and U can be other than zero, for rows whose columns are known and an order
-//! in which coordinates are solved for.
+//! The entries of L and U that may be non-zero, for rows with known columns and a given order of
+//! the coordinates that are solved for.
 //!
-//! Elimination in that order visits these entries only, and skips nothing but products with zero:
-//! its results are those of visiting all. Where rows turn to other coordinates the lists say
-//! nothing; then all entries are visited.
+//! Elimination in that order visits these entries only and omits only products with zero, so its
+//! results are the same as with all entries. If a row is solved for another coordinate, the lists
+//! are not valid, and all entries are visited.
 
 /// Lists of indices, those of list k at `start[k]..start[k + 1]`.
 #[derive(Debug, Clone)]
@@ -54,7 +54,7 @@ impl<'a> FromIterator<&'a Vec<usize>> for Lists {
 /// Entries of the rows of `lu`, by position.
 #[derive(Debug, Clone)]
 pub(super) struct Fill {
-    /// Row j: the rows k < j that it is eliminated with, ascending.
+    /// Row j: the rows k < j with which it is eliminated, ascending.
     pub(super) upper: Lists,
     /// Row j: positions above j, ascending.
     pub(super) lower: Lists,
@@ -76,7 +76,7 @@ impl Fill {
         fill
     }
 
-    /// The same for another order; allocates nothing.
+    /// Changes to another order; does not allocate.
     pub(super) fn follow(&mut self, columns: &Lists, order: &[usize]) {
         let Self {
             upper,
@@ -166,10 +166,10 @@ mod tests {
         let of = |lists: &Lists| -> Vec<Vec<usize>> {
             (0..lists.len()).map(|k| lists.of(k).to_vec()).collect()
         };
-        // Row 2 takes up column 1 from row 0, and with it column 2 from row 1.
+        // Row 2 gets column 1 from row 0, and with it column 2 from row 1.
         assert_eq!(of(&fill.upper), [vec![], vec![], vec![0, 1]]);
         assert_eq!(of(&fill.lower), [vec![1], vec![2], vec![3]]);
-        // Solved for its own column, the last row meets no other.
+        // Solved for its own column, the last row has no column in common with others.
         let fill = Fill::new(&columns.iter().collect(), &[1, 2, 3, 0]);
         assert_eq!(of(&fill.upper), [vec![], vec![0], vec![]]);
         assert_eq!(of(&fill.lower), [vec![3], vec![3], vec![3]]);

@@ -1,5 +1,5 @@
 //! The motions that the rows leave free: a basis N of their null space and the reduced mass
-//! `Nᵀ·M·N`, factored by Cholesky without roots.
+//! `Nᵀ·M·N`, with a Cholesky factorisation without square roots.
 
 use super::error::SaddleError;
 use super::lu::TallLu;
@@ -14,14 +14,15 @@ pub(super) struct FreeMotions {
     pub(super) mass: Vec<f64>,
     /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
     reduced_mass: Vec<f64>,
-    /// Smallest share of a diagonal entry of NᵀMN that its elimination left, infinite for k = 0.
+    /// Smallest fraction of a diagonal entry of NᵀMN that remained after elimination, infinite for
+    /// k = 0.
     pub(super) mass_ratio: f64,
 }
 
 impl FreeMotions {
-    /// Storage for n coordinates and at most so many rows.
+    /// Allocates storage for n coordinates and at most this number of rows.
     pub(super) fn new(n: usize, rows: usize) -> Self {
-        // Left out, rows become free motions: the largest k·r.
+        // Skipped rows become free motions; this is the largest k·r.
         let most = (0..=rows).map(|r| (n - r) * r).max().unwrap_or(0);
         Self {
             basis: vec![0.0; most],
@@ -73,8 +74,8 @@ impl FreeMotions {
         let (n, r) = (lu.n, lu.r);
         let k = n - r;
         let heaviest = max_abs(&self.mass);
-        // What cancels in NᵀMN, and what rounding of N, which has no rounding in the free
-        // coordinates, turns from zero into mass.
+        // Relative rounding due to cancellation in NᵀMN, and to rounding of N, which is exact in
+        // the free coordinates and may change a zero into a mass.
         let cancelled = k as f64 * f64::EPSILON;
         let spurious = (n as f64 * f64::EPSILON).powi(2) * max_abs(&self.mass[..r]);
         self.mass_ratio = f64::INFINITY;
@@ -93,7 +94,7 @@ impl FreeMotions {
             }
             l_i[i] += self.mass[r + i];
             let size = l_i[i];
-            // First v_j = l_ij·d_j, then l_ij: L has a unit diagonal, d sits in its place.
+            // First v_j = l_ij·d_j, then l_ij: L has a unit diagonal, and d is stored in its place.
             for j in 0..i {
                 l_i[j] -= dot(&l_i[..j], &above[j * k..j * k + j]);
             }
@@ -106,7 +107,8 @@ impl FreeMotions {
             let floor =
                 |share: f64| (cancelled * size).max(spurious * (share * share + dot(y_i, y_i)));
             let is_lost = reduced <= floor(1.0) && {
-                // What a coordinate has in the rows, rounding of its null vector is relative to.
+                // Rounding of a null vector is relative to the entries of its coordinate in the
+                // rows.
                 let rows = lu.used().iter().map(|&j| row(j));
                 let share = |c: &[f64]| c[lu.permutation[r + i]].abs() / max_abs(c);
                 reduced <= floor(rows.map(share).fold(0.0, f64::max))
@@ -124,7 +126,7 @@ impl FreeMotions {
         Ok(())
     }
 
-    /// The motion `N·z` with `z = [−L₁₁⁻ᵀ·l_i; 1; 0]` that the failed pivot i stands for.
+    /// The motion `N·z` with `z = [−L₁₁⁻ᵀ·l_i; 1; 0]` that belongs to the failed pivot i.
     fn massless_motion(&self, lu: &TallLu, i: usize) -> Vec<f64> {
         let (n, r) = (lu.n, lu.r);
         let k = n - r;

@@ -10,29 +10,29 @@ use crate::limits::CANDIDATE;
 #[derive(Debug, Clone)]
 pub(super) struct TallLu {
     pub(super) n: usize,
-    /// Rows in use: all of them, but where some were left out.
+    /// Number of rows in use: all rows without the skipped ones.
     pub(super) r: usize,
-    /// The row of C behind each row in use, ascending.
+    /// The row of C for each row in use, ascending.
     used: Vec<usize>,
     /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
     factors: Vec<f64>,
-    /// 1/U_jj of each row in use: a product costs less than a quotient.
+    /// 1/U_jj of each row in use: a product is cheaper than a quotient.
     inverse: Vec<f64>,
     /// Position i of P·x is coordinate `permutation[i]`, coordinate j is at `place[j]`.
     pub(super) permutation: Vec<usize>,
     place: Vec<usize>,
-    /// sign(P)
+    /// Sign of P.
     parity: f64,
-    /// Whether each row was solved for the coordinate that the order has for it.
+    /// Whether each row was solved for the coordinate that the order assigns to it.
     is_in_order: bool,
-    /// Smallest `|pivot| / largest entry of its row`, rows left out included.
+    /// Smallest `|pivot| / largest entry of its row`, including skipped rows.
     pub(super) pivot_ratio: f64,
 }
 
-/// What became of a row.
+/// Result of the elimination of a row.
 pub(super) enum Elimination {
     Used,
-    /// It depends on the rows before: its largest entry left, and the largest at first.
+    /// It depends on the rows before: its largest remaining entry, and its largest entry at first.
     Dependent {
         pivot: f64,
         scale: f64,
@@ -55,7 +55,7 @@ impl TallLu {
         }
     }
 
-    /// Forgets all rows; coordinates are taken up in this order.
+    /// Removes all rows; coordinates are used in this order.
     pub(super) fn begin(&mut self, order: &Order) {
         self.permutation.copy_from_slice(&order.coordinates);
         for (i, &coordinate) in order.coordinates.iter().enumerate() {
@@ -77,8 +77,8 @@ impl TallLu {
         &self.factors[j * self.n..(j + 1) * self.n]
     }
 
-    /// The next column of U and of L from a row of C: gather, eliminate with the rows before,
-    /// pivot. `graded` holds the masses if they decide which coordinate is solved for.
+    /// Computes the next column of U and of L from a row of C: gather, eliminate with the rows
+    /// before, pivot. `graded` contains the masses if they affect which coordinate is solved for.
     pub(super) fn eliminate(
         &mut self,
         order: &Order,
@@ -102,7 +102,7 @@ impl TallLu {
         if zero != 0.0 {
             check_finite("C", c_j, row * n)?;
         }
-        // As long as rows are solved for the coordinates of the order, their entries are those of
+        // As long as rows are solved for the coordinates of the order, their entries are those in
         // the lists.
         let below = if row == j && self.is_in_order {
             for &k in order.fill.upper.of(j) {
@@ -184,7 +184,7 @@ impl TallLu {
         Ok(Elimination::Used)
     }
 
-    /// y₁ such that `C·a = γ` with the y₂ that is there: `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
+    /// Computes y₁ such that `C·a = γ` with the given y₂: `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
     pub(super) fn determine(&self, gamma: &[f64], y: &mut [f64]) {
         let rows = self.factors[..self.r * self.n].chunks_exact(self.n.max(1));
         let rows = rows.enumerate();

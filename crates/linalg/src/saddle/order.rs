@@ -1,5 +1,5 @@
-//! The order in which a factorisation takes coordinates up, and what elimination in that order
-//! leaves of the zeros of C.
+//! The order in which a factorisation uses coordinates, and the entries that may be non-zero in
+//! that order.
 
 use super::fill::{Fill, Lists};
 
@@ -8,17 +8,17 @@ use super::fill::{Fill, Lists};
 pub(super) struct Order {
     /// The columns outside which each row of C is zero.
     pub(super) columns: Lists,
-    /// What elimination in this order leaves of that.
+    /// Entries that may be non-zero after elimination in this order.
     pub(super) fill: Fill,
     pub(super) coordinates: Vec<usize>,
-    /// How many of them, the first ones, may be solved for.
+    /// Number of coordinates, the first ones, that may be solved for.
     pub(super) solvable: usize,
     /// +1 for an even permutation, −1 for an odd one.
     pub(super) parity: f64,
 }
 
 impl Order {
-    /// That of the numbers of the coordinates.
+    /// The order of the numbers of the coordinates.
     pub(super) fn new(n: usize, columns: &[Vec<usize>]) -> Self {
         let columns = Lists::from_iter(columns);
         let coordinates = Vec::from_iter(0..n);
@@ -31,7 +31,7 @@ impl Order {
         }
     }
 
-    /// The same rows in another order; allocates nothing if `coordinates` does not.
+    /// Changes to another order of the same rows; does not allocate if `coordinates` does not.
     pub(super) fn change(&mut self, coordinates: impl Iterator<Item = usize>, solvable: usize) {
         self.coordinates.clear();
         self.coordinates.extend(coordinates);

@@ -1,5 +1,6 @@
-//! On which side of a singular configuration? The determinant of C bordered by a fixed frame of its
-//! null space changes its sign where the rows lose their rank once, also if no step ends there.
+//! Distinguishes the two sides of a singular configuration: the determinant of C bordered by a
+//! fixed basis of its null space changes its sign if the rows lose their rank by one, even if no
+//! step ends there.
 
 use super::KeptRowSaddle;
 use crate::lu::Determinant;
@@ -9,7 +10,7 @@ impl KeptRowSaddle {
     /// other.
     ///
     /// # Panics
-    /// If `frame` has not k·n entries.
+    /// If the length of `frame` is not k·n.
     pub fn null_frame(&self, frame: &mut [f64]) {
         let (n, r) = (self.lu.n, self.lu.r);
         assert_eq!(
@@ -28,14 +29,14 @@ impl KeptRowSaddle {
         }
     }
 
-    /// The determinant of `[Cᵀ B]` for k vectors B, one after the other.
+    /// The determinant of `[Cᵀ B]` for k vectors B, stored one after the other.
     ///
     /// With `P·Cᵀ = L·U` and the null space basis N it is `sign(P)·Π u_jj·det(Nᵀ·B)`.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;
     /// let determinant = |angle: f64| -> Result<f64, linalg::SaddleError> {
-    ///     // The row turns; the frame stays the x-axis. They are parallel at angle 0.
+    /// // The row rotates; the frame stays the x-axis. They are parallel at angle 0.
     ///     let c = [angle.cos(), angle.sin()];
     ///     let mut saddle = KeptRowSaddle::new(2, 1)?;
     ///     saddle.factor(|_| &c, &[1.0, 1.0])?;
@@ -47,7 +48,7 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Panics
-    /// If `frame` has not k·n entries.
+    /// If the length of `frame` is not k·n.
     pub fn bordered(&mut self, frame: &[f64]) -> Determinant {
         let (n, r) = (self.lu.n, self.lu.r);
         let k = n - r;
@@ -71,11 +72,11 @@ impl KeptRowSaddle {
         }
     }
 
-    /// The sign of [`KeptRowSaddle::bordered`]: +1, −1, or 0 if the vectors border nothing. Compare
-    /// values for one B and neighbouring C only.
+    /// The sign of [`KeptRowSaddle::bordered`]: +1, −1, or 0 if the determinant vanishes. Compare
+    /// only values for the same B and neighbouring C.
     ///
     /// # Panics
-    /// If `frame` has not k·n entries.
+    /// If the length of `frame` is not k·n.
     pub fn orientation(&mut self, frame: &[f64]) -> f64 {
         self.bordered(frame).sign
     }

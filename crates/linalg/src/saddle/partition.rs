@@ -1,7 +1,7 @@
 //! A partition of the coordinates into dependent and free ones that stays the same from
-//! factorisation to factorisation. Without it every factorisation chooses its own, which is safer
-//! and gives the same solutions; with it the free coordinates are coordinates of a manifold, and
-//! the rows determine the others.
+//! factorisation to factorisation. Without it every factorisation chooses its own partition, which
+//! is safer and gives the same solutions. With it the free coordinates are coordinates of a
+//! manifold, and the rows determine the others.
 
 use super::KeptRowSaddle;
 use super::error::{SaddleError, check_finite, check_length};
@@ -9,12 +9,12 @@ use super::error::{SaddleError, check_finite, check_length};
 impl KeptRowSaddle {
     /// From the next factorisation on, solves for these coordinates: one for each row, in any
     /// order. Choose them well, for instance as the first columns of a
-    /// [`PivotedQr`](crate::PivotedQr) of the rows; [`KeptRowSaddle::pivot_ratio`] tells when they
-    /// have become a bad choice.
+    /// [`PivotedQr`](crate::PivotedQr) of the rows; [`KeptRowSaddle::pivot_ratio`] shows when they
+    /// are no longer a good choice.
     ///
     /// # Errors
-    /// [`SaddleError::Length`], [`SaddleError::Partition`]: not r different coordinates; nothing is
-    /// changed.
+    /// [`SaddleError::Length`], [`SaddleError::Partition`]: the argument does not contain r
+    /// different coordinates; nothing is changed.
     pub fn partition(&mut self, dependent: &[usize]) -> Result<(), SaddleError> {
         check_length("dependent", dependent, self.rows)?;
         let mut is_dependent = vec![false; self.lu.n];
@@ -35,28 +35,28 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// The coordinates that the last factorisation solved for, one for each row in use: with graded
-    /// masses the light ones.
+    /// The coordinates for which the last factorisation solved, one for each row in use; with
+    /// graded masses the light ones.
     pub fn solved_for(&self) -> &[usize] {
         &self.lu.permutation[..self.lu.r]
     }
 
-    /// From the next factorisation on, takes coordinates up in the order of the last one. Each
-    /// still solves for the largest entries, but where these are the same, or as large, nothing has
-    /// to be moved.
+    /// From the next factorisation on, uses coordinates in the order of the last one. Each
+    /// factorisation still solves for the largest entries, but if these are the same, nothing has
+    /// to be exchanged.
     pub fn keep_order(&mut self) {
         let solvable = self.order.solvable;
         let order = self.lu.permutation.iter().copied();
         self.order.change(order, solvable);
     }
 
-    /// From the next factorisation on, each one chooses for itself what it solves for.
+    /// From the next factorisation on, each one chooses its own coordinates.
     pub fn forget_partition(&mut self) {
         self.order.change(0..self.lu.n, self.lu.n);
     }
 
-    /// Overwrites the dependent entries of `x` so that `C·x = γ`, and leaves the free ones alone.
-    /// Needs no masses; allocates nothing.
+    /// Overwrites the dependent entries of `x` so that `C·x = γ`, and does not change the free
+    /// ones. Needs no masses; does not allocate.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;

@@ -1,9 +1,9 @@
-//! Iterative refinement: what a factorisation in double precision leaves of the equations is
-//! computed in double-double and solved for again, until the solution, which is double-double too,
+//! Iterative refinement: the residual of the equations after a factorisation in double precision is
+//! computed in double-double and solved for again, until the solution, which is also double-double,
 //! has all digits of an `f64`.
 //!
 //! One round multiplies the error by about that of the factorisation, so one or two are enough. The
-//! solution is that of C, M, f and γ as they are given; rounding that is in these stays. Source: N.
+//! solution is that of C, M, f and γ as they are given; rounding errors in these remain. Source: N.
 //! J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, chapter 12; the extended
 //! iterate after J. Demmel et al., Error bounds from extra-precise iterative refinement, ACM TOMS
 //! 32 (2006) 325–351.
@@ -19,9 +19,9 @@ use crate::limits::{REFINEMENT_NOISE, REFINEMENT_ROUNDS, SETTLED};
 pub struct Refinement {
     a: Unknowns,
     lambda: Unknowns,
-    /// f − M·a − Cᵀ·λ
+    /// Residual f − M·a − Cᵀ·λ.
     force: Vec<Dd>,
-    /// The same and γ − C·a, rounded.
+    /// This residual and γ − C·a, rounded.
     f: Vec<f64>,
     gamma: Vec<f64>,
 }
@@ -30,13 +30,13 @@ pub struct Refinement {
 #[derive(Debug, Clone)]
 struct Unknowns {
     x: Vec<Dd>,
-    /// What a round adds.
+    /// Change in a round.
     change: Vec<f64>,
-    /// Size of what the round before added.
+    /// Size of the change in the round before.
     before: Vec<f64>,
-    /// Sizes that changes are compared with: the largest of each.
+    /// Sizes relative to which changes are measured: the largest value of each unknown.
     size: Vec<f64>,
-    /// Size of changes that are rounding.
+    /// Changes of this size are rounding.
     noise: f64,
 }
 
@@ -60,8 +60,8 @@ impl Unknowns {
         self.add();
     }
 
-    /// Adds the change; returns the largest share of a size that it is, or NaN. An unknown that is
-    /// zero but for rounding has the size of its rounding.
+    /// Adds the change; returns the largest change relative to the size of the unknown, or NaN. An
+    /// unknown that is zero except for rounding has the size of its rounding.
     fn add(&mut self) -> f64 {
         let mut largest = 0.0;
         for (i, change) in self.change.iter().enumerate() {
@@ -85,7 +85,7 @@ impl Unknowns {
 }
 
 impl Refinement {
-    /// Storage for n coordinates and r rows.
+    /// Allocates storage for n coordinates and r rows.
     pub fn new(n: usize, r: usize) -> Self {
         Self {
             a: Unknowns::new(n),
@@ -98,8 +98,8 @@ impl Refinement {
 }
 
 impl KeptRowSaddle {
-    /// As [`KeptRowSaddle::solve`], with all digits of the equations as they are given; allocates
-    /// nothing. Two to three times the work of a factorisation, most of it in double-double: see
+    /// Like [`KeptRowSaddle::solve`], with all digits that the given equations determine; does not
+    /// allocate. Two to three times the work of a factorisation, most of it in double-double: see
     /// [`KeptRowSaddle::wants_refinement`].
     ///
     /// | argument | shape | meaning |
@@ -109,7 +109,7 @@ impl KeptRowSaddle {
     ///
     /// ```
     /// use linalg::{KeptRowSaddle, Refinement};
-    /// // Two carts tied together, 3 kg and 3e12 kg, and 6 N on the light one: it feels all but a trillionth of them.
+    /// // Two carts tied together, 3 kg and 3e12 kg, with 6 N on the light one, almost all of which acts through the tie.
     /// let c = [1.0, -1.0];
     /// let mut saddle = KeptRowSaddle::new(2, 1)?;
     /// saddle.factor(|_| &c, &[3.0, 3e12])?;
@@ -157,10 +157,11 @@ impl KeptRowSaddle {
                 ..
             } = refinement;
             self.solve(f, gamma, &mut to_a.change, &mut to_lambda.change)?;
-            // A sum, which keeps NaN.
+            // A sum, which preserves NaN.
             let change = to_a.add() + to_lambda.add();
             rounds += 1;
-            // The next round would change what this one did times the ratio of the two.
+            // The next round would change the result by the change of this round times the ratio of
+            // the two.
             if change * change <= SETTLED * before {
                 to_a.round_to(a);
                 to_lambda.round_to(lambda);
@@ -217,11 +218,11 @@ mod tests {
         saddle
     }
 
-    /// What double-double leaves of zero where other numbers are as large as 2⁵³.
+    /// Rounding of zero in double-double if other numbers are as large as 2⁵³.
     const ZERO_LEFT: f64 = 1e-15 * f64::EPSILON;
 
-    /// All numbers are whole and below 2⁵³, so that f = M·a + Cᵀ·λ and γ = C·a are exact: every bit
-    /// of a and λ must come back.
+    /// All numbers are whole and below 2⁵³, so f = M·a + Cᵀ·λ and γ = C·a are exact: every bit of a
+    /// and λ must be reproduced.
     #[test]
     fn whole_numbers_come_back_exactly() {
         const N: usize = 9;
@@ -270,8 +271,9 @@ mod tests {
         }
     }
 
-    /// Five carts tied one to the next, pushed at the end: a = F/Σm, and each tie carries what the
-    /// carts behind it weigh. Plain solutions are good to rounding wherever the heavy carts stand.
+    /// Five carts tied to each other and pushed at the end: a = F/Σm, and each tie transmits the
+    /// force for the carts behind it. Plain solutions are accurate to rounding wherever the heavy
+    /// carts are.
     #[test]
     fn light_coordinates_are_solved_for() {
         const N: usize = 5;
@@ -308,12 +310,12 @@ mod tests {
         }
     }
 
-    /// What is exactly zero in a plain solution is rounding of double-double numbers in a refined
-    /// one, and stays that.
+    /// A value that is exactly zero in a plain solution is rounding of double-double numbers in a
+    /// refined one, which must not prevent convergence.
     #[test]
     fn unknowns_that_are_zero_do_not_keep_others_waiting() {
-        // The first two rows hold x and y; the third and fourth tie z and w to them by numbers that
-        // no binary fraction is.
+        // The first two rows hold x and y; the third and fourth connect z and w to them by numbers
+        // without an exact binary representation.
         let c = Matrix::from_rows(&[
             [1.0, 0.0, 0.0, 0.0, 0.0],
             [0.1, 0.3, 0.0, 0.0, 0.0],
@@ -347,11 +349,12 @@ mod tests {
         assert!(!factored(&c, &[1.0, 0.99e6]).wants_refinement());
         assert!(factored(&c, &[1.0, 1.01e6]).wants_refinement());
         assert!(!factored(&c, &[1.0, 0.0]).wants_refinement());
-        // Free are x and y, which hardly move relative to each other but with the heavy z.
+        // The free coordinates are x and y, which hardly move relative to each other without the
+        // heavy z.
         let c = Matrix::from_rows(&[[1.0, 1.0, 1.0]]);
         let mut saddle = KeptRowSaddle::new(3, 1).unwrap();
         saddle.partition(&[2]).unwrap();
-        // Of 1 + m elimination leaves (1 + 2·m)/(1 + m).
+        // After elimination, (1 + 2·m)/(1 + m) remains of 1 + m.
         for (heavy, wants) in [(1.9e3, false), (2.1e3, true), (1e5, true)] {
             saddle.factor(|k| c.row(k), &[1.0, 1.0, heavy]).unwrap();
             assert_eq!(saddle.wants_refinement(), wants);

@@ -4,7 +4,7 @@ use super::KeptRowSaddle;
 use super::error::{SaddleError, check_finite, check_length};
 
 impl KeptRowSaddle {
-    /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the last factorisation; allocates nothing.
+    /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the last factorisation; does not allocate.
     ///
     /// This is [`KeptRowSaddle::motion`] and [`KeptRowSaddle::multipliers`].
     ///
@@ -13,11 +13,11 @@ impl KeptRowSaddle {
     /// | `f` | n | applied forces; 0 for a projection |
     /// | `gamma` | r | right-hand side of the kept rows; −Φ for a mass-metric projection step |
     /// | `a` | n | overwritten: accelerations (or the correction of the projection) |
-    /// | `lambda` | r | overwritten: multipliers of the kept rows, zero for rows left out |
+    /// | `lambda` | r | overwritten: multipliers of the kept rows, zero for skipped rows |
     ///
     /// # Errors
-    /// - [`SaddleError::NotFactored`]: there is no successful `factor` before.
-    /// - [`SaddleError::Length`], [`SaddleError::NonFinite`]: bad input; outputs are untouched.
+    /// - [`SaddleError::NotFactored`]: there was no successful `factor` before.
+    /// - [`SaddleError::Length`], [`SaddleError::NonFinite`]: bad input; outputs are not changed.
     pub fn solve(
         &mut self,
         f: &[f64],
@@ -30,7 +30,7 @@ impl KeptRowSaddle {
         self.multipliers(f, a, lambda)
     }
 
-    /// The same without λ: two thirds of the work.
+    /// Like [`Self::solve`], without λ: two thirds of the work.
     ///
     /// # Errors
     /// As [`KeptRowSaddle::solve`].
@@ -57,13 +57,13 @@ impl KeptRowSaddle {
     }
 
     /// λ from `Cᵀ·λ = f − M·a` with the last factorisation, for an a that solves the equations;
-    /// allocates nothing.
+    /// does not allocate.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
     /// | `f` | n | the forces |
-    /// | `a` | n | their accelerations; 0 for a force that moves nothing, a row of C that the kept ones imply |
-    /// | `lambda` | r | overwritten: multipliers of the kept rows, zero for rows left out |
+    /// | `a` | n | their accelerations; 0 for a force without acceleration, such as a row of C that the kept ones imply |
+    /// | `lambda` | r | overwritten: multipliers of the kept rows, zero for skipped rows |
     ///
     /// # Errors
     /// As [`KeptRowSaddle::solve`].
@@ -94,7 +94,7 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// g = P·(f − M·a).
+    /// Computes g = P·(f − M·a).
     fn force_left(&mut self, f: &[f64]) {
         let (permutation, mass) = (&self.lu.permutation, &self.free.mass);
         for (i, g) in self.g.iter_mut().enumerate() {

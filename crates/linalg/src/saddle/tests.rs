@@ -1,11 +1,11 @@
-//! Oracle: LU of the full saddle matrix in nalgebra; hand results for massless bodies.
+//! Oracle: LU of the full saddle matrix in nalgebra; results by hand for massless bodies.
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 use super::*;
 
-/// Forward error allowed per unit of condition number: a small multiple of eps for orders up to 24.
+/// Allowed forward error per unit of condition number: a small multiple of eps for orders up to 24.
 const FORWARD: f64 = 1e-14;
 
 fn saddle_matrix(c: &DMatrix<f64>, mass: &[f64]) -> DMatrix<f64> {
@@ -35,8 +35,8 @@ proptest! {
         let mut saddle = KeptRowSaddle::new(n, r).unwrap();
         let factored = saddle.factor(|k| &data[k * n..(k + 1) * n], mass);
         if condition.is_nan() || condition > 1e12 {
-            // Too many massless coordinates or rows by chance (NaN: a matrix of zeros): an error or
-            // a poor answer.
+            // Random matrices with too many massless coordinates or dependent rows (NaN: a matrix
+            // of zeros): an error or an inaccurate result is allowed.
             return Ok(());
         }
         prop_assert!(factored.is_ok(), "{:?} at condition {:e}", factored, condition);
@@ -98,13 +98,13 @@ fn massless_motion_is_named() {
     );
     assert_eq!(motion.iter().fold(0.0_f64, |a, b| a.max(b.abs())), 1.0);
     assert!(error.to_string().contains("massless motion ["), "{error}");
-    // After the failure there is nothing to solve with.
+    // After the failure there is no factorisation.
     let refused = saddle.solve(&[0.0; 3], &[0.0], &mut [0.0; 3], &mut [0.0]);
     assert_eq!(refused, Err(SaddleError::NotFactored));
 }
 
-/// The null vector is (0, t, −s) exactly; rounding puts some 1e-17 into its first entry, the only
-/// one with a mass. That is no mass.
+/// The null vector is (0, t, −s) exactly; rounding puts about 1e-17 into its first entry, the only
+/// one with a mass. That does not count as a mass.
 #[test]
 fn rounding_of_the_null_vector_gives_no_mass() {
     let (s, t) = (0.3, 0.7);
@@ -127,7 +127,7 @@ fn all_massless_and_all_constrained() {
     assert!(
         matches!(error, SaddleError::MasslessMotion { ref motion, .. } if motion == &[1.0, 0.0])
     );
-    // No freedom left: masses do not matter.
+    // There is no freedom left, so masses have no effect.
     let rows = Matrix2::ROWS;
     let mut saddle = KeptRowSaddle::new(2, 2).unwrap();
     saddle.factor(|k| &rows[k], &[0.0, 0.0]).unwrap();
@@ -142,7 +142,7 @@ fn all_massless_and_all_constrained() {
     empty.solve(&[], &[], &mut [], &mut []).unwrap();
 }
 
-/// x = 2, x + 2y = 6.
+/// The rows x = 2, x + 2y = 6.
 struct Matrix2;
 
 impl Matrix2 {
@@ -226,7 +226,7 @@ fn graded_masses_choose_among_the_large_entries() {
     }
 }
 
-/// Elimination leaves exactly `left` of the second row.
+/// After elimination exactly `left` remains of the second row.
 #[test]
 fn a_pivot_of_a_few_roundings_is_no_pivot() {
     for (roundings, is_lost) in [(15.0, true), (17.0, false)] {

@@ -12,8 +12,8 @@ impl SchurSaddle {
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
     ///   input.
     /// - [`SaddleError::ZeroMass`]: a coordinate without mass.
-    /// - [`SaddleError::RankLost`]: a row depends on others, as far as S can tell: less than 1e-7
-    ///   of it is left.
+    /// - [`SaddleError::RankLost`]: a row depends on others to the accuracy of S: less than 1e-7 of
+    ///   it remains.
     pub fn factor(&mut self, c: &SparseMatrix, mass: &[f64]) -> Result<(), SaddleError> {
         self.factor_above(0.0, c, mass)?;
         let Some(row) = (0..self.structure.n_rows()).find(|&k| !self.uses(k)) else {
@@ -28,9 +28,9 @@ impl SchurSaddle {
         })
     }
 
-    /// The same, but a row of which at most the share `floor` is left is left out: where rows are
-    /// dependent for an instant, the others determine the solution. The multiplier of a row left
-    /// out is zero, and its equation does not hold.
+    /// Like [`Self::factor`], but skips rows of which at most the fraction `floor` remains: if rows
+    /// are dependent for an instant, the others determine the solution. The multiplier of a skipped
+    /// row is zero, and its equation does not hold.
     ///
     /// # Errors
     /// As [`SchurSaddle::factor`], without [`SaddleError::RankLost`].
@@ -158,7 +158,7 @@ impl SchurSaddle {
     }
 }
 
-/// The entry that is no number, in a row or, where sums have left the range, the row itself.
+/// Finds the entry that is not finite, in a row or, if sums have overflowed, the row itself.
 fn not_finite(c: &SparseMatrix, row: usize) -> SaddleError {
     let (row, column, value) = c.first_non_finite().unwrap_or((row, 0, f64::INFINITY));
     SaddleError::NonFinite {

@@ -1,13 +1,13 @@
-//! One dense front: what goes into it, and the elimination of its pivots.
+//! One dense front: its assembly, and the elimination of its pivots.
 //!
-//! A front of order f is stored by columns, f numbers each, of which those from the diagonal on
-//! count.
+//! A front of order f is stored by columns, f numbers each, of which only those from the diagonal
+//! on are used.
 
 use super::structure::NONE;
 use crate::kernels::axpy;
 
-/// Adds the triangle that a child has left, `later` × `later` packed by columns, at these indices,
-/// which ascend.
+/// Adds the remaining triangle of a child, `later` × `later` packed by columns, at these ascending
+/// indices.
 pub(super) fn add_update(front: &mut [f64], f: usize, update: &[f64], at: &[u32]) {
     let mut from = 0;
     for (k, &j) in at.iter().enumerate() {
@@ -20,8 +20,8 @@ pub(super) fn add_update(front: &mut [f64], f: usize, update: &[f64], at: &[u32]
     }
 }
 
-/// Adds `E·diag(weight)·Eᵀ` for a block: its rows at these indices, which ascend, and for each row
-/// and column the place of the entry in `values`.
+/// Adds `E·diag(weight)·Eᵀ` for a block: its rows at these ascending indices, and for each row and
+/// column the place of the entry in `values`.
 pub(super) fn add_element(
     front: &mut [f64],
     f: usize,
@@ -56,9 +56,9 @@ pub(super) fn add_element(
     }
 }
 
-/// Eliminates the first pivots, as many as `inverse` has places: `F = L·D·Lᵀ + [0, 0; 0, update]`.
-/// A pivot at most `least[k]` is left out: its column of L is zero, and so is its inverse. The
-/// smallest share `D_k/size_k` of those that are not.
+/// Eliminates the first pivots, as many as `inverse` has entries: `F = L·D·Lᵀ + [0, 0; 0, update]`.
+/// Skips pivots that are at most `least[k]`: their column of L and their inverse are zero. Returns
+/// the smallest ratio `D_k/size_k` of the others.
 pub(super) fn eliminate(
     front: &mut [f64],
     f: usize,
@@ -99,9 +99,9 @@ pub(super) fn eliminate(
     Ok(found)
 }
 
-/// What an elimination found.
+/// Result of an elimination.
 pub(super) struct Eliminated {
-    /// Smallest share of a pivot that was used.
+    /// Smallest ratio of a pivot that was used.
     pub(super) smallest: f64,
     pub(super) n_left_out: usize,
 }

@@ -1,4 +1,4 @@
-//! Solution with the factors, and what rounding left of it.
+//! Solution with the factors, and correction of its rounding.
 
 use super::{Factors, SchurSaddle, Work};
 use crate::kernels::all_finite;
@@ -7,8 +7,8 @@ use crate::{SaddleError, SparseMatrix};
 
 impl SchurSaddle {
     /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the rows of the last factorisation. Rows that are
-    /// not solved to rounding are corrected with the same factors until they are, or nothing is
-    /// gained; rows left out do not count.
+    /// not satisfied to rounding are corrected with the same factors until they are, or until
+    /// nothing is gained; skipped rows are ignored.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -18,8 +18,8 @@ impl SchurSaddle {
     ///
     /// # Errors
     /// - [`SaddleError::NotFactored`], [`SaddleError::Length`], [`SaddleError::NonFinite`].
-    /// - [`SaddleError::Unrefined`]: a row misses by more than 1e-9 of its terms whatever is
-    ///   corrected.
+    /// - [`SaddleError::Unrefined`]: the residual of a row stays above 1e-9 of its terms in spite
+    ///   of corrections.
     pub fn solve(
         &mut self,
         c: &SparseMatrix,
@@ -62,7 +62,7 @@ impl SchurSaddle {
             if !misfit.is_finite() {
                 return Err(first_non_finite([("f", f), ("gamma", gamma)]));
             }
-            // The first is that of the solution, which has nothing to be compared with.
+            // The first round computes the solution, for which there is no earlier residual.
             if round > 1 && misfit > SCHUR_PROGRESS * before || round == SCHUR_CORRECTIONS {
                 let left = misfit.min(before);
                 if left <= SCHUR_POOR || self.misfit_of_all(c, gamma, a) <= SCHUR_POOR {
@@ -80,8 +80,8 @@ impl SchurSaddle {
         Ok(())
     }
 
-    /// λ of least `‖Cᵀ·λ − (f − M·a)‖` in the metric of the inverse masses, for a motion a that is
-    /// known; not corrected.
+    /// The λ that minimises `‖Cᵀ·λ − (f − M·a)‖` in the metric of the inverse masses, for a known
+    /// motion a; not corrected.
     ///
     /// # Errors
     /// As [`SchurSaddle::solve`].
@@ -154,7 +154,7 @@ impl SchurSaddle {
         }
     }
 
-    /// The same, and the largest as share of its terms.
+    /// Also returns the largest residual relative to its terms.
     fn take_misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
         for ((terms, free), a) in self.work.terms.iter_mut().zip(&self.work.free).zip(a) {
             *terms = free.abs().max(a.abs());
@@ -162,8 +162,8 @@ impl SchurSaddle {
         self.misfit(c, gamma, a)
     }
 
-    /// The largest misfit as share of all that was added up: where multipliers balance,
-    /// accelerations are what rounding leaves of them.
+    /// The largest residual relative to all terms that were added: if multipliers balance each
+    /// other, accelerations are only their rounding.
     fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
         std::mem::swap(&mut self.work.terms, &mut self.work.all);
         self.misfit(c, gamma, a)
@@ -192,8 +192,8 @@ impl SchurSaddle {
         largest
     }
 
-    /// Adds the multipliers in x, and takes what they do to the motion; the sizes of what is taken
-    /// add up.
+    /// Adds the multipliers in x and their effect on the motion; accumulates the sizes of the
+    /// terms.
     fn add_solution(&mut self, c: &SparseMatrix, a: &mut [f64], lambda: &mut [f64]) {
         let s = &self.structure.rows;
         for (place, (&x, &row)) in self.work.x.iter().zip(&s.row).enumerate() {

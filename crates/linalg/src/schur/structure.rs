@@ -1,25 +1,27 @@
-//! What depends on the pattern alone: an order of elimination, fronts, and where every number goes.
+//! Everything that depends on the pattern only: an order of elimination, fronts, and the places of
+//! all numbers.
 //!
 //! Rows that touch the same blocks (bodies) are eliminated together. They are the nodes of a graph
 //! in which each block joins the rows that touch it, ordered by minimum degree. A front is a dense
-//! triangle over the rows that are eliminated in it, its pivots, and the later rows that they meet.
-//! `C_b·M_b⁻¹·C_bᵀ` of a block b goes into the front in which the first of its rows is a pivot;
-//! what elimination leaves of a front goes into the front of the first of its other rows, its
-//! parent. Fronts that are nearly as their parent become one with it.
+//! triangle over the rows that are eliminated in it, its pivots, and the later rows with which they
+//! have non-zero entries. `C_b·M_b⁻¹·C_bᵀ` of a block b is added to the front in which the first of
+//! its rows is a pivot; the remainder of a front after elimination is added to the front of the
+//! first of its other rows, its parent. Fronts that are almost equal to their parent are merged
+//! with it.
 
 use std::ops::Range;
 
 use crate::limits::{FRONT_FEW_ZEROS, FRONT_ZEROS};
 use crate::{EliminationTree, SparseMatrix};
 
-/// No entry of C.
+/// Marks a place without an entry of C.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// The pattern of `S = C·M⁻¹·Cᵀ` and of its factor.
 ///
 /// ```
 /// use linalg::{SchurStructure, SparseMatrix};
-/// // A chain of three rows over four columns: each is a block, and L has no other entries than S.
+/// // A chain of three rows over four columns: each is a block, and L has no more entries than S.
 /// let row = |k: usize| [(k, 1.0), (k + 1, -1.0)];
 /// let c = SparseMatrix::from_rows(4, (0..3).map(row))?;
 /// let structure = SchurStructure::new(&c, &[0..1, 1..2, 2..3, 3..4]);
@@ -29,9 +31,10 @@ pub(super) const NONE: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub struct SchurStructure {
     pub(super) rows: Rows,
-    /// In the order of elimination; children before their parents, and the last child just before.
+    /// In the order of elimination; children come before their parents, the last child directly
+    /// before.
     pub(super) fronts: Vec<Front>,
-    /// Later rows of all fronts, as places.
+    /// Later rows of all fronts, as places in the order.
     pub(super) later: Vec<u32>,
     /// For each later row its index in the parent.
     pub(super) in_parent: Vec<u32>,
@@ -42,15 +45,15 @@ pub struct SchurStructure {
 /// C by rows in the order of elimination.
 #[derive(Clone, Debug)]
 pub(super) struct Rows {
-    /// Columns of C.
+    /// Number of columns of C.
     n: usize,
-    /// Entries of C.
+    /// Number of entries of C.
     pub(super) nnz: usize,
     /// The row at each place of the order of elimination, and the place of each row.
     pub(super) row: Vec<usize>,
     pub(super) place: Vec<usize>,
-    /// For each place, where its columns begin in `columns` and its values in C; one more for the
-    /// end.
+    /// For each place, the index of its first column in `columns` and of its first value in C; one
+    /// more for the end.
     start: Vec<[u32; 2]>,
     /// Columns of all rows.
     columns: Vec<u32>,
@@ -93,7 +96,7 @@ impl Rows {
     }
 }
 
-/// Blocks of columns and the rows that touch them.
+/// Blocks of columns, with the rows that touch them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Elements {
     pub(super) of_fronts: Vec<Element>,
@@ -105,12 +108,12 @@ pub(super) struct Elements {
     pub(super) entries: Vec<u32>,
 }
 
-/// Storage and work of a factorisation.
+/// Size and work of a factorisation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Size {
-    /// Entries of L.
+    /// Number of entries of L.
     pub(super) entries: usize,
-    /// Most numbers that wait for their parents.
+    /// Largest number of values that are stored for their parents.
     pub(super) waiting: usize,
     pub(super) front: usize,
     pub(super) element: usize,
@@ -124,11 +127,11 @@ pub(super) struct Front {
     pub(super) pivots: Range<usize>,
     /// Its other rows in `later` and `in_parent`.
     pub(super) rest: Range<usize>,
-    /// Blocks that go into it, in `elements`.
+    /// Blocks that are added to it, in `elements`.
     pub(super) elements: Range<usize>,
     /// Fronts whose parent it is, the last one first.
     pub(super) children: Vec<usize>,
-    /// Where its columns of L begin, below their unit diagonals.
+    /// Index of its first column of L, below the unit diagonal.
     pub(super) l: usize,
 }
 
@@ -138,20 +141,20 @@ impl Front {
     }
 }
 
-/// A block of columns and the rows that touch it.
+/// A block of columns, with the rows that touch it.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     /// In the columns of all elements.
     pub(super) columns: Range<usize>,
     /// In `in_front` of all elements.
     pub(super) rows: Range<usize>,
-    /// Where its part of `entries` begins, row by row.
+    /// Index of its first entry in `entries`, row by row.
     pub(super) entries: usize,
 }
 
 impl SchurStructure {
-    /// For rows with this pattern, whose values do not matter, and blocks of columns; a column of
-    /// no block is one by itself, and a column of several belongs to the first.
+    /// The structure for rows with this pattern, whose values are not used, and blocks of columns.
+    /// A column in no block is a block of its own, and a column in several belongs to the first.
     #[must_use]
     pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Self {
         let blocks = Blocks::new(c, blocks);
@@ -160,31 +163,31 @@ impl SchurStructure {
         tree.into_structure(c, &blocks, &nodes)
     }
 
-    /// Coordinates n.
+    /// Number of coordinates n.
     #[must_use]
     pub fn n_coordinates(&self) -> usize {
         self.rows.n
     }
 
-    /// Rows r.
+    /// Number of rows r.
     #[must_use]
     pub fn n_rows(&self) -> usize {
         self.rows.row.len()
     }
 
-    /// Entries of L that are stored, below its diagonal.
+    /// Number of stored entries of L, below its diagonal.
     #[must_use]
     pub fn n_entries(&self) -> usize {
         self.size.entries
     }
 
-    /// Multiplications of a factorisation, about.
+    /// Approximate number of multiplications of a factorisation.
     #[must_use]
     pub fn multiplications(&self) -> f64 {
         self.size.multiplications
     }
 
-    /// Memory of a [`SchurSaddle`](crate::SchurSaddle) on it, in bytes.
+    /// Memory of a [`SchurSaddle`](crate::SchurSaddle) with this structure, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let Size {
@@ -206,7 +209,7 @@ impl SchurStructure {
     }
 }
 
-/// Blocks of columns, and which of them each row touches.
+/// Blocks of columns, and the blocks that each row touches.
 struct Blocks {
     columns: Vec<Vec<usize>>,
     of_column: Vec<usize>,
@@ -262,7 +265,7 @@ impl Nodes {
         };
         let mut last = None;
         for (key, row) in keyed {
-            // Rows without entries have nothing to do with each other.
+            // Rows without entries do not belong together.
             let is_same = !key.is_empty() && last.as_ref() == Some(&key);
             if !is_same {
                 for &block in &key {
@@ -279,12 +282,12 @@ impl Nodes {
     }
 }
 
-/// Nodes in the order of elimination, with what they meet.
+/// Nodes in the order of elimination, with their later neighbours.
 struct Tree {
     /// Nodes in this order.
     order: Vec<usize>,
-    /// Of each place: the later places that it meets, ascending, and how many places before it are
-    /// one with it.
+    /// For each place: its later neighbours, ascending, and the number of places before it that are
+    /// merged with it.
     meets: Vec<Vec<usize>>,
     merged: Vec<usize>,
 }
@@ -294,7 +297,7 @@ impl Tree {
         let n = nodes.rows.len();
         let (order, meets) = postordered(EliminationTree::new(n, &nodes.touching));
         let width = |k: usize| nodes.rows[order[k]].len();
-        // Rows of a front, its columns, and zeros among their entries so far.
+        // Rows of a front, its columns, and the zeros among their entries so far.
         let rows_of = |k: usize| meets[k].iter().map(|&j| width(j)).sum::<usize>();
         let mut merged = vec![0; n];
         let mut columns: Vec<usize> = (0..n).map(width).collect();
@@ -302,7 +305,7 @@ impl Tree {
         for k in 1..n {
             loop {
                 let last = k - merged[k];
-                // The front just before, if this one is its parent.
+                // The front directly before, if this one is its parent.
                 let is_child =
                     |c: &usize| meets[*c].first().is_some_and(|j| (last..=k).contains(j));
                 let Some(child) = last.checked_sub(1).filter(is_child) else {
@@ -335,7 +338,7 @@ impl Tree {
             .iter()
             .flat_map(|&node| nodes.rows[node].iter().copied())
             .collect();
-        // First place of a row of each node place, and the front of each.
+        // First place of each node, and the front of each.
         let mut first = vec![0; n + 1];
         for k in 0..n {
             first[k + 1] = first[k] + nodes.rows[self.order[k]].len();
@@ -360,7 +363,7 @@ impl Tree {
                 blocks_at[k].push(block);
             }
         }
-        // A place is the end of a front unless a later one has swallowed it.
+        // A place is the end of a front unless a later one has been merged with it.
         let mut front_of = vec![usize::MAX; n];
         let mut end = n;
         let mut ends = Vec::new();
@@ -447,7 +450,7 @@ impl SchurStructure {
         });
     }
 
-    /// Joins fronts with their parents, and counts what waits for them.
+    /// Connects fronts with their parents, and counts the values stored for them.
     fn join(&mut self, front_of: &[usize], first: &[usize]) {
         let node_of = |place: usize| first.partition_point(|&f| f <= place) - 1;
         let mut waiting = 0;
@@ -476,14 +479,14 @@ impl SchurStructure {
                     pivots.len() + next - later.start
                 } as u32;
             }
-            // The last child waits on top.
+            // The last child is on top of the stack.
             self.fronts[parent].children.insert(0, k);
         }
     }
 }
 
-/// Places and what they meet, renumbered such that children stand just before their parents, the
-/// one with the widest front last.
+/// Places and their later neighbours, renumbered so that children come directly before their
+/// parents, the one with the widest front last.
 fn postordered(tree: EliminationTree) -> (Vec<usize>, Vec<Vec<usize>>) {
     let EliminationTree {
         order,

@@ -1,4 +1,4 @@
-//! Against the dense solver, which eliminates without forming S, and against closed forms.
+//! Compared with the dense solver, which eliminates without forming S, and with closed forms.
 
 use crate::{KeptRowSaddle, Matrix, SaddleError, SchurSaddle, SchurStructure, SparseMatrix};
 
@@ -89,8 +89,7 @@ fn random_mechanisms_move_as_with_the_dense_solver() {
 
 #[test]
 fn a_hanging_chain_of_point_masses_pulls_with_its_weight() {
-    // Row k holds the distance of masses k − 1 and k along the vertical; mass 0 hangs on the
-    // ground.
+    // Row k keeps the vertical distance of masses k − 1 and k; mass 0 is connected to the ground.
     let n = 5000;
     let row =
         |k: usize| (k.saturating_sub(1)..=k).map(move |j| (j, if j == k { 1.0 } else { -1.0 }));
@@ -187,8 +186,8 @@ fn bad_numbers_are_refused() {
     ));
 }
 
-/// With masses of one, the share that the first of two rows leaves of the other is the sine of the
-/// angle between them.
+/// With unit masses, the remaining fraction of the second of two rows is the sine of the angle
+/// between them.
 #[test]
 fn a_row_of_which_little_is_left_is_lost() {
     for (sine, is_lost) in [(0.7e-7, true), (1.5e-7, false)] {

@@ -1,14 +1,15 @@
-//! A bidiagonal matrix made diagonal by rotations from both sides; only its singular values are
-//! kept.
+//! Makes a bidiagonal matrix diagonal by rotations from both sides; only its singular values are
+//! computed.
 //!
 //! Each step is one of the implicit QR algorithm for BᵀB, without forming it: a rotation of two
-//! columns with Wilkinson's shift makes an entry below the diagonal, which further rotations chase
-//! out. A block whose diagonal has a zero is cut there first.
+//! columns with Wilkinson's shift creates an entry below the diagonal, which further rotations
+//! remove. A block with a zero on its diagonal is divided there first.
 
 use crate::limits::QR_STEPS_EACH;
 
-/// Turns the diagonal `d` (n) and the superdiagonal `f` (n − 1) of a matrix with entries near one
-/// into singular values, unsorted and with any sign; false if the steps do not come to an end.
+/// Converts the diagonal `d` (n) and the superdiagonal `f` (n − 1) of a matrix with entries near
+/// one into singular values, unsorted and with any sign. Returns `false` if the iteration does not
+/// converge.
 pub(super) fn iterate(d: &mut [f64], f: &mut [f64]) -> bool {
     let largest = |x: &[f64]| x.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
     let zero = f64::EPSILON * largest(d).max(largest(f));
@@ -51,14 +52,14 @@ fn step(d: &mut [f64], f: &mut [f64]) {
     };
     let (mut y, mut z) = (d[0] * d[0] - shift, d[0] * f[0]);
     for k in 0..n - 1 {
-        // Columns k, k + 1: what stands above the diagonal goes, a new entry (k + 1, k) comes.
+        // Columns k, k + 1: removes the entry above the diagonal and creates an entry (k + 1, k).
         let (c, s, r) = rotation(y, z);
         if k > 0 {
             f[k - 1] = r;
         }
         (y, f[k]) = (c * d[k] + s * f[k], c * f[k] - s * d[k]);
         (z, d[k + 1]) = (s * d[k + 1], c * d[k + 1]);
-        // Rows k, k + 1: it goes, and one at (k, k + 2) comes.
+        // Rows k, k + 1: removes it and creates an entry at (k, k + 2).
         let (c, s, r) = rotation(y, z);
         d[k] = r;
         (y, d[k + 1]) = (c * f[k] + s * d[k + 1], c * d[k + 1] - s * f[k]);
@@ -69,8 +70,8 @@ fn step(d: &mut [f64], f: &mut [f64]) {
     }
 }
 
-/// Where the first diagonal entry of the block is zero: rotations with the rows below empty its
-/// row.
+/// If the first diagonal entry of the block is zero: rotations with the rows below make its row
+/// zero.
 fn cut_row(d: &mut [f64], f: &mut [f64]) {
     let mut bulge = f[0];
     d[0] = 0.0;
@@ -84,8 +85,8 @@ fn cut_row(d: &mut [f64], f: &mut [f64]) {
     }
 }
 
-/// Where the last diagonal entry of the block is zero: rotations with the columns before empty its
-/// column.
+/// If the last diagonal entry of the block is zero: rotations with the columns before make its
+/// column zero.
 fn cut_column(d: &mut [f64], f: &mut [f64]) {
     let n = d.len();
     let mut bulge = f[n - 2];
@@ -105,10 +106,11 @@ fn rotation(a: f64, b: f64) -> (f64, f64, f64) {
     if b == 0.0 {
         return (1.0, 0.0, a);
     }
-    // Entries are at most a few, and one whose square vanishes is zero beside the largest.
+    // Entries are at most of order one, and one whose square underflows is negligible relative to
+    // the largest.
     let r = (a * a + b * b).sqrt();
     match 1.0 / r {
-        // Of the work of a step most is waiting for this quotient: one is enough.
+        // Most of the time of a step is spent waiting for this quotient, so it is computed once.
         inverse if inverse.is_finite() => (a * inverse, b * inverse, r),
         _ => (1.0, 0.0, 0.0),
     }

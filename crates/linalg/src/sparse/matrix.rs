@@ -25,25 +25,25 @@ pub struct SparseMatrix {
     value: Vec<f64>,
 }
 
-/// Entries that are no matrix.
+/// Entries that do not form a matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SparseError {
-    /// An entry lies beyond the last column.
+    /// The column of an entry does not exist.
     #[error("entry in row {row}, column {column} of a matrix of {ncols} columns")]
     Column {
         /// Row of the entry.
         row: usize,
         /// Column of the entry.
         column: usize,
-        /// Columns of the matrix.
+        /// Number of columns of the matrix.
         ncols: usize,
     },
 }
 
 impl SparseMatrix {
     /// From the entries (column, value) of each row, in any order; values of the same column are
-    /// summed. Zeros given are kept.
+    /// added. Explicit zeros are kept.
     ///
     /// # Errors
     /// [`SparseError::Column`]: a column is not below `ncols`.
@@ -63,7 +63,7 @@ impl SparseMatrix {
                     ncols,
                 });
             }
-            // Stable: equal columns are summed in the order given.
+            // A stable sort: equal columns are added in the given order.
             entries.sort_by_key(|(column, _)| *column);
             matrix.push(&entries);
         }
@@ -86,7 +86,7 @@ impl SparseMatrix {
         self.nrows += 1;
     }
 
-    /// The entries of a dense matrix that are not zero.
+    /// Takes the non-zero entries of a dense matrix.
     pub fn from_dense(dense: &Matrix) -> Self {
         let mut matrix = Self::empty(dense.ncols());
         for i in 0..dense.nrows() {
@@ -127,12 +127,12 @@ impl SparseMatrix {
         &self.value
     }
 
-    /// The same, for other values of the same pattern.
+    /// Values of all rows, writable, with the same pattern.
     pub fn values_mut(&mut self) -> &mut [f64] {
         &mut self.value
     }
 
-    /// Where row `i` begins among all values.
+    /// Index of the first value of row `i`.
     ///
     /// # Panics
     /// If `i` is above `nrows`.
@@ -146,7 +146,7 @@ impl SparseMatrix {
         columns.iter().copied().zip(values.iter().copied())
     }
 
-    /// The rows named by `rows`, in that order.
+    /// The rows listed in `rows`, in that order.
     ///
     /// # Panics
     /// If an index is not below `nrows`.
@@ -162,7 +162,7 @@ impl SparseMatrix {
         selected
     }
 
-    /// The same matrix with all its zeros.
+    /// The matrix with all its zeros.
     pub fn dense(&self) -> Matrix {
         let mut dense = Matrix::zeros(self.nrows, self.ncols);
         for i in 0..self.nrows {

@@ -1,11 +1,11 @@
 //! The order in which bodies are eliminated: approximate minimum degree on the graph in which the
-//! bodies of one joint are joined.
+//! bodies of a joint are connected.
 //!
 //! Eliminating a node joins all its neighbours to each other, so the graph is kept as a cover by
 //! cliques and never edge by edge: the joints are the first cliques, an eliminated node unites its
 //! cliques into one (element absorption), and storage never grows. A degree is bounded by
-//! `|L_p ∖ i| + Σ_e |L_e ∖ L_p|` over the cliques e of i, where `L_p` is the clique just made.
-//! Nodes that lie in the same cliques stay together to the end and are treated as one.
+//! `|L_p ∖ i| + Σ_e |L_e ∖ L_p|` over the cliques e of i, where `L_p` is the new clique. Nodes in
+//! the same cliques stay together and are treated as one.
 //!
 //! Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering
 //! algorithm, SIAM J. Matrix Anal. Appl. 17 (1996) 886–905.
@@ -19,12 +19,12 @@ use buckets::Buckets;
 /// An elimination order of the nodes `0..n` with little fill: approximately the node of least
 /// degree first.
 ///
-/// `cliques` are sets of nodes that are all joined to each other; nodes not below `n` are ignored.
-/// The same input gives the same order.
+/// `cliques` are sets of nodes that are all connected to each other; nodes not below `n` are
+/// ignored. The same input gives the same order.
 ///
 /// ```
 /// use linalg::minimum_degree;
-/// // A star: the centre 0 comes when one neighbour is left, so nothing fills.
+/// // A star: the centre 0 comes after all but one of its neighbours, so there is no fill.
 /// let order = minimum_degree(4, &[vec![0, 1], vec![0, 2], vec![0, 3]]);
 /// assert!(order.iter().position(|&node| node == 0) >= Some(2));
 /// ```
@@ -41,17 +41,17 @@ pub fn minimum_degree(n: usize, cliques: &[Vec<usize>]) -> Vec<usize> {
 struct Cover {
     /// Nodes of each clique; empty once the clique lies within another.
     nodes: Vec<Vec<usize>>,
-    /// Nodes of each clique, the merged ones counted.
+    /// Number of nodes of each clique, including merged ones.
     size: Vec<usize>,
     /// Cliques of each node, ascending.
     cliques: Vec<Vec<usize>>,
     /// Nodes that were merged into each node.
     twins: Vec<Vec<usize>>,
-    /// One and the number of twins; 0 once eliminated or merged.
+    /// One plus the number of twins; 0 once eliminated or merged.
     weight: Vec<usize>,
-    /// Nodes not eliminated, the merged ones counted.
+    /// Number of nodes not yet eliminated, including merged ones.
     remaining: usize,
-    /// Which elimination has marked a node last.
+    /// The last elimination that has marked each node.
     mark: Vec<usize>,
     /// `|L_e ∖ L_p|` of the clique e, and the elimination it was counted in.
     outside: Vec<(usize, usize)>,
@@ -60,10 +60,10 @@ struct Cover {
 
 /// A neighbour of the node that is being eliminated.
 struct Neighbour {
-    /// A number that nodes of the same cliques share.
+    /// A number that is the same for nodes with the same cliques.
     key: usize,
     node: usize,
-    /// Bound of its degree without the new clique.
+    /// Bound on its degree without the new clique.
     degree: usize,
 }
 
@@ -104,7 +104,7 @@ impl Cover {
         }
     }
 
-    /// Eliminates a node with its twins, and with the neighbours that have no others any more.
+    /// Eliminates a node with its twins, and with the neighbours that have no other neighbours.
     fn eliminate(&mut self, pivot: usize, order: &mut Vec<usize>) {
         let stamp = order.len() + 1;
         let mut united = self.unite(pivot, stamp);
@@ -115,7 +115,7 @@ impl Cover {
         for &i in &united {
             let mut beyond = 0;
             let outside = &self.outside;
-            // Cliques within the new one leave.
+            // Removes cliques within the new one.
             self.cliques[i].retain(|&e| {
                 beyond += outside[e].0;
                 outside[e].0 > 0
@@ -147,7 +147,7 @@ impl Cover {
         self.nodes.push(united);
     }
 
-    /// The neighbours of a node: the union of its cliques, which end here.
+    /// The neighbours of a node: the union of its cliques, which are removed.
     fn unite(&mut self, pivot: usize, stamp: usize) -> Vec<usize> {
         self.mark[pivot] = stamp;
         let mut united = Vec::new();

@@ -1,14 +1,14 @@
-//! The elimination tree: which nodes are joined to a node when it is eliminated, from the pattern
+//! The elimination tree: the nodes connected to a node when it is eliminated, from the pattern
 //! alone.
 
 use super::minimum_degree;
 
-/// Nodes in an order of elimination with little fill, see [`minimum_degree`], and what their
-/// elimination joins. Nodes are named by their *place* in this order.
+/// Nodes in an order of elimination with little fill, see [`minimum_degree`], and the connections
+/// created by their elimination. Nodes are referred to by their *place* in this order.
 ///
 /// ```
 /// use linalg::EliminationTree;
-/// // A chain 0 – 1 – 2 of two cliques: whatever comes first, nothing fills.
+/// // A chain 0 – 1 – 2 of two cliques: no order creates fill.
 /// let tree = EliminationTree::new(3, &[vec![0, 1], vec![1, 2]]);
 /// let joined: Vec<usize> = tree.beyond.iter().map(Vec::len).collect();
 /// assert_eq!(joined, [1, 1, 0]);
@@ -17,16 +17,16 @@ use super::minimum_degree;
 pub struct EliminationTree {
     /// The node at each place.
     pub order: Vec<usize>,
-    /// Cliques whose first place it is.
+    /// Cliques whose first node is at this place.
     pub led: Vec<Vec<usize>>,
-    /// Places that are joined to it when it is eliminated, ascending; the first is its parent.
+    /// Places that are connected to it when it is eliminated, ascending; the first is its parent.
     pub beyond: Vec<Vec<usize>>,
     /// Places whose parent it is, ascending.
     pub children: Vec<Vec<usize>>,
 }
 
 impl EliminationTree {
-    /// The tree of `n` nodes, each of these sets of nodes being joined to each other.
+    /// The tree of `n` nodes; the nodes in each set are connected to each other.
     #[must_use]
     pub fn new(n: usize, cliques: &[Vec<usize>]) -> Self {
         let tree =
@@ -34,8 +34,8 @@ impl EliminationTree {
         tree.unwrap_or_else(|never| match never {})
     }
 
-    /// The same, as long as `admit` allows it: it sees each place, the order, and the places
-    /// beyond it.
+    /// Like [`Self::new`], as long as `admit` returns no error; it is called with each place, the
+    /// order, and the later places connected to it.
     ///
     /// # Errors
     /// The first one of `admit`.

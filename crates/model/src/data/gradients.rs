@@ -1,9 +1,9 @@
-//! Many gradients by the numbers of the constraints at one instant: what is asked of the kernels is
-//! asked once.
+//! Many gradients with respect to the numbers of the constraints at one instant, with a single
+//! evaluation of the kernels.
 //!
 //! `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q. So its gradient
-//! by the numbers of one constraint is a small matrix times the few of their entries that belong to
-//! that constraint.
+//! with respect to the numbers of one constraint is a small matrix times the few entries that
+//! belong to that constraint.
 
 use std::ops::Range;
 
@@ -13,14 +13,14 @@ use super::Data;
 use crate::mechanism::{N_BODY, twist_of};
 use crate::system::{Scratch, System};
 
-/// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` by all numbers of the constraints,
-/// for any y, y_λ, w_v and w_q.
+/// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` with respect to all numbers of the
+/// constraints, for any y, y_λ, w_v and w_q.
 #[derive(Clone, Debug)]
 pub struct DataGradients {
     each: Vec<OfConstraint>,
     /// Matrices by columns, constraint by constraint.
     values: Vec<f64>,
-    /// Whether there are velocities.
+    /// Whether any velocity is not zero.
     moves: bool,
 }
 
@@ -54,7 +54,7 @@ const UNITS: [Twist; N_BODY] = [
 ];
 
 impl Data<'_> {
-    /// These gradients at the pose and the twist of the scratch, for multipliers (m + h),
+    /// The gradients at the pose and the twist of the scratch, for multipliers (m + h),
     /// accelerations a and velocities v (n_v); allocates.
     #[must_use]
     pub fn gradients(self, s: &Scratch, lambda: &[f64], a: &[f64], v: &[f64]) -> DataGradients {
@@ -74,7 +74,7 @@ impl Data<'_> {
                 fill(&mut values[place..]);
             };
             let (x, twists, f) = c.site.xvf(&s.slots);
-            // Without velocities and functions of time Γ vanishes.
+            // Without velocities and functions of time, Γ vanishes.
             let (still, no_f) = (
                 vec![Twist::zero(); c.site.bodies.len()],
                 vec![[0.0; 3]; c.site.functions.len()],
@@ -129,7 +129,7 @@ impl Data<'_> {
 }
 
 impl DataGradients {
-    /// One gradient, which overwrites `out`; y has n_v values, the others m + h.
+    /// Computes one gradient and overwrites `out`; y has n_v values, the others m + h.
     ///
     /// # Panics
     /// If a slice is too short.

@@ -1,4 +1,5 @@
-//! Straight lines through the points of a table. Where two points have one time the value jumps.
+//! Piecewise linear functions through the points of a table. If two points have the same time, the
+//! value jumps.
 
 /// Points in the order of time; times may repeat once, but not at the ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,7 +9,7 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// Through at least two points of different times.
+    /// A function through at least two points with different times.
     pub(super) fn new(times: &[f64], values: &[f64]) -> Self {
         Self {
             times: times.to_vec(),
@@ -25,7 +26,7 @@ impl Lines {
         (&self.times, &self.values)
     }
 
-    /// At a point the line that begins there.
+    /// Value and derivatives; at a point those of the line that begins there.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let (x, y) = (&self.times, &self.values);
         let behind = x.partition_point(|&x| x <= t);

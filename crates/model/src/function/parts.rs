@@ -1,8 +1,8 @@
-//! A function of time taken apart: for those who write code from it.
+//! The parts of a function of time, for generators of code.
 
 use super::{Function, Law};
 
-/// The kind of a function with its numbers.
+/// The kind of a function, with its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Parts<'a> {
     /// `Σ c[k]·tᵏ`
@@ -29,22 +29,22 @@ pub enum Parts<'a> {
     Spline {
         /// Times of the points.
         times: &'a [f64],
-        /// Values there.
+        /// Values at these times.
         values: &'a [f64],
-        /// Second derivatives there.
+        /// Second derivatives at these times.
         curvatures: &'a [f64],
     },
-    /// Straight lines through points; at a time that comes twice the second value holds.
+    /// Straight lines through points; if a time occurs twice, the second value holds at this time.
     Lines {
         /// Times of the points.
         times: &'a [f64],
-        /// Values there.
+        /// Values at these times.
         values: &'a [f64],
     },
 }
 
 impl Function {
-    /// Its kind with its numbers.
+    /// The kind of the function, with its numbers.
     ///
     /// ```
     /// use model::{Function, function::Parts};

@@ -9,7 +9,7 @@ pub(super) struct Spline {
 }
 
 impl Spline {
-    /// The spline through a table of at least two points with growing times.
+    /// The spline through a table of at least two points with increasing times.
     ///
     /// Curvatures κ solve the tridiagonal system `h₋κ₋ + 2(h₋ + h₊)κ + h₊κ₊ = 6(δ₊ − δ₋)` with the
     /// steps h and the slopes δ of the chords.
@@ -45,7 +45,7 @@ impl Spline {
         (&self.times, &self.values, &self.curvatures)
     }
 
-    /// Value and derivatives; outside the table the end tangents go on.
+    /// Value and derivatives; outside the table the tangents at the ends are continued.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let last = self.times.len() - 1;
         if t < self.times[0] || t > self.times[last] {

@@ -1,4 +1,4 @@
-//! From a description to a mechanism. All faults of a description are found in one go.
+//! From a description to a mechanism. All faults of a description are found at once.
 
 use std::collections::HashSet;
 
@@ -18,16 +18,16 @@ use crate::tolerance::{Stated, Tolerance};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// There is nothing to move.
+    /// There is no body.
     #[error("a mechanism needs at least one body")]
     NoBodies,
-    /// Two things have one name.
+    /// Two items have the same name.
     #[error("the name `{name}` is used twice")]
     DuplicateName {
         /// The name.
         name: String,
     },
-    /// A name that is always taken.
+    /// The name of the ground is reserved.
     #[error("`ground` is the name of the ground and is always there")]
     Ground,
     /// A number of a body is NaN or infinite.
@@ -35,7 +35,7 @@ pub enum BuildError {
     NotFinite {
         /// The body.
         body: String,
-        /// Which number.
+        /// Name of the number.
         field: &'static str,
         /// The number.
         value: f64,
@@ -45,7 +45,7 @@ pub enum BuildError {
     Negative {
         /// The body.
         body: String,
-        /// Which number.
+        /// Name of the number.
         field: &'static str,
         /// The number.
         value: f64,
@@ -58,12 +58,12 @@ pub enum BuildError {
         /// Its y component.
         y: f64,
     },
-    /// A tolerance is no finite number > 0.
+    /// A tolerance is not a finite number > 0.
     #[error("{of}: {field} is {value}, need a finite number > 0")]
     Tolerance {
-        /// Where it is stated.
+        /// The item for which it is stated.
         of: Stated,
-        /// Which one.
+        /// Name of the number.
         field: &'static str,
         /// The number.
         value: f64,
@@ -80,17 +80,17 @@ pub enum BuildError {
         /// Number of bodies given.
         found: usize,
     },
-    /// A body that does not exist.
+    /// A body does not exist.
     #[error("`{name}` refers to body number {body}; there are {n_bodies}, counted from 0")]
     UnknownBody {
         /// The joint, drive or force.
         name: String,
-        /// The number.
+        /// Its index.
         body: usize,
         /// Number of bodies.
         n_bodies: usize,
     },
-    /// A joint between a body and itself.
+    /// A joint connects a body with itself.
     #[error("`{name}` connects `{body}` with itself")]
     SameBody {
         /// The joint, drive or force.
@@ -98,7 +98,7 @@ pub enum BuildError {
         /// The body.
         body: String,
     },
-    /// A joint or force without any moving body.
+    /// A joint or force has no moving body.
     #[error("`{name}` connects the ground with itself")]
     GroundOnly {
         /// The joint, drive or force.
@@ -114,17 +114,17 @@ pub enum BuildError {
         /// Its y component.
         y: f64,
     },
-    /// A drive in the list of joints, or a joint in the list of drives.
+    /// A drive is in the list of joints, or a joint in the list of drives.
     #[error("`{name}` stands among the {list}, but `{definition}` is none")]
     Role {
         /// The joint or drive.
         name: String,
         /// Its definition.
         definition: &'static str,
-        /// The list it stands in.
+        /// The list that contains it.
         list: &'static str,
     },
-    /// Another number of functions of time than the definition has.
+    /// The number of functions of time differs from that of the definition.
     #[error("`{name}` has {found} functions of time, `{definition}` needs {expected}")]
     FunctionCount {
         /// The joint or force.
@@ -183,10 +183,10 @@ impl Mechanism {
         Ok(mechanism)
     }
 
-    /// States what its numbers are known to if nothing is said of their joint or body.
+    /// Sets the tolerance of its numbers, unless one is stated for their joint or body.
     ///
     /// # Errors
-    /// [`BuildError::Tolerance`]: it is no finite number > 0; nothing has changed.
+    /// [`BuildError::Tolerance`]: it is not a finite number > 0; then nothing changes.
     pub fn set_tolerance(&mut self, tolerance: Tolerance) -> Result<(), BuildError> {
         check_tolerance(tolerance)?;
         self.tolerance = tolerance;
@@ -194,12 +194,12 @@ impl Mechanism {
     }
 }
 
-/// Whether a number is no tolerance.
+/// Whether a number is not a valid tolerance.
 fn is_wrong(value: &f64) -> bool {
     !(value.is_finite() && *value > 0.0)
 }
 
-/// Checks that what is stated of the scene is finite and positive.
+/// Checks that the tolerances of the scene are finite and positive.
 fn check_tolerance(tolerance: Tolerance) -> Result<(), BuildError> {
     let fields = [
         ("tolerance", tolerance.length),
@@ -217,7 +217,7 @@ fn check_tolerance(tolerance: Tolerance) -> Result<(), BuildError> {
     })
 }
 
-/// Every tolerance of a description that is no finite number > 0.
+/// Reports every tolerance of a description that is not a finite number > 0.
 fn check_tolerances(d: &Description, errors: &mut Vec<BuildError>) {
     errors.extend(check_tolerance(d.tolerance).err());
     let bodies = d.bodies.iter();
@@ -288,7 +288,7 @@ fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
     for j in &d.joints {
         let (spec, points) = constraint(j.element.as_ref());
         check_role(&j.name, spec, Role::Joint, "joints", errors);
-        // A named component is that of the force on the first slot alone.
+        // A named component is that of the force on the first slot only.
         let on_ground = j.bodies.split_first().is_some_and(|(first, others)| {
             *first == BodyRef::Ground && others.contains(&BodyRef::Ground)
         });
@@ -389,7 +389,7 @@ fn check_place(
     }
 }
 
-/// Grows the lists of a mechanism, element by element.
+/// Extends the lists of a mechanism, element by element.
 #[derive(Default)]
 pub(super) struct Builder {
     elements: Elements,
@@ -485,7 +485,7 @@ impl Builder {
         self.elements.forces.push(placed);
     }
 
-    /// One row of the pattern of C from (slot, degree of freedom, place in the entries).
+    /// One row of the pattern of C, from (slot, degree of freedom, index of the entry).
     fn pattern_row(
         &mut self,
         bodies: &[BodyRef],
@@ -504,7 +504,8 @@ impl Builder {
         pattern.start.push(pattern.column.len());
     }
 
-    /// The next slots, for these bodies and functions of time, from which `offset` is subtracted.
+    /// The next slots, for these bodies and functions of time; `offset` is subtracted from the
+    /// functions.
     fn site(
         &mut self,
         bodies: &[BodyRef],
@@ -527,7 +528,7 @@ impl Builder {
         }
     }
 
-    /// The mechanism of these bodies; no initial values are taken and no arms are measured.
+    /// The mechanism of these bodies; initial values and arms are not yet set.
     pub(super) fn finish(
         mut self,
         name: &str,

@@ -1,6 +1,5 @@
 //! Derivatives of the equations of motion, assembled from the derivative kernels of joints and
-//! forces: what implicit methods and sensitivities need. Not for explicit motion, which needs none
-//! of them.
+//! forces: needed by implicit methods and sensitivities, but not by explicit methods.
 //!
 //! All are taken along velocity directions, so that every block has n_v columns: `∂/∂q` means the
 //! change with q as the mechanism moves with a velocity.
@@ -29,11 +28,11 @@ pub struct Derivatives {
     slots: Vec<Twist>,
 }
 
-/// A matrix as a sum of entries, in the order of the elements that they come from. The pattern is
+/// A matrix as a sum of entries, in the order of the elements to which they belong. The pattern is
 /// fixed.
 #[derive(Clone, Debug, Default)]
 pub struct Sparse {
-    /// Row, column and place in the values; entries of the ground have none.
+    /// Row, column and index of the value; entries of the ground are omitted.
     entries: Vec<(usize, usize, usize)>,
     values: Vec<f64>,
 }
@@ -59,15 +58,14 @@ impl Sparse {
         }
     }
 
-    /// Row, column and value of each entry; the same place may come more than once, and counts with
-    /// the sum.
+    /// Row, column and value of each entry. A place may occur more than once; its values are added.
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         self.entries
             .iter()
             .map(|&(row, column, at)| (row, column, self.values[at]))
     }
 
-    /// Room for one more block.
+    /// Adds space for one more block.
     fn push_block(
         &mut self,
         pattern: &[[usize; 2]],
@@ -83,7 +81,7 @@ impl Sparse {
         }
     }
 
-    /// The values of blocks one after the other.
+    /// The values of blocks, one after the other.
     fn blocks<'s>(&'s mut self) -> impl FnMut(usize) -> &'s mut [f64] {
         let mut rest = self.values.as_mut_slice();
         move |n| {
@@ -95,7 +93,7 @@ impl Sparse {
 }
 
 impl Derivatives {
-    /// Storage for those of a mechanism; the values are zero.
+    /// Allocates the derivatives of a mechanism; the values are zero.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         let [force_dq, force_dv] = force_patterns(mechanism);
@@ -121,7 +119,7 @@ impl Derivatives {
     }
 
     /// Computes the derivatives at the pose and the twist of the scratch, for accelerations `a`
-    /// (n_v) and multipliers `lambda` (m + h); allocates nothing.
+    /// (n_v) and multipliers `lambda` (m + h); does not allocate.
     ///
     /// ```
     /// use joints::Revolute;
@@ -145,7 +143,7 @@ impl Derivatives {
     /// ```
     ///
     /// # Panics
-    /// If a slice is too short, or the storage is that of another mechanism.
+    /// If a slice is too short, or the storage belongs to another mechanism.
     pub fn differentiate(&mut self, mechanism: &Mechanism, a: &[f64], lambda: &[f64], s: &Scratch) {
         mechanism.elements.spread(a, &mut self.slots);
         let mut reaction_dq = self.reaction_dq.blocks();
@@ -174,7 +172,7 @@ impl Derivatives {
     }
 }
 
-/// Room for `∂Q/∂q` and `∂Q/∂v`.
+/// Space for `∂Q/∂q` and `∂Q/∂v`.
 fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
     let mut patterns = [Sparse::default(), Sparse::default()];
     for f in &mechanism.elements.forces {

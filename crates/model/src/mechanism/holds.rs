@@ -1,7 +1,7 @@
-//! Where joints, drives and forces take hold of bodies, from their parameters: for pictures; and
-//! what drives prescribe: which measure of which joint, and by how much.
+//! The points at which joints, drives and forces act on bodies, from their parameters, for
+//! pictures; and the measures and values that drives prescribe.
 //!
-//! Where a reaction is reported is another question ([`crate::Reactions::place`]).
+//! The point at which a reaction is reported is defined by [`crate::Reactions::place`].
 
 use joints::spec::{ForceSpec, Shape, Spec};
 
@@ -10,22 +10,22 @@ use crate::description::BodyRef;
 use crate::group::ConstraintId;
 use crate::system::Scratch;
 
-/// An applied force as a picture needs it.
+/// The data of an applied force for a picture.
 #[derive(Clone, Debug)]
 pub struct AppliedForce<'m> {
     /// Its name.
     pub name: &'m str,
-    /// Facts of its definition.
+    /// Description of its definition.
     pub spec: &'static ForceSpec,
     /// Its bodies.
     pub bodies: &'m [BodyRef],
-    /// Points that it takes hold of, each in the frame of its body (m).
+    /// Points at which it acts, each in the frame of its body (m).
     pub points: Vec<(BodyRef, [f64; 2])>,
 }
 
 impl Mechanism {
-    /// The points that a joint or drive takes hold of, each in the frame of its body (m; the
-    /// ground's frame is the global one).
+    /// The points at which a joint or drive acts, each in the frame of its body (m; the frame of
+    /// the ground is the global one).
     ///
     /// ```
     /// use joints::Revolute;
@@ -49,9 +49,9 @@ impl Mechanism {
         placed(&element.spec().common, &c.site.bodies, element.points())
     }
 
-    /// The joint whose measure a drive prescribes, and the name of the measure: a joint of the same
-    /// bodies and points whose definition has this drive. `None` if there is none, or this is no
-    /// drive.
+    /// The joint whose measure a drive prescribes, and the name of the measure: a joint with the
+    /// same bodies and points whose definition has this drive. Returns `None` if there is none, or
+    /// if the argument is not a drive.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -87,8 +87,8 @@ impl Mechanism {
         })
     }
 
-    /// Value, rate and second derivative of each function of time that a joint or drive takes, at
-    /// the time of the scratch. Those of a drive are the change of its measure since the start.
+    /// Value, rate and second derivative of each function of time of a joint or drive, at the time
+    /// of the scratch. For a drive they are the change of its measure since the start.
     ///
     /// # Panics
     /// If the mechanism has no such joint or drive.
@@ -97,7 +97,7 @@ impl Mechanism {
         self.elements.constraints[id.0].site.f(&s.slots)
     }
 
-    /// Its applied forces; the weight is none.
+    /// Its applied forces, without the weight.
     pub fn applied_forces(&self) -> impl Iterator<Item = AppliedForce<'_>> {
         self.elements.forces.iter().map(|f| {
             let element = &f.element;
@@ -112,7 +112,7 @@ impl Mechanism {
     }
 }
 
-/// Points with the bodies of their slots.
+/// Points, with the bodies of their slots.
 fn placed(spec: &Spec, bodies: &[BodyRef], points: Vec<[f64; 2]>) -> Vec<(BodyRef, [f64; 2])> {
     let slots = spec.parameters.iter().filter_map(|p| match p.shape {
         Shape::Point { slot } => Some(slot),

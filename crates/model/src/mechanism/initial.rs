@@ -1,8 +1,8 @@
-//! What a mechanism takes from its initial configuration: values that definitions keep, and how far
-//! the joints of a body are from its centre: by this its position is measured if it stands at the
-//! origin.
+//! Values taken from the initial configuration of a mechanism: those stored by definitions, and the
+//! distances of the joints of a body from its centre, which are the length scale of its position if
+//! it is at the origin.
 //!
-//! Not here: the size of the whole mechanism ([`crate::size`]).
+//! The size of the whole mechanism is in [`crate::size`].
 
 use joints::Pose;
 
@@ -23,8 +23,8 @@ pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
     mechanism.reach = longest_arms(mechanism, q);
 }
 
-/// Returns the first requirement of a definition that does not hold at a configuration: who, and
-/// what.
+/// The first requirement of a definition that a configuration does not satisfy: name of the
+/// element, and the requirement.
 pub(crate) fn unmet_requirement(
     mechanism: &Mechanism,
     q: &[f64],
@@ -52,13 +52,13 @@ fn slots(site: &Site, poses: &[Pose]) -> Vec<Pose> {
     site.bodies.iter().map(|&b| pose_of(poses, b)).collect()
 }
 
-/// An arm below this many roundings of its body's position is none: it is what is left of a
-/// difference of places.
+/// An arm below this many roundings of the position of its body counts as zero: it is the rounding
+/// of a difference of positions.
 const ROUNDINGS: f64 = 4.0;
 
-/// The longest arm of each body at coordinates q (m), never zero: a body held at its centre is
-/// where its neighbours' arms put it, and where these have none either, as on shafts with gears,
-/// only the mechanism as a whole has a length.
+/// The longest arm of each body at coordinates q (m), never zero. A body with all joints at its
+/// centre takes the arms of its neighbours; if these have none either, like shafts with gears, the
+/// size of the mechanism is used.
 fn longest_arms(mechanism: &Mechanism, q: &[f64]) -> Vec<f64> {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);
@@ -83,7 +83,7 @@ fn longest_arms(mechanism: &Mechanism, q: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The longest arm of each body; zero where its joints are at its centre.
+/// The longest arm of each body; zero if its joints are at its centre.
 fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let layout = mechanism.layout();
     let mut arms = vec![0.0_f64; mechanism.bodies().len()];
@@ -93,7 +93,8 @@ fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
         if rows.peek().is_none() {
             continue;
         }
-        // A row along a slot does not feel the arm of a pin that moves along the slot here.
+        // At this configuration, a row along a slot is independent of the arm of a pin that moves
+        // along the slot.
         let [x, y] = mechanism.reactions(s).place(ConstraintId(k));
         for body in constraint.site.moving() {
             let at = &s.poses[body];

@@ -1,7 +1,7 @@
-//! The kernels of an assembled mechanism: every element in turn, on the caller's storage. What does
-//! not change from one call to the next is not computed again: functions at the time of the last
-//! call, sines and cosines of angles that have stayed, entries of C that are constant, Γ of rows
-//! that are linear in q.
+//! The kernels of an assembled mechanism: they evaluate all elements, in storage of the caller.
+//! Values that do not change between calls are not computed again: functions at the same time,
+//! sines and cosines of unchanged angles, constant entries of C, and Γ of rows that are linear in
+//! q.
 
 use joints::{Pose, Twist};
 
@@ -9,7 +9,7 @@ use super::{Mechanism, N_BODY, pose_of};
 use crate::space::{Space, in_space};
 use crate::system::{Layout, Scratch, Slots, System};
 
-/// What rounding moves an angle by that is held.
+/// Largest change by rounding of an angle that is held constant.
 const HELD: f64 = 4.0 * f64::EPSILON;
 
 impl System for Mechanism {
@@ -157,9 +157,9 @@ impl Mechanism {
     }
 }
 
-/// Whether a body has the sine and cosine at an angle that it had at another one. If rows of angles
-/// hold it, rounding may move the angle, but does not turn it; elsewhere bits count: the sine of −0
-/// is not that of 0.
+/// Whether a body keeps its sine and cosine when its angle changes. If rows of angles hold the
+/// angle, a change by rounding is not a rotation; otherwise every bit counts: the sine of −0 is not
+/// that of 0.
 fn stays(is_held: bool, from: f64, to: f64) -> bool {
     if is_held {
         (to - from).abs() <= HELD * from.abs().max(1.0)
@@ -168,7 +168,7 @@ fn stays(is_held: bool, from: f64, to: f64) -> bool {
     }
 }
 
-/// What tests count.
+/// Kinds of work that tests count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Counted {
     /// A sine and a cosine.

@@ -1,6 +1,6 @@
-//! Taking a mechanism apart into mechanisms that do not feel each other: bodies belong together
-//! where a joint, a drive or a force connects them. The ground connects nothing: it takes any force
-//! and does not move.
+//! Splits a mechanism into independent mechanisms: bodies belong together if a joint, a drive or a
+//! force connects them. The ground does not connect bodies, because it does not move under any
+//! force.
 
 use joints::spec::Level;
 
@@ -13,13 +13,13 @@ use crate::system::Site;
 /// A mechanism that is a part of another one.
 #[derive(Clone)]
 pub struct Part {
-    /// The part. Its rows are named and numbered as in the whole.
+    /// The part. Its rows have the names and numbers of the whole mechanism.
     pub mechanism: Mechanism,
-    /// Where it is in the whole.
+    /// Its places in the whole mechanism.
     pub places: Places,
 }
 
-/// Where a part is in the whole; all lists ascending.
+/// Places of a part in the whole mechanism; all lists ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Places {
     /// Its bodies.
@@ -30,12 +30,12 @@ pub struct Places {
     pub velocities: Vec<usize>,
     /// Its rows of C.
     pub rows: Vec<usize>,
-    /// Its joints and drives among the groups.
+    /// Its joints and drives, as indices of the groups.
     pub groups: Vec<usize>,
 }
 
 impl Mechanism {
-    /// Bodies that belong together, each set ascending, ordered by their first bodies.
+    /// Sets of connected bodies, each ascending, ordered by their first bodies.
     ///
     /// ```
     /// use joints::Revolute;
@@ -62,8 +62,8 @@ impl Mechanism {
         connected(self.bodies.len(), self.elements.sites())
     }
 
-    /// Bodies that these joints and drives connect, in the same order; those of none of them alone.
-    /// Forces connect nothing here: springs between two machines make no third one.
+    /// Sets of bodies connected by these joints and drives, in the same order; a body without such
+    /// joints is a set of its own. Forces do not count: a spring does not connect two machines.
     ///
     /// ```
     /// use joints::{Revolute, TorsionSpringDamper};
@@ -89,9 +89,9 @@ impl Mechanism {
         connected(self.bodies.len(), constraints.map(|c| &c.site))
     }
 
-    /// The mechanism of some bodies with all joints, drives and forces on them, which must not
-    /// reach other bodies: a set of [`Mechanism::components`], or several of them. Initial values
-    /// are those of the whole.
+    /// The mechanism of some bodies with all joints, drives and forces on them, which must not act
+    /// on other bodies: a set of [`Mechanism::components`], or several of them. Initial values are
+    /// those of the whole mechanism.
     ///
     /// # Panics
     /// If the bodies are not ascending, do not exist, or a joint, drive or force connects them to
@@ -117,9 +117,9 @@ impl Mechanism {
         )
     }
 
-    /// The mechanism of some joints and drives, ascending, with the bodies that they join and no
-    /// forces: for questions about constraints. Initial values are those of the whole. The work is
-    /// that of the part alone.
+    /// The mechanism of some joints and drives, ascending, with the bodies that they connect and no
+    /// forces, for the analysis of constraints. Initial values are those of the whole mechanism.
+    /// The work is proportional to the part only.
     ///
     /// # Panics
     /// If the groups are not ascending or do not exist.
@@ -201,13 +201,13 @@ fn assembled<'a>(
     Part { mechanism, places }
 }
 
-/// Functions of time that an element takes.
+/// Functions of time of an element.
 fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
     let functions = whole.elements.functions[site.functions.clone()].iter();
     functions.map(|f| f.function.clone()).collect()
 }
 
-/// Sets of bodies, each ascending, ordered by their first bodies: those of each site belong
+/// Sets of bodies, each ascending, ordered by their first bodies; the bodies of each site belong
 /// together.
 fn connected<'a>(bodies: usize, sites: impl Iterator<Item = &'a Site>) -> Vec<Vec<usize>> {
     let mut leader: Vec<usize> = (0..bodies).collect();
@@ -230,7 +230,7 @@ fn connected<'a>(bodies: usize, sites: impl Iterator<Item = &'a Site>) -> Vec<Ve
     sets
 }
 
-/// The first body of a set, with shorter ways to it from now on.
+/// The first body of a set; shortens the paths to it.
 fn find(leader: &mut [usize], mut k: usize) -> usize {
     while leader[k] != k {
         leader[k] = leader[leader[k]];

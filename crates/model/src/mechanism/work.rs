@@ -1,36 +1,36 @@
-//! What the kernels of a mechanism compute at each evaluation, and what they leave out, by
-//! its structure. The kernels ask the same questions of the same elements.
+//! The work of the kernels of a mechanism at each evaluation, and the work that its structure makes
+//! unnecessary. The kernels use the same tests.
 
 use super::{Elements, Mechanism, N_BODY, PlacedConstraint};
 use crate::system::Layout;
 
-/// What is computed at each evaluation.
+/// Amount of work at each evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Bodies whose angle the constraints hold at its initial value, ascending: their sine and
-    /// cosine are those of the start.
+    /// cosine do not change.
     pub without_turning: Vec<usize>,
-    /// Entries of C, columns of the ground left out.
+    /// Number of entries of C without the columns of the ground.
     pub entries: usize,
-    /// Those that depend on the configuration.
+    /// Number of entries that depend on the configuration.
     pub varying_entries: usize,
-    /// Rows whose b and Φt may differ from zero.
+    /// Number of rows whose b and Φt may differ from zero.
     pub rows_of_time: usize,
-    /// Rows whose Γ may differ from zero.
+    /// Number of rows whose Γ may differ from zero.
     pub rows_of_gamma: usize,
-    /// Functions of time.
+    /// Number of functions of time.
     pub functions: usize,
-    /// Applied forces; the weight is none.
+    /// Number of applied forces, without the weight.
     pub forces: usize,
 }
 
 impl Work {
-    /// What the kernels of a mechanism compute at each evaluation; allocates.
+    /// Counts the work of the kernels of a mechanism at each evaluation; allocates.
     ///
     /// ```
     /// use joints::{Direction, Translational};
     /// use model::{Body, BodyRef, Description, Joint, Mechanism, Work};
-    /// // A slider on the ground along x does not turn: its row `angle` says so.
+    /// // A slider on the ground along x does not rotate, because of its row `angle`.
     /// let guide = Translational { s_i: [0.0; 2], s_j: [0.0; 2], axis: Direction::X, angle_0: 0.0 };
     /// let d = Description {
     ///     bodies: vec![Body { name: "slider".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
@@ -67,8 +67,8 @@ impl Work {
 }
 
 /// For each body, whether its angle keeps its initial value: a holonomic row that does not depend
-/// on time holds it against the ground, or against bodies of which this is known. Only rows of
-/// angles alone, with constant entries, are asked, so that not all such bodies may be found.
+/// on time connects it with the ground, or with bodies of which this is known. Only rows of angles
+/// alone, with constant entries, are examined, so not all such bodies may be found.
 pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -> Vec<bool> {
     let constraints = elements.constraints.iter();
     let rows: Vec<Vec<usize>> = constraints
@@ -83,7 +83,7 @@ pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -
     }
     let mut held = vec![false; bodies];
     let mut free: Vec<usize> = rows.iter().map(Vec::len).collect();
-    // Rows with one free body, which they hold.
+    // Rows with one free body, whose angle they hold.
     let mut holding: Vec<usize> = (0..rows.len()).filter(|&k| free[k] == 1).collect();
     while let Some(k) = holding.pop() {
         let Some(&body) = rows[k].iter().find(|&&body| !held[body]) else {
@@ -100,8 +100,7 @@ pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -
     held
 }
 
-/// Bodies in a row of a constraint whose entries are constant, those with an entry of zero left
-/// out.
+/// Bodies in a row of a constraint with constant entries, without those whose entry is zero.
 fn constant_row(
     elements: &Elements,
     layout: &Layout,

@@ -1,4 +1,4 @@
-//! Which of the given velocities that no motion has is at fault, what it contradicts, and what to
+//! Determines which of given impossible velocities is wrong, what it contradicts, and which to
 //! leave out.
 
 use rank::Circuit;
@@ -11,25 +11,25 @@ use super::velocity::{Hold, Miss, Start};
 use crate::mechanism::N_BODY;
 use crate::system::{RowLabel, System};
 
-/// Velocities to leave out that are looked for.
+/// Largest number of velocities to leave out that are searched for.
 const LEFT_OUT: usize = 40;
 
-/// A velocity that rows forbid.
+/// A velocity that rows do not allow.
 struct Fault {
     column: usize,
-    /// What prescribes a motion comes first.
+    /// The rows; those that prescribe a motion come first.
     rows: Vec<RowLabel>,
-    /// What prescribes a motion.
+    /// Drives among them.
     drives: Vec<String>,
-    /// Whether others that are held take part.
+    /// Whether other held velocities take part.
     with_others: bool,
 }
 
 impl Start<'_> {
-    /// Why some rows have no velocities that may be taken, `miss` being what was found first.
+    /// The reason why some rows have no acceptable velocities; `miss` is what was found first.
     ///
     /// # Errors
-    /// [`StartError::NoVelocity`]: they have none, whichever are given.
+    /// [`StartError::NoVelocity`]: they have none, whatever velocities are given.
     pub(super) fn conflict(
         &self,
         rows: &[usize],
@@ -53,8 +53,8 @@ impl Start<'_> {
             .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
             .is_none();
         let (leave_out, hold, is_enough) = self.leave_out(rows, &columns)?;
-        // Of what is to be left out the one that then is farthest from what is given: the rest is
-        // not at fault.
+        // Among the candidates for leaving out, the one whose velocity then is farthest from the
+        // given one: the others are not wrong.
         let mut candidates = vec![column];
         if is_enough && self.solve(rows, &hold, self.limit, &mut v)?.is_none() {
             let by = |j: usize| self.equations.arm(j) * (v[j] - self.written[j]).abs();
@@ -89,8 +89,8 @@ impl Start<'_> {
         })
     }
 
-    /// The held velocity that is farthest from the nearest ones that fit, where all may move;
-    /// `None` if there are none. Writes these.
+    /// The held velocity that is farthest from the closest compatible velocities if all may move;
+    /// `None` if there are none. Writes the compatible velocities.
     fn culprit(
         &self,
         rows: &[usize],
@@ -120,7 +120,7 @@ impl Start<'_> {
             .or_else(|| held().max_by(farthest)))
     }
 
-    /// The first of these velocities that rows forbid while the rest of what is held holds.
+    /// The first of these velocities that rows do not allow while the other held velocities stay.
     fn fault(&self, rows: &[usize], candidates: &[usize]) -> Result<Fault, StartError> {
         let of = &self.equations;
         let mut v = self.written.clone();
@@ -149,7 +149,7 @@ impl Start<'_> {
                 let with_others = others.any(|j| takes_part(circuit, j));
                 (column, circuit.rows.clone(), with_others)
             }
-            // Of large sets there are no circuits: the rows that do not hold.
+            // For large sets no circuits are computed; the violated rows are used instead.
             None => {
                 let is_open = |&i: &usize| of.residual(i, &v).abs() > of.rounding(i, &v);
                 let open = rows.iter().copied().filter(is_open);
@@ -179,8 +179,8 @@ impl Start<'_> {
         })
     }
 
-    /// Given velocities without which the others hold, the farthest off first, none of which could
-    /// stay; what is held then; and whether these are enough.
+    /// Given velocities to leave out so that the others are possible, the farthest first, none of
+    /// which could be kept; the velocities that are then held; and whether this is sufficient.
     fn leave_out(
         &self,
         rows: &[usize],
@@ -221,8 +221,8 @@ impl Start<'_> {
         Ok((needed, hold, true))
     }
 
-    /// Frees a velocity by what one who writes scenes can take away, and says how the velocities
-    /// were held that this frees.
+    /// Frees a velocity by removing something that the author of a scene can remove; returns how
+    /// the freed velocities were held.
     fn free(&self, column: usize, hold: &mut [Hold]) -> (HeldVelocity, Vec<(usize, Hold)>) {
         let body = self.equations.mechanism.bodies()[column / N_BODY]
             .name
@@ -232,7 +232,8 @@ impl Start<'_> {
             2 => column..column + 1,
             _ => first..first + 2,
         };
-        // An entry of `keep` goes before what it holds: without the latter it would hold zero.
+        // An entry of `keep` is removed before the velocity that it holds, because it would hold
+        // zero otherwise.
         if let Some(kept) = own.clone().find(|&j| hold[j] == Hold::Kept) {
             let to = if self.is_written[kept] {
                 Hold::Given
@@ -255,5 +256,5 @@ impl Start<'_> {
     }
 }
 
-/// Velocities of a body.
+/// Names of the velocities of a body.
 const NAMES: [&str; N_BODY] = ["vx", "vy", "omega"];

@@ -1,42 +1,42 @@
-//! Given velocities that no motion has, in words.
+//! Given velocities that are impossible, with their description.
 
 use crate::system::RowLabel;
 
-/// Given velocities that contradict the constraints, or what moves by itself.
+/// Given velocities that contradict the constraints, or prescribed motions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}; {}", self.what(), self.advice())]
 #[non_exhaustive]
 pub struct VelocityConflict {
-    /// The body of the velocity that is at fault: the one that is farthest from where it would be
-    /// if it were left out with the others of its kind.
+    /// The body of the wrong velocity: the one that is farthest from its value if it were left out
+    /// with the others of its kind.
     pub body: String,
     /// `vx`, `vy` or `omega`.
     pub coordinate: &'static str,
-    /// What it is given as.
+    /// The given value.
     pub given: f64,
     /// Whether `keep` holds it.
     pub is_kept: bool,
-    /// What it is in velocities that fit: if it is left out, or else in the nearest ones in the
+    /// Its value in compatible velocities: if it is left out, or else in the closest ones in the
     /// mass metric.
     pub nearest: f64,
-    /// What the difference may be (m/s, rad/s).
+    /// Largest allowed difference (m/s, rad/s).
     pub limit: f64,
-    /// Rows that forbid it; those that prescribe a motion come first.
+    /// Rows that contradict it; those that prescribe a motion come first.
     pub rows: Vec<RowLabel>,
-    /// Whether they forbid it only together with other velocities that are held.
+    /// Whether they contradict it only together with other held velocities.
     pub with_others: bool,
-    /// Drives, and joints that prescribe a velocity, among these.
+    /// Drives, and joints that prescribe a velocity, among these rows.
     pub drives: Vec<String>,
-    /// Without these the others hold.
+    /// Velocities to leave out so that the others are possible.
     pub leave_out: Vec<HeldVelocity>,
-    /// Whether `leave_out` is enough; it is not where more velocities contradict the constraints
-    /// than are looked for.
+    /// Whether `leave_out` is sufficient; it is not if more velocities contradict the constraints
+    /// than are searched for.
     pub is_enough: bool,
-    /// Whether there are velocities that fit with what `keep` holds.
+    /// Whether there are velocities compatible with those that `keep` holds.
     pub can_be_corrected: bool,
 }
 
-/// What holds a velocity.
+/// The entry of a scene that holds a velocity.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum HeldVelocity {
@@ -69,15 +69,15 @@ impl std::fmt::Display for HeldVelocity {
     }
 }
 
-/// Rows, and velocities to leave out, that a message names.
+/// Largest number of rows, and of velocities to leave out, named in a message.
 const NAMED: usize = 6;
 
-/// A velocity takes no part in a sum of rows below this share of its terms: what is left is
-/// rounding, also far from the origin.
+/// A velocity takes no part in a sum of rows if its term is below this fraction: the remainder is
+/// rounding, even far from the origin.
 pub(super) const CANCELLED: f64 = 1e-10;
 
 impl VelocityConflict {
-    /// One for all: the worst one, and what to leave out of all.
+    /// Merges conflicts: the worst one, with all velocities to leave out.
     pub(super) fn merged(conflicts: Vec<Self>) -> Option<Self> {
         let off = |c: &Self| (c.nearest - c.given).abs() / c.limit;
         conflicts.into_iter().reduce(|mut a, mut b| {
@@ -158,7 +158,7 @@ impl VelocityConflict {
             [only] => ways.push(format!(
                 "leave out {only}, so that it follows from the others"
             )),
-            // All of them are told: less would not be enough.
+            // All of them are listed, because fewer would not be sufficient.
             [first @ .., last] => ways.push(format!(
                 "leave out {} and {last}, so that they follow from the others",
                 first.join(", ")
@@ -177,7 +177,7 @@ impl VelocityConflict {
     }
 }
 
-/// A velocity with five digits; what is rounding of another one is none.
+/// A velocity with five digits; zero if it is rounding relative to another one.
 fn short(x: f64, beside: f64) -> String {
     let x = if x.abs() <= CANCELLED * beside.abs() {
         0.0
@@ -191,7 +191,7 @@ fn short(x: f64, beside: f64) -> String {
     }
 }
 
-/// The first of some names, and how many more.
+/// The first names, and the number of the others.
 fn named(all: &[String]) -> String {
     let first = all
         .iter()

@@ -1,4 +1,4 @@
-//! Why no consistent start was found.
+//! Reasons why no consistent start was found.
 
 use linalg::{SaddleError, SparseError, StepError};
 use rank::RankError;
@@ -6,7 +6,7 @@ use rank::RankError;
 use super::conflict::VelocityConflict;
 use crate::system::RowLabel;
 
-/// Why no consistent start was found.
+/// Reason why no consistent start was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StartError {
@@ -17,12 +17,12 @@ pub enum StartError {
         list(rows)
     )]
     NoAssembly {
-        /// The rows that cannot be reconciled, the worst first.
+        /// The violated rows, the worst first.
         rows: Vec<Misfit>,
-        /// Iterations made.
+        /// Number of iterations.
         iterations: usize,
     },
-    /// The nearest assembled configuration is far from the described one.
+    /// The closest consistent configuration is far from the described one.
     #[error(
         "the start must be corrected by {correction:.3e} ({coordinate} of body `{body}`), more than the allowed {limit:.3e}; \
          correct the scene, or set `allow_correction = true` in `[start]`"
@@ -30,67 +30,67 @@ pub enum StartError {
     LargeCorrection {
         /// The body that moves most.
         body: String,
-        /// Which coordinate.
+        /// Name of the coordinate.
         coordinate: &'static str,
-        /// By how much.
+        /// The correction.
         correction: f64,
-        /// What is allowed.
+        /// The largest correction allowed.
         limit: f64,
     },
-    /// Velocities that are given, or held by `keep`, are not those of any motion.
+    /// The given velocities, or those held by `keep`, are impossible.
     #[error(transparent)]
     Velocities(#[from] Box<VelocityConflict>),
-    /// A definition requires something that the start does not have.
+    /// A requirement of a definition is not satisfied at the start.
     #[error("`{name}` requires at the start: {requirement}")]
     Requirement {
         /// The joint, drive or force.
         name: String,
-        /// What is required.
+        /// The requirement.
         requirement: &'static str,
     },
-    /// A coordinate that does not exist is to be kept.
+    /// A coordinate that is to be kept does not exist.
     #[error(
         "`keep` names coordinate {dof} of body {body}; bodies are 0..{bodies}, coordinates 0 x, 1 y, 2 angle"
     )]
     NoCoordinate {
-        /// The body asked for.
+        /// The requested body.
         body: usize,
-        /// The coordinate asked for.
+        /// The requested coordinate.
         dof: usize,
         /// Number of bodies.
         bodies: usize,
     },
-    /// The rows leave no velocities, whichever are given.
+    /// The rows allow no velocities, whatever velocities are given.
     #[error(
         "no velocities satisfy the constraints: row {worst} still misses by {residual:.3e}; the rows depend on each other, or nearly, and ask for \
          different velocities: correct or delete one of them"
     )]
     NoVelocity {
-        /// The row that misses most.
+        /// The row with the largest residual.
         worst: RowLabel,
-        /// By how much.
+        /// Its residual.
         residual: f64,
     },
-    /// The start has to be corrected, and the matrix for it would fill the memory.
+    /// The start has to be corrected, and the matrix for this is too large for the memory.
     #[error(
         "the start has to be corrected, which takes a dense matrix of {rows} × {columns} numbers, more than {most:e}; \
          describe positions and velocities that satisfy the constraints"
     )]
     TooLarge {
-        /// Rows that have to be satisfied.
+        /// Number of rows to be satisfied.
         rows: usize,
-        /// Coordinates.
+        /// Number of coordinates.
         columns: usize,
-        /// Most entries of a matrix.
+        /// Largest number of entries of a matrix.
         most: f64,
     },
     /// C at the start is not finite.
     #[error("the start cannot be corrected: {0}")]
     Rank(#[from] RankError),
-    /// The velocities of a large mechanism could not be solved for.
+    /// The velocities of a large mechanism could not be computed.
     #[error("the velocities of the start cannot be found: {0}")]
     Saddle(#[from] SaddleError),
-    /// The same.
+    /// The sparse equations of the velocities could not be solved.
     #[error("the velocities of the start cannot be found: {0}")]
     Sparse(#[from] SparseError),
     /// The correction step failed.
@@ -119,5 +119,5 @@ fn list(rows: &[Misfit]) -> String {
     }
 }
 
-/// Rows that a message names.
+/// Largest number of rows named in a message.
 const NAMED_ROWS: usize = 20;

@@ -1,4 +1,4 @@
-//! What all steps of a start share: weights, bounds, matrices of a few rows.
+//! Common parts of all steps of a start: weights, bounds, matrices of a few rows.
 
 use linalg::Matrix;
 
@@ -13,17 +13,17 @@ pub(super) type Restricting<'a> = (&'a [usize], &'a [f64]);
 /// matters, large against rounding.
 pub(super) const DAMPING: f64 = 1e-10;
 
-/// Share of the scene's size (and of a radian, and of the fastest velocity) that a start may be
-/// corrected without being asked.
+/// Fraction of the size of the scene (and of a radian, and of the fastest velocity) by which a
+/// start may be corrected without permission.
 pub(super) const SMALL_CORRECTION: f64 = 1e-3;
 
 /// A row counts as satisfied below this many roundings of its terms.
 pub(super) const ROUNDINGS: f64 = 10.0;
 
-/// Entries of the largest matrix of a correction: 1 GB.
+/// Largest number of entries of the matrix of a correction: 1 GB.
 const MOST_ENTRIES: usize = 1 << 27;
 
-/// These rows of C; allocates.
+/// Dense matrix of these rows of C; allocates.
 pub(super) fn dense_rows(
     layout: &Layout,
     s: &Scratch,
@@ -44,7 +44,7 @@ pub(super) fn dense_rows(
     Ok(c)
 }
 
-/// The row with the largest value, NaN above all.
+/// The row with the largest value; NaN counts as the largest.
 pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
     rows.fold(
         (0, 0.0),
@@ -52,12 +52,13 @@ pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) 
     )
 }
 
-/// Masses, and inertias divided by the square of the size, below this share of the largest weigh as
-/// this share: what is lighter makes no difference to what is heavy, but its square would overflow.
+/// Masses, and inertias divided by the square of the size, below this fraction of the largest one
+/// are replaced by it: lighter bodies have no effect on heavy ones, but the square of their weight
+/// would overflow.
 const LIGHTEST: f64 = 1e-30;
 
-/// Inverse weights of the coordinates in the mass metric; what has no mass or inertia weighs as the
-/// smallest one that has it.
+/// Inverse weights of the coordinates in the mass metric; coordinates without mass or inertia have
+/// the weight of the smallest one with mass or inertia.
 pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let unit = |k: usize| if k % N_BODY == 2 { size * size } else { 1.0 };
     let comparable = mechanism

@@ -1,20 +1,21 @@
-//! What a start may and may not do.
+//! Options of a start.
 
 use super::error::StartError;
 use crate::mechanism::{Mechanism, N_BODY};
 
-/// What a start may and may not do.
+/// Options of a start.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartOptions {
     /// Coordinates and velocities that keep their described values exactly; a velocity that is not
-    /// given keeps zero.
+    /// given stays zero.
     pub keep: Vec<Coordinate>,
-    /// Whether a correction of more than a thousandth of the scene's size is accepted, or one of
-    /// given velocities by more than a thousandth of the fastest that hang together with them.
+    /// Whether a correction by more than a thousandth of the size of the scene is accepted, or a
+    /// correction of given velocities by more than a thousandth of the fastest ones coupled with
+    /// them.
     pub correction: CorrectionLimit,
 }
 
-/// How far a start may be corrected.
+/// Limit of the corrections of a start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CorrectionLimit {
     /// By a thousandth of the scene's size, and a thousandth of a radian; given velocities by a
@@ -28,9 +29,9 @@ pub enum CorrectionLimit {
 /// One coordinate or velocity of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coordinate {
-    /// Place of the body in the list.
+    /// Index of the body in the list.
     pub body: usize,
-    /// 0 x, 1 y, 2 angle.
+    /// 0 for x, 1 for y, 2 for the angle.
     pub dof: usize,
     /// Position or velocity.
     pub level: KeepLevel,

@@ -1,11 +1,11 @@
-//! Velocities that follow from others: of all that satisfy rows of C the ones with the least
-//! kinetic energy, `½·vᵀ·M·v → min` under `C·v = b`.
+//! Velocities that follow from others: of all that satisfy rows of C, those with the least kinetic
+//! energy, `½·vᵀ·M·v → min` under `C·v = b`.
 //!
-//! Rows that share no velocity that follows are solved apart. Small sets are solved as they are,
-//! after the rank of their columns has been decided; the rows that are left over are circuits,
-//! whose sums of right-hand sides say whether there are such velocities. Large sets are solved by
-//! their Schur complement. Not here: which velocities follow, and what happens where the rows leave
-//! none.
+//! Rows that have no such velocity in common are solved separately. Small sets are solved directly,
+//! after the rank of their columns has been decided; the remaining rows are circuits, whose sums of
+//! right-hand sides show whether such velocities exist. Large sets are solved by their Schur
+//! complement. The selection of the velocities that follow, and the treatment of impossible ones,
+//! are in other modules.
 
 use std::collections::HashMap;
 
@@ -21,36 +21,36 @@ use crate::size::size_of;
 use crate::system::{Scratch, System};
 use crate::uncertainty::Known;
 
-/// Sets of more rows than this are solved by their Schur complement: dense factors would take
+/// Sets with more rows than this are solved by their Schur complement: dense factors would take
 /// seconds.
 pub(super) const DENSE_ROWS: usize = 300;
 
-/// Rows of which less than this share is left beside others count as dependent on them, in large
-/// sets: the Schur complement has the square of their condition.
+/// In large sets, rows whose remaining part is below this fraction count as dependent on others:
+/// the Schur complement has the square of their condition number.
 const LEFT: f64 = 1e-7;
 
-/// A large set takes no row whose entries are below this many of their uncertainties: scaled to
-/// size one they would be noise.
+/// In large sets, a row is ignored if its entries are below this many times their uncertainties:
+/// scaled to size one they would be noise.
 const SIGNIFICANT: f64 = 1e3;
 
-/// Repetitions of a solution; each gains all digits but for rounding, and for damping where a
-/// metric hides that rows are independent.
+/// Largest number of repetitions of a solution. Each gains all digits except for rounding, and for
+/// damping if a metric hides that rows are independent.
 const REPETITIONS: usize = 6;
 
-/// A repetition has to leave less than this share of the residuals.
+/// A repetition has to reduce the residuals to less than this fraction.
 const PROGRESS: f64 = 0.5;
 
-/// `C·v = b` of a start.
+/// The equations `C·v = b` of a start.
 pub(super) struct Equations<'m> {
     pub(super) mechanism: &'m Mechanism,
     pub(super) s: Scratch,
     pub(super) size: f64,
-    /// Diagonal of M⁻¹; what has no mass weighs as the smallest that has.
+    /// Diagonal of M⁻¹; velocities without mass have the weight of the smallest one with mass.
     pub(super) weights: Vec<f64>,
-    /// What is at rest to rounding moves by less than a hundred roundings of its place in this time
-    /// (1/s).
+    /// A velocity that is zero to rounding moves by less than a hundred roundings of the position
+    /// in this time (1/s).
     rest_rate: f64,
-    /// What the entries of C are known to, by its pattern; made when it is needed.
+    /// Uncertainty of the entries of C, by its pattern; computed when needed.
     known: Option<Vec<f64>>,
 }
 
@@ -70,8 +70,8 @@ impl<'m> Equations<'m> {
             s,
             size,
             weights: weights(mechanism, size),
-            // The second is the unit in which a scene is told; what falls under its weight has a
-            // shorter time of its own.
+            // The second is the unit of time of a scene; a body that falls under its weight has a
+            // shorter characteristic time.
             rest_rate: (gravity / size).sqrt().max(1.0),
             known: None,
         }
@@ -82,8 +82,8 @@ impl<'m> Equations<'m> {
         self.mechanism.layout().velocity_residual(&self.s, i, v)
     }
 
-    /// Up to here a residual of row `i` is rounding: of its terms, and of the places of its bodies,
-    /// which turn with the fastest of them.
+    /// Residuals of row `i` up to this value are rounding: of its terms, and of the positions of
+    /// its bodies, which rotate with the fastest of them.
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
         let fastest = self.fastest(row.map(|(j, _)| j), v);
@@ -102,14 +102,14 @@ impl<'m> Equations<'m> {
         columns.map(|j| v[j].abs() / arm(j)).fold(0.0, f64::max)
     }
 
-    /// What row `i` may miss by at velocities that are known to the rounding of this rate (1/s),
-    /// and at rest.
+    /// Allowed residual of row `i` at velocities that are accurate to the rounding of this rate
+    /// (1/s), and at rest.
     pub(super) fn slack(&self, i: usize, rate: f64) -> f64 {
         let places = self.mechanism.scales(&self.s).position(i);
         ROUNDINGS * f64::EPSILON * (ROUNDINGS * self.rest_rate + rate) * places
     }
 
-    /// Up to here velocity `j` is none.
+    /// Up to this value velocity `j` counts as zero.
     pub(super) fn rest_of(&self, j: usize) -> f64 {
         let pose = &self.s.poses[j / N_BODY];
         let place = pose.x.hypot(pose.y).max(self.size);
@@ -117,7 +117,7 @@ impl<'m> Equations<'m> {
         rest / self.arm(j)
     }
 
-    /// What a velocity is multiplied by to be one of a point: the size of the mechanism for
+    /// Factor that converts a velocity into that of a point: the size of the mechanism for
     /// rotations.
     pub(super) fn arm(&self, j: usize) -> f64 {
         if j % N_BODY == 2 { self.size } else { 1.0 }
@@ -133,8 +133,8 @@ impl<'m> Equations<'m> {
         columns
     }
 
-    /// Sets of rows that share velocities, each ascending, in the order of their first rows. Of the
-    /// velocities those are meant that `joins` names.
+    /// Sets of rows that have velocities in common, each ascending, in the order of their first
+    /// rows. Only the velocities for which `joins` returns `true` count.
     pub(super) fn sets(&self, rows: &[usize], joins: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let layout = self.mechanism.layout();
         let mut leader: Vec<usize> = (0..rows.len()).collect();
@@ -193,12 +193,12 @@ impl<'m> Equations<'m> {
     }
 }
 
-/// Whether a size is above a limit, or no number.
+/// Whether a size is above a limit, or not a number.
 pub(super) fn exceeds(size: f64, limit: f64) -> bool {
     size > limit || size.is_nan() || limit.is_nan()
 }
 
-/// The first of a set.
+/// The first element of a set.
 fn find(leader: &mut [usize], mut k: usize) -> usize {
     while leader[k] != k {
         leader[k] = leader[leader[k]];
@@ -207,16 +207,17 @@ fn find(leader: &mut [usize], mut k: usize) -> usize {
     k
 }
 
-/// Rows, and the velocities that follow in them.
+/// Rows, and the velocities that follow from them.
 pub(super) struct Tier {
     parts: Vec<Part>,
-    /// What is left of the rows of small sets: no velocity that follows changes these sums.
+    /// The remaining combinations of rows of small sets: no velocity that follows changes these
+    /// sums.
     pub(super) circuits: Vec<Circuit>,
 }
 
 /// Rows that are solved together.
 pub(super) struct Part {
-    /// Independent in these columns.
+    /// Rows that are independent in these columns.
     rows: Vec<usize>,
     columns: Vec<usize>,
     solver: Solver,
@@ -228,7 +229,7 @@ enum Solver {
 }
 
 impl Tier {
-    /// Of some rows and the velocities that `follows` names.
+    /// Prepares some rows and the velocities for which `follows` returns `true`.
     ///
     /// # Errors
     /// If C is not finite.
@@ -286,7 +287,8 @@ impl Tier {
         Ok(tier)
     }
 
-    /// Adds to v, in the velocities that follow, what the rows still miss.
+    /// Adds a correction that removes the residuals of the rows to v, in the velocities that
+    /// follow.
     ///
     /// # Errors
     /// If a row is not finite.
@@ -313,7 +315,8 @@ impl Tier {
 }
 
 impl Part {
-    /// A large set; `None` if no row of it says anything about these columns.
+    /// Prepares a large set; returns `None` if no row of it has significant entries in these
+    /// columns.
     pub(super) fn schur(
         of: &Equations<'_>,
         set: &[usize],
@@ -373,7 +376,7 @@ impl Part {
             let rows = self.rows.iter().zip(&residual).enumerate();
             let ratios = rows.filter(|(k, _)| used(*k)).map(|(_, row)| ratio(row));
             let worst = ratios.fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
-            // As far as it goes: what follows from this has its own rounding.
+            // As far as possible: the results have their own rounding.
             if worst == 0.0 || exceeds(worst, PROGRESS * best) {
                 return Ok(());
             }
@@ -406,8 +409,8 @@ impl Part {
     }
 }
 
-/// The shortest step in the metric of these inverse masses that removes residuals of rows. Exact
-/// where the rows are independent to working precision, however the masses differ; otherwise
+/// The shortest step in the metric of these inverse masses that removes residuals of rows. Exact if
+/// the rows are independent to working precision, however different the masses are; otherwise
 /// damped.
 pub(super) fn shortest(
     c: &Matrix,

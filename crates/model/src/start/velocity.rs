@@ -1,13 +1,12 @@
-//! Velocities of a start. What is given holds, the others follow from it and from what moves by
-//! itself, with the least kinetic energy.
+//! Velocities of a start. Given velocities hold, and the others follow from these and from
+//! prescribed motions, with the least kinetic energy.
 //!
-//! Given velocities may be rounded to some digits. Where no motion has them, the nearest ones in
-//! the mass metric are taken, and the others follow from these; if they are farther off than a
-//! start may be corrected, the velocities at fault are named. Velocities that `keep` holds do not
-//! move at all.
+//! Given velocities may be rounded to some digits. If they are impossible, the closest ones in the
+//! mass metric are used, and the others follow from these; if they differ by more than the allowed
+//! correction, the wrong velocities are named. Velocities held by `keep` are not changed.
 //!
-//! Residuals are compared with the rounding of their own terms, and what is at rest with the
-//! rounding of its place: never with a solution, which may be zero.
+//! Residuals are compared with the rounding of their own terms, and velocities at rest with the
+//! rounding of positions, never with a solution, which may be zero.
 
 use linalg::Matrix;
 
@@ -23,44 +22,46 @@ use crate::mechanism::Mechanism;
 pub struct StartVelocity {
     /// The velocities.
     pub v: Vec<f64>,
-    /// These minus the given ones; zero where none is given.
+    /// The velocities minus the given ones; zero for those that are not given.
     pub correction: Vec<f64>,
 }
 
-/// How a velocity stands to what is asked.
+/// Whether a velocity is free or held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hold {
-    /// It follows.
+    /// It follows from the others.
     No,
     /// It is given, to its digits.
     Given,
-    /// It is given, and does not move.
+    /// It is given and exact.
     Kept,
 }
 
-/// Corrections of given velocities; each but the first removes what rounding has left.
+/// Number of corrections of given velocities; each after the first removes the rounding of the one
+/// before.
 const PASSES: usize = 5;
 
-/// What follows costs so little of what is given in large sets that it might as well cost nothing.
+/// In large sets, the weight of velocities that follow relative to given ones: so small that it has
+/// no effect.
 const CHEAP: f64 = 1e-6;
 
-/// Entries of a sum of rows below this share of its terms are rounding.
+/// Entries of a sum of rows below this fraction of its terms are rounding.
 const CANCELLED: f64 = 1e-12;
 
 /// Velocities that satisfy `C·v = b` in the kept rows at an assembled configuration: given ones
-/// hold, and the others follow with the least kinetic energy, `M·v = Cᵀ·μ` in them. What has no
-/// mass or inertia weighs as the smallest that has it.
+/// hold, and the others follow with the least kinetic energy, `M·v = Cᵀ·μ` for these. Velocities
+/// without mass or inertia have the weight of the smallest one with mass or inertia.
 ///
-/// Given velocities that fit to rounding do not change. Those that miss are corrected by the least,
-/// in the mass metric; those that `options` keep, and that need not be given, are held to all
-/// digits.
+/// Given velocities that are compatible to rounding do not change. Others are corrected by the
+/// least amount in the mass metric. Those that `options` keep, which need not be given, are held
+/// exactly.
 ///
 /// ```
 /// use joints::Revolute;
 /// use model::start::{StartOptions, assemble, consistent_velocity};
 /// use model::{Body, BodyRef, Description, Mechanism, System};
 ///
-/// // A bob 2 m below its pivot, turning with 3 rad/s: its centre moves with 6 m/s.
+/// // A bob 2 m below its pivot, rotating with 3 rad/s: its centre moves with 6 m/s.
 /// let mut d = Description::new("pendulum");
 /// let bob = d.body(Body { position: [0.0, -2.0], angular_velocity: Some(3.0), ..Body::new("bob", 1.0, 0.1) });
 /// d.joint("pivot", &[BodyRef::Ground, bob], Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] });
@@ -73,9 +74,9 @@ const CANCELLED: f64 = 1e-12;
 /// ```
 ///
 /// # Errors
-/// - [`StartError::Velocities`]: no motion has the given velocities, or only others by more than
-///   `options` allow.
-/// - [`StartError::NoVelocity`]: the rows leave none.
+/// - [`StartError::Velocities`]: the given velocities are impossible, or need a larger correction
+///   than `options` allow.
+/// - [`StartError::NoVelocity`]: the rows allow no velocities.
 /// - [`StartError::NoCoordinate`]: a velocity that `options` keep does not exist.
 pub fn consistent_velocity(
     mechanism: &Mechanism,
@@ -114,23 +115,23 @@ pub fn consistent_velocity(
     })
 }
 
-/// What is asked of the velocities of a start.
+/// Requirements on the velocities of a start.
 pub(super) struct Start<'m> {
     pub(super) equations: Equations<'m>,
-    /// Given velocities, and zero.
+    /// Given velocities; zero if not given.
     pub(super) written: Vec<f64>,
-    /// Whether they stand in the scene.
+    /// Whether each is given in the scene.
     pub(super) is_written: Vec<bool>,
     pub(super) hold: Vec<Hold>,
     pub(super) limit: CorrectionLimit,
 }
 
-/// Why some rows have no velocities that may be taken.
+/// Reason why some rows have no acceptable velocities.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Miss {
-    /// The nearest ones are too far off.
+    /// The closest ones are too far away.
     Far,
-    /// There are none; this row misses most.
+    /// There are none; this row has the largest residual.
     Open(usize),
 }
 
@@ -155,15 +156,15 @@ impl<'m> Start<'m> {
         })
     }
 
-    /// Whether one of these rows misses by more than rounding.
+    /// Whether one of these rows has a residual larger than rounding.
     fn misses(&self, rows: &[usize], v: &[f64]) -> bool {
         let of = &self.equations;
         rows.iter()
             .any(|&i| exceeds(of.residual(i, v).abs(), of.rounding(i, v)))
     }
 
-    /// Finds the velocities of some rows, all that share one with them. Returns why there are none
-    /// to be taken.
+    /// Finds the velocities of some rows, which include all rows that have a velocity in common
+    /// with them. Returns the reason if there are no acceptable ones.
     ///
     /// # Errors
     /// If a number is not finite.
@@ -202,8 +203,8 @@ impl<'m> Start<'m> {
             }
             tier.follow(of, v)?;
         }
-        // What is given at rest but for rounding rests: that of a locked part runs to zero without
-        // end.
+        // A velocity given as zero to rounding is set to zero: the iteration for a locked part
+        // would reduce it without end.
         let is_still = |&j: &usize| v[j].abs().max(self.written[j].abs()) <= of.rest_of(j);
         if columns.iter().all(is_still) && rows.iter().all(|&i| of.s.b[i] == 0.0) {
             for &j in columns.iter().filter(|&&j| hold[j] != Hold::Kept) {
@@ -215,7 +216,7 @@ impl<'m> Start<'m> {
             .or_else(|| self.far(&columns, hold, limit, v)))
     }
 
-    /// Adds the shortest correction of given velocities that closes the circuits.
+    /// Adds the shortest correction of given velocities that makes the sums over circuits vanish.
     fn correct(&self, tier: &Tier, given: &[usize], v: &mut [f64]) -> Result<(), StartError> {
         let of = &self.equations;
         let mut sums: Vec<Vec<f64>> = Vec::new();
@@ -229,7 +230,7 @@ impl<'m> Start<'m> {
                     .sum::<f64>()
             };
             let largest = (0..given.len()).map(terms).fold(0.0, f64::max);
-            // Rows among velocities that are kept: nothing that is given closes them.
+            // Rows that involve kept velocities only: no given velocity can correct them.
             if sum.iter().all(|x| x.abs() <= CANCELLED * largest) {
                 continue;
             }
@@ -248,7 +249,8 @@ impl<'m> Start<'m> {
         Ok(())
     }
 
-    /// The same of many rows: what follows moves with the given velocities, at next to no cost.
+    /// Like [`Self::correct`], for many rows: the other velocities move with the given ones at
+    /// almost no weight.
     fn correct_many(&self, rows: &[usize], hold: &[Hold], v: &mut [f64]) -> Result<(), StartError> {
         let of = &self.equations;
         let mut columns = of.columns(rows);
@@ -266,12 +268,12 @@ impl<'m> Start<'m> {
         Ok(())
     }
 
-    /// The row that misses most, beyond rounding and rest.
+    /// The row with the largest residual above rounding and rest.
     fn open(&self, rows: &[usize], columns: &[usize], v: &[f64]) -> Option<Miss> {
         let of = &self.equations;
-        // All that are solved for together are known to the rounding of the fastest.
+        // All velocities computed together are accurate to the rounding of the fastest.
         let rate = of.fastest(columns.iter().copied(), v);
-        // Rounding may leave a little more than that of the terms of one row.
+        // Rounding may leave slightly more than that of the terms of one row.
         let excess = |i: usize| {
             of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.slack(i, rate))
         };
@@ -283,7 +285,7 @@ impl<'m> Start<'m> {
         exceeds(worst, 1.0).then_some(Miss::Open(row))
     }
 
-    /// Whether a given velocity was corrected by more than is allowed.
+    /// Whether a given velocity was corrected by more than allowed.
     fn far(
         &self,
         columns: &[usize],
@@ -300,9 +302,9 @@ impl<'m> Start<'m> {
             .then_some(Miss::Far)
     }
 
-    /// What a given velocity may be corrected by: a thousandth of the fastest of the velocities
-    /// that share rows with it, rotations by what they move at the size of the mechanism; and what
-    /// is rest.
+    /// Largest allowed correction of a given velocity: a thousandth of the fastest of the
+    /// velocities that have rows in common with it, rotations times the size of the mechanism; and
+    /// the limit of rest.
     pub(super) fn allowed(&self, j: usize, columns: &[usize], hold: &[Hold], v: &[f64]) -> f64 {
         let of = &self.equations;
         if hold[j] == Hold::Kept {

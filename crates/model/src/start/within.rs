@@ -1,8 +1,9 @@
-//! Starts of mechanisms whose data are known to a stated tolerance: rows may miss by what the data
-//! make of them, and no body is moved far to mend a miss that the data explain.
+//! Starts of mechanisms with a stated tolerance: rows may have residuals that the data explain, and
+//! no body is moved far to remove such a residual.
 //!
-//! Two sliders on one line that differ by a rounding meet where one of them is turned by its root,
-//! or far away: such a configuration satisfies all rows and is not the one that is meant.
+//! Two sliders on one line that differ by a rounding coincide if one of them is rotated by the
+//! square root of the rounding, or far away: such a configuration satisfies all rows but is not the
+//! intended one.
 
 use linalg::{Matrix, small_svd};
 
@@ -14,21 +15,23 @@ use crate::size::size_of;
 use crate::system::{Scratch, System};
 use crate::uncertainty::{ROUNDING, has_tolerances};
 
-/// Data that move a body by more than so many tolerances do not say where it is: what misses there
-/// is left as it is. Levers are known to two points, which this must not exceed by much: at ten,
-/// arms of 0.7 mm that polishing had made were reported as some within 0.1 mm.
+/// If data within the tolerance move a body by more than this many tolerances, they do not
+/// determine its position, and residuals along that motion are left. Lever arms are determined by
+/// two points, so this must not exceed two by much: with ten, arms of 0.7 mm caused by polishing
+/// were reported as non-zero within 0.1 mm.
 const AMPLIFIED: f64 = 3.0;
 
-/// Rows up to which such directions are looked for: the work grows with their cube.
+/// Largest number of rows for which such directions are searched for: the work grows with the cube.
 const ROWS: usize = 200;
 
-/// Iterations; away from the directions that are left, each doubles the digits.
+/// Largest number of iterations; except along the directions that are left, each doubles the
+/// digits.
 const ITERATIONS: usize = 20;
 
-/// A step below this share of the tolerance is none.
+/// A step below this fraction of the tolerance counts as zero.
 const STILL: f64 = 1e-6;
 
-/// The largest tolerance of lengths and of angles. Whose data are wrong is not known, so the
+/// The largest tolerance of lengths and of angles. It is not known which data are wrong, so the
 /// largest counts.
 fn largest(blocks: &[DataBlock]) -> [f64; 2] {
     [DataUnit::Length, DataUnit::Angle].map(|unit| {
@@ -37,7 +40,7 @@ fn largest(blocks: &[DataBlock]) -> [f64; 2] {
     })
 }
 
-/// What data within the tolerance make of each of these rows.
+/// Effect of data within the tolerance on each of these rows.
 fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
     let blocks = mechanism.data().blocks(s);
     let [length, angle] = largest(&blocks);
@@ -58,14 +61,14 @@ fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
     rows.iter().map(of_row).collect()
 }
 
-/// Whether data within the tolerance make as much of each of these rows as it misses by.
+/// Whether data within the tolerance explain the residual of each of these rows.
 pub(super) fn is_within(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> bool {
     let reach = reach(mechanism, s, rows);
     let mut each = rows.iter().zip(reach);
     each.all(|(&row, reach)| s.phi[row].abs() <= SHARED * reach)
 }
 
-/// How far a body moves along each column of C by one tolerance: lengths, and angles that move a
+/// Displacement of a body along each column of C by one tolerance: lengths, and angles that move a
 /// point at the size of the mechanism by as much.
 fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     let [length, angle] = largest(&mechanism.data().blocks(s));
@@ -83,15 +86,15 @@ fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     (0..mechanism.layout().n_v).map(unit).collect()
 }
 
-/// How far configurations are apart in these units.
+/// Distance of two configurations in these units.
 fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
     let apart = mechanism.space().difference_of(a, b);
     let shares = apart.iter().zip(units).map(|(d, unit)| d.abs() / unit);
     shares.fold(0.0, f64::max)
 }
 
-/// Whether a tolerance is stated, and these coordinates are farther apart than data within it say
-/// where the bodies are.
+/// Whether a tolerance is stated, and these coordinates are farther apart than the uncertainty of
+/// the positions.
 pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[f64]) -> bool {
     has_tolerances(mechanism)
         && farthest(
@@ -102,9 +105,9 @@ pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[
         ) > AMPLIFIED
 }
 
-/// The configuration that the described one means, where `found` satisfies the rows as well as
-/// possible: `found`, unless it is farther away than the data say, from one whose rows all miss by
-/// no more than the data make of them.
+/// The intended configuration, given that `found` satisfies the rows as well as possible: `found`,
+/// unless it is farther than the uncertainty of positions from a configuration whose residuals are
+/// all explained by the data.
 pub(super) fn meant(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -131,9 +134,10 @@ pub(super) fn meant(
     }
 }
 
-/// The nearest configuration, in the mass metric, of those that satisfy the rows wherever the data
-/// say where the bodies are: singular directions along which one tolerance moves a body by many are
-/// left. `None` if a row misses by more than the data explain.
+/// The closest configuration, in the mass metric, of those that satisfy the rows in the directions
+/// in which the data determine the positions: singular directions along which one tolerance moves a
+/// body by many tolerances are left out. Returns `None` if a row has a larger residual than the
+/// data explain.
 fn truncated(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -200,9 +204,10 @@ mod tests {
     use crate::start::{CorrectionLimit, assemble};
     use crate::{Body, BodyRef, Description, Joint, Mechanism, StartOptions, Tolerance};
 
-    /// A body that slides on the x-axis by its own point and by the origin of the ground in its own
-    /// slot, 0.1 µm beside that point: `y = 0` and `x·sin θ + 1e-7·cos θ = 0`, which hold together
-    /// only where the body is turned or shifted by the root of 0.1 µm.
+    /// A body that slides on the x-axis with its own point and with the origin of the ground in its
+    /// own slot, which is displaced by 0.1 µm from that point: `y = 0` and
+    /// `x·sin θ + 1e-7·cos θ = 0`, which hold together only if the body is rotated or shifted by
+    /// the square root of 0.1 µm.
     fn assembled(tolerance: f64) -> Vec<f64> {
         let slot = |name: &str, bodies: [BodyRef; 2], x: f64, y: f64| {
             let slot = PinInSlot {

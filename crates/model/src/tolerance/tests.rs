@@ -1,4 +1,4 @@
-//! Who states a tolerance goes before whom, and what cannot be one.
+//! Precedence of stated tolerances, and invalid tolerances.
 
 use joints::{Direction, Gear, KnifeEdge, Line, PointOnLine, Revolute, RevoluteAngleDrive};
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::description::Description;
 use crate::{Body, BodyRef, DataBlock, Function, Mechanism, System};
 
-/// The distance between the bodies, with all joints between them: the size of the mechanism (m).
+/// The distance between the bodies, which contains all joints: the size of the mechanism (m).
 const SIZE: f64 = 4.0;
 
 fn body(name: &str, x: f64) -> Body {
@@ -17,7 +17,7 @@ fn body(name: &str, x: f64) -> Body {
 }
 
 /// A pin with a motor between two bodies, a gear, and on the second body a roller on a line of the
-/// ground and an edge.
+/// ground and a knife edge.
 fn description() -> Description {
     let mut d = Description::new("stated");
     let i = d.body(body("left", 0.0));
@@ -56,7 +56,7 @@ fn blocks(mechanism: &Mechanism) -> Vec<DataBlock> {
     mechanism.data().blocks(&s)
 }
 
-/// Tolerances of the data of a joint or drive, in their order; of a line its point, then its
+/// Tolerances of the data of a joint or drive, in their order; for a line its point, then its
 /// direction.
 fn stated(mechanism: &Mechanism, joint: &str) -> Vec<Option<f64>> {
     let groups = &mechanism.layout().groups;
@@ -93,7 +93,8 @@ fn a_joint_goes_before_a_body_and_a_body_before_the_scene() {
     assert_eq!(stated(&whole, "edge"), [scene, scene_angle]);
     assert_eq!(stated(&whole, "motor"), [scene, scene, scene_angle]);
 
-    // Points and directions in the frame of the body; not numbers, and not the line of the ground.
+    // Tolerances of points and directions in the frame of the body; not of numbers, and not of the
+    // line of the ground.
     d.bodies[1].tolerance = Some(2e-4);
     let (body, body_angle) = (Some(2e-4), Some(2e-4 / SIZE));
     let measured = built(&d);
@@ -103,7 +104,8 @@ fn a_joint_goes_before_a_body_and_a_body_before_the_scene() {
     assert_eq!(stated(&measured, "edge"), [body, body_angle]);
     assert_eq!(stated(&measured, "motor"), [scene, body, scene_angle]);
 
-    // All data of the joint; a joint and its drive do not speak for each other.
+    // All data of the joint; the tolerance of a joint does not apply to a separate drive, and the
+    // reverse.
     d.joints[0].tolerance = Some(5e-5);
     d.joints[2].tolerance = Some(8e-5);
     let fitted = built(&d);
@@ -168,7 +170,7 @@ fn parts_have_the_tolerances_of_the_whole() {
             );
         }
     }
-    // The edge alone, with its body.
+    // Only the knife edge, with its body.
     let edge = whole.part_of_groups(&groups[4..]).mechanism;
     assert_eq!(stated(&edge, "edge"), [Some(2e-4), Some(1e-6)]);
 }

@@ -1,4 +1,4 @@
-//! Against dense matrices.
+//! Compared with dense matrices.
 
 use super::*;
 

@@ -1,10 +1,10 @@
 //! Nodes sorted by degree, as lists of nodes of equal degree.
 
-/// No node.
+/// Marks that there is no node.
 const NONE: usize = usize::MAX;
 
-/// The nodes `0..n` that are in, each with a degree below n; of equal degree the latest comes
-/// first.
+/// Some of the nodes `0..n`, each with a degree below n; among nodes of equal degree the latest
+/// comes first.
 pub(super) struct Buckets {
     first: Vec<usize>,
     next: Vec<usize>,
@@ -25,7 +25,7 @@ impl Buckets {
         }
     }
 
-    /// Puts a node in that is not in.
+    /// Inserts a node that is not contained.
     pub(super) fn insert(&mut self, node: usize, degree: usize) {
         let degree = degree.min(self.first.len() - 1);
         let after = std::mem::replace(&mut self.first[degree], node);
@@ -38,7 +38,7 @@ impl Buckets {
         self.least = self.least.min(degree);
     }
 
-    /// Takes a node out that is in; its degree.
+    /// Removes a contained node; returns its degree.
     pub(super) fn remove(&mut self, node: usize) -> usize {
         let (before, after) = (self.previous[node], self.next[node]);
         match before {
@@ -51,7 +51,7 @@ impl Buckets {
         self.degree[node]
     }
 
-    /// Takes out the first node of least degree.
+    /// Removes the first node of least degree.
     pub(super) fn pop(&mut self) -> Option<usize> {
         while *self.first.get(self.least)? == NONE {
             self.least += 1;

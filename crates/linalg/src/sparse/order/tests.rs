@@ -1,9 +1,9 @@
-//! Fill of known graphs, and an order that is one.
+//! Fill of known graphs, and checks that an order is a permutation.
 
 use super::*;
 
-/// Entries of the Cholesky factor of a graph in an order: nodes are eliminated one by one,
-/// neighbour sets are kept outright.
+/// Number of entries of the Cholesky factor of a graph in an order: nodes are eliminated one by one
+/// with explicit sets of neighbours.
 fn fill(n: usize, cliques: &[Vec<usize>], order: &[usize]) -> usize {
     let mut sorted = order.to_vec();
     sorted.sort_unstable();
@@ -64,7 +64,7 @@ fn chordal_graphs_do_not_fill() {
 fn a_ring_fills_one_edge_for_each_node() {
     let mut ring = chain(100);
     ring.push(vec![99, 0]);
-    // Every order of a ring gives a triangulation: 3 entries a node, but for the last two.
+    // Every order of a ring gives a triangulation: 3 entries for each node except the last two.
     assert_eq!(fill(100, &ring, &minimum_degree(100, &ring)), 3 * 100 - 3);
 }
 
@@ -84,7 +84,7 @@ fn whatever_comes_is_ordered_once() {
     assert_eq!(minimum_degree(1, &[]), [0]);
     let all = minimum_degree(5, &[vec![4, 1, 4, 9], (0..5).collect(), vec![], vec![2]]);
     assert_eq!(all.len(), 5);
-    // The same input, the same order; the order of the cliques does not count.
+    // The same input gives the same order; the order of the cliques has no effect.
     let mut cliques = grid(12);
     let order = minimum_degree(144, &cliques);
     cliques.reverse();

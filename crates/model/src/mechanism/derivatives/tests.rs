@@ -1,5 +1,5 @@
-//! The assembled derivatives against central differences of the assembled equations, on a mechanism
-//! with constraints and forces of every kind, away from its constraints.
+//! The assembled derivatives compared with central differences of the assembled equations, on a
+//! mechanism with constraints and forces of every kind, at a state that violates its constraints.
 
 use joints::plane::Direction;
 use joints::{
@@ -129,7 +129,7 @@ fn mechanism() -> Mechanism {
     Mechanism::build(&d).expect("a mechanism")
 }
 
-/// What is differentiated: Q, Cᵀ·λ, C·a − Γ, Γ, C·v − b.
+/// The differentiated values: Q, Cᵀ·λ, C·a − Γ, Γ, C·v − b.
 type Equations = [Vec<f64>; 5];
 
 fn equations(m: &Mechanism, q: &[f64], v: &[f64], a: &[f64], lambda: &[f64]) -> Equations {
@@ -151,7 +151,7 @@ fn equations(m: &Mechanism, q: &[f64], v: &[f64], a: &[f64], lambda: &[f64]) -> 
     ]
 }
 
-/// Numbers between −1 and 1 without pattern.
+/// Numbers between −1 and 1 without a pattern.
 fn numbers(n: usize, seed: f64) -> Vec<f64> {
     (0..n)
         .map(|k| ((k as f64 + seed) * 12.9898).sin() * 43.7)
@@ -182,8 +182,8 @@ fn products_are_differences_of_the_equations() {
             matrix.add_product(&along, &mut found);
             for (i, found) in found.iter().enumerate() {
                 let expected = (plus[k][i] - minus[k][i]) / (2.0 * H);
-                // Truncation H²·third derivative, with stiffnesses of 7 on lengths that may come
-                // near 0.1.
+                // Truncation error H² times the third derivative, with stiffnesses of 7 on lengths
+                // that may be near 0.1.
                 assert!(
                     (found - expected).abs() < 1e-6 * (1.0 + expected.abs()),
                     "{name}, seed {seed}, row {i}: {found}, by differences {expected}"

@@ -1,4 +1,4 @@
-//! What is not computed again, by counting.
+//! Tests by counting that values are not computed again.
 
 use std::cell::RefCell;
 
@@ -8,11 +8,11 @@ use super::{Counted, System};
 use crate::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism};
 
 thread_local! {
-    /// How often each kind of work was done on this thread.
+    /// Number of times each kind of work was done on this thread.
     pub(super) static COUNTS: RefCell<[usize; 2]> = const { RefCell::new([0; 2]) };
 }
 
-/// Pieces of work of one kind that `run` does.
+/// Counts the work of one kind that `run` does.
 fn count(work: Counted, run: impl FnOnce()) -> usize {
     let now = || COUNTS.with_borrow(|counts| counts[work as usize]);
     let before = now();
@@ -58,7 +58,7 @@ fn trolley() -> Mechanism {
     let d = Description {
         bodies: vec![body("slider"), body("held"), body("bob")],
         joints: vec![
-            // Before the guide that makes it known that nothing turns.
+            // Listed before the guide from which it follows that nothing rotates.
             Joint::new("hold", &[slider, held], Angle { angle_0: 0.0 }),
             Joint::new("guide", &[GROUND, slider], guide()),
             Joint::new("pin", &[slider, bob], pin),
@@ -102,12 +102,12 @@ fn rounding_does_not_turn_what_is_held() {
     let mut s = m.scratch();
     m.pose(0.0, &[0.0; 9], &mut s);
     let mut q = [0.0; 9];
-    // Each by one rounding: the slider is held, the bob is not.
+    // Each changes by one rounding: the angle of the slider is held, that of the bob is not.
     (q[2], q[8]) = (f64::EPSILON, f64::EPSILON);
     assert_eq!(count(Counted::Trigonometry, || m.pose(0.0, &q, &mut s)), 1);
     assert_eq!([s.poses[0].sin, s.poses[2].sin], [0.0, f64::EPSILON]);
     assert_eq!(s.poses[0].angle, f64::EPSILON, "rows of angles see it");
-    // Roundings do not add up unseen.
+    // Rounding errors do not accumulate unnoticed.
     for k in 2..8 {
         q[2] = f64::EPSILON * f64::from(k);
         m.pose(0.0, &q, &mut s);
@@ -145,8 +145,8 @@ fn the_work_is_told_from_the_structure() {
         (work.rows_of_gamma, work.rows_of_time, work.functions),
         (5, 1, 1)
     );
-    // hold and the row `angle` of the guide are constant, and the translations of the pin, two in
-    // each of its rows.
+    // The row of `hold` and the row `angle` of the guide are constant, and the translations of the
+    // pin, two in each of its rows.
     assert_eq!(work.entries - work.varying_entries, 2 + 1 + 4);
 }
 

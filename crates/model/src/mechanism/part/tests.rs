@@ -1,4 +1,4 @@
-//! A part has the equations that it has in the whole.
+//! A part has the same equations as in the whole mechanism.
 
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive, SpringDamper};
 
@@ -16,7 +16,7 @@ fn body(name: &str, x: f64) -> Body {
     }
 }
 
-/// Three mechanisms with their bodies in turn: a driven crank, a sledge on a knife edge, and two
+/// Three mechanisms with interleaved bodies: a driven crank, a sledge on a knife edge, and two
 /// bodies on a spring.
 fn scattered() -> Mechanism {
     let [crank, sledge, left, right] = [0, 1, 2, 3].map(BodyRef::Body);
