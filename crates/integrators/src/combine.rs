@@ -1,5 +1,5 @@
-//! The one loop of explicit methods: sums of stages. Not here: which stages and which weights (each
-//! method).
+//! The inner loop of explicit methods: sums of stages. The stages and weights are chosen by each
+//! method.
 
 /// Writes `y = y0 + h·Σ w_j k_j`. All slices are at least as long as `y`.
 #[inline]

@@ -2,12 +2,12 @@
 //!
 //! `h_new = h · clamp(safety · err^(−α) · err_old^β)`: Gustafsson's controller in the form of
 //! Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4 and of Hairer,
-//! Wanner, vol. II, IV.2; evaluated with one logarithm and one exponential a step. Not here: why a
-//! trial failed (`drive`), the error estimate itself (each method).
+//! Wanner, vol. II, IV.2; evaluated with one logarithm and one exponential per step. Failures of
+//! trials are handled in `drive`; the error estimate belongs to each method.
 
-/// What the loop asks after each trial: the size of the next one.
+/// Determines the size of the next trial step.
 pub trait StepControl {
-    /// Forgets the past, at the start of a leg.
+    /// Resets the memory, at the start of a leg.
     fn reset(&mut self);
 
     /// After an accepted step of size `h` with error norm `error` ≤ 1.
@@ -16,8 +16,8 @@ pub trait StepControl {
     /// After a trial of size `h` with error norm `error` > 1, possibly infinite.
     fn reject(&mut self, h: f64, error: f64) -> f64;
 
-    /// After a trial of size `h` that gave no error estimate or was not wanted; `factor` is what
-    /// the loop proposes.
+    /// After a trial of size `h` that gave no error estimate or was refused; `factor` is the
+    /// proposal of the loop.
     fn shorten(&mut self, h: f64, factor: f64) -> f64;
 }
 
@@ -28,7 +28,8 @@ pub(crate) struct ControlConstants {
     pub(crate) alpha: f64,
     /// β, exponent of the previous error; 0 gives the classical controller.
     pub(crate) beta: f64,
-    /// Aim at this part of the step that would just pass.
+    /// The step size is this fraction of the one for which the error would be exactly the
+    /// tolerance.
     pub(crate) safety: f64,
     /// Smallest permitted h_new / h.
     pub(crate) min_factor: f64,
@@ -63,10 +64,10 @@ impl StepControl for Control {
         *self = Self::new(self.constants);
     }
 
-    /// Does not grow right after a rejection.
+    /// Does not increase the step size directly after a rejection.
     fn accept(&mut self, h: f64, error: f64) -> f64 {
         let c = self.constants;
-        // ln 0 = −∞ gives the factor +∞, cut to the limit.
+        // ln 0 = −∞ gives the factor +∞, which is limited.
         let log_error = error.ln();
         let factor = c.safety * (c.beta * self.log_previous_error - c.alpha * log_error).exp();
         let limit = if self.after_rejection {
@@ -91,8 +92,8 @@ impl StepControl for Control {
     }
 }
 
-/// `√(1/n · Σ (d_i / scale_i)²)`; 0 for n = 0. A component with d_i = 0 does not count even where
-/// its scale is 0.
+/// `√(1/n · Σ (d_i / scale_i)²)`; 0 for n = 0. A component with d_i = 0 is ignored even if its
+/// scale is 0.
 pub(crate) fn weighted_rms(d: &[f64], scale: &[f64]) -> f64 {
     if d.is_empty() {
         return 0.0;

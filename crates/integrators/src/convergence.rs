@@ -1,20 +1,20 @@
-//! When simplified Newton iterations have converged, will not converge, or can only stir the noise
-//! of rounding; for all implicit methods.
+//! Decides whether simplified Newton iterations have converged, will not converge, or have reached
+//! the noise of rounding; for all implicit methods.
 //!
 //! Source: Hairer, Wanner II, 2nd ed., IV.8, and the constants of the authors' program RADAU5; the
 //! rule for noise is ours.
 
 pub(crate) const MAX_ITERATIONS: u32 = 7;
-/// Convergence at this rate or faster means that the matrices serve another step.
+/// With convergence at this rate or faster, the matrices are kept for another step.
 pub(crate) const GOOD_RATE: f64 = 1e-3;
-/// Convergence at this rate or slower is none.
+/// Convergence at this rate or slower counts as none.
 const BAD_RATE: f64 = 0.99;
-/// Step-size factor where nothing is known about the convergence.
+/// Step-size factor if nothing is known about the convergence.
 const FACTOR_WITHOUT_RATE: f64 = 0.5;
-/// Iterations that once converged at this rate and then no longer do have arrived at the noise of
+/// Iterations that once converged at this rate and then stop converging have reached the noise of
 /// rounding ...
 const RATE_ABOVE_NOISE: f64 = 0.1;
-/// ... if their increments are below this part of the permitted error.
+/// ... if their increments are below this fraction of the permitted error.
 const LARGEST_NOISE: f64 = 0.03;
 
 /// What to do after an iteration.
@@ -28,15 +28,15 @@ pub(crate) enum Verdict {
     Diverged { factor: f64 },
 }
 
-/// How fast the iterations of a step have converged.
+/// Convergence of the iterations of a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Convergence {
-    /// Iterations so far.
+    /// Number of iterations so far.
     pub(crate) iterations: u32,
     /// Smoothed quotient of successive increments.
     pub(crate) rate: f64,
-    /// rate/(1 − rate): bound of the remaining error in terms of the last increment; for a first
-    /// iteration from the steps before.
+    /// rate/(1 − rate): bound on the remaining error relative to the last increment; for a first
+    /// iteration taken from earlier steps.
     remaining: f64,
     norm: f64,
     quotient: f64,
@@ -57,7 +57,7 @@ impl Default for Convergence {
 }
 
 impl Convergence {
-    /// The next solve, which remembers from this one how far a first increment can be trusted.
+    /// The state for the next solve, which keeps how far a first increment can be trusted.
     pub(crate) fn next(self) -> Self {
         Self {
             remaining: self.remaining.max(f64::EPSILON).powf(0.8),
@@ -65,7 +65,7 @@ impl Convergence {
         }
     }
 
-    /// Judges an iteration with increments of the given norm; what is left at the end may have the
+    /// Evaluates an iteration with increments of the given norm; the remaining error may have the
     /// norm `permitted`.
     pub(crate) fn judge(&mut self, norm: f64, permitted: f64) -> Verdict {
         self.iterations += 1;
@@ -105,7 +105,8 @@ impl Convergence {
         }
     }
 
-    /// Sets `remaining`; a factor of the step size if the iterations that are left will not do.
+    /// Sets `remaining`; returns a factor of the step size if the remaining iterations will not be
+    /// sufficient.
     fn factor_if_hopeless(&mut self, permitted: f64) -> Option<f64> {
         if self.rate >= BAD_RATE {
             return Some(FACTOR_WITHOUT_RATE);

@@ -1,8 +1,8 @@
 //! The loop shared by all methods: trials, rejections, accepted steps, legs between break times,
 //! limits.
 //!
-//! Not here: formulas of a method (`Stepper`), the law of step control (`control`), output times
-//! (`sample`).
+//! The formulas of a method are in its `Stepper`, the step-size control is in `control`, output
+//! times are in `sample`.
 
 use crate::error::{Cause, Failure, IntegrationError};
 use crate::interval::{Interval, Leg};
@@ -14,13 +14,14 @@ use crate::statistics::Statistics;
 use crate::step::Step;
 use std::ops::ControlFlow;
 
-/// A step below this many units in the last place of t counts as collapsed: stage times would no
-/// longer differ.
+/// A step below this many units in the last place of t counts as collapsed: stage times could no
+/// longer be distinguished.
 const SMALLEST_STEP_IN_EPSILONS: f64 = 16.0;
-/// A step that would leave less than this part of itself before the end of a leg is stretched to
+/// A step that would leave less than this fraction of itself before the end of a leg is extended to
 /// the end.
 const STRETCH: f64 = 1.01;
-/// A step that stops before a delicate time leaves this part of what a step of its size could pass.
+/// A step that ends before a delicate time leaves this fraction of the distance that a step of its
+/// size could pass.
 const LEFT_TO_PASS: f64 = 0.8;
 /// Step-size factor after a failed evaluation.
 const FACTOR_AFTER_FAILURE: f64 = 0.25;
@@ -30,15 +31,14 @@ const FACTOR_AFTER_HOOK: f64 = 0.5;
 /// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted
 /// step.
 ///
-/// Memory is allocated before the first step only. If t0 = t_end nothing is evaluated and nobody is
-/// called.
+/// Memory is allocated before the first step only. If t0 = t_end, nothing is evaluated or called.
 ///
 /// # Errors
 ///
-/// A [`Failure`] with the last good state, its time and the statistics; what `observe` has seen
-/// stays valid. Its `error` is one of [`DimensionMismatch`], [`NonFiniteInitialState`],
-/// [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (nothing was done), [`StartFailed`],
-/// [`StepSizeCollapsed`], [`TooManySteps`].
+/// A [`Failure`] with the last good state, its time and the statistics; steps that `observe` has
+/// received stay valid. Its `error` is one of [`DimensionMismatch`], [`NonFiniteInitialState`],
+/// [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (before the first evaluation),
+/// [`StartFailed`], [`StepSizeCollapsed`], [`TooManySteps`].
 ///
 /// [`DimensionMismatch`]: crate::IntegrationError::DimensionMismatch
 /// [`NonFiniteInitialState`]: crate::IntegrationError::NonFiniteInitialState
@@ -111,7 +111,7 @@ where
     Ok(run.finish(End::Reached))
 }
 
-/// Checks everything that can be known before the first evaluation.
+/// Checks everything that can be checked before the first evaluation.
 pub(crate) fn check<O: Ode>(
     ode: &O,
     interval: &Interval<'_>,
@@ -134,13 +134,13 @@ pub(crate) fn check<O: Ode>(
     interval.legs()
 }
 
-/// Whether a step goes over a delicate time, or so near that the next one of its size would.
+/// Whether a step passes a delicate time, or is so close that the next step of its size would.
 fn is_near(delicate: &Delicate, trial: &Trial<'_>) -> bool {
     let ahead = |t: f64| (delicate.t - t) / trial.h;
     ahead(trial.t) > 0.0 && ahead(trial.t1) < 1.0
 }
 
-/// A failure before anything was done.
+/// A failure before the first evaluation.
 pub(crate) fn refuse<E: std::error::Error>(
     error: IntegrationError<E>,
     t: f64,
@@ -154,11 +154,12 @@ pub(crate) fn refuse<E: std::error::Error>(
     })
 }
 
-/// Whether error control has failed so near a delicate time that smaller steps would be no better.
+/// Whether error control has failed so close to a delicate time that smaller steps would not be
+/// better.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Noise {
     None,
-    /// By the last trial: the same size is tried once more with what is permitted then.
+    /// In the last trial: the same size is tried once more with the larger permitted error.
     Found,
     Known,
 }
@@ -180,13 +181,13 @@ struct Run<'a, E: std::error::Error + 'static> {
     t: f64,
     /// Signed size of the next trial.
     h: f64,
-    /// What it was before it was changed for a reason that has nothing to do with its error.
+    /// Its value before it was changed for a reason other than its error.
     uncut: Option<f64>,
     noise: Noise,
     states: States,
-    /// Error norm of the last trial that got so far.
+    /// Error norm of the last trial that had an error estimate.
     error_norm: Option<f64>,
-    /// Rejections since the last accepted step.
+    /// Number of rejections since the last accepted step.
     failures: u32,
     last_rejection: Option<Cause<E>>,
     is_first_leg: bool,
@@ -216,7 +217,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         }
     }
 
-    /// Derivative and first step size at the start of a leg.
+    /// Computes derivative and first step size at the start of a leg.
     fn start<O: Ode<Error = E>, S: Stepper<O>>(
         &mut self,
         ode: &mut O,
@@ -274,7 +275,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         Ok(())
     }
 
-    /// Lets the problem change the state where its right-hand side may jump.
+    /// Lets the problem change the state at a break time.
     fn cross_break<O: Ode<Error = E>>(
         &mut self,
         ode: &mut O,
@@ -287,9 +288,9 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         finite(&self.states.y0).map_err(|component| failed(Cause::NonFinite { component }))
     }
 
-    /// Changes a step that would reach a delicate time, so that it or the next one passes it with
-    /// the time in the widest gap between its nodes. Where smaller steps would be no better, it
-    /// passes from as far away as its slack allows.
+    /// Changes a step that would reach a delicate time, so that this or the next step passes it
+    /// with the time in the widest gap between its nodes. If smaller steps would not be better, it
+    /// passes from as far away as the slack allows.
     fn step_over(&mut self, delicate: Delicate, gap: f64, order: i32) {
         let longest = match self.noise {
             Noise::None => 1.0,
@@ -300,8 +301,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         if distance <= 0.0 || distance >= 1.0 + reach {
             return;
         }
-        // In units of h: this step passes if it may be so long, else it leaves the next one a
-        // little less than its reach.
+        // In units of h: this step passes if it may be long enough, otherwise it leaves slightly
+        // less than the reach of the next one.
         let share = if distance <= reach {
             distance / gap
         } else {
@@ -311,7 +312,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.h *= share;
     }
 
-    /// The next trial, ending exactly at the end of the leg if it reaches so far.
+    /// The next trial, which ends exactly at the end of the leg if it reaches it.
     fn next_trial<'l>(&mut self, leg: &'l Leg) -> Result<Trial<'l>, IntegrationError<E>> {
         let (t, h) = (self.t, self.h);
         let steps = self.statistics.accepted + self.statistics.rejected();
@@ -336,7 +337,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             });
         }
         let t1 = if reaches_end { leg.end } else { t + h };
-        // The difference of the rounded times: what is integrated over is what is reported.
+        // The difference of the rounded times, so that the integrated interval is the reported one.
         Ok(Trial {
             leg,
             t,
@@ -345,8 +346,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         })
     }
 
-    /// Stages, error test, hook. On success `y1`, `f1` and `error_norm` describe a step that is
-    /// accepted.
+    /// Computes stages, error test, hook. On success `y1`, `f1` and `error_norm` describe an
+    /// accepted step.
     fn attempt<O: Ode<Error = E>, S: Stepper<O>>(
         &mut self,
         ode: &mut O,
@@ -428,15 +429,15 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         Step::new(ode, stepper, ends, error_norm, &mut self.statistics)
     }
 
-    /// Goes on from the end of the step just accepted.
+    /// Continues from the end of the step just accepted.
     fn advance<O: Ode<Error = E>, S: Stepper<O>>(&mut self, stepper: &mut S, trial: &Trial<'_>) {
         std::mem::swap(&mut self.states.y0, &mut self.states.y1);
         std::mem::swap(&mut self.states.f0, &mut self.states.f1);
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        // A step cut by the end of its leg or before a delicate time says nothing against the size
-        // wanted before.
+        // A step shortened by the end of its leg or before a delicate time does not reduce the size
+        // of later steps.
         let is_cut = trial.t1 == trial.leg.end || self.uncut.is_some();
         let wanted = self.uncut.take().unwrap_or(self.h);
         let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));

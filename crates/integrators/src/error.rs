@@ -1,14 +1,14 @@
-//! What can go wrong, by name and with numbers.
+//! Errors, by name and with numbers.
 
 use crate::statistics::Statistics;
 use std::error::Error;
 use thiserror::Error;
 
-/// Why a trial step was rejected.
+/// Reason why a trial step was rejected.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Cause<E: Error + 'static> {
-    /// Error control asks for shorter steps.
+    /// Error control requires shorter steps.
     #[error("error control (the last estimated local error is {norm:.3e} of the permitted one)")]
     ErrorTest {
         /// Weighted norm of the last estimated error; ≤ 1 if that step was accepted and the next
@@ -29,9 +29,9 @@ pub enum Cause<E: Error + 'static> {
         "Newton's iteration for the stages does not converge (rate {rate:.2e} after {iterations} iterations)"
     )]
     NewtonDiverges {
-        /// Last increment over the one before; NaN or infinite where they are not finite.
+        /// Last increment divided by the one before; NaN or infinite if they are not finite.
         rate: f64,
-        /// Iterations with the last Jacobian.
+        /// Number of iterations with the last Jacobian.
         iterations: u32,
     },
     /// The hook returned [`crate::StepEnd::Reject`].
@@ -39,14 +39,14 @@ pub enum Cause<E: Error + 'static> {
     RejectedByHook,
 }
 
-/// Why an integration could not start or go on.
+/// Reason why an integration could not start or continue.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IntegrationError<E: Error + 'static> {
     /// The initial state does not fit the problem.
     #[error("the initial state has {found} components, the problem has {expected}")]
     DimensionMismatch {
-        /// n of the problem.
+        /// Number n of components of the problem.
         expected: usize,
         /// Length of the initial state.
         found: usize,
@@ -62,7 +62,7 @@ pub enum IntegrationError<E: Error + 'static> {
     /// A time is not finite, or the interval is longer than the largest number.
     #[error("{name} = {value} is not a time one can integrate from or to")]
     InvalidTime {
-        /// Which time.
+        /// Name of the time.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -74,7 +74,7 @@ pub enum IntegrationError<E: Error + 'static> {
         option: &'static str,
         /// Its value.
         value: f64,
-        /// What it should be.
+        /// The allowed values.
         expected: &'static str,
     },
     /// A list of tolerances does not fit the problem.
@@ -82,17 +82,17 @@ pub enum IntegrationError<E: Error + 'static> {
     ToleranceLength {
         /// `rtol` or `atol`.
         tolerance: &'static str,
-        /// n of the problem.
+        /// Number n of components of the problem.
         expected: usize,
         /// Length of the list.
         found: usize,
     },
-    /// An output time lies outside the interval or is out of order.
+    /// An output time is outside the interval or out of order.
     #[error(
         "output time {t} (number {index}, counted from 0) is outside [{t0}, {t_end}] or out of order"
     )]
     InvalidOutputTime {
-        /// Position in the list, counted from 0.
+        /// Index in the list, counted from 0.
         index: usize,
         /// The time.
         t: f64,
@@ -101,17 +101,17 @@ pub enum IntegrationError<E: Error + 'static> {
         /// End of the interval.
         t_end: f64,
     },
-    /// f could not be evaluated at the start or just after a break time, where no shorter step can
-    /// help.
+    /// f could not be evaluated at the start or just after a break time, where a shorter step
+    /// cannot help.
     #[error("f(t, y) cannot be evaluated at t = {t}, where a step has to start: {cause}")]
     StartFailed {
         /// The time.
         t: f64,
-        /// Why.
+        /// Cause.
         #[source]
         cause: Cause<E>,
     },
-    /// The step size has become too small to go on.
+    /// The step size has become too small to continue.
     #[error(
         "step size collapsed at t = {t} (h = {h:.3e} after {failures} rejected trials in a row): {cause}; \
          is there a singularity, a jump that is not declared as break time, or a tolerance that cannot be met?"
@@ -119,13 +119,13 @@ pub enum IntegrationError<E: Error + 'static> {
     StepSizeCollapsed {
         /// Time reached.
         t: f64,
-        /// Signed step size that was to be tried next.
+        /// Signed step size to be tried next.
         h: f64,
-        /// Rejected trials since the last accepted step.
+        /// Number of rejected trials since the last accepted step.
         failures: u32,
-        /// Norm of the last estimated error, if any trial got so far.
+        /// Norm of the last estimated error, if any trial had one.
         last_error_norm: Option<f64>,
-        /// Reason of the last rejection.
+        /// Cause of the last rejection.
         #[source]
         cause: Cause<E>,
     },
@@ -136,12 +136,12 @@ pub enum IntegrationError<E: Error + 'static> {
     TooManySteps {
         /// Time reached.
         t: f64,
-        /// Accepted and rejected steps.
+        /// Number of accepted and rejected steps.
         steps: u64,
-        /// Signed step size that was to be tried next.
+        /// Signed step size to be tried next.
         h: f64,
     },
-    /// The function whose zeros are events has no value.
+    /// The function whose zeros are events is not a number.
     #[error("the event function is not a number at t = {t}")]
     EventUndefined {
         /// The time.
@@ -152,23 +152,23 @@ pub enum IntegrationError<E: Error + 'static> {
     OutputFailed {
         /// The output time.
         t: f64,
-        /// Why.
+        /// Cause.
         #[source]
         cause: Cause<E>,
     },
 }
 
-/// An error together with everything that had been reached before it.
+/// An error, with everything that was reached before it.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{error}")]
 pub struct Failure<E: Error + 'static> {
-    /// What went wrong.
+    /// The error.
     #[source]
     pub error: IntegrationError<E>,
     /// Time of the last accepted step, or t0.
     pub t: f64,
-    /// State there.
+    /// State at this time.
     pub y: Vec<f64>,
-    /// Cost up to the failure.
+    /// Statistics up to the failure.
     pub statistics: Statistics,
 }

@@ -1,7 +1,8 @@
 //! Events: times at which a function g(t, y) of the solution passes zero, found in the accurate
 //! dense output of accepted steps.
 //!
-//! Not here: what happens at an event. A motion that jumps is integrated again from there.
+//! The handling of an event is up to the caller. If a motion jumps, it is integrated again from
+//! there.
 
 use crate::drive::integrate;
 use crate::error::{Failure, IntegrationError};
@@ -14,7 +15,7 @@ use crate::step::Step;
 use std::error::Error;
 use std::ops::ControlFlow;
 
-/// Which zeros of g count, in the direction of travel.
+/// Which zeros of g count, in the direction of integration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Direction {
     /// All.
@@ -29,32 +30,32 @@ pub enum Direction {
 /// A zero of g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// Time, exact to a few units in the last place of t for the dense output; g is zero there or
-    /// has its new sign already.
+    /// Time, exact to a few units in the last place of t for the dense output; at this time g is
+    /// zero or already has its new sign.
     pub t: f64,
     /// Whether g was negative before.
     pub is_rising: bool,
 }
 
-/// Parts of a step at whose borders g is looked at.
+/// Number of parts of a step at whose ends g is evaluated.
 const PARTS: u32 = 10;
-/// Width of the bracket left around a zero, in units of the rounding of t.
+/// Width of the final bracket around a zero, in units of the rounding of t.
 const WIDTH_IN_EPSILONS: f64 = 2.0;
 
 /// Finds the zeros of one function g step by step, for use in an observer.
 ///
-/// g is looked at in eleven places of each step, first in the dense output that costs nothing; only
-/// a step in which its sign changes pays for the accurate one. A zero at the end of a step belongs
-/// to that step, one at the start of the integration to none. Not seen are two zeros between
-/// neighbouring places, a contact without change of sign (a grazing contact) unless g happens to be
-/// exactly 0 in one of the places, and a sign that changes with a jump of the state at a break
-/// time. Bound the step size where g changes faster than the solution, and look for zeros of dg/dt
-/// where contacts matter.
+/// g is evaluated at eleven places of each step, first in the dense output without extra
+/// evaluations; the accurate one is used only in a step in which the sign changes. A zero at the
+/// end of a step belongs to that step; a zero at the start of the integration is ignored. Not
+/// detected are two zeros between neighbouring places, a contact without change of sign (a grazing
+/// contact) unless g happens to be exactly 0 at one of the places, and a change of sign due to a
+/// jump of the state at a break time. Limit the step size if g changes faster than the solution,
+/// and search for zeros of dg/dt if contacts matter.
 ///
 /// # Examples
 ///
-/// The upward zeros of sin t = y, y' = cos t, between 0 and 20: 2π, 4π, 6π (0 is where the
-/// integration starts).
+/// The upward zeros of sin t = y, y' = cos t, between 0 and 20: 2π, 4π, 6π (the integration starts
+/// at 0).
 ///
 /// ```
 /// use integrators::{Crossings, Direction, Dop853, Function, Interval, Options, integrate};
@@ -80,7 +81,7 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// Of one function, passed in this direction.
+    /// Searches one function for zeros in this direction.
     #[must_use]
     pub fn new(direction: Direction) -> Self {
         Self {
@@ -89,8 +90,8 @@ impl Crossings {
         }
     }
 
-    /// The zeros of g in this step, in the direction of travel. g is called with the problem, the
-    /// time and the state.
+    /// Finds the zeros of g in this step, in the direction of integration. g is called with the
+    /// problem, the time and the state.
     ///
     /// # Errors
     ///
@@ -145,7 +146,7 @@ impl Crossings {
     }
 }
 
-/// Border number `i` between the parts of a step, its ends exactly.
+/// End number `i` of the parts of a step; the ends of the step exactly.
 fn place(t0: f64, t1: f64, i: u32) -> f64 {
     if i == PARTS {
         t1
@@ -154,7 +155,7 @@ fn place(t0: f64, t1: f64, i: u32) -> f64 {
     }
 }
 
-/// Whether g reaches or passes zero on the way from `before` to `after`.
+/// Whether g reaches or passes zero between `before` and `after`.
 fn passes(before: f64, after: f64) -> bool {
     (before < 0.0 && after >= 0.0) || (before > 0.0 && after <= 0.0)
 }
@@ -167,13 +168,13 @@ fn number<E: Error + 'static>(t: f64, g: f64) -> Result<f64, IntegrationError<E>
     }
 }
 
-/// Integrates like [`integrate`] until g(t, y) passes zero in the given direction: the outcome is
+/// Integrates like [`integrate`] until g(t, y) passes zero in the given direction. The outcome is
 /// then [`End::Stopped`](crate::End::Stopped) with the time of the event and the state of the
-/// accurate dense output there.
+/// accurate dense output at that time.
 ///
-/// What [`Crossings`] says about zeros that are not seen holds here, too. A motion that goes on
-/// from an event begins with g = 0 but for rounding: choose the direction so that leaving does not
-/// count.
+/// Zeros that [`Crossings`] does not detect are not detected here either. A motion that continues
+/// from an event begins with g = 0 up to rounding: choose the direction so that leaving the zero
+/// does not count.
 ///
 /// # Errors
 ///

@@ -1,14 +1,14 @@
 //! The time span, its break times, and the one-sided evaluation of f at them.
 //!
-//! Between two break times lies a *leg*. A step never crosses the border of a leg, ends there
-//! exactly, and f is only evaluated at times inside the leg: at a break time the neighbouring
-//! floating-point number is used instead, so that f has its left limit in the leg before and its
-//! right limit in the leg after, however the problem writes its `if t < …`.
+//! The interval between two break times is called a *leg*. A step never crosses the end of a leg,
+//! ends there exactly, and f is only evaluated at times within the leg: at a break time the
+//! neighbouring floating-point number is used instead, so that f has its left limit in the leg
+//! before and its right limit in the leg after, however the problem writes its `if t < …`.
 
 use crate::error::IntegrationError;
 use std::error::Error;
 
-/// Where to integrate: from `t0` to `t_end`, forwards or backwards.
+/// The interval of integration: from `t0` to `t_end`, forwards or backwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval<'a> {
     /// Start.
@@ -33,8 +33,8 @@ impl Interval<'static> {
     }
 }
 
-/// A smooth part of the interval. `inside` are the times at which f may be evaluated, in the order
-/// of travel.
+/// A smooth part of the interval. `inside` are the first and last times at which f may be
+/// evaluated, in the direction of integration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Leg {
     pub(crate) start: f64,
@@ -43,7 +43,7 @@ pub(crate) struct Leg {
 }
 
 impl Leg {
-    /// `t`, or the nearest time inside the leg.
+    /// `t`, or the nearest time within the leg.
     #[inline]
     pub(crate) fn evaluation_time(&self, t: f64) -> f64 {
         let (a, b) = self.inside;
@@ -57,8 +57,8 @@ impl Interval<'_> {
         if self.t_end < self.t0 { -1.0 } else { 1.0 }
     }
 
-    /// Checks the times and cuts the interval into legs, in the order of travel; none if t0 =
-    /// t_end.
+    /// Checks the times and divides the interval into legs, in the direction of integration; none
+    /// if t0 = t_end.
     pub(crate) fn legs<E: Error + 'static>(&self) -> Result<Vec<Leg>, IntegrationError<E>> {
         let invalid = |name, value| Err(IntegrationError::InvalidTime { name, value });
         if !self.t0.is_finite() {
@@ -99,7 +99,7 @@ impl Interval<'_> {
             }
         };
         let inside = (towards(start, true), towards(end, false));
-        // Two break times may be neighbouring numbers; then nothing lies between them.
+        // Two break times may be neighbouring numbers; then there is no number between them.
         let inside = if (inside.1 - inside.0) * sign >= 0.0 {
             inside
         } else {

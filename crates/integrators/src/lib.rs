@@ -5,8 +5,8 @@
 //! | module | idea |
 //! | --- | --- |
 //! | `ode` | the problem: [`Ode`], the hook at the end of a step |
-//! | `interval` | where to integrate: [`Interval`], break times, one-sided evaluation |
-//! | `options` | how to integrate: [`Options`], [`Tolerance`], [`InitialStep`] |
+//! | `interval` | the interval: [`Interval`], break times, one-sided evaluation |
+//! | `options` | options: [`Options`], [`Tolerance`], [`InitialStep`] |
 //! | `method` | the choice of a method and what a method must provide |
 //! | `drive` | the loop of trials, rejections and accepted steps, shared by all methods |
 //! | `control`, `start` | step-size control and the automatic first step |
@@ -19,7 +19,7 @@
 //! | `implicit` | problems with a Jacobian: [`Implicit`] |
 //! | `dense_implicit` | a plain problem with a dense Jacobian: [`DenseImplicit`] |
 //! | `radau5` | Radau IIA of order 5: `tableau`, `scale`, `newton`, `step`, `dense` |
-//! | `convergence` | when Newton's iterations end |
+//! | `convergence` | the end of Newton's iterations |
 
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,4 @@
-//! What a method is, and what it has to provide for the shared loop.
+//! What defines a method, and what it provides for the shared loop.
 
 use crate::control::StepControl;
 use crate::error::Cause;
@@ -7,17 +7,16 @@ use crate::ode::Ode;
 use crate::options::Tolerance;
 use crate::statistics::Statistics;
 
-/// A method that can integrate the problem `O`: [`Dopri5`](crate::Dopri5) and its like. A method
-/// asks of the problem what it needs: explicit methods are methods of every [`Ode`].
+/// A method that can integrate the problem `O`, such as [`Dopri5`](crate::Dopri5). A method
+/// requires of the problem what it needs: explicit methods are methods for every [`Ode`].
 ///
-/// Sealed: the loop behind [`integrate`](crate::integrate) and the methods are written for each
-/// other.
+/// Sealed: the loop of [`integrate`](crate::integrate) and the methods depend on each other.
 pub trait Method<O: Ode> {
     /// Stages and memory of the method.
     #[doc(hidden)]
     type Stepper: Stepper<O>;
 
-    /// Room for one integration of `ode`.
+    /// Allocates storage for one integration of `ode`.
     #[doc(hidden)]
     fn stepper(&self, ode: &O) -> Self::Stepper;
 }
@@ -36,20 +35,20 @@ pub enum End {
 pub struct Outcome {
     /// Time reached: `t_end`, or the end of the step after which the observer stopped.
     pub t: f64,
-    /// State there.
+    /// State at this time.
     pub y: Vec<f64>,
     /// Whether `t_end` was reached.
     pub end: End,
-    /// Size > 0 of the step that would have been tried next, cut by no end and no break time: the
-    /// [`InitialStep::Given`](crate::InitialStep::Given) of an integration that goes on from here.
-    /// `None` if there was no step.
+    /// Size > 0 of the next step, not shortened by any end or break time: the value for
+    /// [`InitialStep::Given`](crate::InitialStep::Given) of an integration that continues from
+    /// here. `None` if there was no step.
     pub next_step: Option<f64>,
     /// Cost.
     pub statistics: Statistics,
 }
 
 impl Outcome {
-    /// Where no step was made.
+    /// The outcome if no step was made.
     pub(crate) fn unmoved(t: f64, y0: &[f64], end: End) -> Self {
         Self {
             t,
@@ -61,7 +60,7 @@ impl Outcome {
     }
 }
 
-/// One trial: from t over h to t1 = t + h, inside a leg.
+/// One trial step: from t over h to t1 = t + h, within a leg.
 #[derive(Debug, Clone, Copy)]
 pub struct Trial<'a> {
     pub(crate) leg: &'a Leg,
@@ -71,7 +70,7 @@ pub struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Time of the stage with node `c`; at break times the neighbouring number inside the leg.
+    /// Time of the stage with node `c`; at break times the neighbouring number within the leg.
     #[inline]
     pub(crate) fn stage_time(&self, c: f64) -> f64 {
         let t = if c == 1.0 {
@@ -93,22 +92,22 @@ pub struct Ends<'a> {
     pub(crate) f1: &'a [f64],
 }
 
-/// What a step begins with.
+/// State and derivative at the beginning of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Start<'a> {
     pub(crate) y0: &'a [f64],
-    /// f(t, y0), at a break time from this side.
+    /// f(t, y0); at a break time the limit from within the step.
     pub(crate) f0: &'a [f64],
     pub(crate) tolerance: &'a Tolerance,
 }
 
-/// A delicate time lies at most so far into the step that passes it: then it ends farther behind
-/// the time than it began before it, so that a place that was far enough to begin is not too near
-/// to end.
+/// Largest relative position of a delicate time in the step that passes it: so the step ends
+/// farther from the time than it began, and a distance that was sufficient at the beginning is
+/// sufficient at the end.
 const AHEAD: f64 = 0.45;
 
-/// A place in the widest gap between nodes, 0 and 1 included: its middle, if a step that passes it
-/// there ends farther away than it began.
+/// A relative position in the widest gap between nodes, including 0 and 1: its middle, if a step
+/// that passes the time there ends farther away than it began.
 pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     let all = || nodes.iter().copied().chain([0.0, 1.0]);
     let gap = |from: f64| (from, all().filter(|c| *c > from).fold(1.0, f64::min));
@@ -119,12 +118,12 @@ pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
 }
 
 /// What the shared loop needs from a method: a trial step, its error, the derivative at its end,
-/// the next step size.
+/// and the next step size.
 pub trait Stepper<O: Ode>: Dense<O> {
-    /// Order of the solution that is carried on.
+    /// Order of the solution that is continued.
     fn order(&self) -> i32;
 
-    /// A place in the widest gap between nodes: where in a step f is not looked at.
+    /// A relative position in the widest gap between nodes, at which f is not evaluated.
     fn widest_gap(&self) -> f64 {
         AHEAD
     }
@@ -163,7 +162,7 @@ pub trait Stepper<O: Ode>: Dense<O> {
         statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>>;
 
-    /// Forgets the steps before, at the start of a leg.
+    /// Resets the memory of earlier steps, at the start of a leg.
     fn restart(&mut self) {
         self.control().reset();
     }
@@ -178,14 +177,15 @@ pub trait Stepper<O: Ode>: Dense<O> {
         self.control().reject(h, error_norm)
     }
 
-    /// Size of the next trial after one of size h that gave no error estimate or was not wanted;
-    /// `factor` is what the loop proposes.
+    /// Size of the next trial after one of size h that gave no error estimate or was refused;
+    /// `factor` is the proposal of the loop.
     fn after_failure(&mut self, h: f64, factor: f64) -> f64 {
         self.control().shorten(h, factor)
     }
 }
 
-/// What dense output needs from a method; object-safe, so that [`Step`] need not name the method.
+/// What dense output needs from a method; object-safe, so that [`Step`] does not depend on the
+/// method.
 pub trait Dense<O: Ode> {
     /// Without further evaluations.
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]);
@@ -198,6 +198,6 @@ pub trait Dense<O: Ode> {
         evaluations: &mut u64,
     ) -> Result<(), Cause<O::Error>>;
 
-    /// As accurate as the step itself; needs [`Dense::prepare`].
+    /// Dense output as accurate as the step itself; needs [`Dense::prepare`].
     fn interpolate_accurately(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]);
 }

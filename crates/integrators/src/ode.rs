@@ -1,6 +1,6 @@
-//! The problem y' = f(t, y) as the caller states it, with a hook at the end of each step.
+//! The problem y' = f(t, y), with a hook at the end of each step.
 //!
-//! Not here: tolerances and limits (`options`), the time span and its break times (`interval`).
+//! Tolerances and limits are in `options`, the interval and its break times in `interval`.
 
 use crate::error::Cause;
 use std::convert::Infallible;
@@ -8,9 +8,8 @@ use std::error::Error;
 
 /// An ordinary differential equation `y' = f(t, y)`, y ∈ ℝⁿ.
 pub trait Ode {
-    /// Why f or the hook cannot be evaluated. A trial step that meets an error is rejected and
-    /// repeated with a shorter step; the error reaches the caller only when shortening does not
-    /// help.
+    /// Error of f or of the hook. A trial step with an error is rejected and repeated with a
+    /// smaller step size; the error is returned to the caller only if this does not help.
     type Error: Error + 'static;
 
     /// Number n of components of y.
@@ -20,7 +19,8 @@ pub trait Ode {
     ///
     /// # Errors
     ///
-    /// The problem's own. Non-finite values need no error: they are found and treated alike.
+    /// Errors of the problem. Non-finite values need no error: they are detected and treated in the
+    /// same way.
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Error>;
 
     /// Called after a trial step has passed the error test, before it is accepted. May move `y`
@@ -28,13 +28,13 @@ pub trait Ode {
     ///
     /// | argument | length | meaning |
     /// | --- | --- | --- |
-    /// | `step` | – | where the step began and ended, its estimated error and the error weights |
+    /// | `step` | – | beginning and end of the step, its estimated error and the error weights |
     /// | `y` | n | on entry the result of the step; may be changed if [`StepEnd::Projected`] is returned |
     /// | `dy` | n | on entry unspecified; must hold f([`StepInfo::t_rhs`], `y`) if `Projected` is returned |
     ///
     /// # Errors
     ///
-    /// The problem's own; the trial step is then rejected.
+    /// Errors of the problem; the trial step is then rejected.
     fn end_of_step(
         &mut self,
         step: &StepInfo<'_>,
@@ -45,19 +45,19 @@ pub trait Ode {
         Ok(StepEnd::Unchanged)
     }
 
-    /// A time ahead near which f is better not evaluated, if one is known: a removable singularity,
-    /// where values are mostly rounding. Steps are then chosen such that it lies between two
+    /// A later time near which f should not be evaluated, if one is known: a removable singularity,
+    /// near which values are mostly rounding. Steps are then chosen such that it lies between two
     /// stages, as far from both as the method allows.
     fn delicate_time(&self) -> Option<Delicate> {
         None
     }
 
-    /// Called at each break time inside the interval, before the first evaluation behind it, with
-    /// the time just behind it. May change `y` (length n): there the solution jumps.
+    /// Called at each break time inside the interval, before the first evaluation after it, with
+    /// the time just after it. May change `y` (length n), so that the solution jumps.
     ///
     /// # Errors
     ///
-    /// The problem's own; the integration then ends at the break time.
+    /// Errors of the problem; the integration then ends at the break time.
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Self::Error> {
         let _ = (t, y);
         Ok(())
@@ -69,21 +69,21 @@ pub trait Ode {
 pub struct Delicate {
     /// The time.
     pub t: f64,
-    /// Factor ≥ 1 by which a step over it may miss its tolerance: smaller steps would come nearer
-    /// to it and be worse. For the same reason, once error control has failed within a step before
-    /// it, steps up to it may, too.
+    /// Factor ≥ 1 by which the error of a step over it may exceed the tolerance: smaller steps
+    /// would come closer to it and be less accurate. For the same reason, once error control has
+    /// failed within one step before it, steps up to it may exceed the tolerance as well.
     pub slack: f64,
 }
 
-/// What [`Ode::end_of_step`] may know about the step it judges.
+/// Information for [`Ode::end_of_step`] about the step.
 #[derive(Debug, Clone, Copy)]
 pub struct StepInfo<'a> {
     /// Time at the start of the step.
     pub t0: f64,
     /// Time at the end of the step.
     pub t: f64,
-    /// Time at which to evaluate f at the end of the step: `t`, except at a break time, where it is
-    /// the neighbouring floating-point number inside the step, so that f has its value from this
+    /// Time at which to evaluate f at the end of the step: `t`, except at a break time, at which it
+    /// is the neighbouring floating-point number within the step, so that f has its limit from this
     /// side.
     pub t_rhs: f64,
     /// Estimated local error in the weighted norm; at most 1, or the slack of a delicate time.
@@ -102,10 +102,10 @@ impl StepInfo<'_> {
     }
 }
 
-/// What [`Ode::end_of_step`] did.
+/// Result of [`Ode::end_of_step`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepEnd {
-    /// `y` was left as it was.
+    /// `y` was not changed.
     Unchanged,
     /// `y` was changed and `dy` holds f at the new `y`.
     Projected {
@@ -115,8 +115,8 @@ pub enum StepEnd {
         /// Evaluations of f spent, usually 1; added to `Statistics::hook_evaluations`.
         evaluations: u64,
     },
-    /// The step is not to be trusted, for instance because the correction is large compared with
-    /// the permitted error; it is repeated with half the size.
+    /// The step is not reliable, for instance because the correction is large relative to the
+    /// permitted error; it is repeated with half the size.
     Reject,
 }
 

@@ -3,20 +3,21 @@
 use crate::error::IntegrationError;
 use std::error::Error;
 
-/// How to integrate. `Options::default()` is a sound start; fields are documented with their
-/// defaults.
+/// Options of an integration. `Options::default()` is a good choice to begin with; fields are
+/// documented with their defaults.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Permitted local error. Default: rtol = 1e-8, atol = 1e-10.
     pub tolerance: Tolerance,
     /// First trial step. Default: [`InitialStep::Automatic`].
     pub initial_step: InitialStep,
-    /// Largest step size, > 0, in units of t. A last step before a break time or the end may be 1 %
-    /// longer. Default: infinite.
+    /// Largest step size, > 0, in units of t. The last step before a break time or the end may be 1
+    /// % longer. Default: infinite.
     pub max_step: f64,
     /// Limit on accepted and rejected steps together. Default: 1 000 000.
     pub max_steps: u64,
-    /// Rejected trials in a row after which the step size counts as collapsed. Default: 40.
+    /// Number of consecutive rejected trials after which the step size counts as collapsed.
+    /// Default: 40.
     pub max_failures: u32,
 }
 
@@ -36,7 +37,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The defaults with the same tolerances for all components.
+    /// The default options with the same tolerances for all components.
     #[must_use]
     pub fn with_tolerance(rtol: f64, atol: f64) -> Self {
         Self {
@@ -46,8 +47,8 @@ impl Options {
     }
 }
 
-/// Permitted local error per step and component: `atol + rtol·max(|y0|, |y1|)`, met in the root
-/// mean square.
+/// Permitted local error per step and component: `atol + rtol·max(|y0|, |y1|)`, as a root mean
+/// square.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Tolerance {
     /// The same for all components. Both finite and ≥ 0, not both 0.

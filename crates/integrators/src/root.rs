@@ -1,21 +1,21 @@
-//! A root in a bracket: the method ITP (interpolate, truncate, project), which never needs more
-//! than one evaluation more than bisection and converges faster than the secant method where the
+//! A root in a bracket by the method ITP (interpolate, truncate, project), which never needs more
+//! than one evaluation more than bisection and converges faster than the secant method if the
 //! function is smooth.
 //!
 //! Source: I. F. D. Oliveira, R. H. C. Takahashi, An enhancement of the bisection method average
 //! performance preserving minmax optimality, ACM Trans. Math. Softw. 47 (2020) 5, DOI
 //! 10.1145/3423597; its constants κ1 = 0.2/(b − a), κ2 = 2, n0 = 1.
 
-/// One end of a bracket: a place and the value there.
+/// One end of a bracket: an argument and the value there.
 pub(crate) type End = (f64, f64);
 
 /// Shrinks the bracket from `near` to `far`, whose values have opposite signs or whose far value is
-/// zero, to a width of at most `width` (> 0), and returns its far end: there the value is zero or
-/// has the sign of the far one.
+/// zero, to a width of at most `width` (> 0), and returns its far end: its value is zero or has the
+/// sign of the original far value.
 ///
 /// # Errors
 ///
-/// Those of `f`.
+/// Errors of `f`.
 pub(crate) fn bracketed_root<E>(
     near: End,
     far: End,
@@ -26,9 +26,9 @@ pub(crate) fn bracketed_root<E>(
     let direction = (b - a).signum();
     let length = (b - a).abs();
     let k1 = 0.2 / length;
-    // Bisections that reach the width, and the one that is allowed for in addition.
+    // Number of bisections that reach the width, plus one that is allowed in addition.
     let bisections = (length / width).log2().ceil().max(0.0) + 1.0;
-    // Largest distance from the middle that keeps this bound.
+    // Largest distance from the middle that respects this bound.
     let mut reach = 0.5 * width * bisections.exp2();
     while f_b != 0.0 && (b - a).abs() > width {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a).abs());
@@ -46,7 +46,7 @@ pub(crate) fn bracketed_root<E>(
         } else {
             middle - towards_middle * radius
         };
-        // Rounding, or values whose quotient overflows: the middle is always inside.
+        // Because of rounding, or values whose quotient overflows, the middle is used instead.
         let is_inside = (projected - a) * direction > 0.0 && (b - projected) * direction > 0.0;
         let x = if is_inside { projected } else { middle };
         if x == a || x == b {

@@ -1,8 +1,7 @@
-//! Rows at given output times, as accurate as the accurate dense output and independent of the size
-//! of the steps.
+//! Rows at given output times, as accurate as the accurate dense output and independent of the step
+//! size.
 //!
-//! A part for observers, beside events and work of their own; [`crate::sample()`] is the
-//! convenience that integrates, too.
+//! For use in observers, together with events and other work; [`crate::sample()`] also integrates.
 
 use crate::error::IntegrationError;
 use crate::interval::Interval;
@@ -11,21 +10,22 @@ use crate::options::invalid;
 use crate::step::Step;
 use std::ops::ControlFlow;
 
-/// When rows are wanted.
+/// The output times.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OutputTimes {
-    /// t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly; dt > 0. A multiple of dt that falls within
-    /// 1e-9·dt of `t_end` gives way to it.
+    /// t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly; dt > 0. A multiple of dt within 1e-9·dt of
+    /// `t_end` is replaced by it.
     Every(f64),
-    /// These times inside the interval, ends included, strictly in the order of travel.
+    /// These times within the interval, including its ends, strictly in the direction of
+    /// integration.
     At(Vec<f64>),
 }
 
-/// The rows of one integration, handed out step by step.
+/// The rows of one integration, produced step by step.
 ///
 /// # Examples
 ///
-/// Free fall, y = t²: rows at 0, 0.4, 0.8 and 1, and the steps counted on the way.
+/// Free fall, y = t²: rows at 0, 0.4, 0.8 and 1, with a count of the steps.
 ///
 /// ```
 /// use integrators::{Dopri5, Function, Interval, Options, OutputTimes, Rows, integrate};
@@ -95,12 +95,13 @@ impl Rows {
     }
 
     /// Calls `row` with the problem, the time and the state at all output times up to the end of
-    /// `step`. What `row` does to the state (a projection, say) has no effect on the integration.
-    /// After `Break` by `row` nothing more is called.
+    /// `step`. A change of the state by `row` (for example a projection) has no effect on the
+    /// integration. After `row` returns `Break`, it is not called again.
     ///
     /// # Errors
     ///
-    /// [`IntegrationError::OutputFailed`] if an extra evaluation fails; the rows before stand.
+    /// [`IntegrationError::OutputFailed`] if an extra evaluation fails; the rows before it remain
+    /// valid.
     pub fn emit<O: Ode>(
         &mut self,
         step: &mut Step<'_, O>,
@@ -109,11 +110,11 @@ impl Rows {
         self.emit_until(step.t1(), step, row)
     }
 
-    /// As [`Rows::emit`], but not beyond `t_stop`, where an event ends the motion.
+    /// Like [`Rows::emit`], but not beyond `t_stop`, at which an event ends the motion.
     ///
     /// # Errors
     ///
-    /// Those of [`Rows::emit`].
+    /// Errors of [`Rows::emit`].
     pub fn emit_until<O: Ode>(
         &mut self,
         t_stop: f64,
@@ -129,7 +130,7 @@ impl Rows {
         self.y.resize(step.y0().len(), 0.0);
         while let Some(t) = self.next().filter(|t| (last - t) * sign >= 0.0) {
             self.index += 1;
-            // Times of steps that were not shown here are passed over.
+            // Times within steps that were not passed to this function are skipped.
             if (t - step.t0()) * sign < 0.0 {
                 continue;
             }
@@ -147,7 +148,7 @@ impl Rows {
     }
 }
 
-/// Rows closer to t_end than this part of dt are t_end.
+/// A row closer to t_end than this fraction of dt is replaced by t_end.
 const SAME_ROW: f64 = 1e-9;
 
 impl OutputTimes {
@@ -185,8 +186,8 @@ impl OutputTimes {
                 .and_then(|i| times.get(i))
                 .copied(),
             Self::Every(dt) => {
-                // A product, not a sum: rounding does not pile up. Time number i counts if i·dt is
-                // short of the length.
+                // A product, not a sum, so that rounding does not accumulate. Time number i counts
+                // if i·dt is below the length.
                 let length = (interval.t_end - interval.t0).abs();
                 let before_end = |i: u64| length - i as f64 * dt > SAME_ROW * dt.min(length);
                 if index == 0 || before_end(index) {

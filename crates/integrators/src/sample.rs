@@ -1,4 +1,4 @@
-//! The convenience that integrates and hands out rows at given output times.
+//! Integrates and passes on rows at given output times.
 
 use crate::drive::{check, integrate, refuse};
 use crate::error::Failure;
@@ -12,12 +12,12 @@ use std::ops::ControlFlow;
 /// Integrates like [`integrate`] and calls `row` at each of `times`, in order, with the problem,
 /// the time and the state.
 ///
-/// The state may be changed by `row` (projected, say); the integration does not see the change.
-/// Inside steps it comes from [`crate::Step::interpolate_accurately`]; at t0 it is `y0` as given.
+/// The state may be changed by `row` (for example projected), without effect on the integration.
+/// Within steps it comes from [`crate::Step::interpolate_accurately`]; at t0 it is `y0` as given.
 ///
 /// # Errors
 ///
-/// Those of [`integrate`], of [`Rows::new`] and of [`Rows::emit`]. All rows before are valid.
+/// Errors of [`integrate`], of [`Rows::new`] and of [`Rows::emit`]. All rows before are valid.
 ///
 /// # Examples
 ///

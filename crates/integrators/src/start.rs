@@ -9,9 +9,9 @@ use crate::interval::Leg;
 use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
-/// Step of the exploration, or the guess, where y or f is too small to give a scale; in units of t.
+/// Step of the exploration, or the estimate, if y or f is too small to give a scale; in units of t.
 const SMALL_STEP: f64 = 1e-6;
-/// Below this, sums of squares and derivatives say nothing about scale.
+/// Sums of squares and derivatives below this value give no scale.
 const NO_SCALE: f64 = 1e-10;
 const NO_DERIVATIVE: f64 = 1e-15;
 
@@ -24,9 +24,9 @@ pub(crate) struct StartScratch<'a> {
 /// Signed first step for a method of order `order` from (`leg.start`, `y0`) with f0 = f there; |h|
 /// ≤ `h_max`.
 ///
-/// An explicit Euler step of 1 % of |y|/|f| measures the second derivative; then h makes
-/// `h^order · max(|f|, |f'|) = 0.01` in the norm with weights `scale`. Where f cannot be evaluated
-/// after the Euler step, 1 % of that step is taken: error control and rejection find the rest.
+/// An explicit Euler step of 1 % of |y|/|f| measures the second derivative; then h is chosen so
+/// that `h^order · max(|f|, |f'|) = 0.01` in the norm with weights `scale`. If f cannot be
+/// evaluated after the Euler step, 1 % of that step is used, and error control adapts it.
 pub(crate) fn initial_step<O: Ode>(
     ode: &mut O,
     leg: &Leg,

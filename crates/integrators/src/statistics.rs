@@ -1,18 +1,18 @@
-//! What an integration has cost.
+//! Cost of an integration.
 
-/// Counts of one integration, complete also after a failure.
+/// Counts of one integration, complete even after a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Statistics {
-    /// Evaluations of f for the steps: starts, restarts at break times, stages, rejected trials
-    /// included.
+    /// Evaluations of f for the steps, including starts, restarts at break times, stages and
+    /// rejected trials.
     pub evaluations: u64,
     /// Evaluations of f for dense output only.
     pub output_evaluations: u64,
     /// Evaluations of f reported by [`crate::Ode::end_of_step`].
     pub hook_evaluations: u64,
-    /// Evaluations of a Jacobian or of the matrices of a constrained problem; evaluations of f
-    /// spent on differences are not in `evaluations`.
+    /// Evaluations of a Jacobian or of the matrices of a constrained problem; evaluations of f for
+    /// differences are not counted in `evaluations`.
     pub jacobians: u64,
     /// Factorisations for one step size: a real and a complex one (Radau IIA) count once.
     pub factorisations: u64,
@@ -35,7 +35,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Rejected trials for whatever reason.
+    /// Number of rejected trials for any reason.
     #[must_use]
     pub fn rejected(&self) -> u64 {
         self.rejected_by_error + self.rejected_by_failure + self.rejected_by_hook

@@ -1,4 +1,4 @@
-//! An accepted step as the observer sees it: both ends and the solution between them.
+//! An accepted step as passed to the observer: both ends and the solution between them.
 
 use crate::error::Cause;
 use crate::method::{Dense, Ends};
@@ -7,14 +7,14 @@ use crate::statistics::Statistics;
 use std::error::Error;
 use thiserror::Error;
 
-/// Why the dense output of a step gave no value.
+/// Reason why the dense output of a step has no value.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OutputError<E: Error + 'static> {
     /// Dense output does not extrapolate.
     #[error("t = {t} lies outside the step from {t0} to {t1}")]
     OutsideStep {
-        /// Time asked for.
+        /// Requested time.
         t: f64,
         /// Start of the step.
         t0: f64,
@@ -24,7 +24,7 @@ pub enum OutputError<E: Error + 'static> {
     /// `out` does not have the length of the state.
     #[error("room for {found} components, the state has {expected}")]
     Length {
-        /// n.
+        /// Length of the state, n.
         expected: usize,
         /// Length of `out`.
         found: usize,
@@ -39,8 +39,8 @@ pub enum OutputError<E: Error + 'static> {
 /// Both dense outputs give y0 at t0 and y1 at t1 bit for bit, have the derivatives f(t0, y0) and
 /// f(t1, y1) there, and are therefore continuously differentiable over all steps between two break
 /// times, with and without projection. (Those of [`Radau5`](crate::Radau5) are continuous, and
-/// their derivatives are right up to their error.) Between the ends they lie on no manifold:
-/// project what is written.
+/// their derivatives are right up to their error.) Between the ends they do not satisfy
+/// constraints: project rows before writing them.
 pub struct Step<'a, O: Ode> {
     ode: &'a mut O,
     dense: &'a mut dyn Dense<O>,
@@ -92,13 +92,14 @@ impl<'a, O: Ode> Step<'a, O> {
         self.ends.y1
     }
 
-    /// Derivative at the start; at a break time the one of this side.
+    /// Derivative at the start; at a break time the limit from within the step.
     #[must_use]
     pub fn f0(&self) -> &'a [f64] {
         self.ends.f0
     }
 
-    /// Derivative at the end, of the projected state; at a break time the one of this side.
+    /// Derivative at the end, of the projected state; at a break time the limit from within the
+    /// step.
     #[must_use]
     pub fn f1(&self) -> &'a [f64] {
         self.ends.f1
@@ -110,19 +111,19 @@ impl<'a, O: Ode> Step<'a, O> {
         self.error_norm
     }
 
-    /// Counts so far, this step included.
+    /// Counts so far, including this step.
     #[must_use]
     pub fn statistics(&self) -> &Statistics {
         self.statistics
     }
 
-    /// The problem, for what an observer computes with it.
+    /// The problem, for computations by an observer.
     pub fn ode(&mut self) -> &mut O {
         self.ode
     }
 
-    /// Writes y(t) to `out` (length n) without evaluating f; less accurate than the steps, of the
-    /// order that each method states. For pictures and for seeing where events are.
+    /// Writes y(t) to `out` (length n) without evaluating f; less accurate than the steps, with the
+    /// order that each method states. For pictures and for locating events roughly.
     ///
     /// # Errors
     ///
@@ -133,7 +134,7 @@ impl<'a, O: Ode> Step<'a, O> {
         Ok(())
     }
 
-    /// [`Step::interpolate`] for a t known to lie in the step.
+    /// Like [`Step::interpolate`], for a t known to be within the step.
     pub(crate) fn write_cheaply(&self, t: f64, out: &mut [f64]) {
         match self.place(t) {
             Place::Start => out.copy_from_slice(self.ends.y0),
@@ -142,9 +143,9 @@ impl<'a, O: Ode> Step<'a, O> {
         }
     }
 
-    /// Writes y(t) to `out` (length n), as accurate as the steps (of global order, that is). The
-    /// first call inside a step makes extra evaluations of f; further calls in the same step, and
-    /// calls at its ends, make none.
+    /// Writes y(t) to `out` (length n), with the same global order as the steps. The first call
+    /// within a step makes extra evaluations of f; further calls in the same step, and calls at its
+    /// ends, make none.
     ///
     /// # Errors
     ///
@@ -160,7 +161,7 @@ impl<'a, O: Ode> Step<'a, O> {
             .map_err(OutputError::Evaluation)
     }
 
-    /// [`Step::interpolate_accurately`] for a t known to lie in the step.
+    /// Like [`Step::interpolate_accurately`], for a t known to be within the step.
     pub(crate) fn write_accurately(
         &mut self,
         t: f64,

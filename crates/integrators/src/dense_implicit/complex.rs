@@ -1,4 +1,4 @@
-//! Complex numbers, as far as a factorisation needs them.
+//! Complex numbers, with the operations needed by a factorisation.
 
 use std::ops::{Add, Div, Mul, Sub};
 

@@ -1,12 +1,12 @@
 //! LU decomposition with partial pivoting of a dense real or complex matrix: P·A = L·U, row by row
 //! in one array.
 //!
-//! For the few unknowns of plain problems; nothing is blocked or scaled.
+//! For the small systems of plain problems; without blocking or scaling.
 
 use super::complex::Complex;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// A number to decompose with.
+/// A number type for the decomposition.
 pub(crate) trait Scalar:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -26,7 +26,7 @@ impl Scalar for Complex {
     }
 }
 
-/// The factors of an n×n matrix; `Lu::new` gives room, [`Lu::factor`] the contents.
+/// The factors of an n×n matrix; `Lu::new` allocates them, [`Lu::factor`] computes them.
 #[derive(Debug, Clone)]
 pub(crate) struct Lu<T> {
     n: usize,
@@ -45,8 +45,8 @@ impl<T: Scalar> Lu<T> {
         }
     }
 
-    /// Decomposes the matrix with the entries `entry(row, column)`. `Err(k)`: no pivot in column k,
-    /// none is different from zero and finite.
+    /// Decomposes the matrix with the entries `entry(row, column)`. `Err(k)`: column k has no
+    /// pivot, because no entry is non-zero and finite.
     pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> T) -> Result<(), usize> {
         let n = self.n;
         for (i, row) in self.a.chunks_exact_mut(n.max(1)).enumerate() {

@@ -1,4 +1,4 @@
-//! A plain problem made [`Implicit`]: dense Jacobian, by a formula or by differences, and dense LU
+//! Makes a plain problem [`Implicit`]: dense Jacobian, by a formula or by differences, and dense LU
 //! decompositions.
 
 mod complex;
@@ -11,7 +11,7 @@ use lu::Lu;
 use std::error::Error;
 use thiserror::Error;
 
-/// A problem with a dense Jacobian of its own.
+/// A problem with its own dense Jacobian.
 ///
 /// # Examples
 ///
@@ -43,11 +43,11 @@ pub struct DenseImplicit<O, J> {
 /// How to compute the Jacobian of a problem `O`: a closure `f(t, y, j)`, or [`Differences`].
 pub trait Jacobian<O: Ode> {
     /// Writes J = ∂f/∂y at (t, y) to `j`, n×n row by row: `j[i·n + k]` = ∂f_i/∂y_k. On entry `j`
-    /// holds the last J.
+    /// contains the last J.
     ///
     /// # Errors
     ///
-    /// The problem's own.
+    /// Errors of the problem.
     fn write(&mut self, ode: &mut O, t: f64, y: &[f64], j: &mut [f64]) -> Result<(), O::Error>;
 }
 
@@ -79,7 +79,7 @@ impl<O: Ode> Jacobian<O> for Differences {
             let increment = (f64::EPSILON * y[k].abs().max(1e-5)).sqrt();
             self.y[k] = y[k] + increment;
             ode.rhs(t, &self.y, &mut self.f_k)?;
-            // The increment that was made, not the one that was meant.
+            // The actual increment after rounding, not the intended one.
             let increment = self.y[k] - y[k];
             for i in 0..n {
                 j[i * n + k] = (self.f_k[i] - self.f[i]) / increment;
@@ -90,11 +90,11 @@ impl<O: Ode> Jacobian<O> for Differences {
     }
 }
 
-/// Why a [`DenseImplicit`] problem cannot be evaluated or solved.
+/// Reason why a [`DenseImplicit`] problem cannot be evaluated or solved.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DenseError<E: Error + 'static> {
-    /// The wrapped problem's own error.
+    /// An error of the wrapped problem.
     #[error("{0}")]
     Problem(#[source] E),
     /// `a·I − J` has no inverse in floating-point numbers.
@@ -112,7 +112,7 @@ pub enum DenseError<E: Error + 'static> {
 }
 
 impl<O: Ode, J: Jacobian<O>> DenseImplicit<O, J> {
-    /// `ode` with its Jacobian.
+    /// Combines `ode` with its Jacobian.
     pub fn new(ode: O, jacobian: J) -> Self {
         let n = ode.dim();
         Self {

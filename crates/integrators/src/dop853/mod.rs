@@ -17,7 +17,7 @@ use crate::ode::Ode;
 use tableau::{STAGES, STEP_STAGES};
 
 /// Dormand–Prince 8(5,3): the method for smooth problems at 1e-6 and below. Order 8; an accepted
-/// step costs twelve evaluations, the derivative at its end included, a rejected one eleven. Dense
+/// step costs twelve evaluations, including the derivative at its end, a rejected one eleven. Dense
 /// output of order 6 (local error O(h⁷)) without and of order 8 (local error O(h⁹), like the step)
 /// with six extra evaluations in the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -31,7 +31,7 @@ impl<O: Ode> Method<O> for Dop853 {
     }
 }
 
-/// Those of the program DOP853: no memory of the previous error.
+/// The constants of the program DOP853: no memory of the previous error.
 const CONTROL: ControlConstants = ControlConstants {
     alpha: 1.0 / 8.0,
     beta: 0.0,
@@ -49,12 +49,12 @@ pub struct Stages {
     k: [Vec<f64>; 11],
     /// Stages 14 to 19 of the last prepared step.
     extra: [Vec<f64>; STAGES - STEP_STAGES],
-    /// Argument of a stage.
+    /// Scratch: argument of a stage.
     y: Vec<f64>,
 }
 
 impl Stages {
-    /// Room for `dim` components.
+    /// Allocates storage for `dim` components.
     pub(crate) fn new(dim: usize) -> Self {
         let zeros = || vec![0.0; dim];
         Self {

@@ -1,4 +1,4 @@
-//! The table and both dense outputs against the order conditions (`trees`).
+//! The table and both dense outputs checked with the order conditions (`trees`).
 
 use super::dense::weights;
 use super::tableau::{A, C, D, E3, E5, FREE, STAGES, STEP_STAGES};
@@ -93,7 +93,8 @@ fn largest_error<const R: usize, const S: usize>(rows: &[[f64; S]; R], order: i3
         .fold(0.0, f64::max)
 }
 
-/// The free output loses little more than its order.
+/// The error of the dense output without extra evaluations is not much larger than its order
+/// implies.
 #[test]
 fn error_coefficients_of_the_free_output_are_small() {
     let free = largest_error(&FREE, 7);

@@ -168,7 +168,7 @@ impl<O: Ode> Stepper<O> for Stages {
                 error_5 += E5[j] * k;
                 error_3 += E3[j] * k;
             }
-            // No error needs no weight: a component that stays 0 may have weight 0.
+            // A component without error needs no weight: one that stays 0 may have weight 0.
             if error_5 != 0.0 {
                 sum_5 += (error_5 / scale[i]) * (error_5 / scale[i]);
             }

@@ -1,13 +1,13 @@
-//! The coefficients, to full precision; checked by `order_conditions`, which knows trees but no
+//! The coefficients, to full precision; checked by `order_conditions`, which uses trees and no
 //! table.
 //!
 //! The method and its error estimators are those of the program DOP853 of Hairer and Wanner;
-//! source: Hairer, Nørsett, Wanner I, 2nd ed., II.5. Stages 14 to 19, [`D`] and [`FREE`] are of our
-//! own making, see `dense`.
+//! source: Hairer, Nørsett, Wanner I, 2nd ed., II.5. Stages 14 to 19, [`D`] and [`FREE`] were
+//! derived for this crate, see `dense`.
 
 /// Stages 1 to 12, then stage 13, which is the derivative at the end.
 pub(super) const STEP_STAGES: usize = 13;
-/// With the six stages of the accurate dense output.
+/// Number of stages including the six of the accurate dense output.
 pub(super) const STAGES: usize = STEP_STAGES + 6;
 
 /// Nodes of the stages; row sums of [`A`].
@@ -33,7 +33,7 @@ pub(super) const C: [f64; STAGES] = [
     3.0 / 5.0,
 ];
 
-/// Rows for the arguments of the stages. Row 12 (counted from 0) is the new state, too.
+/// Rows for the arguments of the stages. Row 12 (counted from 0) also gives the new state.
 #[rustfmt::skip]
 pub(super) const A: [[f64; STAGES]; STAGES] = [
     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -96,8 +96,8 @@ pub(super) const E3: [f64; 12] =
     [-0.189_800_754_072_407_62, 0.0, 0.0, 0.0, 0.0, 4.450_312_892_752_409, 1.891_517_899_314_500_3, -5.801_203_960_010_585,
      -0.422_682_321_323_791_97, -0.152_160_949_662_516_1, 0.201_365_400_804_030_34, 0.022_651_792_198_360_825];
 
-/// Dense output of order 8: what is added to the cubic by each stage, in terms of 1, θ, θ(1 − θ),
-/// θ²(1 − θ), θ²(1 − θ)²; see `dense`.
+/// Dense output of order 8: contribution of each stage in addition to the cubic, in terms of 1, θ,
+/// θ(1 − θ), θ²(1 − θ), θ²(1 − θ)²; see `dense`.
 #[rustfmt::skip]
 pub(super) const D: [[f64; STAGES]; 5] = [
     [-15.009_904_447_337_647, 0.0, 0.0, 0.0, 0.0, -53.336_019_639_716_6, -22.669_425_332_006_945, 69.526_151_486_796_7,

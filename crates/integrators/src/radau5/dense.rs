@@ -1,4 +1,4 @@
-//! The solution inside an accepted step.
+//! The solution within an accepted step.
 //!
 //! **Order 4** (local error O(h⁵)). The collocation polynomial p of degree 3 through y0, Y₁, Y₂, Y₃
 //! has the right derivative at the nodes, not at the start. The quartic
@@ -7,15 +7,15 @@
 //! u(θ) = p(θ) + D·φ(θ) + θ²(3 − 2θ)·c,   φ(θ) = ∫₀^θ (s − c₁)(s − c₂)(s − 1)/(−c₁c₂) ds
 //! ```
 //!
-//! mends the start with its defect D = h·f0 − p'(0) and leaves the rest as it is: φ(1) = 0, because
-//! the Radau quadrature is exact for cubics, and φ' = 0 at the nodes. c is what a projection has
-//! added to y1. A stiff problem turns the rounding of y0 into a large D; so D is filtered by (I −
-//! h/u₁·J)⁻¹, which changes it by O(h⁵) where the problem is smooth. It is the error estimate
-//! (times u₁), already known.
+//! corrects the start by its defect D = h·f0 − p'(0) and leaves the other values unchanged: φ(1) =
+//! 0, because the Radau quadrature is exact for cubics, and φ' = 0 at the nodes. c is the change of
+//! y1 by a projection. In a stiff problem the rounding of y0 becomes a large D; so D is filtered by
+//! (I − h/u₁·J)⁻¹, which changes it by O(h⁵) if the problem is smooth. It is the error estimate
+//! (times u₁), which is already known.
 //!
-//! **Order 5** (local error O(h⁶)). u plus the quintic whose derivative takes the defects of u,
-//! `h·f(t, u) − u'`, filtered likewise, at θ = 0, ¼, ¾ and 1, and that vanishes at both ends; two
-//! extra evaluations (the same idea as in `dopri5`).
+//! **Order 5** (local error O(h⁶)). u plus the quintic that vanishes at both ends and whose
+//! derivative at θ = 0, ¼, ¾ and 1 equals the defects of u, `h·f(t, u) − u'`, filtered in the same
+//! way; two extra evaluations (the same idea as in `dopri5`).
 
 use super::Stages;
 use super::newton::dot;
@@ -25,7 +25,7 @@ use crate::implicit::Implicit;
 use crate::method::{Dense, Ends};
 use crate::ode::{evaluate, finite};
 
-/// Places of the defects.
+/// Relative positions of the defects.
 const PLACES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
 
 impl<O: Implicit> Dense<O> for Stages {
@@ -88,7 +88,7 @@ impl Stages {
 struct Quartic<'a> {
     ends: &'a Ends<'a>,
     z: &'a [Vec<f64>; 3],
-    /// Filtered defect at the start over u₁.
+    /// Filtered defect at the start divided by u₁.
     defect: &'a [f64],
 }
 
@@ -113,7 +113,7 @@ impl Quartic<'_> {
         [self.z[0][i], self.z[1][i], self.z[2][i]]
     }
 
-    /// What the hook has added to y1.
+    /// The change of y1 by the hook.
     fn projection(&self, i: usize) -> f64 {
         (self.ends.y1[i] - self.ends.y0[i]) - self.z[2][i]
     }

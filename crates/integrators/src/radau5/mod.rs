@@ -2,9 +2,9 @@
 //! problems.
 //!
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., IV.5 (method)
-//! and IV.8 (implementation), whose program RADAU5 also gave the constants. Deviations: the
-//! Jacobian is renewed before a step is given up, and the dense output has a higher order (see
-//! `dense`).
+//! and IV.8 (implementation), whose program RADAU5 is also the source of the constants.
+//! Differences: the Jacobian is renewed before a step is given up, and the dense output has a
+//! higher order (see `dense`).
 
 mod dense;
 mod newton;
@@ -24,8 +24,8 @@ use crate::method::Method;
 ///
 /// L-stable. The error estimate is of order 3: it is compared with `0.1·ρ^(−1/3)` times the
 /// tolerance, ρ ≤ 10⁻³ being the relative tolerance, so that the error of the step, which is of
-/// order 5, follows the tolerance. Tolerances below 100 units of rounding of the state are taken as
-/// 100: stiff forces turn rounding into noise.
+/// order 5, is proportional to the tolerance. Tolerances below 100 units of rounding of the state
+/// are replaced by 100, because stiff forces amplify rounding to noise.
 ///
 /// Dense output of order 4 (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the
 /// step) with two extra evaluations in the step. It is continuous; at the ends of steps its
@@ -41,7 +41,7 @@ impl<O: Implicit> Method<O> for Radau5 {
     }
 }
 
-/// Those of the program RADAU5: the classical controller for an estimate of order 3.
+/// The constants of the program RADAU5: the classical controller for an estimate of order 3.
 const CONTROL: ControlConstants = ControlConstants {
     alpha: 0.25,
     beta: 0.0,
@@ -50,7 +50,7 @@ const CONTROL: ControlConstants = ControlConstants {
     max_factor: 5.0,
 };
 
-/// Stages, matrices' state and memory of the last steps.
+/// Stages, state of the matrices, and memory of the last steps.
 #[derive(Debug)]
 pub struct Stages {
     control: Control,
@@ -58,9 +58,9 @@ pub struct Stages {
     z: [Vec<f64>; 3],
     /// `h·f0 − u'(0)` of the last trial, filtered: the estimated error times u₁.
     defect: Vec<f64>,
-    /// Filtered defects of the dense output at the places of `dense`.
+    /// Filtered defects of the dense output at the positions of `dense`.
     defects: [Vec<f64>; 4],
-    /// Argument of a stage, and scratch.
+    /// Scratch: argument of a stage.
     y: Vec<f64>,
     /// Weights of the norms of this method.
     scale: Vec<f64>,
@@ -74,34 +74,34 @@ pub struct Stages {
 /// Newton's method for the stages.
 #[derive(Debug)]
 struct Newton {
-    /// w = T⁻¹·z, in which the linear system falls apart into a real and a complex one.
+    /// w = T⁻¹·z, in which the linear system separates into a real and a complex one.
     w: [Vec<f64>; 3],
-    /// Stage derivatives, then increments of w.
+    /// Derivatives at the stages, then increments of w.
     k: [Vec<f64>; 3],
     convergence: Convergence,
-    /// Factor of the step size that it proposes after its failure.
+    /// The factor of the step size that it proposes after a failure.
     factor_after_failure: Option<f64>,
 }
 
 /// The last accepted step since the start of the leg.
 #[derive(Debug)]
 struct Before {
-    /// Its z, for starting values.
+    /// Its z, used for starting values.
     z: [Vec<f64>; 3],
     /// Its size.
     h: Option<f64>,
-    /// Size and error of the step that the predictive controller compares with.
+    /// Size and error of the step with which the predictive controller compares.
     reference: Option<(f64, f64)>,
 }
 
-/// What the problem has linearised and factored.
+/// State of the matrices that the problem has linearised and factored.
 #[derive(Debug, Clone, Copy, Default)]
 struct Matrices {
     /// Time at which J was computed.
     linearised_at: Option<f64>,
-    /// Step size of the factors.
+    /// Step size for which the matrices were factored.
     factored_for: Option<f64>,
-    /// The last step converged so slowly that the next one is to have a new J.
+    /// Whether the last step converged so slowly that the next one needs a new J.
     is_worn: bool,
 }
 

@@ -7,8 +7,7 @@
 //! ((α + iβ)/h·I − J)·(Δw₂ + iΔw₃) = (T⁻¹·f)₂ + i(T⁻¹·f)₃ − (α + iβ)/h·(w₂ + iw₃)
 //! ```
 //!
-//! Source: Hairer, Wanner II, 2nd ed., IV.8.
-//! Not here: when to stop (`convergence`).
+//! The stopping criterion is in `convergence`.
 
 use super::Stages;
 use super::scale::set_scale;
@@ -21,10 +20,10 @@ use crate::method::{Start, Trial};
 use crate::ode::{evaluate, finite};
 use crate::statistics::Statistics;
 
-/// Iterations stop where their increments are this many units of rounding of the state.
+/// Iterations stop if their increments are below this many units of rounding of the state.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
 impl Stages {
-    /// Starting values: the collocation polynomial of the last step, continued; zero where there is
+    /// Starting values: the collocation polynomial of the last step, continued; zero if there is
     /// none.
     pub(super) fn predict(&mut self, h: f64) {
         let Some(h_before) = self.before.h else {
@@ -43,8 +42,8 @@ impl Stages {
         combine(&T_INVERSE, &self.z, &mut self.newton.w);
     }
 
-    /// Iterates until `z` is as accurate as the tolerance asks, or will not become so. An error of
-    /// f at a stage is an error of the trial.
+    /// Iterates until `z` is as accurate as the tolerance requires, or will not become so. An error
+    /// of f at a stage is an error of the trial.
     pub(super) fn solve_stages<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -70,7 +69,7 @@ impl Stages {
         }
     }
 
-    /// Δw at the present z, w, into `k`.
+    /// Writes Δw at the present z, w to `k`.
     fn increment<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -109,7 +108,7 @@ impl Stages {
     }
 
     /// Weighted norm of the last increments, with the present end of the step in the weights, and
-    /// how large it may be at the end.
+    /// the largest norm allowed at the end.
     fn increment_norm(&mut self, start: &Start<'_>) -> (f64, f64) {
         for ((y, y0), z) in self.y.iter_mut().zip(start.y0).zip(&self.z[2]) {
             *y = y0 + z;

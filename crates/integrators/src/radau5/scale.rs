@@ -3,20 +3,20 @@
 
 use crate::options::Tolerance;
 
-/// Tolerances are never taken below this part of the state: stiff forces turn its rounding into
-/// noise.
+/// Tolerances below this fraction of the state are replaced by it: stiff forces amplify the
+/// rounding of the state to noise.
 const NOISE: f64 = 100.0 * f64::EPSILON;
-/// Relative tolerance from which on weights are not stretched.
+/// Relative tolerance from which on weights are not enlarged.
 const LOOSE: f64 = 1e-3;
-/// The error left by Newton's method, as part of the permitted one, is at most this, and less for
-/// sharp tolerances.
+/// Largest error of Newton's method as a fraction of the permitted one; it is smaller for tight
+/// tolerances.
 const LARGEST_PART: f64 = 0.03;
 
-/// Writes the weights and returns the part of them that Newton's method may leave as its error.
+/// Writes the weights and returns the fraction of them that is allowed as error of Newton's method.
 ///
 /// An estimate of order 3 (local error h⁴) kept at 0.1·ρ^(2/3) keeps the local error h⁶ of the step
-/// at about ρ. So the tolerance is multiplied by 0.1·ρ^(−1/3), ρ being the sharpest relative
-/// tolerance of a component, or the `rtol` of this one where it is larger.
+/// at about ρ. So the tolerance is multiplied by 0.1·ρ^(−1/3), with ρ the smallest relative
+/// tolerance of a component, or the `rtol` of this component if it is larger.
 pub(super) fn set_scale(tolerance: &Tolerance, y0: &[f64], y1: &[f64], scale: &mut [f64]) -> f64 {
     tolerance.scale(y0, y1, scale);
     let mut sharpest = LOOSE;

@@ -12,16 +12,16 @@ use crate::method::{Start, Stepper, Trial, widest_gap};
 use crate::ode::{evaluate, finite};
 use crate::statistics::Statistics;
 
-/// Factors serve a step whose size differs by less than this part: Newton's method then loses no
-/// more than a good rate.
+/// Factors are used again if the step size differs by less than this fraction: Newton's method then
+/// loses no more than a good rate.
 const SAME_SIZE: f64 = 1e-3;
-/// A step that could grow by less than this factor keeps its size and with it the factors.
+/// A step size that could increase by less than this factor is kept, and with it the factors.
 const WORTH_GROWING: f64 = 1.2;
 /// Smallest error with which the predictive controller compares.
 const SMALLEST_REFERENCE: f64 = 1e-2;
 
 impl Stages {
-    /// J and its factors for this trial, renewed only if needed.
+    /// Computes J and its factors for this trial, if new ones are needed.
     fn prepare_matrices<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -50,7 +50,7 @@ impl Stages {
         Ok(())
     }
 
-    /// `error ← (u₁/h·I − J)⁻¹·(f + Σ E_i·z_i/h)` with f in `error` on entry.
+    /// Computes `error ← (u₁/h·I − J)⁻¹·(f + Σ E_i·z_i/h)`; `error` contains f on entry.
     fn filter_estimate<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -167,8 +167,8 @@ impl<O: Implicit> Stepper<O> for Stages {
     }
 
     /// The smaller of two proposals: the classical one, and the predictive one of Gustafsson, which
-    /// continues the trend of the error. Many iterations count like a larger error. A size that
-    /// would hardly change is kept, and the factors with it.
+    /// continues the trend of the error. Many iterations have the same effect as a larger error. A
+    /// size that would hardly change is kept, and with it the factors.
     fn after_acceptance(&mut self, h: f64, error_norm: f64) -> f64 {
         let effort = self.effort();
         let mut next = self.control.accept(h, error_norm * effort.powi(4));
@@ -206,8 +206,8 @@ impl<O: Implicit> Stepper<O> for Stages {
 }
 
 impl Stages {
-    /// (n + 2·n_max)/(1 + 2·n_max) for n iterations: what the last step cost over what it might
-    /// have cost.
+    /// (n + 2·n_max)/(1 + 2·n_max) for n iterations: the cost of the last step relative to its
+    /// smallest possible cost.
     fn effort(&self) -> f64 {
         let (n, n_max) = (
             f64::from(self.newton.convergence.iterations),

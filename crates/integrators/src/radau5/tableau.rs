@@ -1,7 +1,7 @@
 //! The coefficients: nodes, the transformation that makes A⁻¹ block diagonal, the collocation
 //! polynomial.
 //!
-//! Checked by `tests` against the matrix A that the nodes define.
+//! Checked by `tests` against the matrix A that follows from the nodes.
 
 /// √6.
 const SQRT_6: f64 = 2.449_489_742_783_178;

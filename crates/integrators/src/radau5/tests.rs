@@ -1,5 +1,5 @@
-//! The method itself, free of step control: its coefficients, its stability function, its order,
-//! its dense output.
+//! The method without step control: its coefficients, its stability function, its order, its dense
+//! output.
 
 use super::Stages;
 use super::dense::{defect_weights, start_weight, start_weight_derivative};
@@ -91,7 +91,7 @@ fn polynomials_are_dual_to_their_places() {
     assert_eq!([defect_weights(0.0), defect_weights(1.0)], [[0.0; 4]; 2]);
 }
 
-/// Steps of a size that nobody controls.
+/// Steps of a given size, without control.
 struct FixedSteps<O> {
     ode: O,
     stages: Stages,
@@ -118,8 +118,8 @@ where
         }
     }
 
-    /// From t over h, at full accuracy; `inside` are the two dense outputs at θ. Returns the size
-    /// of the estimated error.
+    /// Steps from t over h, at full accuracy; `inside` receives the two dense outputs at θ. Returns
+    /// the size of the estimated error.
     fn step(&mut self, t: f64, h: f64, theta: f64, inside: &mut [Vec<f64>; 2]) -> f64 {
         let legs = Interval::new(t, t + h)
             .legs::<Infallible>()
@@ -208,8 +208,8 @@ fn one_linear_step_is_the_stability_function() {
     }
 }
 
-/// Largest errors over [0, 2] with n steps: at the ends, of both outputs at θ = 0.4, and the
-/// largest estimate.
+/// Largest errors over [0, 2] with n steps: at the ends of steps, of both outputs at θ = 0.4, and
+/// the largest estimate.
 fn errors(n: u32) -> [f64; 4] {
     // y₁' = y₂·cos t, y₂' = −y₁·cos t + (1 − y₁² − y₂²)·y₂: (sin s, cos s) with s = sin t,
     // nonlinear in y and dependent on t.
@@ -242,8 +242,8 @@ fn errors(n: u32) -> [f64; 4] {
     largest
 }
 
-/// Ends and accurate output: order 5; cheap output: local error O(h⁵); estimate: O(h⁴), as one of
-/// order 3.
+/// Ends and accurate output: order 5; output without extra evaluations: local error O(h⁵);
+/// estimate: O(h⁴), like one of order 3.
 #[test]
 fn orders_of_the_step_its_outputs_and_its_estimate() {
     let runs = [16, 32, 64].map(errors);

@@ -1,4 +1,4 @@
-//! The solution inside an accepted step: of order 4 (local error O(h⁵)) without and of order 5
+//! The solution within an accepted step: of order 4 (local error O(h⁵)) without and of order 5
 //! (O(h⁶), like the step) with two extra evaluations.
 //!
 //! **Order 4.** Cubic Hermite interpolation of (y0, f0), (y1, f1) plus a quartic term that vanishes
@@ -10,7 +10,7 @@
 //!
 //! Without projection this is Shampine's formula, Hairer, Nørsett, Wanner I, 2nd ed., II.6. A
 //! projection that moves y1 by c and f1 by g adds θ²(3 − 2θ)·c − h·θ²(1 − θ)·g: the end is the
-//! projected state with its own derivative, the start is untouched.
+//! projected state with its own derivative, and the start is unchanged.
 //!
 //! **Order 5.** The quintic with u(0) = y0, u(1) = y1, u'(0) = h·f0, u'(1) = h·f1 and u'(θ) =
 //! h·f(t0 + θh, u₄(θ)) at θ = a, b, u₄ being the output of order 4: its error O(h⁵) enters
@@ -26,9 +26,9 @@ use crate::error::Cause;
 use crate::method::{Dense, Ends};
 use crate::ode::{Ode, evaluate};
 
-/// Places of the two extra evaluations for the dense output of order 5.
+/// First relative position of the extra evaluations for the dense output of order 5.
 pub(super) const NODE_A: f64 = 1.0 / 5.0;
-/// The second place.
+/// Second relative position.
 pub(super) const NODE_B: f64 = 1.0 / 2.0;
 
 impl<O: Ode, T: Tableau> Dense<O> for Stages<T> {

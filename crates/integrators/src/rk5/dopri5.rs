@@ -1,5 +1,5 @@
 //! Dormand–Prince 5(4): the coefficients, as printed in the paper's table 2 and in Hairer, Nørsett,
-//! Wanner I, 2nd ed., table II.5.2. Checked by `order_conditions`, which knows trees but no table.
+//! Wanner I, 2nd ed., table II.5.2. Checked by `order_conditions`, which uses trees and no table.
 //!
 //! Source: J. R. Dormand, P. J. Prince, A family of embedded Runge–Kutta formulae, J. Comput. Appl.
 //! Math. 6 (1980) 19–26, DOI 10.1016/0771-050X(80)90013-3. Dense output: L. F. Shampine, Some

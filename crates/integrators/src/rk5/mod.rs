@@ -1,4 +1,4 @@
-//! Pairs of order 5(4) with seven stages of which the last is the first of the next step: one
+//! Pairs of order 5(4) with seven stages, the last of which is the first of the next step: one
 //! implementation, two tables.
 
 mod dense;
@@ -35,7 +35,7 @@ impl<O: Ode> Method<O> for Tsit5 {
     }
 }
 
-/// For both pairs those of the program DOPRI5 of Hairer and Wanner: α = 1/5 − ¾·β.
+/// For both pairs the constants of the program DOPRI5 of Hairer and Wanner: α = 1/5 − ¾·β.
 const CONTROL: ControlConstants = ControlConstants {
     alpha: 0.2 - 0.75 * 0.04,
     beta: 0.04,
@@ -54,13 +54,13 @@ pub struct Stages<T> {
     /// f at `NODE_A`, `NODE_B` of the last prepared step.
     f_a: Vec<f64>,
     f_b: Vec<f64>,
-    /// Argument of a stage.
+    /// Scratch: argument of a stage.
     y: Vec<f64>,
     tableau: PhantomData<T>,
 }
 
 impl<T> Stages<T> {
-    /// Room for `dim` components.
+    /// Allocates storage for `dim` components.
     pub(crate) fn new(dim: usize) -> Self {
         let zeros = || vec![0.0; dim];
         Self {

@@ -1,4 +1,4 @@
-//! Both tables and their dense outputs against the order conditions (`trees`).
+//! Both tables and their dense outputs checked with the order conditions (`trees`).
 
 use super::dense::{NODE_A, NODE_B, quartic_weights, quintic_weights};
 use super::{Dopri5, Tableau, Tsit5};

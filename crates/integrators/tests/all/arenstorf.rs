@@ -21,8 +21,8 @@ const PUBLISHED_ROWS: [(f64, f64, f64); 8] = [
     (16.0, 0.242_711_099_9, -0.389_994_883_3),
 ];
 const PUBLISHED_END: [f64; 2] = [0.994_002_101_6, 8.911_185_692e-6];
-/// Half a unit of the last printed digit is 5e-11 to 5e-10; rounding errors of another compiler
-/// grow on this orbit.
+/// Half a unit of the last printed digit is 5e-11 to 5e-10; rounding errors of another compiler are
+/// amplified on this orbit.
 const PRINTED: f64 = 1e-9;
 
 #[test]
@@ -119,8 +119,8 @@ fn costs_and_errors_are_as_recorded() {
         (1e-12, 13022, 2168, 2, 3.0e-9),
     ];
     check_snapshots("tsit5", &Tsit5, tsit5);
-    // The original program needs 1036, 2185 and 4250 evaluations, with an error of 1.6e-9 (as timed
-    // by other ports of it).
+    // The original program needs 1036, 2185 and 4250 evaluations, with an error of 1.6e-9 (as
+    // measured with other ports of it).
     let dop853 = [
         (1e-6, 1035, 65, 23, 7.0e-3),
         (1e-9, 2184, 136, 50, 7.4e-6),

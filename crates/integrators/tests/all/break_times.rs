@@ -47,7 +47,7 @@ fn declared_kink_costs_nothing_and_is_exact() {
         &[0.0],
         &options,
     );
-    // Order 5 integrates a linear f exactly; what is left is rounding.
+    // Order 5 integrates a linear f exactly, except for rounding.
     assert!((with.y[0] - 1.0).abs() < 1e-14, "{}", with.y[0]);
     assert_eq!(with.statistics.rejected(), 0);
     assert!(without.statistics.rejected() > 0);
@@ -170,7 +170,7 @@ fn neighbouring_break_times_are_passed() {
     assert!((end.y[0] - 1.0).abs() < 1e-14, "{}", end.y[0]);
 }
 
-/// A ball of unit mass that is hit at t = 1: v jumps by 3 there.
+/// A ball of unit mass hit at t = 1, at which v jumps by 3.
 struct Hit;
 
 impl Ode for Hit {

@@ -1,5 +1,5 @@
-//! What every method must survive: nothing to integrate, weights of zero, blow-up, values that are
-//! not numbers, giant and tiny tolerances.
+//! Cases that every method must handle: an empty interval, zero weights, blow-up, values that are
+//! not numbers, extreme tolerances.
 
 use crate::problems::{Plain, distance, kepler, oscillator, plain};
 use integrators::{
@@ -28,7 +28,7 @@ fn run(
         |step| {
             let mut y = vec![0.0; step.y0().len()];
             let middle = 0.5 * (step.t0() + step.t1());
-            // Whatever dense output says, it says it without panic.
+            // Dense output must not panic, whatever its values.
             step.interpolate(middle, &mut y).expect("inside");
             let _ = step.interpolate_accurately(middle, &mut y);
             ControlFlow::Continue(())
@@ -82,7 +82,7 @@ fn check(name: &str, method: &impl Method<Plain>) {
     assert!((t - 1.0).abs() < 1e-5, "{name}: {t}");
     assert_eq!(*cause, Cause::NonFinite { component: 0 }, "{name}");
 
-    // A component that is not controlled, as the work of a mechanism.
+    // A component without error control, like the work of a mechanism.
     let weights = Options {
         tolerance: Tolerance::PerComponent {
             rtol: vec![1e-9, 1e-9, 0.0],
@@ -95,7 +95,7 @@ fn check(name: &str, method: &impl Method<Plain>) {
     let exact = [6.0_f64.cos(), -6.0_f64.sin(), 6.0];
     assert!(distance(&end.y, &exact) < 1e-7, "{name}: {:?}", end.y);
 
-    // From "anything goes" to "as good as it gets".
+    // From very loose to the tightest tolerance.
     let error = |tolerance: f64| {
         let options = Options::with_tolerance(tolerance, tolerance);
         let end = run(method, oscillator, 10.0, &[1.0, 0.0], &options).expect("smooth");
@@ -122,7 +122,8 @@ fn errors_follow_the_tolerance() {
             let end =
                 run(method, kepler, 20.0 * std::f64::consts::PI, &y0, &options).expect("smooth");
             let error = distance(&end.y, &y0);
-            // Local errors of some hundred to thousand steps, growing with the square of time.
+            // Sum of the local errors of some hundred to thousand steps, which grows with the
+            // square of time.
             assert!(error < 2e5 * tolerance, "{name}, {tolerance}: {error:e}");
         }
     }

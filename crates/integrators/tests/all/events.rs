@@ -1,4 +1,4 @@
-//! Event times against closed forms, and what is not seen.
+//! Event times compared with closed forms, and events that are not detected.
 
 use crate::problems::{Plain, fixed_step, plain};
 use integrators::{
@@ -162,15 +162,15 @@ fn zeros_at_ends_count_once_and_contacts_are_not_seen() {
         }]
     );
     assert_eq!(in_one_step(Direction::Any, |t| t), []);
-    // Documented: a contact between two places, and two zeros between them.
+    // Documented as not detected: a contact between two places, and two zeros between them.
     assert_eq!(in_one_step(Direction::Any, |t| (t - 0.55).powi(2)), []);
     assert_eq!(in_one_step(Direction::Any, |t| (t - 0.54) * (t - 0.56)), []);
-    // A jump has no zero; the time at which it has happened is found.
+    // A jump has no zero; the time just after it is found.
     let jump = in_one_step(Direction::Any, |t| if t < 0.3 { -1.0 } else { 2.0 });
     assert!((jump[0].t - 0.3).abs() < 1e-15 && jump[0].t >= 0.3);
 }
 
-/// Backwards in time an event comes first that is last forwards, and rises where it falls.
+/// Backwards in time the order of events is reversed, and rising and falling are exchanged.
 #[test]
 fn backwards() {
     let mut clock = Function::new(1, |_t, _y: &[f64], dy: &mut [f64]| dy[0] = 1.0);

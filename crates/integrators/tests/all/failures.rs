@@ -1,4 +1,4 @@
-//! Everything that can go wrong: named, with the last good state, and without panic.
+//! All errors: with their names and the last good state, and without panic.
 
 use crate::problems::{oscillator, run, run_function};
 use integrators::{
@@ -40,7 +40,7 @@ fn blow_up_is_a_collapse_at_its_time() {
         matches!(failure.error, IntegrationError::StepSizeCollapsed { .. }),
         "{failure}"
     );
-    // Near the end y = 1/(t* − t) with t* known to the tolerance.
+    // Near the end y = 1/(t* − t), with t* accurate to the tolerance.
     assert!((failure.t - 1.0).abs() < 1e-7, "{}", failure.t);
     assert!(failure.y[0] > 1e7 && failure.y[0].is_finite());
     assert!(failure.statistics.accepted > 50);
@@ -80,7 +80,7 @@ fn nan_is_avoided_by_shorter_steps_or_named() {
     );
 }
 
-/// y' = −y where |y − forbidden| ≥ width, an error inside.
+/// y' = −y if |y − forbidden| ≥ width, otherwise an error.
 struct Guarded {
     refuses_below: f64,
     refusals_left: u32,

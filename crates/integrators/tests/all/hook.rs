@@ -8,8 +8,8 @@ use integrators::{
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-/// The harmonic oscillator, kept on the unit circle; rejects corrections above `limit` in the norm
-/// of the error.
+/// The harmonic oscillator, projected onto the unit circle; rejects corrections above `limit` in
+/// the norm of the error.
 struct Circle {
     limit: f64,
 }
@@ -156,7 +156,7 @@ fn check_smoothness(name: &str, method: &impl Method<Circle>, h: f64) {
         },
     )
     .expect("smooth problem");
-    // Otherwise the slopes would agree without any care.
+    // Otherwise the slopes would agree without any projection.
     let correction = WEIGHT * end.statistics.largest_correction;
     assert!(correction > 1e-4, "{name}: {correction:e}");
 }
@@ -168,8 +168,8 @@ fn dense_output_passes_smoothly_through_projected_states() {
     check_smoothness("dop853", &Dop853, 2.5);
 }
 
-/// Twenty units of time on the circle with each method; `evaluations` of a trial, without the one
-/// of the hook.
+/// Twenty units of time on the circle with each method; `evaluations` is the number per trial,
+/// without that of the hook.
 #[test]
 fn all_methods_stay_on_the_circle() {
     fn check(name: &str, method: &impl Method<Circle>) {

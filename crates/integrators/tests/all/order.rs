@@ -6,7 +6,8 @@ use crate::problems::{
 use integrators::{Dop853, Dopri5, Interval, Method, Options, Tsit5, integrate};
 use std::ops::ControlFlow;
 
-/// Observed orders scatter by the next term of the error, some per cent at these steps.
+/// Observed orders differ from the exact one by the next term of the error, some per cent at these
+/// steps.
 const ORDER_TOLERANCE: f64 = 0.2;
 
 fn assert_order(name: &str, errors: &[f64], claimed: f64) {
@@ -68,7 +69,7 @@ fn largest_errors(
     .expect("smooth problem");
     let s = end.statistics;
     assert_eq!(s.accepted, u64::from(n));
-    // The same in every step, however many times are asked for.
+    // The number is the same in every step, however many times are requested.
     assert_eq!(s.output_evaluations, output_evaluations * u64::from(n));
     errors
 }
@@ -78,8 +79,8 @@ fn halved(method: &impl Method<Plain>, n: u32, output_evaluations: u64) -> [Erro
     [n, 2 * n].map(|n| largest_errors(method, 0.0, 10.0, n, output_evaluations))
 }
 
-/// In the sum over all steps the local errors of order 5 (inside) and 6 (at the ends) of the cheap
-/// output count alike.
+/// Summed over all steps, the local errors of order 5 (inside) and 6 (at the ends) of the output
+/// without extra evaluations have the same order.
 #[test]
 fn pairs_and_both_dense_outputs_converge_with_order_five() {
     for (name, errors) in [
@@ -89,8 +90,8 @@ fn pairs_and_both_dense_outputs_converge_with_order_five() {
         assert_order(name, &errors.each_ref().map(|e| e.ends), 5.0);
         assert_order(name, &errors.each_ref().map(|e| e.cheap), 5.0);
         assert_order(name, &errors.each_ref().map(|e| e.accurate), 5.0);
-        // The accurate output adds next to nothing (the largest error lies between two ends); the
-        // cheap one is worse.
+        // The accurate output adds almost nothing (the largest error lies between two ends); the
+        // other one is less accurate.
         for e in &errors {
             assert!(
                 e.accurate < 1.1 * e.ends,
@@ -103,8 +104,8 @@ fn pairs_and_both_dense_outputs_converge_with_order_five() {
     }
 }
 
-/// The local error of order 7 of the cheap output counts like a global one; the accurate output is
-/// as good as the ends.
+/// The local error of order 7 of the output without extra evaluations has the same effect as a
+/// global one; the accurate output is as good as the ends.
 #[test]
 fn dop853_and_its_accurate_output_converge_with_order_eight_and_the_cheap_one_with_seven() {
     let errors = halved(&Dop853, 35, 6);

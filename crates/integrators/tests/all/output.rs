@@ -157,7 +157,7 @@ fn the_observer_can_stop() {
     assert_eq!((end.end, rows), (End::Stopped, 5));
 }
 
-/// y' = 1 that cannot be evaluated at the places of the extra evaluations.
+/// y' = 1 that cannot be evaluated at the times of the extra evaluations.
 struct OnlyAtStages;
 
 #[derive(Debug, Error)]
@@ -205,8 +205,8 @@ fn a_failing_extra_evaluation_is_named() {
     assert!(failure.t == 1.0 && (failure.y[0] - 1.0).abs() < 1e-15);
 }
 
-/// The step size of the outcome is the one to go on with, although the last step was cut short by
-/// the end.
+/// The step size of the outcome is the one with which to continue, although the last step was
+/// shortened by the end.
 #[test]
 fn an_integration_goes_on_with_the_step_size_of_its_outcome() {
     let options = Options::with_tolerance(1e-9, 1e-9);

@@ -39,7 +39,7 @@ pub(crate) fn modulated(t: f64, y: &[f64], dy: &mut [f64]) {
     dy[0] = y[0] * t.cos();
 }
 
-/// A problem whose type can be named, for functions over several methods.
+/// A problem with a named type, for functions over several methods.
 pub(crate) type Plain = Function<fn(f64, &[f64], &mut [f64])>;
 
 pub(crate) fn plain(dim: usize, f: fn(f64, &[f64], &mut [f64])) -> Plain {
@@ -49,7 +49,7 @@ pub(crate) fn plain(dim: usize, f: fn(f64, &[f64], &mut [f64])) -> Plain {
 /// Absolute tolerance that no error of the tests exceeds.
 pub(crate) const WEIGHT: f64 = 1e100;
 
-/// Constant step size: a tolerance that is always met, and `h` as first and largest step.
+/// Constant step size: a tolerance that is always satisfied, and `h` as first and largest step.
 pub(crate) fn fixed_step(h: f64) -> Options {
     Options {
         tolerance: Tolerance::Uniform {
@@ -62,7 +62,7 @@ pub(crate) fn fixed_step(h: f64) -> Options {
     }
 }
 
-/// Integrates to the end without looking; failures end the test.
+/// Integrates to the end without observer; failures end the test.
 pub(crate) fn run<O: Ode>(
     ode: &mut O,
     interval: &Interval<'_>,
@@ -75,7 +75,7 @@ pub(crate) fn run<O: Ode>(
     .expect("the integration reaches its end")
 }
 
-/// As [`run`], for a closure.
+/// Like [`run`], for a closure.
 pub(crate) fn run_function(
     f: fn(f64, &[f64], &mut [f64]),
     t: (f64, f64),

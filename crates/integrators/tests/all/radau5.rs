@@ -87,13 +87,13 @@ fn van_der_pol_keeps_its_jacobian_while_it_is_slow() {
         assert!(error < 2.0 * tolerance, "{tolerance}: {error:.2e}");
         let s = s.statistics;
         assert!(s.evaluations < evaluations, "{s:?}");
-        // A Jacobian serves several steps, a factorisation too, and each step needs a factor's
-        // worth of solves.
+        // A Jacobian and a factorisation are used for several steps, and each factorisation for
+        // several solves.
         assert!(3 * s.jacobians < 2 * s.accepted, "{s:?}");
         assert!(s.factorisations < s.accepted + s.rejected(), "{s:?}");
         assert!(s.newton_iterations < 3 * s.accepted, "{s:?}");
     }
-    // Differences do not change the result, only its price.
+    // Differences do not change the result, only the cost.
     let options = Options::with_tolerance(1e-6, 1e-6);
     let end = run(f, Differences::default(), &[2.0, 0.0], 2.0, &options);
     assert!(relative_error(&end.y, &exact) < 2e-6, "{:?}", end.y);
@@ -102,7 +102,7 @@ fn van_der_pol_keeps_its_jacobian_while_it_is_slow() {
 /// A pendulum of length 1 on a damped spring of stiffness k in polar coordinates, y = (φ, r, φ',
 /// r'), φ from the horizontal. With k = 10¹² its stretch is 10⁻¹¹, so it moves like the rigid
 /// pendulum of the SUNDIALS examples (period 2), and the noise of the spring's force is k·eps =
-/// 2·10⁻⁴. Neither the number of steps nor the error may feel that, at whatever tolerance.
+/// 2·10⁻⁴. Neither the number of steps nor the error may depend on that, at any tolerance.
 #[test]
 fn noise_of_a_stiff_spring_neither_stalls_nor_shows() {
     const G: f64 = 13.750_371_636_040_746;
@@ -132,9 +132,9 @@ fn noise_of_a_stiff_spring_neither_stalls_nor_shows() {
     }
 }
 
-/// y' = λ·(y − cos t) − sin t from y(0) = 1: y = cos t. The step is bounded by nothing but the
-/// error 1/|λ| that a stiff component has (its order is that of the stages); the estimate measures
-/// it, so it is below the stretched tolerance.
+/// y' = λ·(y − cos t) − sin t from y(0) = 1: y = cos t. The step size is limited only by the error
+/// 1/|λ| of a stiff component (its order is that of the stages); the estimate measures it, so it is
+/// below the enlarged tolerance.
 #[test]
 fn a_slow_solution_of_a_stiff_problem_takes_few_steps() {
     for lambda in [-1e6, -1e9, -1e12] {
@@ -154,7 +154,7 @@ fn a_slow_solution_of_a_stiff_problem_takes_few_steps() {
     }
 }
 
-/// A hook that puts the state back on the unit circle at each step.
+/// A hook that moves the state back to the unit circle at each step.
 struct OnCircle<F>(Function<F>);
 
 impl<F: FnMut(f64, &[f64], &mut [f64])> Ode for OnCircle<F> {
@@ -184,8 +184,8 @@ impl<F: FnMut(f64, &[f64], &mut [f64])> Ode for OnCircle<F> {
     }
 }
 
-/// Both outputs meet the projected ends, also where the projection is much larger than the error of
-/// a step (a wrong rate is integrated on purpose).
+/// Both outputs have the projected ends, even if the projection is much larger than the error of a
+/// step (a wrong rate is integrated on purpose).
 #[test]
 fn outputs_end_in_projected_states_and_restart_behind_a_break() {
     // Exactly (cos t², sin t²)·√(1 + t/10⁴) without the hook.
@@ -266,7 +266,7 @@ fn failures_say_what_newton_and_the_factorisation_met() {
         "{cause}"
     );
 
-    // A force that switches with the state: no step is short enough for the Jacobian 0.
+    // A force that changes its sign with the state: no step is short enough for the Jacobian 0.
     let f = |_t: f64, y: &[f64], dy: &mut [f64]| dy[0] = if y[0] > 0.0 { -1e20 } else { 1e20 };
     let mut ode = DenseImplicit::new(Function::new(1, f), |_t: f64, _y: &[f64], j: &mut [f64]| {
         j[0] = 0.0;
