@@ -3,7 +3,7 @@
 use codegen::{Invocation, Kind, expand, in_module};
 use proc_macro::TokenStream;
 
-/// Defines a constraint: its type, its facts and its kernels, as an implementation of
+/// Defines a constraint: its type, its specification and its kernels, as an implementation of
 /// `joints::Constraint`.
 ///
 /// The language is described in the crate `codegen`, an example is in the description of this
@@ -13,7 +13,8 @@ pub fn joint(call: TokenStream) -> TokenStream {
     items(Kind::Constraint, call)
 }
 
-/// Defines a force: its type, its facts and its kernels, as an implementation of `joints::Force`.
+/// Defines a force: its type, its specification and its kernels, as an implementation of
+/// `joints::Force`.
 ///
 /// The language is described in the crate `codegen`.
 #[proc_macro]

@@ -1,5 +1,5 @@
-//! Definitions that are not shipped, checked against numbers found by hand, and names that are
-//! awkward on purpose.
+//! Definitions that are not part of the library, compared with numbers derived by hand, and names
+//! that may collide with generated code.
 
 #![deny(warnings)]
 
@@ -99,7 +99,7 @@ fn the_facade_path_is_used() {
     assert_eq!(phi, [1.0, -3.0]);
 }
 
-// Every parameter here is called like something that generated code computes.
+// Every parameter here has the name of something that generated code computes.
 joint! { plane Awkward(i, s) {
     /// A point of body i has prescribed coordinates in body s; the names are chosen to collide.
     params {
@@ -149,8 +149,8 @@ fn names_that_collide_are_told_apart() {
         f_0: 13.0,
         f_0_t: 14.0,
     };
-    // Body i turned by a right angle: its point is at r_i + (−20, 10), its n is (−1, 0), perp(n) is
-    // (0, −1).
+    // Body i rotated by a right angle: its point is at r_i + (−20, 10), its n is (−1, 0), perp(n)
+    // is (0, −1).
     let x = [
         Pose {
             x: 100.0,
@@ -168,7 +168,7 @@ fn names_that_collide_are_told_apart() {
     assert_eq!(phi, [-184.25, -208.5]);
 }
 
-// Values and pieces called like arguments of kernels, or like a pattern of Rust.
+// Values with the names of arguments of kernels, or of a pattern of Rust.
 joint! { plane Shadows(i) {
     /// `N² + N + angle = lambda·x_0` with `N = d² + d`, `d = x − x_0`.
     params { lambda: Ratio }
@@ -230,7 +230,7 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     );
     assert_eq!(gradient, [0.0, -280.0]);
 
-    // Other numbers are told again, and v = 5·4 follows them: 0 + 0 + 0.5 − 20.
+    // Other numbers are returned again, and v = 5·4 is computed from them: 0 + 0 + 0.5 − 20.
     Definition::set_data(&mut joint, &[5.0, 4.0]);
     let mut numbers = [0.0; 2];
     Definition::data(&joint, &mut numbers);
@@ -240,7 +240,8 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     assert_eq!(phi, [-19.5]);
 }
 
-// What is divided before the motion: kernels of constraints are polynomials all the same.
+// Quotients that are computed before the motion: kernels of constraints are polynomials
+// nevertheless.
 joint! { plane Scaled(i, j) {
     /// `along·(p − start) = square·angle` with a square that is a chain of quotients.
     params {
@@ -308,7 +309,7 @@ fn quotients_of_data_have_their_derivatives() {
         assert!((found - expected).abs() < 1e-15, "{found} {expected}");
     }
 
-    // A rest that was given stays so where initial values are taken again.
+    // A rest length that was given is kept when initial values are taken again.
     numbers[6] = 8.0;
     Definition::set_data(&mut joint, &numbers);
     Definition::initialise(&mut joint, &start);
@@ -335,7 +336,7 @@ fn magnet_by_hand() {
     assert_eq!(Magnet::SPEC.q, [0, 1, 3, 4]);
     ForceElement::q(&magnet, &x, &[Twist::zero(); 2], &[], &mut q);
     for (found, expected) in q.into_iter().zip([2.4, 3.2, -2.4, -3.2]) {
-        // A handful of roundings of numbers of order 1 to 100.
+        // Several roundings of numbers of order 1 to 100.
         assert!((found - expected).abs() < 1e-13, "{found} {expected}");
     }
 }

@@ -1,6 +1,6 @@
-//! A macro in a user's crate computes what the shipped code computes: every shipped definition goes
-//! through `joint!` or `force!` here, and facts and kernels must agree with those of the crate
-//! `joints`, bit for bit.
+//! A macro in a user's crate computes the same as the code of the library: every definition of the
+//! library is passed to `joint!` or `force!` here, and specifications and kernels must agree with
+//! those of the crate `joints`, bit for bit.
 
 use joints::{
     Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, Twist, Visitor,
@@ -48,10 +48,10 @@ fn own_forces<V: Visitor>(visitor: &mut V) {
     visitor.force::<torsion_spring_damper::TorsionSpringDamper>();
 }
 
-/// Poses tried for each definition.
+/// Number of poses for each definition.
 const POSES: u64 = 20;
 
-/// Facts and values of definitions, in the order shown.
+/// Specifications and values of definitions, in the order visited.
 #[derive(Default)]
 struct Record {
     facts: Vec<String>,
@@ -174,7 +174,7 @@ fn constraint_bits<K: Constraint>(seed: u64) -> Vec<u64> {
     let f: Vec<[f64; 3]> = spec.common.functions().map(|_| numbers.array()).collect();
     let lambda = numbers.array::<8>();
     let mut out = Vec::new();
-    // Kernels write what their patterns say; the rest of the buffer stays as it is in both.
+    // Kernels write the entries of their patterns; the rest of the buffer stays unchanged in both.
     let mut call = |kernel: &dyn Fn(&mut [f64])| {
         let mut values = [7.0; BUFFER];
         kernel(&mut values);

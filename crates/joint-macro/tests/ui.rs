@@ -1,5 +1,5 @@
-//! Definitions with one wrong thing each: the compiler names it and points at it. After a change of
-//! a message, run `TRYBUILD=overwrite cargo test -p pfaff-joint-macro --test ui` and read the
+//! Definitions with one error each: the compiler names it and points at it. After a change of a
+//! message, run `TRYBUILD=overwrite cargo test -p pfaff-joint-macro --test ui` and check the
 //! difference.
 
 #[test]

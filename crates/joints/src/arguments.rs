@@ -1,5 +1,5 @@
 //! Values for the parameters of a definition, checked against its [`Parameter`] list in one place,
-//! so that a kernel never meets a direction without length or a negative stiffness.
+//! so that a kernel never receives a direction without length or a negative stiffness.
 
 use std::fmt;
 
@@ -9,17 +9,18 @@ use crate::spec::{Parameter, Shape};
 /// One value, in the order of the definition's parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Argument {
-    /// A point or a vector that becomes a direction.
+    /// A point, or a vector that is converted to a direction.
     Pair([f64; 2]),
     /// Two points.
     Pairs([[f64; 2]; 2]),
-    /// One number, or as many as the parameter has.
+    /// One or more numbers, as many as the parameter has.
     Numbers(Vec<f64>),
-    /// Not given: the parameter has a default, or is a function of time that travels separately.
+    /// Not given: the parameter has a default, or is a function of time, which is passed
+    /// separately.
     Absent,
 }
 
-/// What is wrong with the values given to a definition.
+/// Error in the values for a definition.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ArgumentError {
@@ -39,7 +40,7 @@ pub enum ArgumentError {
     Shape {
         /// Name of the parameter.
         parameter: &'static str,
-        /// What the parameter takes.
+        /// The shape of the parameter.
         expected: Shape,
     },
     /// A number is NaN or infinite.
@@ -49,7 +50,7 @@ pub enum ArgumentError {
         /// The number.
         value: f64,
     },
-    /// A number that may not be negative is.
+    /// A negative number for a parameter that must not be negative.
     Negative {
         /// Name of the parameter.
         parameter: &'static str,
@@ -60,13 +61,13 @@ pub enum ArgumentError {
     NoDirection {
         /// Name of the parameter.
         parameter: &'static str,
-        /// The vector whose direction is wanted.
+        /// The vector that should give the direction.
         vector: [f64; 2],
     },
 }
 
 impl ArgumentError {
-    /// The parameter at fault, if it is one.
+    /// The parameter to which the error refers, if any.
     #[must_use]
     pub fn parameter(&self) -> Option<&'static str> {
         match self {
@@ -149,12 +150,12 @@ impl<'a> Reader<'a> {
         (&self.parameters[at], &self.arguments[at])
     }
 
-    /// Passes over a parameter that is a function of time.
+    /// Skips a parameter that is a function of time.
     pub fn skip(&mut self) {
         self.next += 1;
     }
 
-    /// The next value, a point.
+    /// Reads a point.
     ///
     /// # Errors
     /// If it is missing, of another shape or not finite.
@@ -167,7 +168,7 @@ impl<'a> Reader<'a> {
         Ok(*p)
     }
 
-    /// The next value, a direction, normalised here.
+    /// Reads a direction and normalises it.
     ///
     /// # Errors
     /// If it is missing, of another shape, not finite or of length zero.
@@ -183,7 +184,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The next value, a line of the ground.
+    /// Reads a line of the ground.
     ///
     /// # Errors
     /// If it is missing, of another shape, not finite, or its points coincide.
@@ -200,10 +201,11 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The next value, `N` numbers.
+    /// Reads `N` numbers.
     ///
     /// # Errors
-    /// If it is missing, of another count, not finite, or negative where that is not allowed.
+    /// If the value is missing, has another count, is not finite, or is negative although that is
+    /// not allowed.
     pub fn numbers<const N: usize>(&mut self) -> Result<[f64; N], ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Numbers(values) = argument else {
@@ -227,7 +229,7 @@ impl<'a> Reader<'a> {
         Ok(values)
     }
 
-    /// The next value, one number that may be absent.
+    /// Reads one number that may be absent.
     ///
     /// # Errors
     /// As [`Reader::numbers`], but not if it is missing.

@@ -1,31 +1,30 @@
-//! Property tests for every definition in one place, for those that are shipped and for a joint of
-//! one's own.
+//! Property tests for every definition, both those of the library and user-defined joints.
 //!
-//! A definition is checked by its type alone; parameters, poses, motions, multipliers and functions
-//! of time are drawn from what its spec says, reproducibly from a seed: [`ORDINARY_CASES`] ordinary
-//! cases, and [`AWKWARD_CASES`] of each awkward [`Kind`]. What is compared is the largest
-//! difference of a [`Block`], relative to its largest entry.
+//! A definition is given by its type alone; parameters, poses, motions, multipliers and functions
+//! of time are drawn according to its specification, reproducibly from a seed: [`ORDINARY_CASES`]
+//! ordinary cases, and [`AWKWARD_CASES`] of each awkward [`Kind`]. The largest difference of a
+//! [`Block`] is compared relative to its largest entry.
 //!
 //! | block | reference, by dual numbers (1e-12) and, in every fourth ordinary case, by differences (1e-9) |
 //! | --- | --- |
 //! | C, b | derivatives of Φ along each degree of freedom and in time |
 //! | C·v − b | Φ̇ along the motion |
 //! | Γ | −d²Φ/dτ² along (x + τv, t + τ), and −d(C·v − b)/dτ, which also holds for velocity rows |
-//! | ∂(Cᵀλ)/∂x, ∂(C·a − Γ)/∂x, ∂Γ/∂v, ∂Q/∂x, ∂Q/∂v | derivatives of the kernels above, entries outside the patterns included |
+//! | ∂(Cᵀλ)/∂x, ∂(C·a − Γ)/∂x, ∂Γ/∂v, ∂Q/∂x, ∂Q/∂v | derivatives of the kernels above, including entries outside the patterns |
 //! | ∂(λᵀΦ)/∂p, ∂(λᵀ(C·a − Γ))/∂p | differences through `set_data`; the second by dual numbers from the first |
 //! | wrench, place | −C of the first body, moved; a point fixed in the first body |
 //! | balance | forces and moments on all bodies add up to zero |
 //! | norms | unchanged when all bodies move as one |
-//! | start | rows that keep the start are zero there |
+//! | start | rows that store an initial value are zero at the start |
 //! | velocity terms of forces | never add energy |
 //!
-//! Balance and norms are expected of definitions that relate bodies to each other: those with two
-//! or more slots and without a line of the ground (balance of constraints: on position level, since
-//! velocities are against the ground). A joint against the ground takes the ground as a slot.
+//! Balance and norms are tested for definitions that relate bodies to each other: those with two or
+//! more slots and without a line of the ground (for constraints only at position level, because
+//! velocities are relative to the ground). A joint with the ground has the ground in a slot.
 //!
-//! No derivative can see a wrong Φ, velocity row or law: a sign, an axis, a row that is missing.
-//! For that a definition needs a table of poses worked out by hand; this crate has one for each in
-//! `tests/golden`.
+//! No derivative detects a wrong Φ, velocity row or law: a wrong sign or axis, or a missing row.
+//! For this a definition needs a table of poses computed by hand; this crate has one for each
+//! definition in `tests/golden`.
 //!
 //! ```
 //! use joints::conformance::{check_constraint, check_force};
@@ -61,7 +60,7 @@ use crate::visitor::Visitor;
 /// Checks a constraint definition and the drives of its measures.
 ///
 /// # Errors
-/// The first property that does not hold.
+/// The first property that is violated.
 pub fn check_constraint<K: Constraint>(seed: u64) -> Result<(), Failure> {
     constraint::check::<K>(seed)?;
     let mut drives = Checks {
@@ -75,15 +74,15 @@ pub fn check_constraint<K: Constraint>(seed: u64) -> Result<(), Failure> {
 /// Checks a force definition.
 ///
 /// # Errors
-/// The first property that does not hold.
+/// The first property that is violated.
 pub fn check_force<F: Force>(seed: u64) -> Result<(), Failure> {
     force::check::<F>(seed)
 }
 
-/// Checks all definitions that are shipped.
+/// Checks all definitions of the library.
 ///
 /// # Errors
-/// The first property of the first definition that does not hold.
+/// The first violated property of the first definition with one.
 pub fn check_all(seed: u64) -> Result<(), Failure> {
     let mut checks = Checks {
         seed,
@@ -94,7 +93,7 @@ pub fn check_all(seed: u64) -> Result<(), Failure> {
     checks.result
 }
 
-/// Checks what it is shown, up to the first failure.
+/// Checks the visited definitions up to the first failure.
 struct Checks {
     seed: u64,
     result: Result<(), Failure>,

@@ -1,9 +1,9 @@
-//! Constraints: what a definition expands to.
+//! Constraints: the traits that a definition implements.
 //!
 //! A block has one row for each constraint row and three columns for each body slot (x, y,
-//! rotation). Slices `x` and `v` hold the poses and twists of the slots in order, `f` the jets
-//! `[f, ḟ, f̈]` of the functions of time. Output slices are overwritten. Sparse outputs follow the
-//! pattern of the [`ConstraintSpec`].
+//! rotation). Slices `x` and `v` hold the poses and twists of the slots in order, `f` the values
+//! and derivatives `[f, ḟ, f̈]` of the functions of time. Output slices are overwritten. Sparse
+//! outputs follow the pattern of the [`ConstraintSpec`].
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::definition::Definition;
@@ -12,10 +12,10 @@ use crate::ring::Ring;
 use crate::spec::ConstraintSpec;
 use crate::visitor::Visitor;
 
-/// A constraint definition as a type: its facts, its constructor and its kernels in any number
-/// type. Implemented by generated code only.
+/// A constraint definition as a type: its specification, its constructor and its kernels in any
+/// number type. Implemented by generated code only.
 pub trait Constraint: Element + Clone + 'static {
-    /// The facts of the definition.
+    /// The specification of the definition.
     const SPEC: ConstraintSpec;
 
     /// The constraint with these values for its parameters; initial values are zero until
@@ -25,7 +25,7 @@ pub trait Constraint: Element + Clone + 'static {
     /// If a value is missing, of another shape or out of range.
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError>;
 
-    /// Shows the drives of the definition's measures to a visitor, in the order of the measures.
+    /// Calls a visitor with the drives of the measures, in the order of the measures.
     fn visit_drives<V: Visitor>(visitor: &mut V);
 
     /// Its kernels in a number type.
@@ -34,30 +34,32 @@ pub trait Constraint: Element + Clone + 'static {
 
 /// The kernels of a constraint in closed form, for one number type.
 pub trait Element<T: Ring = f64>: Definition {
-    /// The facts of the definition.
+    /// The specification of the definition.
     fn spec(&self) -> &'static ConstraintSpec;
 
-    /// `Φ`, one value for each row. Nothing for nonholonomic constraints.
+    /// Writes `Φ`, one value for each row; nothing for nonholonomic constraints.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Entries of the block of C that depend on parameters only; the others are left alone.
+    /// Writes the entries of the block of C that depend on parameters only; the others are not
+    /// changed.
     fn c_constant(&self, out: &mut [f64]);
 
-    /// The other entries of the block of C: `C = ∂Φ̇/∂v` or `Ψ`.
+    /// Writes the other entries of the block of C: `C = ∂Φ̇/∂v` or `Ψ`.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// `b = −Φt` or `−ψ`, one value for each row. Nothing for scleronomic constraints, whose b is
-    /// zero.
+    /// Writes `b = −Φt` or `−ψ`, one value for each row; nothing for scleronomic constraints, whose
+    /// b is zero.
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// `Γ` of `C·a = Γ`, one value for each row.
+    /// Writes `Γ` of `C·a = Γ`, one value for each row.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
     /// Entries of the 3 × rows map `W` of the wrench on the first body, `[Fx, Fy, T] = W·λ`, T
     /// about the place.
     fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Coefficients of the named component of the reaction, `Σ out·λ`. Nothing where there is none.
+    /// Writes the coefficients of the named component of the reaction, `Σ out·λ`; nothing if there
+    /// is none.
     fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
     /// The point at which the reaction is reported, global components.
@@ -82,11 +84,11 @@ pub trait Element<T: Ring = f64>: Definition {
     /// Entries of `∂(C·v − b)/∂x`.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// `∂(λᵀ·Φ)/∂p`, one value for each number p of [`Definition::data`]; zeros for nonholonomic
-    /// constraints.
+    /// Writes `∂(λᵀ·Φ)/∂p`, one value for each number p of [`Definition::data`]; zeros for
+    /// nonholonomic constraints.
     ///
-    /// What is computed from other numbers changes with them. What is kept from the start does not:
-    /// it is a number of its own.
+    /// Values that are computed from other numbers change with them. Values stored at the start do
+    /// not: they are numbers of their own.
     ///
     /// ```
     /// use joints::{Argument, Constraint, Definition, Element, Pose, generated::Distance};
@@ -97,15 +99,16 @@ pub trait Element<T: Ring = f64>: Definition {
     /// rod.initialise(&x);
     /// let mut gradient = [0.0; 5];
     /// rod.d_phi_dp(&x, &[], &[10.0], &mut gradient);
-    /// // Φ = (d·d − L²)/(2L): by the ends 10·(∓d/L), by the length −10.
+    /// // Φ = (d·d − L²)/(2L): the derivatives are 10·(∓d/L) for the ends and −10 for the length.
     /// assert_eq!(gradient, [-6.0, -8.0, 6.0, 8.0, -10.0]);
     /// # Ok(())
     /// # }
     /// ```
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]);
 
-    /// `∂(λᵀ·(C·a − Γ))/∂p`, one value for each number p of [`Definition::data`], with the chain of
-    /// [`Element::d_phi_dp`]. At `v = 0` and `f = 0` it is the gradient of `λᵀ·C·a`.
+    /// Writes `∂(λᵀ·(C·a − Γ))/∂p`, one value for each number p of [`Definition::data`], with
+    /// dependent values as in [`Element::d_phi_dp`]. At `v = 0` and `f = 0` it is the gradient of
+    /// `λᵀ·C·a`.
     fn d_residual_dp(
         &self,
         x: &[Pose<T>],

@@ -1,27 +1,27 @@
-//! What constraints and forces have in common as objects: the numbers that they store.
+//! Common parts of constraints and forces as trait objects: the numbers that they store.
 
 use crate::plane::Pose;
 
-/// A definition with values for its parameters, and with what it keeps from the start.
+/// A definition with values for its parameters and the values stored at the start.
 pub trait Definition: Send + Sync {
-    /// Takes the values that the definition keeps from the assembled start.
+    /// Stores the values that the definition takes from the assembled start.
     fn initialise(&mut self, x: &[Pose]);
 
     /// Whether requirement `k` of the definition holds at the assembled start.
     fn requirement(&self, k: usize, x: &[Pose]) -> bool;
 
-    /// Points that the definition takes hold of, each in the frame of its body: values of the
-    /// parameters of this shape, in their order. None if a definition does not say.
+    /// Points at which the definition acts, each in the frame of its body: the parameters that are
+    /// points, in their order. Empty if a definition has none.
     fn points(&self) -> Vec<[f64; 2]> {
         Vec::new()
     }
 
-    /// The numbers that a constraint stores, in the order of [`crate::ConstraintSpec::data`]; none
-    /// for forces.
+    /// Writes the numbers stored by a constraint, in the order of [`crate::ConstraintSpec::data`];
+    /// nothing for forces.
     fn data(&self, _out: &mut [f64]) {}
 
-    /// Puts numbers in the place of those that [`Definition::data`] returns, as they are:
-    /// directions are not normalised. What [`Definition::initialise`] computed from other numbers
-    /// alone is computed again.
+    /// Sets the numbers that [`Definition::data`] returns, unchanged: directions are not
+    /// normalised. Values that [`Definition::initialise`] computed from other numbers alone are
+    /// computed again.
     fn set_data(&mut self, _numbers: &[f64]) {}
 }

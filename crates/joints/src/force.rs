@@ -1,7 +1,7 @@
-//! Forces: what a definition expands to.
+//! Forces: the traits that a definition implements.
 //!
 //! Each force is a law on relative coordinates: `Q = Σ law·∂coordinate/∂x`, so that internal forces
-//! balance by construction. Slices as in [`crate::constraint`].
+//! balance by construction. The slices are those of [`crate::constraint`].
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::definition::Definition;
@@ -9,10 +9,10 @@ use crate::plane::{Pose, Twist};
 use crate::ring::Real;
 use crate::spec::ForceSpec;
 
-/// A force definition as a type: its facts, its constructor and its kernels in any number type.
-/// Implemented by generated code only.
+/// A force definition as a type: its specification, its constructor and its kernels in any number
+/// type. Implemented by generated code only.
 pub trait Force: ForceElement + Clone + 'static {
-    /// The facts of the definition.
+    /// The specification of the definition.
     const SPEC: ForceSpec;
 
     /// The force with these values for its parameters; initial values are zero until
@@ -28,7 +28,7 @@ pub trait Force: ForceElement + Clone + 'static {
 
 /// The kernels of a force in closed form, for one number type.
 pub trait ForceElement<T: Real = f64>: Definition {
-    /// The facts of the definition.
+    /// The specification of the definition.
     fn spec(&self) -> &'static ForceSpec;
 
     /// Entries of Q, by the pattern of the spec.

@@ -4,12 +4,12 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`ring`] | the number types kernels run on |
-//! | [`recorded`] | the one that writes down what is done with it |
+//! | [`ring`] | the number types of kernels |
+//! | [`recorded`] | a number type that records its operations |
 //! | [`plane`] | poses and twists of planar bodies |
-//! | [`spec`] | what a definition says of itself: rows, parameters, patterns, counts |
+//! | [`spec`] | specifications of definitions: rows, parameters, patterns, counts |
 //! | [`arguments`] | values for the parameters of a definition |
-//! | [`definition`] | what constraints and forces store, as objects |
+//! | [`definition`] | the numbers stored by constraints and forces |
 //! | [`constraint`] | the traits of constraints: a definition as a type, and its kernels |
 //! | [`force`] | the same for forces |
 //! | [`visitor`] | all definitions, one after the other, with their types |

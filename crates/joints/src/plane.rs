@@ -1,8 +1,8 @@
-//! Planar bodies as kernels see them: poses and twists, never coordinates of a system.
+//! Planar bodies in kernels: poses and twists, never coordinates of a system.
 
 use crate::ring::Ring;
 
-/// Velocity degrees of freedom of a planar body: x, y, rotation.
+/// Number of velocity degrees of freedom of a planar body: x, y, rotation.
 pub const N_DOF: usize = 3;
 
 /// Position and rotation of a body: origin of its frame, angle with its cosine and sine.
@@ -12,7 +12,7 @@ pub struct Pose<T = f64> {
     pub x: T,
     /// Global y of the frame's origin (m).
     pub y: T,
-    /// Angle of the frame against the global one (rad), not reduced to one turn.
+    /// Angle of the frame relative to the global one (rad), not reduced to one revolution.
     pub angle: T,
     /// cos(angle)
     pub cos: T,
@@ -124,8 +124,9 @@ impl Direction {
         Some(Self([v[0] / length, v[1] / length]))
     }
 
-    /// Components as `Definition::data` returns them, or changed a little, put back as they are: a
-    /// derivative by one of them leaves the unit circle. For generated code.
+    /// Sets components as returned by `Definition::data`, possibly with small changes, without
+    /// normalisation: a derivative with respect to one of them leaves the unit circle. For
+    /// generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn from_data(xy: [f64; 2]) -> Self {
@@ -154,7 +155,7 @@ impl Line {
         Some(Self { start, along })
     }
 
-    /// Start and direction as `Definition::data` returns them, put back as they are; see
+    /// Sets start and direction as returned by `Definition::data`, without normalisation; see
     /// [`Direction::from_data`].
     #[doc(hidden)]
     #[must_use]

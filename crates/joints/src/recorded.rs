@@ -1,15 +1,15 @@
-//! A number that writes down what is done with it: kernels run on it once and leave their
-//! operations, with the values of their parameters, on a tape. From tapes come programs for one
-//! mechanism; nothing is differentiated or simplified here.
+//! A number type that records its operations: a kernel runs on it once and writes its operations,
+//! with the values of its parameters, to a tape, from which programs for one mechanism are
+//! generated. Nothing is differentiated or simplified here.
 //!
-//! The tape belongs to the thread, because kernels copy numbers and know of nothing else.
+//! The tape is thread-local, because kernels only copy numbers.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::ring::Real;
 
-/// Place of an operation on the tape of the present recording.
+/// Index of an operation on the tape of the present recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Recorded(usize);
 
@@ -18,7 +18,7 @@ pub struct Recorded(usize);
 pub enum Operation {
     /// A constant.
     Number(f64),
-    /// The input of this number.
+    /// The input with this number.
     Input(usize),
     /// `a + b`
     Add(Recorded, Recorded),
@@ -32,7 +32,7 @@ pub enum Operation {
     Neg(Recorded),
     /// `√a`
     Sqrt(Recorded),
-    /// `1/a`, and 0 for 0
+    /// `1/a`, or 0 if a is 0.
     RecipOrZero(Recorded),
 }
 
@@ -41,7 +41,7 @@ thread_local! {
 }
 
 /// Runs `f` and returns the operations of all [`Recorded`] numbers in it, in their order. Numbers
-/// of one recording mean nothing in another.
+/// of one recording are invalid in another.
 ///
 /// ```
 /// use joints::recorded::{Operation, Recorded, record};
@@ -66,7 +66,7 @@ impl Recorded {
         Self::push(Operation::Input(k))
     }
 
-    /// Its place on the tape.
+    /// Its index on the tape.
     #[must_use]
     pub fn place(self) -> usize {
         self.0

@@ -1,9 +1,9 @@
-//! Number types that kernels run on: `f64` for motion, double-double for certificates, dual numbers
-//! for tests.
+//! Number types of kernels: `f64` for motion, double-double for certificates, dual numbers for
+//! tests.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What constraint kernels need: they are polynomials.
+/// Operations needed by constraint kernels, which are polynomials.
 pub trait Ring:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -14,13 +14,14 @@ impl<T> Ring for T where
 {
 }
 
-/// What force kernels need in addition: distances have roots, directions have quotients.
+/// Additional operations needed by force kernels: square roots for distances, quotients for
+/// directions.
 pub trait Real: Ring + Div<Output = Self> {
     /// `√self`
     #[must_use]
     fn sqrt(self) -> Self;
 
-    /// `1/self`, and 0 for 0: the direction of a vector of length zero is taken as zero.
+    /// `1/self`, and 0 for 0: the direction of a vector of length zero is zero.
     #[must_use]
     fn recip_or_zero(self) -> Self;
 }
@@ -35,14 +36,15 @@ impl Real for f64 {
     }
 }
 
-/// The size of the terms that a polynomial adds up: every operation on absolute values, differences
-/// as sums. A kernel on magnitudes gives for each of its results a bound of what cancels in it;
-/// times the relative error of the data, a bound of its error.
+/// The size of the terms that a polynomial adds: every operation is applied to absolute values, and
+/// differences become sums. A kernel on magnitudes gives for each of its results a bound on the
+/// terms that cancel in it; times the relative error of the data, this is a bound on the error of
+/// the result.
 ///
 /// ```
 /// use joints::Magnitude;
 /// let (x, y) = (Magnitude::from(-3.0), Magnitude::from(3.0));
-/// assert_eq!((x + y).value(), 6.0); // −3 + 3 is 0, made of terms of size 3
+/// assert_eq!((x + y).value(), 6.0); // −3 + 3 is 0, a sum of terms of size 3
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct Magnitude(f64);

@@ -1,10 +1,10 @@
-//! What a definition says of itself, as constants of the generated code: enough for a scene reader,
-//! an assembler and a report to treat a joint that they have never heard of.
+//! Specifications of definitions, as constants of the generated code, so that a scene reader, an
+//! assembler and a report can handle any joint.
 
 use std::fmt;
 use std::ops::Range;
 
-/// Facts common to constraints and forces.
+/// Common parts of the specifications of constraints and forces.
 #[derive(Clone, Copy, Debug)]
 pub struct Spec {
     /// Name of the definition, for example `PinInSlot`.
@@ -15,7 +15,7 @@ pub struct Spec {
     pub variant: Option<Variant>,
     /// The definition's doc comment.
     pub doc: &'static str,
-    /// The definition's own text.
+    /// The source text of the definition.
     pub text: &'static str,
     /// Names of the body slots, for example `["i", "j"]`.
     pub slots: &'static [&'static str],
@@ -24,7 +24,7 @@ pub struct Spec {
     /// Whether a place in a scene is one common point (`at = [x, y]`) or one point for each point
     /// parameter.
     pub points_apart: bool,
-    /// What must hold at the assembled start, in words, in the order of `requirement`.
+    /// Requirements on the assembled start, as text, in the order of `requirement`.
     pub requirements: &'static [&'static str],
 }
 
@@ -41,14 +41,14 @@ impl Spec {
     }
 }
 
-/// One key that tells apart definitions of one scene type.
+/// The key that distinguishes definitions of one scene type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variant {
     /// The key.
     pub key: &'static str,
     /// Its value for this definition.
     pub value: &'static str,
-    /// Whether this definition is meant where the key is not given.
+    /// Whether this definition is selected if the key is not given.
     pub default: bool,
 }
 
@@ -57,11 +57,11 @@ pub struct Variant {
 pub struct Parameter {
     /// Its name, which is its key in a scene file unless it is a point.
     pub name: &'static str,
-    /// What it takes.
+    /// Kind of its value.
     pub shape: Shape,
-    /// Whether it may be left out: it then has its value at the assembled start.
+    /// Whether it may be omitted: then its value at the assembled start is used.
     pub optional: bool,
-    /// Its doc comment: what it is for, in a sentence. Frame and unit are those of the shape.
+    /// Its doc comment: its purpose in one sentence. Frame and unit follow from the shape.
     pub doc: &'static str,
 }
 
@@ -77,7 +77,7 @@ impl Parameter {
         }
     }
 
-    /// A parameter that has its value at the assembled start where none is given.
+    /// A parameter that may be omitted: then its value at the assembled start is used.
     #[must_use]
     pub const fn optional(name: &'static str, shape: Shape, doc: &'static str) -> Self {
         Self {
@@ -89,7 +89,7 @@ impl Parameter {
     }
 }
 
-/// What a parameter takes.
+/// Kind of value of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// A point in the frame of the body in this slot.
@@ -173,12 +173,12 @@ pub enum Unit {
     Damping,
     /// N·m·s/rad, not negative
     TorsionDamping,
-    /// 1/m, of values kept from the start only
+    /// 1/m, only for values stored at the start
     PerLength,
 }
 
 impl Unit {
-    /// Whether negative values have a meaning.
+    /// Whether negative values are allowed.
     #[must_use]
     pub fn may_be_negative(self) -> bool {
         !matches!(
@@ -207,10 +207,10 @@ impl fmt::Display for Unit {
     }
 }
 
-/// Facts of a constraint definition.
+/// Specification of a constraint definition.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstraintSpec {
-    /// What it shares with forces.
+    /// The parts in common with forces.
     pub common: Spec,
     /// Joint, or drive of a measure of a joint.
     pub role: Role,
@@ -225,9 +225,9 @@ pub struct ConstraintSpec {
     /// Entries (component, row) of the map from multipliers to the wrench on the first body that
     /// are not identically zero.
     pub wrench: &'static [[usize; 2]],
-    /// A named force component beside Fx, Fy and T.
+    /// A named force component in addition to Fx, Fy and T.
     pub component: Option<&'static str>,
-    /// What a reader of its reaction must know, in words without the joint's name.
+    /// A note for readers of its reaction, without the name of the joint.
     pub note: Option<&'static str>,
     /// Relative coordinates that a drive may prescribe.
     pub measures: &'static [Measure],
@@ -239,13 +239,13 @@ pub struct ConstraintSpec {
     pub d_gamma_dv: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂(C·v − b)/∂x`.
     pub d_velocity_dx: &'static [[usize; 2]],
-    /// The numbers that it stores: parameters, then what is kept from the start. Each number that
-    /// is not computed from others is in exactly one of them.
+    /// The numbers that it stores: parameters, then values stored at the start. Each number that is
+    /// not computed from others belongs to exactly one datum.
     pub data: &'static [Datum],
 }
 
 impl ConstraintSpec {
-    /// Number of numbers in `data`.
+    /// Number of values in `data`.
     #[must_use]
     pub const fn n_data(&self) -> usize {
         match self.data {
@@ -255,15 +255,14 @@ impl ConstraintSpec {
     }
 }
 
-/// Numbers that a constraint stores and that mean something together: a point, a direction, a
-/// single number.
+/// Numbers stored by a constraint that belong together: a point, a direction, or a single number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Datum {
-    /// Name of the parameter or of the kept value; `name[k]` for one number of a list.
+    /// Name of the parameter or of the stored value; `name[k]` for one number of a list.
     pub name: &'static str,
-    /// What its numbers are.
+    /// Kind of its numbers.
     pub shape: DatumShape,
-    /// Place of its first number among those of the constraint.
+    /// Index of its first number among those of the constraint.
     pub first: usize,
 }
 
@@ -274,14 +273,14 @@ impl Datum {
         Self { name, shape, first }
     }
 
-    /// Places of its numbers among those of the constraint.
+    /// Indices of its numbers among those of the constraint.
     #[must_use]
     pub fn numbers(&self) -> Range<usize> {
         self.first..self.first + self.shape.count()
     }
 }
 
-/// What the numbers of a datum are.
+/// Kind of the numbers of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DatumShape {
     /// Two numbers: a point in the frame of the body in this slot (m).
@@ -290,7 +289,7 @@ pub enum DatumShape {
         slot: usize,
     },
     /// Two numbers: components of a unit vector in the frame of the body in this slot. Only changes
-    /// across it mean something.
+    /// perpendicular to it are meaningful.
     Direction {
         /// The slot.
         slot: usize,
@@ -299,10 +298,10 @@ pub enum DatumShape {
     Line,
     /// One number. An optional one that is not given has its value at the start.
     Number(Unit),
-    /// One number, kept from the start.
+    /// One number stored at the start.
     Kept(Unit),
-    /// Two numbers: components, in the frame of the body in this slot, of a vector that is kept
-    /// from the start (m).
+    /// Two numbers: components, in the frame of the body in this slot, of a vector stored at the
+    /// start (m).
     KeptVector {
         /// The slot.
         slot: usize,
@@ -310,7 +309,7 @@ pub enum DatumShape {
 }
 
 impl DatumShape {
-    /// How many numbers it has.
+    /// Number of values that it has.
     #[must_use]
     pub const fn count(self) -> usize {
         match self {
@@ -321,7 +320,7 @@ impl DatumShape {
     }
 }
 
-/// What a constraint is for.
+/// Purpose of a constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Connects bodies.
@@ -330,7 +329,7 @@ pub enum Role {
     Drive,
 }
 
-/// Where a constraint is stated.
+/// Level at which a constraint is stated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// `Φ(q, t) = 0`
@@ -342,9 +341,9 @@ pub enum Level {
 /// One row of a constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Its name inside the joint.
+    /// Its name within the joint.
     pub name: &'static str,
-    /// Whether it restricts the start: a row that keeps an initial value holds at any start.
+    /// Whether it restricts the start: a row that stores an initial value holds at any start.
     pub restricts_start: bool,
 }
 
@@ -358,7 +357,7 @@ impl Row {
         }
     }
 
-    /// A row that keeps an initial value.
+    /// A row that stores an initial value.
     #[must_use]
     pub const fn keeping_start(name: &'static str) -> Self {
         Self {
@@ -422,10 +421,10 @@ impl Measure {
     }
 }
 
-/// Facts of a force definition.
+/// Specification of a force definition.
 #[derive(Clone, Copy, Debug)]
 pub struct ForceSpec {
-    /// What it shares with constraints.
+    /// The parts in common with constraints.
     pub common: Spec,
     /// Columns of its block of Q that are not identically zero.
     pub q: &'static [usize],

@@ -1,11 +1,11 @@
-//! Walking over definitions with their types: registries, test harnesses and benchmarks see every
-//! definition without naming one.
+//! Iteration over definitions with their types: registries, test harnesses and benchmarks visit
+//! every definition without naming one.
 
 use crate::constraint::Constraint;
 use crate::force::Force;
 
-/// Is shown definitions; [`crate::plane_constraints`] and [`crate::plane_forces`] show all that are
-/// shipped.
+/// Receives definitions; [`crate::plane_constraints`] and [`crate::plane_forces`] call it with all
+/// definitions of the library.
 pub trait Visitor {
     /// A constraint definition. Its drives come separately, through [`Constraint::visit_drives`].
     fn constraint<K: Constraint>(&mut self);

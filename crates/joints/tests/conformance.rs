@@ -1,4 +1,4 @@
-//! All properties of all definitions, and that the harness can fail.
+//! All properties of all definitions, and tests that the harness can fail.
 
 mod mutants;
 
@@ -8,7 +8,7 @@ use joints::spec::Spec;
 use joints::visitor::Visitor;
 use joints::{Constraint, Force};
 
-/// Any number does; this one is fixed so that a failure can be repeated.
+/// An arbitrary number, fixed so that a failure can be reproduced.
 const SEED: u64 = 2013;
 
 #[test]
@@ -18,7 +18,7 @@ fn every_definition_has_every_property() {
     }
 }
 
-/// Editors and `pfaff schema` show what each parameter is for.
+/// Editors and `pfaff schema` show the purpose of each parameter.
 #[test]
 fn every_parameter_is_described() {
     #[derive(Default)]
@@ -42,7 +42,7 @@ fn every_parameter_is_described() {
     for spec in specs.0 {
         for parameter in spec.parameters {
             let (doc, name) = (parameter.doc, parameter.name);
-            // What the shape tells already is not said twice.
+            // The text does not repeat what the shape states.
             let is_sentence = doc.ends_with('.') && doc.starts_with(char::is_uppercase);
             assert!(
                 is_sentence && !doc.contains("(m"),

@@ -1,8 +1,8 @@
-//! Φ, velocity rows and forces against tables worked out by hand, one file for each definition in
-//! `tests/golden`: no derivative can see a wrong sign, a wrong axis or a missing row.
+//! Φ, velocity rows and forces compared with tables computed by hand, one file for each definition
+//! in `tests/golden`: no derivative detects a wrong sign, a wrong axis or a missing row.
 //!
-//! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the way to the numbers
-//! is in its comments.
+//! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the derivation of the
+//! numbers is in its comments.
 
 mod table;
 
@@ -14,7 +14,7 @@ use joints::spec::Level;
 use joints::{Constraint, Definition, Force, ForceElement, Visitor};
 use table::{Golden, read};
 
-/// Least number of poses that pin Φ, a velocity row or a force.
+/// Smallest number of poses that determine Φ, a velocity row or a force.
 const POSES: usize = 3;
 
 /// Numbers in the tables are of the order of 100 at most and pass through about ten roundings.
@@ -159,8 +159,8 @@ fn requirements(golden: &Golden, place: &str, holds: impl Fn(usize) -> bool) {
     }
 }
 
-/// A spring of free length zero is linear in d, also where its points meet: ∂Q/∂x is the stiffness
-/// there, though d has no direction.
+/// A spring of free length zero is linear in d, even if its points coincide: ∂Q/∂x is the stiffness
+/// there, although d has no direction.
 #[test]
 fn a_spring_of_free_length_zero_keeps_its_stiffness_at_length_zero() {
     use joints::generated::SpringDamper;

@@ -1,12 +1,12 @@
-//! The currency of comparison: a dense matrix of kernel results, compared relative to its largest
-//! entry. Not a matrix for computing.
+//! A dense matrix of kernel results, compared relative to its largest entry. It is not used for
+//! computations.
 
 use approx::{AbsDiffEq, RelativeEq};
 
-/// A dense matrix, row by row, of what a kernel computed or should have.
+/// A dense matrix, row by row, of computed or expected kernel results.
 ///
 /// Equality is in the maximum norm. The relative one refers to the largest entry of both blocks,
-/// not entry by entry: an entry that is zero by cancellation may carry the round-off of its
+/// not entry by entry: an entry that is zero by cancellation may have the round-off of its
 /// neighbours.
 ///
 /// ```
@@ -43,7 +43,7 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// The block of these rows.
+    /// The block with these rows.
     #[must_use]
     pub fn from_rows<const N: usize>(rows: &[[T; N]]) -> Self {
         Self {
@@ -53,7 +53,7 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// These blocks, all with the same number of rows, side by side.
+    /// Joins blocks with the same number of rows side by side.
     ///
     /// # Panics
     /// If the numbers of rows differ.
@@ -130,7 +130,7 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// Two blocks of one shape joined entry by entry.
+    /// Combines two blocks of the same shape entry by entry.
     ///
     /// # Panics
     /// If the shapes differ.
@@ -170,8 +170,8 @@ impl Block {
         self.entries.iter().map(|e| e * e).sum::<f64>().sqrt()
     }
 
-    /// Row and column of the entry that differs most from the same entry of `other`, a NaN before
-    /// all; `None` for empty blocks.
+    /// Row and column of the entry that differs most from the same entry of `other`; a NaN counts
+    /// as the largest difference. Returns `None` for empty blocks.
     #[must_use]
     pub fn worst(&self, other: &Self) -> Option<(usize, usize)> {
         let difference = self.zip(other, |a, b| (a - b).abs());

@@ -1,5 +1,5 @@
-//! Cases: parameters, poses and motions drawn for a definition from what its spec says, ordinary
-//! and awkward ones.
+//! Cases: parameters, poses and motions drawn according to the specification of a definition,
+//! ordinary and awkward ones.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
@@ -9,19 +9,19 @@ use crate::arguments::Argument;
 use crate::plane::{N_DOF, Pose, Twist};
 use crate::spec::{Parameter, Shape, Spec, Unit};
 
-/// Ordinary cases of one check.
+/// Number of ordinary cases of one check.
 pub const ORDINARY_CASES: usize = 1000;
-/// Awkward cases of one check, of each kind.
+/// Number of awkward cases of one check, of each kind.
 pub const AWKWARD_CASES: usize = 25;
-/// Motions of one case. A right-hand side of one row can vanish by chance for one motion, and its
-/// relative error then means nothing; several side by side have a size.
+/// Number of motions of one case. A right-hand side of one row may vanish by chance for one motion,
+/// so that its relative error is meaningless; several motions together have a size.
 pub(super) const MOTIONS: usize = 4;
 
-/// What is special about a case.
+/// Special property of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// Nothing: coordinates within ±2, angles within ±π.
+    /// None: coordinates within ±2, angles within ±π.
     Ordinary,
     /// All frames have the same angle.
     ParallelFrames,
@@ -41,7 +41,7 @@ pub enum Kind {
     Coincident,
     /// All bodies have the same pose, and all points are the origins of their frames.
     CoincidentPoints,
-    /// All bodies stand still.
+    /// All bodies are at rest.
     AtRest,
 }
 
@@ -68,27 +68,27 @@ pub(super) struct Motion {
     pub(super) lambda: Vec<f64>,
 }
 
-/// One case: everything that the kernels of a definition take.
+/// One case: all arguments of the kernels of a definition.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// Its number among the cases of the check.
     pub index: usize,
-    /// What is special about it.
+    /// Its special property.
     pub kind: Kind,
     /// Values of the parameters.
     pub arguments: Vec<Argument>,
-    /// The assembled start, from which initial values are taken.
+    /// The assembled start, at which initial values are taken.
     pub start: Vec<Pose>,
     /// The poses at which kernels are evaluated.
     pub x: Vec<Pose>,
-    /// The functions of time, as jets.
+    /// The functions of time, as values with two derivatives.
     pub f: Vec<[f64; 3]>,
     pub(super) motions: Vec<Motion>,
     pub(super) spec: &'static Spec,
 }
 
 impl Case {
-    /// All cases for a definition with so many rows.
+    /// All cases for a definition with this number of rows.
     pub(super) fn all(seed: u64, spec: &'static Spec, rows: usize) -> impl Iterator<Item = Self> {
         let kinds = std::iter::repeat_n(Kind::Ordinary, ORDINARY_CASES).chain(
             Kind::AWKWARD
@@ -117,13 +117,13 @@ impl Case {
         })
     }
 
-    /// Whether kernels are also compared with differences: in every fourth ordinary case, which is
-    /// the most expensive part of a check.
+    /// Whether kernels are also compared with differences: in every fourth ordinary case, because
+    /// it is the most expensive part of a check.
     pub(super) fn has_differences(&self) -> bool {
         self.kind == Kind::Ordinary && self.index.is_multiple_of(4)
     }
 
-    /// The case with an ordinary start, drawn anew.
+    /// The case with another ordinary start.
     pub(super) fn with_another_start(&self, attempt: u64) -> Self {
         let mut random = Random(attempt ^ ((self.index as u64) << 32));
         Self {
@@ -161,13 +161,13 @@ impl Case {
         }
     }
 
-    /// The blocks of all motions, side by side.
+    /// The blocks of all motions, joined side by side.
     pub(super) fn for_each_motion(&self, block: impl Fn(&Motion) -> Block) -> Block {
         Block::beside(&self.motions.iter().map(block).collect::<Vec<_>>())
     }
 
-    /// The largest coordinate of poses, start and parameters, at least 1: round-off of 1 ε in it
-    /// moves Φ by this number times ‖C‖·ε.
+    /// The largest coordinate of poses, start and parameters, at least 1: its round-off of 1 ε
+    /// changes Φ by this number times ‖C‖·ε.
     pub(super) fn size(&self) -> f64 {
         let poses = self
             .x
@@ -302,7 +302,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Uniform in ±reach.
+    /// A uniformly distributed number within ±reach.
     pub(super) fn within(&mut self, reach: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1u64 << 53) as f64;
         reach * (2.0 * unit - 1.0)

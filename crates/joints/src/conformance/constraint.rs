@@ -17,7 +17,7 @@ use crate::plane::N_DOF;
 use crate::spec::{Level, Row};
 use check::Check;
 
-/// All cases of one definition.
+/// Checks all cases of one definition.
 pub(super) fn check<K: Constraint>(seed: u64) -> Result<(), Failure> {
     let definition = K::SPEC.common.name;
     let [m, n] = kernels::shape::<K>();

@@ -1,18 +1,18 @@
-//! Derivatives along a curve, by two ways that know nothing of the kernels: dual numbers, and
-//! central differences with Richardson extrapolation.
+//! Derivatives along a curve, by two methods independent of the kernels: dual numbers, and central
+//! differences with Richardson extrapolation.
 
 use num_dual::{Dual2_64, Dual64};
 
 use super::block::Block;
 use super::number::Number;
 
-/// A block that depends on one number τ; its derivatives are wanted at τ = 0.
+/// A block that depends on one number τ, to be differentiated at τ = 0.
 pub(super) trait Curve {
     /// The block at τ.
     fn at<D: Number>(&self, tau: D) -> Block<D>;
 }
 
-/// A way to differentiate.
+/// A method of differentiation.
 pub(super) trait Differentiate {
     /// `d/dτ` at 0.
     fn first(curve: &impl Curve) -> Block;
@@ -34,18 +34,18 @@ impl Differentiate for DualNumbers {
 }
 
 /// By central differences over halved steps, extrapolated to step zero: the error of a central
-/// difference is a series in h², so each extrapolation removes one power. Of the whole table the
-/// value counts that is closest to both values it was made of.
+/// difference is a series in h², so each extrapolation removes one power. The result is the value
+/// of the table that is closest to the two values from which it was computed.
 pub(super) struct Differences;
 
-/// The largest step, as a power of two: about a tenth of the sizes of ordinary cases.
+/// The largest step, as a power of two: about a tenth of the sizes in ordinary cases.
 const LARGEST: i32 = -3;
-/// Steps of a first difference, down to 2⁻¹²: forces near a vanishing length need small ones.
+/// Number of steps of a first difference, down to 2⁻¹²: forces near a vanishing length need small
+/// ones.
 const FIRST_STEPS: i32 = 10;
-/// Steps of a second difference, down to 2⁻⁷: round-off grows as 1/h², and there it is 1e-11 at
-/// most.
+/// Number of steps of a second difference, down to 2⁻⁷: round-off grows as 1/h², to at most 1e-11.
 const SECOND_STEPS: i32 = 5;
-/// Extrapolations per step: with more, round-off grows faster than truncation falls.
+/// Number of extrapolations per step: with more, round-off grows faster than truncation decreases.
 const ORDERS: usize = 4;
 
 impl Differentiate for Differences {

@@ -1,20 +1,20 @@
-//! What a check reports: the definition, the property, the entry, both values, and the case to
-//! repeat it.
+//! The report of a check: the definition, the property, the entry, both values, and the case to
+//! reproduce it.
 
 use std::fmt;
 
 use super::block::Block;
 use super::case::Case;
 
-/// A property that each definition has.
+/// A property of all definitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Property {
-    /// Parameters drawn from the spec are accepted.
+    /// Parameters drawn from the specification are accepted.
     Arguments,
-    /// The requirements hold at some start, and a number beyond them always holds.
+    /// The requirements hold at some start, and a requirement with a larger number always holds.
     Requirements,
-    /// Entries of a pattern lie in the block, once each, and vanish not everywhere.
+    /// Entries of a pattern are within the block, occur once, and do not vanish in all cases.
     Pattern,
     /// `c_constant` writes the constant entries and `c` the others; `b` writes only if rheonomic.
     Writes,
@@ -36,7 +36,7 @@ pub enum Property {
     DGammaDv,
     /// `∂(C·v − b)/∂x`
     DVelocityDx,
-    /// `data` tells the numbers of the facts, and `set_data` puts numbers back.
+    /// `data` returns the numbers in the specification, and `set_data` sets them.
     Data,
     /// `∂(λᵀ·Φ)/∂p`
     DPhiDp,
@@ -48,11 +48,12 @@ pub enum Property {
     Place,
     /// The named component is the force along a unit vector, or the torque.
     Component,
-    /// Forces on the bodies add up to no force, and to no moment.
+    /// Forces on the bodies add up to zero force and zero moment.
     Balance,
     /// Moving all bodies as one rigid body leaves the norm of each block unchanged.
     RigidMotion,
-    /// Rows that keep the start are zero there, and rows that restrict it are not always.
+    /// Rows that store an initial value are zero at the start, and rows that restrict it are not
+    /// always.
     Start,
     /// `∂Q/∂x`
     DqDx,
@@ -98,7 +99,7 @@ impl fmt::Display for Property {
     }
 }
 
-/// Where the expected value comes from.
+/// Source of the expected value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reference {
@@ -106,20 +107,20 @@ pub enum Reference {
     DualNumbers,
     /// A derivative by central differences, extrapolated.
     Differences,
-    /// An identity between kernels, or a fact of the spec.
+    /// An identity between kernels, or a statement of the specification.
     Identity,
 }
 
-/// A property that a definition lacks.
+/// A property that a definition violates.
 #[derive(Clone, Debug)]
 pub struct Failure {
     /// Name of the definition.
     pub definition: &'static str,
     /// The property.
     pub property: Property,
-    /// Where the expected value comes from.
+    /// Source of the expected value.
     pub reference: Reference,
-    /// The worst entry, in words.
+    /// Description of the worst entry.
     pub entry: String,
     /// Row of the worst entry.
     pub row: usize,
@@ -127,13 +128,14 @@ pub struct Failure {
     pub column: usize,
     /// Value of the kernel.
     pub found: f64,
-    /// Value by the reference.
+    /// Value of the reference.
     pub expected: f64,
-    /// What the difference is compared with: usually the largest entry of the block.
+    /// The size relative to which the difference is measured: usually the largest entry of the
+    /// block.
     pub scale: f64,
     /// The largest difference allowed, relative to the scale.
     pub tolerance: f64,
-    /// The case, where the property is one of single cases.
+    /// The case, if the property belongs to a single case.
     pub case: Option<Box<Case>>,
 }
 
@@ -178,20 +180,19 @@ pub(super) struct Judge<'a> {
     pub(super) case: &'a Case,
 }
 
-/// A claim: two blocks are equal up to the tolerance, relative to their largest entry.
+/// An assertion: two blocks are equal up to the tolerance, relative to their largest entry.
 pub(super) struct Claim<'a> {
     pub(super) property: Property,
     pub(super) reference: Reference,
     pub(super) found: &'a Block,
     pub(super) expected: &'a Block,
     pub(super) tolerance: f64,
-    /// What the difference is compared with where the largest entry is smaller: the size that the
-    /// terms had before they cancelled.
+    /// Size to be used if the largest entry is smaller: that of the terms before they cancelled.
     pub(super) floor: f64,
 }
 
 impl Judge<'_> {
-    /// Returns the worst entry if the claim does not hold, named by `entry`.
+    /// Returns the worst entry if the assertion is violated, described by `entry`.
     pub(super) fn decide(
         &self,
         claim: &Claim<'_>,
@@ -233,8 +234,7 @@ impl Judge<'_> {
     }
 }
 
-/// A failure of a fact that is no comparison of blocks: `found` of something where `expected` was
-/// due.
+/// A failure that is not a comparison of blocks: `found` instead of `expected`.
 pub(super) fn fact(
     definition: &'static str,
     property: Property,

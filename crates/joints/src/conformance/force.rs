@@ -15,7 +15,7 @@ use super::state::{Along, State};
 use crate::force::Force;
 use crate::plane::{N_DOF, Twist};
 
-/// All cases of one definition.
+/// Checks all cases of one definition.
 pub(super) fn check<K: Force>(seed: u64) -> Result<(), Failure> {
     let spec = &K::SPEC;
     let definition = spec.common.name;

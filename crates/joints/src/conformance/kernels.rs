@@ -1,5 +1,5 @@
-//! Kernels as dense blocks. What a kernel leaves alone stays NaN, so that no comparison passes over
-//! it.
+//! Kernels as dense blocks. Entries that a kernel does not write stay NaN, so that no comparison
+//! ignores them.
 
 use super::block::Block;
 use super::case::Motion;
@@ -138,7 +138,7 @@ pub(super) fn d_velocity_dx<K: Constraint>(
     scatter(shape::<K>(), K::SPEC.d_velocity_dx, &out)
 }
 
-/// The numbers that the constraint stores.
+/// The numbers stored by the constraint.
 pub(super) fn data<K: Constraint>(k: &K) -> Vec<f64> {
     let mut out = unwritten(K::SPEC.n_data());
     k.data(&mut out);

@@ -4,7 +4,7 @@ use num_dual::{Dual2_64, Dual64, DualNum};
 
 use crate::ring::{Real, Ring};
 
-/// A number that poses can be made of: cosine and sine come from the number itself.
+/// A number type for poses: cosine and sine are computed from the number itself.
 pub(super) trait Number: Real {
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
@@ -28,7 +28,7 @@ impl Number for Dual2_64 {
     }
 }
 
-/// As for plain numbers, the root of zero has derivative zero.
+/// As for plain numbers, the square root of zero has derivative zero.
 impl Real for Dual64 {
     fn sqrt(self) -> Self {
         let root = self.re.sqrt();
@@ -44,7 +44,7 @@ impl Real for Dual64 {
     }
 }
 
-/// As for plain numbers, the root of zero has derivatives zero.
+/// As for plain numbers, the square root of zero has derivatives zero.
 impl Real for Dual2_64 {
     fn sqrt(self) -> Self {
         let root = self.re.sqrt();

@@ -1,4 +1,4 @@
-//! What all properties share: references and how far they are trusted, elements at a start.
+//! Common parts of all properties: references and their accuracy, elements at a start.
 
 use super::block::Block;
 use super::case::Case;
@@ -9,24 +9,24 @@ use crate::force::Force;
 use crate::plane::{N_DOF, Pose};
 use crate::spec::{Shape, Spec};
 
-/// Against dual numbers and identities: both sides carry the round-off of some ten operations,
-/// about 1e-15, times up to 1e3 where coordinates or angles are that large.
+/// For dual numbers and identities: both sides have the round-off of some ten operations, about
+/// 1e-15, times up to 1e3 if coordinates or angles are that large.
 pub const DUAL_TOLERANCE: f64 = 1e-12;
 
-/// Against differences: the best step loses about a third of the digits of a first derivative, and
-/// extrapolation gives most of them back; second derivatives are the measure.
+/// For differences: the best step loses about a third of the digits of a first derivative, and
+/// extrapolation recovers most of them; the limit is that of second derivatives.
 pub const DIFFERENCE_TOLERANCE: f64 = 1e-9;
 
-/// A way to a reference, and how far it is trusted.
+/// A method for a reference, and its accuracy.
 #[derive(Clone, Copy)]
 pub(super) struct Oracle {
     pub(super) reference: Reference,
     pub(super) tolerance: f64,
-    /// Magnitude of the numbers that go in, which round-off refers to where the result vanishes.
+    /// Size of the input numbers, relative to which round-off is measured if the result vanishes.
     pub(super) floor: f64,
 }
 
-/// A block that vanishes does so in every dual part, too.
+/// If a block vanishes, so does every dual part.
 pub(super) const DUAL_NUMBERS: Oracle = Oracle {
     reference: Reference::DualNumbers,
     tolerance: DUAL_TOLERANCE,
@@ -40,12 +40,12 @@ pub(super) const DIFFERENCES: Oracle = Oracle {
     floor: 1.0,
 };
 
-/// Whether a definition relates bodies to each other, by what its spec says.
+/// Whether a definition relates bodies to each other according to its specification.
 pub(super) fn is_internal(spec: &Spec) -> bool {
     spec.slots.len() > 1 && !spec.parameters.iter().any(|p| p.shape == Shape::GroundLine)
 }
 
-/// `x`, `y` and rotation of a slot, by its name.
+/// The name of a column: `x`, `y` or rotation of a slot.
 pub(super) fn column_name(slots: &[&str], column: usize) -> String {
     format!(
         "{}.{}",
@@ -65,15 +65,15 @@ pub(super) fn resultant(x: &[Pose], q: &[f64]) -> Block {
     Block::column(sum.to_vec())
 }
 
-/// Starts tried for one case before its requirements count as never met.
+/// Number of starts tried for one case before its requirements count as never satisfied.
 const STARTS: u64 = 20;
 
-/// The constraint of a case, with a start where its requirements hold.
+/// The constraint of a case, with a start that satisfies its requirements.
 pub(super) fn assembled<K: Constraint>(case: &Case) -> Result<(K, Case), Failure> {
     assemble(case, &K::SPEC.common, K::from_arguments)
 }
 
-/// The force of a case, with a start where its requirements hold.
+/// The force of a case, with a start that satisfies its requirements.
 pub(super) fn assembled_force<F: Force>(case: &Case) -> Result<(F, Case), Failure> {
     assemble(case, &F::SPEC.common, F::from_arguments)
 }
@@ -95,7 +95,7 @@ fn assemble<K: Definition>(
     let mut case = case.clone();
     for attempt in 0..STARTS {
         element.initialise(&case.start);
-        // One number beyond the requirements: it must hold too.
+        // Includes one number beyond the requirements, which must hold too.
         let mut all = 0..=spec.requirements.len();
         if all.all(|k| element.requirement(k, &case.start)) {
             return Ok((element, case));

@@ -1,13 +1,13 @@
-//! Sparsity patterns: entries in range, once each, and each of them alive in some case.
+//! Sparsity patterns: entries in range, each once, and each non-zero in some case.
 
 use super::block::Block;
 use super::failure::{Failure, Property, fact};
 
-/// An entry is alive where it exceeds this part of its block: round-off of a sum that is
-/// identically zero stays below.
+/// An entry counts as non-zero if it exceeds this fraction of its block; round-off of a sum that is
+/// identically zero is smaller.
 const ALIVE: f64 = 1e-10;
 
-/// Which entries of a pattern were seen different from zero.
+/// The entries of a pattern that were non-zero in some case.
 pub(super) struct Pattern {
     block: &'static str,
     entries: Vec<[usize; 2]>,
@@ -47,7 +47,7 @@ impl Pattern {
         })
     }
 
-    /// Takes note of the entries of one block that are not zero.
+    /// Records the non-zero entries of one block.
     pub(super) fn see(&mut self, block: &Block) {
         let least = ALIVE * block.largest();
         for (&[row, column], alive) in self.entries.iter().zip(&mut self.alive) {
@@ -55,7 +55,7 @@ impl Pattern {
         }
     }
 
-    /// No entry was zero in all cases.
+    /// Checks that no entry was zero in all cases.
     pub(super) fn all_alive(&self, definition: &'static str) -> Result<(), Failure> {
         match self.alive.iter().position(|alive| !alive) {
             Some(k) => {

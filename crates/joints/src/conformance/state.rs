@@ -1,5 +1,5 @@
-//! What moves while a derivative is taken: one degree of freedom of one body, time, or everything
-//! along the motion.
+//! The variation along which a derivative is taken: one degree of freedom of one body, time, or the
+//! whole motion.
 
 use super::case::{Case, Motion};
 use super::number::Number;
@@ -8,17 +8,17 @@ use crate::plane::{N_DOF, Pose, Twist};
 /// The curve through a state.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Along {
-    /// The pose along one column of the block, all else fixed.
+    /// The pose along one column of the block, everything else fixed.
     Pose(usize),
-    /// The twist along one column of the block, all else fixed.
+    /// The twist along one column of the block, everything else fixed.
     Twist(usize),
-    /// Time, bodies fixed: the jets advance.
+    /// Time, with fixed bodies: the functions of time advance.
     Time,
-    /// `x + τv` with v fixed, and the jets advance: the acceleration terms are left out.
+    /// `x + τv` with v fixed, and the functions of time advance; acceleration terms are omitted.
     Motion,
 }
 
-/// Poses, twists and jets at one point of a curve.
+/// Poses, twists and functions of time at one point of a curve.
 pub(super) struct State<D> {
     pub(super) x: Vec<Pose<D>>,
     pub(super) v: Vec<Twist<D>>,

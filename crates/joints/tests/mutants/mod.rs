@@ -1,5 +1,4 @@
-//! Definitions with one wrong entry: the harness has to find each of them, and to name what is
-//! wrong.
+//! Definitions with one wrong entry: the harness has to detect each of them and name the fault.
 
 use joints::conformance::{Failure, Property, check_constraint, check_force};
 use joints::generated::{Fixed, PinInSlotDisplacementDrive, SpringDamper, Velocity};
@@ -53,7 +52,7 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     const SPEC: ConstraintSpec = {
         let mut spec = K::SPEC;
         if WRONG == wrong::PATTERN {
-            // One entry fewer: the derivative does not vanish there.
+            // One entry fewer: the derivative with respect to it does not vanish.
             let (_, rest) = spec.d_residual_dx.split_at(1);
             spec.d_residual_dx = rest;
         }
@@ -61,7 +60,7 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
             spec.rheonomic = !spec.rheonomic;
         }
         if WRONG == wrong::DATUM {
-            // The first datum is a point, which is no unit vector, and the others are missing.
+            // The first datum is a point, which is not a unit vector, and the others are missing.
             const WRONG_SHAPE: [Datum; 1] =
                 [Datum::new("s_i", DatumShape::Direction { slot: 0 }, 0)];
             spec.data = &WRONG_SHAPE;
@@ -260,7 +259,7 @@ impl<T: Real, K: Force, const WRONG: u8> ForceElement<T> for ForceMutant<K, WRON
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.element::<T>().q(x, v, f, out);
         if WRONG == wrong_force::Q {
-            // A constant load that nothing balances: no derivative sees it.
+            // A constant load without a counterpart: no derivative detects it.
             out[0] = out[0] + T::from(1.0);
         }
         Self::turn_round(out);
@@ -360,7 +359,7 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
 
 #[test]
 fn a_wrong_entry_of_a_velocity_row_is_named() {
-    // Γ is derived from C and b, so it sees what either of them lacks.
+    // Γ is derived from C and b, so it detects a fault of either.
     for found in [
         found(check_constraint::<Mutant<Velocity, { wrong::C }>>(SEED)),
         found(check_constraint::<Mutant<Velocity, { wrong::B }>>(SEED)),

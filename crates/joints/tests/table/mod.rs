@@ -8,7 +8,7 @@ use joints::spec::{Shape, Spec};
 use joints::{Argument, Pose, Twist};
 use serde::Deserialize;
 
-/// One pose with the numbers worked out for it.
+/// One pose with the numbers computed for it.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Golden {
@@ -119,7 +119,7 @@ impl Golden {
         poses(self.start.as_ref().unwrap_or(&self.x))
     }
 
-    /// At rest where the table has no `v`.
+    /// At rest if the table has no `v`.
     pub(crate) fn v(&self) -> Vec<Twist> {
         match &self.v {
             Some(v) => v
@@ -144,7 +144,7 @@ impl Golden {
         self.lambda.iter().map(Scalar::value).collect()
     }
 
-    /// Whether nothing is stated that forces do not have.
+    /// Whether the table contains only values that forces have.
     pub(crate) fn only_force(&self) -> bool {
         [
             &self.phi,

@@ -1,4 +1,4 @@
-//! One case of one constraint, and how its entries are named and compared.
+//! One case of one constraint, with the names and comparisons of its entries.
 
 use super::super::block::Block;
 use super::super::case::Case;
@@ -22,7 +22,7 @@ impl<K: Constraint> Check<'_, K> {
         }
     }
 
-    /// The entry in words.
+    /// Description of an entry.
     pub(in super::super) fn entry(&self, property: Property, row: usize, column: usize) -> String {
         let n = kernels::shape::<K>()[1];
         let row_name = |row: usize| format!("row `{}`", K::SPEC.rows[row].name);
@@ -57,7 +57,7 @@ impl<K: Constraint> Check<'_, K> {
         }
     }
 
-    /// Equality up to what an error of the coordinates can do.
+    /// Checks equality up to the effect of an error of the coordinates.
     pub(in super::super) fn identity(
         &self,
         property: Property,
@@ -76,8 +76,8 @@ impl<K: Constraint> Check<'_, K> {
             .decide(&claim, |row, column| self.entry(property, row, column))
     }
 
-    /// What a relative error of 1 in the coordinates does to Φ and, the rows of C having a size of
-    /// about one length, to C.
+    /// Effect of a relative error of 1 in the coordinates on Φ, and on C, whose rows have the size
+    /// of about one length.
     pub(in super::super) fn scale(&self) -> f64 {
         let c = kernels::c(self.constraint, &self.case.x, &self.case.f);
         c.largest().max(1.0) * self.case.size()

@@ -1,6 +1,7 @@
-//! The numbers that a constraint stores: read and put back, and the derivatives by them. Fields are
-//! plain numbers, so that no dual number goes through them: the references are differences through
-//! `set_data`, and, for the second kernel, dual numbers through the poses of the first.
+//! The numbers stored by a constraint: reading and setting them, and derivatives with respect to
+//! them. Fields are plain numbers, so dual numbers cannot be used for them: the references are
+//! differences through `set_data`, and, for the second kernel, dual numbers through the poses of
+//! the first.
 
 use super::super::block::Block;
 use super::super::case::Motion;
@@ -14,14 +15,15 @@ use super::derivatives::Quantity;
 use crate::constraint::Constraint;
 use crate::spec::{DatumShape, Level};
 
-/// Added to each number in turn: nothing that a case draws.
+/// Added to each number in turn; differs from every number that a case draws.
 const ANOTHER: f64 = 0.0625;
 
-/// Components of unit vectors carry the round-off of a quotient each.
+/// Components of unit vectors have the round-off of a quotient each.
 const UNIT: f64 = 4.0 * f64::EPSILON;
 
 impl<K: Constraint> Check<'_, K> {
-    /// What `data` tells is what the facts name, `set_data` puts it back, and nothing else changes.
+    /// `data` returns the numbers named in the specification, `set_data` sets them, and nothing
+    /// else changes.
     pub(super) fn data(&self) -> Result<(), Failure> {
         let numbers = kernels::data(self.constraint);
         let n = numbers.len();
@@ -79,7 +81,7 @@ impl<K: Constraint> Check<'_, K> {
         }
     }
 
-    /// Everything that depends on the numbers.
+    /// All blocks that depend on the numbers.
     fn all_blocks(&self, k: &K) -> Vec<Block> {
         let (x, f, m) = (&self.case.x, &self.case.f, &self.case.motions[0]);
         let phi = match K::SPEC.level {
@@ -140,7 +142,7 @@ impl<K: Constraint> Check<'_, K> {
         )
     }
 
-    /// The derivatives of `λᵀ·quantity` by all numbers.
+    /// The derivatives of `λᵀ·quantity` with respect to all numbers.
     fn by_data(&self, quantity: Quantity, motion: &Motion) -> Block {
         let numbers = kernels::data(self.constraint);
         let slope = |number: usize| {

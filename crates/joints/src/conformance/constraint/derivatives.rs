@@ -1,5 +1,5 @@
-//! Kernels against derivatives of the kernels that come before them: C and b of Φ, Γ of both, and
-//! so on.
+//! Kernels compared with derivatives of the kernels before them: C and b with those of Φ, Γ with
+//! those of both, and so on.
 
 use super::super::block::Block;
 use super::super::case::Motion;
@@ -34,7 +34,7 @@ pub(super) enum Quantity {
     Force,
     /// C·a − Γ
     Residual,
-    /// The place
+    /// The place.
     Place,
     /// ∂(λᵀΦ)/∂p
     PhiByData,

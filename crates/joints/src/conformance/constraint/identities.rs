@@ -1,4 +1,4 @@
-//! What holds between kernels without derivatives: wrench, place, balance of forces, rigid motions,
+//! Relations between kernels without derivatives: wrench, place, balance of forces, rigid motions,
 //! the start.
 
 use super::super::block::Block;
@@ -14,8 +14,8 @@ use crate::constraint::Constraint;
 use crate::plane::{N_DOF, Pose};
 use crate::spec::Level;
 
-/// The case with its poses moved until Φ = 0, or nearly so: corrections along one row of C after
-/// the other, which need no rank.
+/// The case with its poses moved until Φ is about zero, by corrections along one row of C after the
+/// other, which need no rank.
 fn closed<K: Constraint>(k: &K, case: &Case) -> Case {
     const SWEEPS: usize = 100;
     let mut case = case.clone();
@@ -57,7 +57,7 @@ impl<K: Constraint> Check<'_, K> {
         self.identity(Property::Wrench, &kernels::wrench(k, x, f), &expected)
     }
 
-    /// At most the force of each multiplier, or its torque where it has no force.
+    /// At most the force of each multiplier, or its torque if it has no force.
     pub(super) fn component(&self) -> Result<(), Failure> {
         let (k, x, f) = (self.constraint, &self.case.x, &self.case.f);
         if K::SPEC.component.is_none() {
@@ -69,7 +69,8 @@ impl<K: Constraint> Check<'_, K> {
             0.0 => wrench.get(2, row).abs(),
             force => force,
         };
-        // Equal where within the bound, else the bound: what exceeds it is the error.
+        // Equal to the value if it is within the bound, otherwise to the bound: the excess is the
+        // error.
         let within = |row| {
             let (value, bound): (f64, f64) = (found.get(row, 0), bound(row));
             if value.is_nan() {
@@ -82,7 +83,7 @@ impl<K: Constraint> Check<'_, K> {
         self.identity(Property::Component, &found, &expected)
     }
 
-    /// The place moves with the first body, and with no other.
+    /// The place moves with the first body only.
     pub(super) fn place(&self) -> Result<(), Failure> {
         let n = kernels::shape::<K>()[1];
         let (x, motion) = (&self.case.x, &self.case.motions[0]);
@@ -96,7 +97,8 @@ impl<K: Constraint> Check<'_, K> {
         self.identity(Property::Place, &found, &expected)
     }
 
-    /// Only where Φ = 0: elsewhere two points that should coincide give the pair of forces a lever.
+    /// Only if Φ = 0: otherwise two points that should coincide give the pair of forces a lever
+    /// arm.
     pub(super) fn balance(&self) -> Result<(), Failure> {
         if !is_internal(&K::SPEC.common) || K::SPEC.level != Level::Holonomic {
             return Ok(());
@@ -122,7 +124,7 @@ impl<K: Constraint> Check<'_, K> {
         })
     }
 
-    /// All bodies moved as one.
+    /// Moves all bodies as one.
     pub(super) fn rigid_motion(&self) -> Result<(), Failure> {
         if !is_internal(&K::SPEC.common) {
             return Ok(());
@@ -171,7 +173,7 @@ impl<K: Constraint> Check<'_, K> {
         ]
     }
 
-    /// Rows that keep the start are zero there.
+    /// Rows that store an initial value are zero at the start.
     pub(super) fn start(&self) -> Result<(), Failure> {
         let phi = self.phi_at_start();
         let keeps = |row: usize| !K::SPEC.rows[row].restricts_start;
