@@ -1,4 +1,4 @@
-//! Tells the program which compiler made it: reports of run times say so.
+//! Passes the version of the compiler to the program, which states it in reports of run times.
 
 use std::process::Command;
 

@@ -1,5 +1,5 @@
-//! `pfaff analyze`: the verdict of every reaction and what else was asked, for people or as JSON.
-//! Both tell the same document.
+//! `pfaff analyze`: the verdict of every reaction and the answers to the options, in words or as
+//! JSON. Both forms contain the same document.
 
 mod along;
 mod ask;
@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &Analyze, console: &Console<'_>) -> Outcome {
         Ok(study) => return of_study(arguments, &source, &study, drop.as_deref(), console),
         Err(e) => e,
     };
-    // What cannot move can be judged all the same, at the start.
+    // A mechanism that cannot move can still be judged at the start.
     let Some(warning) = error.only_motion() else {
         return Err(source.failure(error));
     };
@@ -70,8 +70,7 @@ fn of_study(
         let document = ask::document(arguments, source, &configuration)?;
         Ok::<_, Failure>((configuration, document))
     };
-    // A motion is computed step by step, and leaves the verdicts of the start a thread of their
-    // own.
+    // A motion is computed step by step, so the verdicts of the start can run in another thread.
     let (of_configuration, along) = match arguments.along {
         Some(t_end) => pfaff::both(of_configuration, || {
             Some(along::judge(source, study, t_end, &bars))
@@ -131,7 +130,7 @@ fn answer(
     console.print(&text::describe(document, &hints))
 }
 
-/// How many joints and drives are judged, on a terminal.
+/// Shows on a terminal how many joints and drives have been judged.
 struct Judging(ProgressBar);
 
 impl Judging {

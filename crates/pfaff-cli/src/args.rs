@@ -1,4 +1,4 @@
-//! What may be written on the command line.
+//! The options and arguments of the command line.
 
 mod examples;
 mod known;
@@ -81,7 +81,7 @@ pub(crate) enum Command {
 }
 
 impl Command {
-    /// How it answers.
+    /// The form of the answer: words or JSON.
     pub(crate) fn answer(&self) -> Answer {
         let json = match self {
             Self::Analyze(Analyze { json, .. })
@@ -269,7 +269,7 @@ pub(crate) struct WorkPrecision {
     pub(crate) json: bool,
 }
 
-/// A command of the laboratory, with arguments that only it reads.
+/// A command of the laboratory; its arguments are not read here.
 #[derive(Args)]
 pub(crate) struct Elsewhere {
     #[arg(num_args = 0.., allow_hyphen_values = true, trailing_var_arg = true)]
@@ -355,7 +355,7 @@ pub(crate) struct Man {
     pub(crate) command: Option<String>,
 }
 
-/// Reads one of the names of an enum, and says what the names are if it is none.
+/// Reads one of the names of an enum; for another text the error lists the names.
 pub fn named<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,
@@ -367,7 +367,8 @@ pub fn named<T: Copy + Send + Sync + 'static>(
     })
 }
 
-/// Reads one of the names of an option of a run; of a name that has moved it says where to.
+/// Reads one of the names of an option of a run; for a name that has been moved to another option
+/// the error says so.
 fn chosen<T: Copy + Send + Sync + 'static>(
     key: &'static str,
     all: &'static [T],
@@ -379,7 +380,7 @@ fn chosen<T: Copy + Send + Sync + 'static>(
     }
 }
 
-/// A parser that first asks whether the value is one that has moved.
+/// A parser that first checks whether the value has been moved to another option.
 #[derive(Clone)]
 struct Moved<P> {
     key: &'static str,
@@ -408,7 +409,7 @@ impl<P: TypedValueParser> TypedValueParser for Moved<P> {
     }
 }
 
-/// Refuses every formulation, and says where it has gone.
+/// Refuses every formulation and explains that the option no longer exists.
 fn no_formulation(text: &str) -> Result<String, String> {
     let words = moved("formulation", text);
     Err(words.unwrap_or_else(|| "a run has one formulation".to_owned()))

@@ -1,4 +1,4 @@
-//! `pfaff check`: read and assemble, and say everything that is wrong.
+//! `pfaff check`: reads and assembles a scene and reports all errors.
 
 use pfaff::model::{Layout, Mechanism, System};
 use pfaff::report::documents::{CheckDocument, FreedomsDocument};
@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// Fragile reactions that have a warning each.
+/// Number of fragile reactions that have a warning each.
 const FRAGILE_TOLD: usize = 10;
 
 /// A scene that has been read and assembled.
@@ -40,9 +40,10 @@ pub(crate) struct Checked {
     position: f64,
     /// Largest change of a velocity; `None` if no motion begins.
     velocity: Option<f64>,
-    /// Why it cannot be moved, where that is all that is wrong, and what is probably not meant.
+    /// The reason why the mechanism cannot be moved, if that is the only fault, and entries that
+    /// are probably mistakes.
     warnings: Vec<String>,
-    /// What can move; `None` if the rank is not asked for, because the mechanism is large.
+    /// The freedoms; `None` if the rank was not computed because the mechanism is large.
     freedoms: Option<Freedoms>,
 }
 
@@ -63,7 +64,7 @@ impl Freedoms {
 }
 
 impl Checked {
-    /// Reads and assembles the scene. What `analyze` judges is no error here.
+    /// Reads and assembles the scene. A scene that only `analyze` can process is not an error here.
     pub(crate) fn of(source: &Source, resources: Resources) -> Result<Self, Failure> {
         let new = |scene: &Scene, mechanism: &Mechanism, correction: &[f64]| Self {
             scene: scene.name().to_owned(),
@@ -106,7 +107,7 @@ impl Checked {
                 let Some(warning) = e.only_motion() else {
                     return Err(source.failure(e));
                 };
-                // What `analyze` judges, and nothing else.
+                // The error concerns the motion only, so the start can still be analysed.
                 let mut assembled = resources.assembled(source)?;
                 let start = assembled.analyse(None).map_err(|e| source.failure(e))?;
                 let (described, _) = start.mechanism.described_state();
@@ -139,7 +140,7 @@ impl Checked {
         }
     }
 
-    /// In words.
+    /// The result in words.
     pub(crate) fn describe(&self) -> String {
         let velocity = match self.velocity {
             Some(correction) => format!(" and {correction:.1e} in velocity"),

@@ -1,5 +1,5 @@
-//! Where answers go, and which joints and forces there are. A closed output ends the command
-//! quietly.
+//! The streams that answers go to, and the registry of joints and forces. A closed output ends the
+//! command without a message.
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::output::{Answer, Failure, Outcome, json};
 
-/// A place that is written to, and what it can show.
+/// A stream for output, and whether it can show colours.
 pub struct Stream<'w> {
     writer: &'w mut dyn Write,
     is_terminal: bool,
@@ -39,9 +39,9 @@ impl<'w> Stream<'w> {
     }
 }
 
-/// What a command is given besides its arguments.
+/// What a command needs in addition to its arguments.
 pub struct Console<'c> {
-    /// The joints and forces of scenes.
+    /// The joints and forces that scenes can use.
     pub registry: &'c Registry,
     out: RefCell<Stream<'c>>,
     err: RefCell<Stream<'c>>,
@@ -60,7 +60,8 @@ impl<'c> Console<'c> {
     /// Writes an answer.
     ///
     /// # Errors
-    /// [`Failure::Closed`]: nobody reads it any more. [`Failure::Stopped`]: it cannot be written.
+    /// [`Failure::Closed`] if the reader has closed the output, [`Failure::Stopped`] if the output
+    /// cannot be written.
     pub fn print(&self, text: &str) -> Outcome {
         self.write(|out| out.write_all(text.as_bytes()))
     }
@@ -86,8 +87,8 @@ impl<'c> Console<'c> {
         })
     }
 
-    /// Writes what was reached of something that was not done to its end. That it was not is the
-    /// answer, whoever listens.
+    /// Writes the results of a computation that was not finished. That it was not finished is the
+    /// outcome, whether or not the output can be written.
     pub fn incomplete(&self, text: &str) -> Failure {
         match self.print(text) {
             Ok(()) | Err(Failure::Closed) => Failure::Incomplete,
@@ -105,8 +106,8 @@ impl<'c> Console<'c> {
         is_coloured(&self.out.borrow())
     }
 
-    /// Says why a command did not do all it was asked, and gives the exit code: in words, or as a
-    /// document among the answers.
+    /// Reports why a command did not finish, in words or as a document among the answers, and
+    /// returns the exit code.
     pub fn report(&self, failure: Failure, answer: Answer) -> ExitCode {
         let code = match failure {
             Failure::Closed => return ExitCode::SUCCESS,
@@ -121,13 +122,13 @@ impl<'c> Console<'c> {
         if let Some(failure) = unsaid {
             let mut err = self.err.borrow_mut();
             let words = failure.words(is_coloured(&err));
-            // Nothing can be said about an error of the place for errors.
+            // An error on standard error itself cannot be reported anywhere.
             let _ = err.write(words.as_bytes());
         }
         ExitCode::from(code)
     }
 
-    /// Help that was asked for, or what is wrong with the words of the command line.
+    /// Prints the requested help, or the error in the command line.
     pub fn usage(&self, message: &clap::Error) -> ExitCode {
         let is_fault = message.use_stderr();
         let stream = if is_fault { &self.err } else { &self.out };
@@ -153,7 +154,8 @@ fn unprintable(e: &io::Error) -> Failure {
     Failure::Stopped(format!("cannot write to standard output: {e}"))
 }
 
-/// Whether colours are shown there, and wanted: an empty `NO_COLOR` is none (no-color.org).
+/// Whether the stream shows colours and the user wants them: an empty `NO_COLOR` counts as not set
+/// (no-color.org).
 fn is_coloured(stream: &Stream<'_>) -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     stream.is_terminal && !refused

@@ -1,4 +1,4 @@
-//! `pfaff diff`: two scenes side by side. That they differ is the answer, not a failure.
+//! `pfaff diff`: compares two scenes. A difference is an answer, not a failure.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, columns, wrapped};
 use crate::start::Start;
 
-/// Bodies whose motion is listed; the document has all.
+/// Number of bodies whose motion is listed; the document contains all.
 const LISTED: usize = 12;
 
 pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
@@ -48,15 +48,15 @@ pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// What is known of the motions.
+/// The result for the motions.
 enum Motion {
-    /// Compared.
+    /// The motions were compared.
     Both(MotionComparison),
-    /// Not compared, and why.
+    /// They were not compared; the reason.
     None(String),
 }
 
-/// Compares the motions where both scenes have one.
+/// Compares the motions if both scenes have one.
 fn motion(sources: &[Source; 2], starts: &[Start; 2], arguments: &Diff) -> Result<Motion, Failure> {
     for (source, start) in sources.iter().zip(starts) {
         if start.scene.simulate.is_none() {
@@ -146,7 +146,7 @@ fn describe(
     text
 }
 
-/// Names of the files, with their directories only if they would be alike.
+/// Names of the files, with their directories only if the names are equal otherwise.
 fn names(sources: &[Source; 2]) -> [String; 2] {
     let whole = || sources.each_ref().map(|source| source.name.clone());
     let short = sources.each_ref().map(|source| {
@@ -178,7 +178,7 @@ fn numbers(names: &[String; 2], [a, b]: [&AnalysisDocument; 2]) -> String {
     ];
     let fragile = [a, b].map(|d| d.fragile_reactions().count());
     let fragile = (fragile != [0, 0]).then_some(("fragile", fragile[0], fragile[1]));
-    // Of scenes without drives it is the same number again.
+    // For scenes without drives both numbers are equal, so this one is omitted.
     let released = |d: &AnalysisDocument| d.freedoms.mobility_without_drives();
     let is_driven = released(a).is_some() || released(b).is_some();
     let [x, y] = [a, b].map(|d| released(d).unwrap_or(d.mobility));
@@ -202,7 +202,7 @@ fn open(d: &AnalysisDocument) -> usize {
         .count()
 }
 
-/// Joints and drives that came, went or changed.
+/// Joints and drives that were added, removed or changed.
 fn verdicts(names: &[String; 2], c: &Comparison<'_>) -> String {
     let mut rows = vec![vec![
         "reaction".to_owned(),
@@ -227,7 +227,7 @@ fn verdicts(names: &[String; 2], c: &Comparison<'_>) -> String {
     }
 }
 
-/// The verdict of a reaction, with its type where that matters, and which components are not
+/// The verdict of a reaction, with its type if the types differ, and its components that are not
 /// unique.
 fn words(r: &ReactionDocument, with_type: bool) -> String {
     let verdict = r.said();
@@ -259,7 +259,7 @@ fn dependencies(title: &str, list: &[&DependencyDocument]) -> String {
     text
 }
 
-/// Bodies by the distance of their motions, the largest first.
+/// Bodies sorted by the difference of their motions, the largest first.
 fn moved(motion: &MotionComparison) -> String {
     if motion.bodies.is_empty() {
         return "no body has the same name in both scenes: no motion to compare\n".to_owned();

@@ -13,21 +13,20 @@ use crate::console::Console;
 use crate::output::Failure;
 use crate::resources::{Resources, Stage};
 
-/// Largest scene that is read (bytes): ten times what a hundred thousand bodies take. A device that
-/// never ends must not fill the memory.
+/// Largest scene that is read (bytes): ten times the size of a scene with a hundred thousand
+/// bodies. An endless device must not fill the memory.
 pub const LARGEST: u64 = 1 << 28;
 
-/// Entries of a directory among which a name is looked for.
+/// Number of entries of a directory that are searched for a similar name.
 const LOOKED_AT: usize = 10_000;
 
-/// The text of a scene with the name that messages call it by, and what the command line says of
-/// its numbers.
+/// The text of a scene, its name in messages, and the tolerances of the command line.
 pub(crate) struct Source<'r> {
     pub(crate) name: String,
     pub(crate) text: String,
-    /// Goes before what the scene states.
+    /// Takes precedence over the tolerance that the scene states.
     pub(crate) tolerance: Tolerance,
-    /// The joints and forces that it may name.
+    /// The joints and forces that the scene may use.
     pub(crate) registry: &'r Registry,
 }
 
@@ -66,7 +65,7 @@ impl<'r> Source<'r> {
         })
     }
 
-    /// The same scene with numbers known to this.
+    /// Returns the same scene with these tolerances.
     pub(crate) fn known(self, known: Known) -> Self {
         Self {
             tolerance: known.into(),
@@ -74,7 +73,7 @@ impl<'r> Source<'r> {
         }
     }
 
-    /// Reads and assembles the scene, if it may use so much of the machine.
+    /// Reads and assembles the scene, if the limits of the machine allow it.
     pub(crate) fn study(
         &self,
         overrides: &Overrides,
@@ -86,7 +85,7 @@ impl<'r> Source<'r> {
         study.map_err(|e| self.failure(e))
     }
 
-    /// Assembles what was read from this text.
+    /// Assembles a scene that was read from this text.
     pub(crate) fn prepare(
         &self,
         assembled: AssembledScene,
@@ -96,7 +95,7 @@ impl<'r> Source<'r> {
         assembled.prepare(overrides)
     }
 
-    /// An error with the places of this text.
+    /// An error with its places in this text.
     pub(crate) fn failure(&self, error: StudyError) -> Failure {
         match error {
             StudyError::SingularStart {
@@ -118,7 +117,8 @@ impl<'r> Source<'r> {
     }
 }
 
-/// A file that cannot be read, with the scene in its directory that was probably meant.
+/// The error for a file that cannot be read, with the scene in its directory that was probably
+/// meant.
 pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
     let name = if path.as_os_str() == "-" {
         "<stdin>".into()
@@ -146,13 +146,13 @@ fn scene_beside(path: &Path) -> Option<PathBuf> {
     let scenes = scenes.filter(|file| file.extension().is_some_and(|end| end == "toml"));
     let stem = |file: &Path| Some(file.file_stem()?.to_str()?.to_owned());
     let mut stems: Vec<String> = scenes.filter_map(|file| stem(&file)).collect();
-    // Directories have no order.
+    // The system lists a directory in no defined order.
     stems.sort_unstable();
     let near = nearest(&stem(path)?, stems.iter().map(String::as_str))?;
     Some(path.with_file_name(format!("{near}.toml")))
 }
 
-/// What does not exist, with the name that was probably meant and those there are.
+/// The error for an unknown name, with the name that was probably meant and the known names.
 pub fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
     let near = nearest(name, known.iter().copied());
     let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
@@ -162,21 +162,21 @@ pub fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
     ))
 }
 
-/// All bytes, or one more than a scene may have.
+/// Reads all bytes, but at most one more than a scene may have.
 fn bounded(reader: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// Line and column behind a text that is UTF-8, both from 1.
+/// Line and column just after the last valid character of a text, both from 1.
 fn end_of(text: &[u8]) -> (usize, usize) {
     let text = String::from_utf8_lossy(text);
     let last = text.rsplit('\n').next().unwrap_or_default();
     (text.matches('\n').count() + 1, last.chars().count() + 1)
 }
 
-/// Rows as the user counts them, from 0.
+/// Rows counted from 0, from the user's rows counted from 1.
 pub(crate) fn rows_from_zero(rows: Option<&[usize]>) -> Result<Option<Vec<usize>>, Failure> {
     let Some(rows) = rows else { return Ok(None) };
     let from_zero: Option<Vec<usize>> = rows.iter().map(|r| r.checked_sub(1)).collect();

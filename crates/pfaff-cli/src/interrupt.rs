@@ -10,16 +10,16 @@ use crate::output::Failure;
 /// Exit code of a program that was interrupted.
 const INTERRUPTED: i32 = 1;
 
-/// Whether somebody asked to stop. The first request is for the computation, which keeps what it
-/// has; a second one ends the program at once, wherever it is.
+/// Whether a stop has been requested. The computation reacts to the first request and keeps its
+/// results; a second request ends the program at once.
 #[derive(Clone)]
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Listens from now on.
+    /// Starts listening for requests.
     ///
     /// # Errors
-    /// The system does not let it.
+    /// If the system does not allow it.
     pub fn listen() -> Result<Self, Failure> {
         let asked = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&asked);
@@ -31,7 +31,7 @@ impl Interrupt {
         Ok(Self(asked))
     }
 
-    /// Listens for a command that has nothing to keep: the first request ends it.
+    /// Starts listening for a command without results to keep: the first request ends it.
     ///
     /// # Errors
     /// As [`Interrupt::listen`].
@@ -39,8 +39,8 @@ impl Interrupt {
         on_request(|| process::exit(INTERRUPTED))
     }
 
-    /// Listens for a command that goes on until it is told to stop: that is its end, not its
-    /// failure.
+    /// Starts listening for a command that runs until it is stopped: a request is its normal end,
+    /// not a failure.
     ///
     /// # Errors
     /// As [`Interrupt::listen`].
@@ -48,13 +48,13 @@ impl Interrupt {
         on_request(|| process::exit(0))
     }
 
-    /// Whether somebody asked.
+    /// Whether a stop has been requested.
     pub fn is_asked(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// What a request does at present: a later command of the same process takes it over.
+/// The effect of a request at present; a later command of the same process replaces it.
 static ACTION: Mutex<Option<Action>> = Mutex::new(None);
 
 type Action = Box<dyn FnMut() + Send>;

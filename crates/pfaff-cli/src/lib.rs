@@ -32,12 +32,12 @@ use console::Console;
 pub use console::Stream;
 use output::{Answer, Failure, Outcome};
 
-/// Runs one command: `arguments` begin with the name of the program, `registry` knows the joints
-/// and forces of scenes.
+/// Runs one command: `arguments` begin with the name of the program, `registry` contains the joints
+/// and forces that scenes can use.
 ///
-/// Answers go to `out`, what went wrong to `err`. Exit codes: 0 done (also when nobody reads `out`
-/// any more), 1 the computation stopped or was interrupted, 2 the input is wrong. With `--json`,
-/// `out` gets one document, whichever it is.
+/// Answers are written to `out`, errors to `err`. Exit codes: 0 done (also if the reader has closed
+/// `out`), 1 the computation stopped or was interrupted, 2 the input is wrong. With `--json`, `out`
+/// receives exactly one document in every case.
 ///
 /// ```
 /// use pfaff::model::Registry;
@@ -60,19 +60,19 @@ where
     serve::<Arguments, _>(registry, arguments, out, err)
 }
 
-/// A command line: what it asks for, and how that is done.
+/// A parsed command line.
 pub trait CommandLine: Parser {
-    /// How it answers.
+    /// The form of the answer.
     fn answer(&self) -> Answer;
 
-    /// Does what it asks for.
+    /// Executes the command.
     ///
     /// # Errors
-    /// Why it was not done to its end.
+    /// The reason why the command did not finish.
     fn run(&self, console: &Console<'_>) -> Outcome;
 }
 
-/// Runs one command line, as [`run`] does, of a program with commands of its own.
+/// Runs one command line, as [`run`] does, of a program with additional commands.
 pub fn serve<'a, C, I>(
     registry: &'a Registry,
     arguments: I,
@@ -119,7 +119,7 @@ impl CommandLine for Arguments {
     }
 }
 
-/// Says where a command of the laboratory is.
+/// Reports how a command of the laboratory is called.
 fn elsewhere(name: &str, Elsewhere { arguments }: &Elsewhere) -> Outcome {
     let arguments = arguments.join(" ");
     Err(Failure::input(format!(

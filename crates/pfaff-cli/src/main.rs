@@ -1,4 +1,4 @@
-//! The command `pfaff` with the joints and forces that are shipped.
+//! The command `pfaff` with the standard joints and forces.
 
 use std::io;
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! What describes the command and its files to other programs: schema, completions, manual pages.
+//! Descriptions of the command and its files for other programs: schema, completions, manual pages.
 
 use clap::CommandFactory;
 use clap_mangen::Man;
@@ -29,7 +29,8 @@ pub(crate) fn page(arguments: &Page, console: &Console<'_>) -> Outcome {
         None => whole,
         Some(name) => of_command(&whole, name)?,
     };
-    // Examples are lines, and this would fill them into paragraphs: they are set by themselves.
+    // The examples are set separately, because the manual renderer would join their lines into
+    // paragraphs.
     let examples = command.get_after_help().map(ToString::to_string);
     let command = command.after_help("");
     let mut out = Vec::new();
@@ -44,12 +45,12 @@ pub(crate) fn page(arguments: &Page, console: &Console<'_>) -> Outcome {
     console.print(&text)
 }
 
-/// Lines as they are, in the signs of `man`.
+/// Lines in the syntax of `man`, without filling.
 fn set(text: &str) -> String {
     let mut out = String::new();
     for line in text.lines() {
         let line = line.replace('\\', "\\e").replace('-', "\\-");
-        // A point or an apostrophe at the beginning would be a command.
+        // A point or an apostrophe at the beginning of a line would be a command.
         if line.starts_with(['.', '\'']) {
             out.push_str("\\&");
         }
@@ -59,7 +60,7 @@ fn set(text: &str) -> String {
     out
 }
 
-/// A command with the name of its page.
+/// Finds the command whose page has this name.
 fn of_command(whole: &clap::Command, name: &str) -> Result<clap::Command, Failure> {
     let commands = || {
         whole

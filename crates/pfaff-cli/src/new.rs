@@ -1,4 +1,4 @@
-//! `pfaff new`: a scene to begin with.
+//! `pfaff new`: creates a scene from a template.
 
 use std::fs::File;
 use std::io::{ErrorKind, Write};
@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// Writes a file that is not there yet, or replaces it where that is wanted.
+/// Writes a file; replaces an existing one only with `force`.
 fn write(path: &Path, text: &str, force: bool) -> Outcome {
     let refused = |e: std::io::Error| {
         let name = path.display();

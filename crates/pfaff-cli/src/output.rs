@@ -1,4 +1,4 @@
-//! How answers and failures look; the console says where they go.
+//! The form of answers and failures; the console decides where they are written.
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
 use pfaff::report::documents::RefusalDocument;
@@ -6,41 +6,41 @@ use pfaff::report::write_json;
 use pfaff::scene::{Diagnostic, Severity};
 use serde::Serialize;
 
-/// For whom a command answers.
+/// The form of an answer.
 #[derive(Clone, Copy)]
 pub enum Answer {
-    /// For people.
+    /// Words for people.
     Words,
-    /// For programs: one document, and nothing else.
+    /// One JSON document for programs, without other output.
     Json,
 }
 
-/// What every command ends with.
+/// The result of a command.
 pub type Outcome = Result<(), Failure>;
 
-/// Why a command did not do all it was asked.
+/// The reason why a command did not finish.
 pub enum Failure {
-    /// The scene is wrong.
+    /// The scene contains errors.
     Scene {
-        /// What messages call it.
+        /// The name of the scene in messages.
         name: String,
         /// Its text.
         text: String,
-        /// What is wrong, with places in the text.
+        /// The errors, with places in the text.
         diagnostics: Vec<Diagnostic>,
     },
     /// Another input is wrong.
     Input(String),
     /// The computation stopped.
     Stopped(String),
-    /// Nobody listens any more.
+    /// The reader has closed the output.
     Closed,
-    /// It stopped or was interrupted; what was reached has been said already.
+    /// The computation stopped or was interrupted; its partial results have been written already.
     Incomplete,
 }
 
 impl Failure {
-    /// An input that is wrong, with what to do.
+    /// A failure because of wrong input; the message states how to correct it.
     pub fn input(message: String) -> Self {
         Self::Input(message)
     }
@@ -50,7 +50,7 @@ impl Failure {
         Self::Stopped(message)
     }
 
-    /// For people.
+    /// The failure in words.
     pub fn words(&self, color: bool) -> String {
         match self {
             Self::Scene {
@@ -63,8 +63,8 @@ impl Failure {
         }
     }
 
-    /// For programs: `error` is one line, `problems` are the places of a scene that are at fault,
-    /// if any are.
+    /// The failure as a document: `error` is one line, `problems` are the wrong places of a scene,
+    /// if there are any.
     ///
     /// # Errors
     /// As [`json`].
@@ -92,7 +92,7 @@ pub fn json(document: &impl Serialize) -> Result<String, Failure> {
     Ok(String::from_utf8_lossy(&out).into_owned())
 }
 
-/// The first problem, and how many more there are.
+/// The first problem, and the number of others.
 fn in_one_line(diagnostics: &[Diagnostic]) -> String {
     match diagnostics {
         [] => String::new(),
@@ -101,7 +101,7 @@ fn in_one_line(diagnostics: &[Diagnostic]) -> String {
     }
 }
 
-/// A number of things, as `1 body` or `7 bodies`.
+/// A number with its noun, as `1 body` or `7 bodies`.
 pub fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
@@ -109,7 +109,7 @@ pub fn count(n: usize, one: &str, many: &str) -> String {
 /// Problems of a scene with its lines and carets.
 fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: bool) -> String {
     let mut out = Vec::new();
-    // Lines are found once for all problems.
+    // The positions of the lines are computed once for all problems.
     let mut source = (name, Source::from(text));
     for d in diagnostics {
         let labels = || std::iter::once(&d.primary).chain(&d.secondary);
@@ -141,20 +141,20 @@ fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: bool) -> St
         }
     }
     let mut rendered = String::from_utf8_lossy(&out).into_owned();
-    // Where some are not listed, the last one says how many.
+    // If some problems are not listed, the last one states how many.
     if diagnostics.len() > 1 && diagnostics.iter().all(|d| d.severity != Severity::Note) {
         rendered.push_str(&format!("{} problems in `{name}`\n", diagnostics.len()));
     }
     rendered
 }
 
-/// Bytes of a line that is shown whole.
+/// Length of the longest line (bytes) that is shown completely.
 const WIDEST: usize = 2000;
 
-/// Bytes of a longer line that are shown on both sides of a place.
+/// Bytes of a longer line that are shown on each side of a place.
 const AROUND: usize = 40;
 
-/// The line of a place.
+/// The line that contains a place.
 fn line_around(text: &str, at: usize) -> &str {
     let at = text.floor_char_boundary(at);
     let (before, after) = text.split_at(at);
@@ -163,7 +163,7 @@ fn line_around(text: &str, at: usize) -> &str {
     &text[begin..end]
 }
 
-/// A problem in a line that is too long to be shown.
+/// Shows a problem in a line that is too long to be shown completely.
 fn narrow(text: &str, d: &Diagnostic) -> String {
     let mut out = format!("{d}\n");
     for label in std::iter::once(&d.primary).chain(&d.secondary) {
@@ -192,11 +192,11 @@ fn label<'a>(name: &'a str, l: &pfaff::scene::Label) -> Label<(&'a str, std::ops
     }
 }
 
-/// Letters in a line of text for people.
+/// Width of texts for people (characters).
 const WIDTH: usize = 100;
 
-/// A text in lines of at most 100 letters where words allow it; the first begins with `lead`, the
-/// others are indented as far.
+/// Breaks a text into lines of at most 100 characters, if its words are short enough; the first
+/// line begins with `lead`, the others are indented by its width.
 pub fn wrapped(lead: &str, text: &str) -> String {
     let indent = " ".repeat(lead.chars().count());
     let (mut out, mut line) = (String::new(), lead.to_owned());
@@ -220,7 +220,7 @@ pub fn wrapped(lead: &str, text: &str) -> String {
     out
 }
 
-/// Lines of cells in columns, the first line a header.
+/// Aligns lines of cells in columns; the first line is the header.
 pub fn columns(rows: &[Vec<String>]) -> String {
     let n = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |k: usize| {

@@ -1,4 +1,4 @@
-//! `pfaff plan`: what a run needs, what it leaves out, and why.
+//! `pfaff plan`: the parts of the program that a run needs, those it omits, and the reasons.
 
 use pfaff::Overrides;
 use pfaff::dynamics::Plan;
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
     console.document(&PlanDocument::new(&plan, memory))
 }
 
-/// A table for the whole, and one for each of several components.
+/// One table for the whole mechanism, and one for each component if there are several.
 fn describe(name: &str, plan: &Plan<'_>, memory: usize) -> String {
     let options = plan.options();
     let lines = plan.lines();

@@ -1,5 +1,5 @@
-//! What a command may use of the machine: threads, and memory. More than there is is refused before
-//! it is taken, with the number.
+//! Limits of a command: threads and memory. A command that needs more memory than is available is
+//! refused before it starts, with the number of bytes.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -26,7 +26,7 @@ pub(crate) struct Resources {
 }
 
 impl Resources {
-    /// So many threads for everything that is computed in parallel.
+    /// Sets the number of threads for all parallel computations.
     pub(crate) fn apply(self) -> Result<(), Failure> {
         let Some(threads) = self.threads else {
             return Ok(());
@@ -34,7 +34,8 @@ impl Resources {
         pfaff::limit_threads(threads).map_err(|e| Failure::stopped(e.to_string()))
     }
 
-    /// Reads the scene and builds its mechanism, if there is memory for that and for its verdicts.
+    /// Reads the scene and builds its mechanism, if the memory suffices for the mechanism and its
+    /// verdicts.
     pub(crate) fn assembled(self, source: &Source) -> Result<AssembledScene, Failure> {
         let text = source.text.len();
         let reading = of_reading(text);
@@ -50,7 +51,7 @@ impl Resources {
         Ok(assembled)
     }
 
-    /// Refuses what takes more memory than there may be.
+    /// Refuses a computation that needs more memory than is allowed.
     pub(crate) fn allow(self, bytes: usize, what: &str) -> Result<(), Failure> {
         let needed = Bytes(bytes as u64);
         let (allowed, by) = match (self.max_memory, available()) {
@@ -76,7 +77,7 @@ impl Resources {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Bytes(pub(crate) u64);
 
-/// Units that are read, larger ones first.
+/// Units that can be read, larger ones first.
 const UNITS: [(&str, u64); 9] = [
     ("TiB", 1 << 40),
     ("GiB", 1 << 30),
@@ -122,8 +123,8 @@ impl std::fmt::Display for Bytes {
     }
 }
 
-/// What may still be taken, where the system says so: of the machine, and of the group of processes
-/// that this one is in.
+/// The memory that is still available, if the system reports it: of the machine, and of the control
+/// group of this process.
 fn available() -> Option<Bytes> {
     let read = |path: &str| fs::read_to_string(path).ok();
     let machine = read("/proc/meminfo").and_then(|text| {
@@ -139,10 +140,11 @@ fn available() -> Option<Bytes> {
     machine.into_iter().chain(group).min().map(Bytes)
 }
 
-/// Texts from this size on are long work.
+/// Texts of at least this size (bytes) take long to read.
 const LONG: usize = 1 << 20;
 
-/// Says on a terminal what takes so long, until it is dropped.
+/// A message on a terminal that names the present step of long work; dropping it removes the
+/// message.
 pub(crate) struct Stage(Option<ProgressBar>);
 
 impl Stage {

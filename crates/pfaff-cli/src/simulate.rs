@@ -1,4 +1,4 @@
-//! `pfaff simulate`: motion and reactions into a directory, with progress on a terminal.
+//! `pfaff simulate`: writes motion and reactions into a directory, with progress on a terminal.
 
 use std::ops::ControlFlow;
 
@@ -13,11 +13,12 @@ use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, json};
 use crate::work_precision::provenance;
 
-/// Share of the largest kinetic energy by which a run may miss its energy balance without a
-/// warning. Default tolerances stay below a thousandth of this; what is above shows in a plot.
+/// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
+/// energy. With the default tolerances the error is below a thousandth of this; larger errors are
+/// visible in a plot.
 pub(crate) const TRUSTED_BALANCE: f64 = 1e-3;
 
-/// Ticks of the progress bar over the whole run.
+/// Steps of the progress bar over the whole run.
 const TICKS: u64 = 1000;
 
 pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
@@ -34,7 +35,7 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     let directory =
         OutputDirectory::create(&arguments.out).map_err(|e| Failure::stopped(e.to_string()))?;
     let interrupt = Interrupt::listen()?;
-    // Hidden by itself where standard error is no terminal.
+    // It hides itself if standard error is not a terminal.
     let bar = ProgressBar::new(TICKS);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} t = {msg}, {eta} left") {
         bar.set_style(style);
@@ -69,7 +70,7 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// How a page was made.
+/// The command and the versions that made the page.
 pub(crate) fn origin() -> Origin {
     let Provenance {
         versions, command, ..
@@ -158,7 +159,7 @@ fn describe(name: &str, d: &RunDocument) -> String {
     text
 }
 
-/// Where the results are, and what to open first.
+/// Where the results are, and which file to open first.
 fn written(out: &str, report: bool) -> String {
     if report {
         format!("written to {out}; report.html there opens in any browser\n")
@@ -167,7 +168,7 @@ fn written(out: &str, report: bool) -> String {
     }
 }
 
-/// Names, at most so many as can be read; summary.json has all.
+/// Names, at most as many as are readable; summary.json contains all.
 fn listed(names: &[&str]) -> String {
     let few = &names[..names.len().min(LISTED)];
     match names.len() - few.len() {
@@ -176,5 +177,5 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
-/// Names that are listed.
+/// Number of names that are listed.
 const LISTED: usize = 40;

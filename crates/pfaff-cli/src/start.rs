@@ -1,5 +1,5 @@
-//! The assembled start with its verdicts, of mechanisms of any size: what a picture and a
-//! comparison begin with.
+//! The assembled start with its verdicts, for mechanisms of any size: the basis of a picture and of
+//! a comparison.
 
 use pfaff::model::{Mechanism, System};
 use pfaff::report::AnalysisDocument;
@@ -11,7 +11,7 @@ use crate::input::Source;
 use crate::output::Failure;
 use crate::resources::Resources;
 
-/// A start and what is known of its reactions.
+/// A start and the verdicts of its reactions.
 pub(crate) struct Start {
     pub(crate) scene: Scene,
     pub(crate) mechanism: Mechanism,
@@ -23,7 +23,7 @@ pub(crate) struct Start {
 }
 
 impl Start {
-    /// Assembles the start of a scene and judges it, also where no motion begins there.
+    /// Assembles the start of a scene and judges it, also if no motion can begin there.
     pub(crate) fn of(source: &Source, resources: Resources) -> Result<Self, Failure> {
         let mut assembled = resources.assembled(source)?;
         let failure = |e: StudyError| source.failure(e);

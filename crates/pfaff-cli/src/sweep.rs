@@ -1,5 +1,5 @@
-//! `pfaff sweep`: many runs of one scene with other numbers, in parallel, in parts, resumable; with
-//! progress on a terminal.
+//! `pfaff sweep`: many runs of one scene with other numbers, in parallel, in shards, resumable;
+//! with progress on a terminal.
 
 use std::num::NonZeroUsize;
 
@@ -38,14 +38,14 @@ pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// Whether everything was made that was asked for.
+/// How a sweep ended.
 #[derive(Clone, Copy)]
 enum Ending {
-    /// It was.
+    /// All requested runs are finished.
     Whole,
-    /// Somebody asked to stop.
+    /// A stop was requested.
     Interrupted,
-    /// Runs are missing that nobody has made.
+    /// Some runs have not been made by any shard.
     Missing,
 }
 
@@ -70,7 +70,7 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
     };
     let interrupt = Interrupt::listen()?;
     let interrupted = || interrupt.is_asked();
-    // Hidden by itself where standard error is no terminal.
+    // It hides itself if standard error is not a terminal.
     let bar = ProgressBar::new(0);
     let template = "{bar:40} {pos}/{len} runs, {per_sec}, {eta} left{msg}";
     if let Ok(style) = ProgressStyle::with_template(template) {

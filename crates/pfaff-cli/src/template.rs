@@ -1,4 +1,4 @@
-//! Scenes to begin with: those of `examples/`, which are tested there.
+//! Templates for scenes: those of `examples/`, which are tested there.
 
 /// Longest summary (bytes).
 const WIDTH: usize = 96;
@@ -31,7 +31,7 @@ const ROBOT: Template = Template {
 };
 
 impl Template {
-    /// All of them.
+    /// All templates.
     pub(crate) const ALL: &'static [Self] = &{
         let mut all = [ROBOT; EXAMPLES.len() + 1];
         let mut k = 0;
@@ -46,7 +46,7 @@ impl Template {
         self.name
     }
 
-    /// What it is: the first sentence of its text.
+    /// The first sentence of its text, which describes it.
     pub(crate) fn summary(self) -> String {
         let lines = self.text.lines().map_while(|line| line.strip_prefix("# "));
         let words = lines.collect::<Vec<_>>().join(" ");
@@ -64,7 +64,7 @@ impl Template {
         )
     }
 
-    /// The scene under a head that says what to do with it; `file` is its name there.
+    /// The scene with a header that explains how to use it; `file` is its name in the header.
     pub(crate) fn scene(self, file: &str) -> String {
         let Self { name, text } = self;
         format!(

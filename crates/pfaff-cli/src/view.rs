@@ -1,5 +1,5 @@
-//! `pfaff view`: the page of the assembled start, or its picture as SVG, and the system's viewer
-//! for it.
+//! `pfaff view`: writes a page of the assembled start, or its picture as SVG, and opens it in the
+//! system's viewer.
 
 use std::env;
 use std::fs;
@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     ))
 }
 
-/// The page of a run, of which there is the start alone.
+/// The page of a run that consists of the start only.
 fn page(start: &Start) -> String {
     let mut recording = Recording::new(0.0, 1.0, 1);
     let frame = Frame::at_rest(0.0, &start.q, start.mechanism.layout().n_v);
@@ -105,7 +105,7 @@ fn is_svg(path: &Path) -> bool {
     end.is_some_and(|end| end.eq_ignore_ascii_case("svg"))
 }
 
-/// Where the picture goes.
+/// The path of the file for the picture.
 fn place(arguments: &View) -> Result<PathBuf, Failure> {
     let scene = &arguments.scene;
     let Some(path) = &arguments.out else {
@@ -128,11 +128,11 @@ fn place(arguments: &View) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Opens a file with what the system opens such files with, and does not wait for it.
+/// Opens a file with the system's program for such files, without waiting for it.
 fn show(path: &Path) -> Result<(), String> {
     let (program, before): (_, &[&str]) = match env::consts::OS {
         "macos" => ("open", &[]),
-        // The first word in quotes would be the title of a window.
+        // The first quoted word would be taken as the title of a window.
         "windows" => ("cmd", &["/C", "start", ""]),
         _ if !has_display() => return Err("there is no display".to_owned()),
         _ => ("xdg-open", &[]),

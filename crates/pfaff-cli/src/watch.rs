@@ -13,10 +13,10 @@ use crate::input::{Source, unreadable};
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome};
 
-/// Time between two looks at the file.
+/// Time between two checks of the file.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// Looks at a file that is gone, before that is said: editors replace a file by another one.
+/// Number of checks after which a missing file is reported: editors replace a file by another one.
 const PATIENCE: usize = 3;
 
 pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
             "--watch looks at a file again and again; standard input comes once".to_owned(),
         ));
     }
-    // What is not there at the beginning is a wrong name.
+    // A file that does not exist at the beginning has a wrong name.
     let mut seen = Stamp::of(path).map_err(|e| unreadable(path, &e))?;
     Interrupt::ends_well()?;
     arguments.resources.apply()?;
@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// What a check says, whether the scene is right or wrong.
+/// The text of a check, whether the scene is right or wrong.
 fn verdict(arguments: &Check, console: &Console<'_>) -> String {
     let checked = Source::read(&arguments.scene, console)
         .map(|source| source.known(arguments.known))
@@ -48,7 +48,7 @@ fn verdict(arguments: &Check, console: &Console<'_>) -> String {
     checked.unwrap_or_else(|failure| failure.words(console.is_coloured()))
 }
 
-/// Waits until the file is another one than was seen.
+/// Waits until the file differs from `seen`.
 fn changed(path: &Path, seen: Stamp, console: &Console<'_>) -> Result<Stamp, Failure> {
     let mut missing = 0;
     loop {
@@ -70,7 +70,7 @@ fn changed(path: &Path, seen: Stamp, console: &Console<'_>) -> Result<Stamp, Fai
     }
 }
 
-/// What changes with a file.
+/// Properties that change with a file.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Stamp {
     modified: Option<SystemTime>,

@@ -1,4 +1,4 @@
-//! `pfaff work-precision`: error against run time, as a table, a figure and a page.
+//! `pfaff work-precision`: error versus run time, as a table, a figure and a page.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -32,8 +32,7 @@ pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     .run(console)
 }
 
-/// The runs that are asked for: three tolerances, every method with every stabilisation, or what is
-/// usual.
+/// The requested runs: three tolerances, every method with every stabilisation, or the default.
 #[must_use]
 pub fn plan(quick: bool, all: bool) -> Plan {
     match (quick, all) {
@@ -46,32 +45,32 @@ pub fn plan(quick: bool, all: bool) -> Plan {
 /// The scene of a file, or of standard input for `-`.
 ///
 /// # Errors
-/// What is wrong with the file, or with the scene.
+/// The error in the file or in the scene.
 pub fn subject(path: &Path, console: &Console<'_>) -> Result<Subject, Failure> {
     let source = Source::read(path, console)?;
     let study = source.study(&pfaff::Overrides::default(), Resources::default())?;
     Subject::of_study(study).map_err(|e| source.failure(e))
 }
 
-/// Scenes whose runs are compared, and where what was found is written.
+/// Scenes whose runs are compared, and the directory of the results.
 pub struct Request<'a> {
     /// The scenes.
     pub subjects: &'a [Subject],
-    /// Ways to move them that are none of the product's.
+    /// Methods for comparison that are not part of pfaff.
     pub rivals: &'a [&'a dyn Rival],
-    /// Runs of each scene.
+    /// The runs of each scene.
     pub plan: Plan,
     /// Directory for table, figure and page.
     pub out: &'a Path,
-    /// Answer with all results as one JSON document.
+    /// Whether to answer with all results as one JSON document.
     pub json: bool,
 }
 
 impl Request<'_> {
-    /// Makes all runs, with progress; what there is of them if somebody asks to stop.
+    /// Makes all runs, with progress; if a stop is requested, the runs so far are the result.
     ///
     /// # Errors
-    /// What cannot be run or written.
+    /// If a scene cannot be run or a file cannot be written.
     pub fn run(&self, console: &Console<'_>) -> Outcome {
         let stopped = |e: &dyn std::error::Error| Failure::stopped(e.to_string());
         let directory = OutputDirectory::create(self.out).map_err(|e| stopped(&e))?;
@@ -106,7 +105,7 @@ impl Request<'_> {
         }
     }
 
-    /// Runs everything; what there is of it if somebody asks to stop.
+    /// Makes all runs; if a stop is requested, returns the runs so far.
     fn compare(
         &self,
         mut table: WorkPrecisionTable<OutputFile>,
@@ -115,7 +114,7 @@ impl Request<'_> {
         let interrupted = || interrupt.is_asked();
         let curves = self.plan.curves.len() + self.rivals.len();
         let runs = curves * self.plan.tolerances.len() * self.subjects.len();
-        // Hidden by itself if standard error is no terminal.
+        // It hides itself if standard error is not a terminal.
         let bar = ProgressBar::new(runs as u64);
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left") {
             bar.set_style(style);
@@ -155,7 +154,7 @@ impl Request<'_> {
     }
 }
 
-/// Why rows end early.
+/// The error that ends the runs or their table.
 enum Interruption {
     Study(StudyError),
     Table(TableError),
@@ -167,7 +166,7 @@ impl From<StudyError> for Interruption {
     }
 }
 
-/// Where, when and by which command results are made.
+/// The machine, versions, date and command of the results.
 #[must_use]
 pub fn provenance() -> Provenance {
     Provenance {
@@ -182,7 +181,7 @@ pub fn provenance() -> Provenance {
     }
 }
 
-/// What was typed, without the folder of the program.
+/// The command line without the directory of the program.
 fn command() -> String {
     let mut arguments = std::env::args_os();
     let program = arguments.next().map(PathBuf::from).unwrap_or_default();

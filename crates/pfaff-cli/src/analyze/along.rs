@@ -1,4 +1,4 @@
-//! Verdicts along the motion, with progress on a terminal, and in words.
+//! Verdicts along the motion: the run with its progress bar on a terminal, and the answer in words.
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use pfaff::report::documents::AlongDocument;
@@ -7,10 +7,10 @@ use pfaff::{Progress, Study, StudyError};
 use crate::input::Source;
 use crate::output::{Failure, count, wrapped};
 
-/// Ticks of the progress bar over the whole motion.
+/// Steps of the progress bar over the whole motion.
 const TICKS: u64 = 1000;
 
-/// Judged states farther apart than this may miss something: a share of the mechanism's size, or
+/// Judged states farther apart than this may miss a change: a fraction of the mechanism's size, or
 /// radians.
 const COARSE: f64 = 0.2;
 
@@ -30,7 +30,7 @@ pub(super) fn judge(
             "--along goes to {end}, need a time > 0"
         )));
     }
-    // Hidden by itself where standard error is no terminal.
+    // It hides itself if standard error is not a terminal.
     let bar = bars.add(ProgressBar::new(TICKS));
     if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40}") {
         bar.set_style(style);
@@ -52,7 +52,7 @@ pub(super) fn judge(
     Ok(along_motion.document())
 }
 
-/// One verdict, then what differs.
+/// The verdict that holds along the motion, then the intervals with other verdicts.
 pub(super) fn describe(along: &AlongDocument) -> String {
     let mut out = format!(
         "\nAlong the motion, t = 0 to {} s ({}):\n",
@@ -114,7 +114,7 @@ pub(super) fn describe(along: &AlongDocument) -> String {
     out
 }
 
-/// A time to the nanosecond, without trailing zeros.
+/// Formats a time to the nanosecond, without trailing zeros.
 fn seconds(t: f64) -> String {
     let text = format!("{t:.9}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

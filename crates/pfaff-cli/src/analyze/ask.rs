@@ -1,4 +1,4 @@
-//! The questions of the command line, put to one configuration.
+//! Answers the options of the command line for one configuration.
 
 use pfaff::model::System;
 use pfaff::rank::{DeletionError, Limits};
@@ -15,10 +15,10 @@ use crate::args::Analyze;
 use crate::input::Source;
 use crate::output::Failure;
 
-/// Sets tried for a hint that nobody asked for.
+/// Number of sets that are tried for a hint that the command line did not request.
 const HINT_TRIALS: usize = 5_000;
 
-/// All answers but those along the motion.
+/// All answers except those along the motion.
 pub(super) fn document(
     arguments: &Analyze,
     source: &Source,
@@ -26,7 +26,7 @@ pub(super) fn document(
 ) -> Result<AnalysisDocument, Failure> {
     let failure = |e: StudyError| source.failure(e);
     let layout = pfaff::model::System::layout(configuration.mechanism);
-    // Wrong names first: they cost nothing.
+    // Names are checked first, because that is cheap.
     let allowed = choice::allowed(&arguments.allow, layout.rows())?;
     let wanted = arguments.make_unique.iter();
     let wanted: Result<Vec<_>, _> = wanted.map(|name| configuration.reaction(name)).collect();
@@ -60,7 +60,7 @@ pub(super) fn document(
     if !choices.is_empty() {
         let facts = match configuration.facts() {
             Ok(facts) => facts,
-            // Units are compared in double precision, choices are made by the proved rank.
+            // The comparison of units uses double precision, the choices use the proved rank.
             Err(StudyError::Units(e @ UnitError::RankChanges { .. })) => {
                 document.warnings.push(format!(
                     "a change of units does not tell facts from choices: {e}"
@@ -84,7 +84,7 @@ pub(super) fn document(
     Ok(document)
 }
 
-/// For each reaction that is not unique, what would make it so.
+/// For each reaction that is not unique, the deletions that would make it unique.
 pub(super) fn hints(
     configuration: &ConfigurationAnalysis<'_>,
 ) -> Result<Vec<MakeUniqueDocument>, Failure> {
@@ -94,7 +94,7 @@ pub(super) fn hints(
     };
     let reactions = configuration.analysis.reactions.iter();
     let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
-    // One more than is told, so that it is known that there are more.
+    // One more than is listed, to know whether there are more.
     open.take(HINTS + 1)
         .map(
             |r| match configuration.make_unique(r.id, &Allowed::Sensible, limits) {

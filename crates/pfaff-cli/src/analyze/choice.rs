@@ -1,4 +1,4 @@
-//! Choices and permissions as they are written on the command line.
+//! Choices and permissions in the syntax of the command line.
 
 use std::collections::HashSet;
 
@@ -9,7 +9,7 @@ use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
 use crate::input::{Source, rows_from_zero};
 use crate::output::Failure;
 
-/// What `--allow` permits to be deleted, in a mechanism of so many rows.
+/// Rows that `--allow` permits to be deleted, in a mechanism with this number of rows.
 pub(super) fn allowed(text: &str, rows: usize) -> Result<Allowed, Failure> {
     match (text, text.strip_prefix("rows:")) {
         ("sensible", _) => Ok(Allowed::Sensible),
@@ -72,7 +72,7 @@ fn wrong(text: &str, expected: &str) -> Failure {
     Failure::input(format!("--choose is `{text}`, need {expected}"))
 }
 
-/// `W3=1e-6` (m/N in every direction), or `W3=1e-6/1e-3` with rad/(N·m).
+/// Parses `W3=1e-6` (m/N in every direction), or `W3=1e-6/1e-3` with rad/(N·m).
 fn compliance(
     text: &str,
     term: &str,
@@ -107,7 +107,7 @@ fn compliance(
     })
 }
 
-/// Rows from 0 that exist, each once.
+/// Parses a list of rows, counted from 1, into existing rows from 0, each at most once.
 fn row_list(option: &str, list: &str, rows: usize) -> Result<Vec<usize>, Failure> {
     let numbers: Result<Vec<usize>, _> = list.split(',').map(|x| x.trim().parse()).collect();
     let Ok(numbers) = numbers else {

@@ -1,4 +1,4 @@
-//! The verdicts of more joints and drives than a table has room for: counted by type, and the first
+//! The verdicts if there are too many joints and drives for a table: counts by type, and the first
 //! names.
 
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use pfaff::report::AnalysisDocument;
 
 use crate::output::{columns, wrapped};
 
-/// Names that are listed.
+/// Number of names that are listed.
 const LISTED: usize = 12;
 
 /// Counts by type, and the first names.

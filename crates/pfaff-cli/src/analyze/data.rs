@@ -1,4 +1,4 @@
-//! What the data are known to, and what hangs on that, in sentences.
+//! The tolerances of the data and their consequences, in sentences.
 
 use pfaff::report::AnalysisDocument;
 
@@ -25,7 +25,7 @@ pub(super) fn describe(d: &AnalysisDocument) -> String {
     told.map(|sentence| wrapped("  ", &sentence)).collect()
 }
 
-/// What the scene or the command line states.
+/// The tolerances that the scene or the command line states.
 fn stated(tolerance: Option<f64>, angle: Option<f64>) -> Option<String> {
     match (tolerance, angle) {
         (Some(tolerance), Some(angle)) => Some(format!(
@@ -40,8 +40,9 @@ fn stated(tolerance: Option<f64>, angle: Option<f64>) -> Option<String> {
     }
 }
 
-/// Units of lengths (m), and from which length on they are said: hundredths of a millimetre are
-/// usual, hundredths of a metre are not. A little less, for rounding.
+/// Units of lengths (m), each with the smallest length that is written in it: hundredths of a
+/// millimetre are usual, hundredths of a metre are not. The bounds are a little smaller because of
+/// rounding.
 const UNITS: [(f64, f64, &str); 4] = [
     (1.0, 0.099, "m"),
     (1e-3, 0.99e-5, "mm"),
@@ -49,7 +50,7 @@ const UNITS: [(f64, f64, &str); 4] = [
     (1e-9, 0.99e-10, "nm"),
 ];
 
-/// A length (m) with two digits.
+/// Formats a length (m) with two digits.
 fn length(metres: f64) -> String {
     let two_digits = |x: f64| format!("{x:.1e}").parse().unwrap_or(x);
     let metres: f64 = two_digits(metres);

@@ -1,17 +1,17 @@
-//! What may be deleted, in words.
+//! The rows that may be deleted, in words.
 
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::MakeUniqueDocument;
 
 use crate::output::{count, wrapped};
 
-/// Ways that are listed for a reaction nobody asked about.
+/// Number of sets that are listed for a reaction if no option requested them.
 const WAYS: usize = 1;
 
-/// Reactions for which they are listed.
+/// Number of reactions for which such hints are listed.
 pub(super) const HINTS: usize = 8;
 
-/// The hints, or the answers if somebody asked, and the number of admissible sets.
+/// The hints, or the requested answers if there are any, and the number of admissible sets.
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
     let mut out = String::new();
     let useful = hints.iter().any(|hint| hint.reason.is_none());
@@ -75,7 +75,7 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
     out
 }
 
-/// The first ways in words, and how many more there are.
+/// The first sets in words, and the number of others.
 fn ways(found: &MakeUniqueDocument, most: usize) -> String {
     if let Some(reason) = &found.reason {
         return format!("not known: {reason}");

@@ -1,10 +1,11 @@
-//! Reactions in numbers, by the choices that were asked for.
+//! Reactions in numbers, for the requested choices.
 
 use pfaff::report::documents::{DistributionDocument, ValueDocument, ValuesDocument};
 
 use crate::output::{columns, wrapped};
 
-/// Facts once; what depends on a choice in the column of the choice.
+/// Components that do not depend on a choice are listed once; those that do have one column for
+/// each choice.
 pub(super) fn describe(choices: &[DistributionDocument]) -> String {
     let Some(first) = choices.first() else {
         return String::new();
@@ -47,7 +48,7 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
     }
     let mut components = first.reactions.iter().flat_map(|r| &r.components);
     if components.any(|component| component.nature.is_none()) {
-        // A warning says why that could not be told.
+        // A warning states why the numbers are missing.
         return out;
     }
     let sentence = match suspicious.as_slice() {
@@ -58,7 +59,7 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
     out
 }
 
-/// Six digits, and zero as it is.
+/// Formats a number with six digits, and zero as `0`.
 pub(super) fn number(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),

@@ -1,4 +1,4 @@
-//! The rank and what is behind it, in sentences.
+//! The rank and the facts that it is based on, in sentences.
 
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::PartsDocument;
@@ -6,10 +6,10 @@ use pfaff::solvability::ONE_PART;
 
 use crate::output::{count, wrapped};
 
-/// Rows of a near dependence are named if their weight is above this share of the largest.
+/// A row of a near dependence is named if its weight exceeds this fraction of the largest weight.
 const NAMED: f64 = 0.1;
 
-/// Rank, proof, and whether it is so elsewhere.
+/// Rank, proof, and whether the rank is the same at other configurations.
 pub(super) fn describe(d: &AnalysisDocument) -> String {
     let mut out = ranks(d);
     out.push_str(&wrapped(
@@ -30,7 +30,7 @@ pub(super) fn describe(d: &AnalysisDocument) -> String {
     out
 }
 
-/// The proof of a mechanism whose parts were judged alone.
+/// The proof of a mechanism whose parts were analysed separately.
 fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
     let number = count(parts.number, "part", "parts");
     let largest = count(parts.largest, "row", "rows");
@@ -47,7 +47,7 @@ fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
     lead + &said
 }
 
-/// With the drives, and without them where that is another number.
+/// The ranks with the drives, and without them if these differ.
 fn ranks(d: &AnalysisDocument) -> String {
     let mut out = format!(
         "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, {}\n",
@@ -69,7 +69,7 @@ fn ranks(d: &AnalysisDocument) -> String {
     out
 }
 
-/// What can move, in words.
+/// The possible motions, in words.
 fn motions(d: &AnalysisDocument) -> String {
     let told = d.freedoms.sentences().into_iter();
     told.map(|(lead, text)| wrapped(&format!("  {lead}: "), &text))

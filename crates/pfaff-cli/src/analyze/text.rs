@@ -1,5 +1,4 @@
-//! The document of an analysis in words and columns: what a designer wants to know first comes
-//! first.
+//! The document of an analysis in words and columns, the most important facts for a designer first.
 
 use std::collections::BTreeSet;
 
@@ -12,13 +11,13 @@ use pfaff::report::documents::{
 use super::{along, counts, data, deletions, numbers, rank};
 use crate::output::{columns, count, wrapped};
 
-/// Reasons that are listed.
+/// Number of reasons that are listed.
 const REASONS: usize = 10;
 
-/// Joints and drives of which each has a line.
+/// Largest number of joints and drives for which each has a line.
 const LINES: usize = 250;
 
-/// Warnings that are listed.
+/// Number of warnings that are listed.
 const WARNINGS: usize = 12;
 
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
@@ -54,14 +53,14 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
     out
 }
 
-/// What the definitions of the joints say of their reactions.
+/// The notes on reactions in the definitions of the joints.
 pub(super) fn notes(d: &AnalysisDocument) -> String {
     let each = d.notes.iter();
     each.map(|note| format!("\n{}", wrapped("note: ", &note.text)))
         .collect()
 }
 
-/// What was looked at, and how large it is.
+/// What was analysed, and its size.
 fn heading(d: &AnalysisDocument) -> String {
     format!(
         "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",
@@ -75,7 +74,7 @@ fn heading(d: &AnalysisDocument) -> String {
     )
 }
 
-/// `not_unique` as it is said.
+/// A word of the document in prose, as `not unique` for `not_unique`.
 fn spoken(word: &str) -> String {
     word.replace('_', " ")
 }
@@ -132,7 +131,7 @@ fn line(r: &ReactionDocument) -> Vec<String> {
     ]
 }
 
-/// What fragile reactions hang on.
+/// The data that fragile reactions depend on.
 fn fragile(d: &AnalysisDocument) -> String {
     let sentences = &d.fragile;
     if sentences.is_empty() {
@@ -149,8 +148,8 @@ fn fragile(d: &AnalysisDocument) -> String {
     out
 }
 
-/// What is left of a margin by rounding is no number for people; the document has it. What is
-/// unique within a tolerance only has a margin to look at.
+/// A margin that consists only of rounding is not printed; the document contains it. A reaction
+/// that is unique only within a tolerance has a margin to check.
 fn margin(v: &VerdictDocument) -> String {
     match v.verdict {
         "unique" if !v.within_tolerance => "~0".to_owned(),
@@ -158,7 +157,7 @@ fn margin(v: &VerdictDocument) -> String {
     }
 }
 
-/// What is unique within a tolerance only says so with its margin.
+/// The addition to a verdict that holds only within the tolerance, with its margin.
 fn within(v: &VerdictDocument) -> String {
     if v.within_tolerance {
         format!(" within the tolerance ({:.1e})", v.margin)
@@ -178,7 +177,7 @@ fn each(components: &[ComponentDocument]) -> String {
     words.join(", ")
 }
 
-/// Unique directions between the axes: the components do not show them.
+/// Unique directions that are not parallel to an axis: the components do not show them.
 fn oblique(r: &ReactionDocument) -> String {
     let is_oblique = |d: &&Vec<f64>| d.iter().filter(|x| **x != 0.0).count() > 1;
     let told = r
@@ -212,7 +211,8 @@ fn groups(d: &AnalysisDocument) -> String {
     }
 }
 
-/// What is unique by its number, where that is known, else by its verdict.
+/// The components of a group: a unique one with its number if it is known, the others with their
+/// verdicts.
 fn numbers_of(g: &GroupDocument) -> String {
     let value = |name: &str| g.values.iter().find(|v| v.name == Some(name));
     if let Some(sum) = value("sum") {
@@ -231,7 +231,7 @@ fn numbers_of(g: &GroupDocument) -> String {
     }
 }
 
-/// Only of what is not unique: the rest is unique in every frame.
+/// Only for reactions that are not unique; the others are unique in every frame.
 fn frames(d: &AnalysisDocument) -> String {
     let header = ["reaction", "frame", "first axis", "components"];
     let mut table = vec![header.map(str::to_owned).to_vec()];
@@ -258,7 +258,7 @@ fn why(d: &AnalysisDocument) -> String {
         return String::new();
     }
     let mut out = "\nWhy:\n".to_owned();
-    // One dependency among all that mix says it all.
+    // One dependency that contains all mixing rows replaces the list.
     let of_dependencies: BTreeSet<&Vec<String>> =
         d.dependencies.iter().map(|x| &x.joints).collect();
     let is_told = |m: &&MixingDocument| of_dependencies.contains(&m.reactions);

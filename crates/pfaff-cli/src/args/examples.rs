@@ -1,4 +1,4 @@
-//! Examples at the end of `--help`: what people look for first.
+//! Examples at the end of `--help`.
 
 pub(super) const ANALYZE: &str = "Examples:
   pfaff analyze robot.toml --at-time 1.5           verdicts at 1.5 s of the motion

@@ -1,4 +1,4 @@
-//! What the numbers of a scene are known to, where the command line says so.
+//! Tolerances of the numbers of a scene that the command line states.
 
 use clap::Args;
 use pfaff::model::Tolerance;

@@ -1,5 +1,5 @@
-//! What `pfaff analyze` says beside verdicts: what they hold for, what to ask next, and the numbers
-//! of sums.
+//! Additional texts of `pfaff analyze`: to which configurations verdicts apply, hints for further
+//! commands, and the values of sums.
 
 use serde_json::{Value, json};
 
@@ -17,7 +17,7 @@ fn analysis(name: &str, more: &[&str]) -> Value {
 
 fn words(name: &str, more: &[&str]) -> String {
     let file = example(name);
-    // Without the breaks of lines.
+    // Without line breaks.
     let text = stdout(&pfaff(&[&["analyze", &file], more].concat()));
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -39,11 +39,11 @@ fn a_mechanism_locked_at_second_order_is_warned_of() {
         &words("chebyshev", &[]),
         &[sentence, "this mechanism cannot move: there is no other"],
     );
-    // What moves is not locked.
+    // A mechanism that moves is not locked.
     assert_eq!(analysis("four-bar", &[])["warnings"], json!([]));
 }
 
-/// A door on two hinges has no freedom; a four-bar turns, and so does a crank whose drive moves it.
+/// A door on two hinges has no freedom; a four-bar can move, and a crank is moved by its drive.
 #[test]
 fn what_cannot_move_is_told_so() {
     for (name, cannot_move) in [
@@ -58,7 +58,7 @@ fn what_cannot_move_is_told_so() {
         assert_eq!(d["cannot_move"], cannot_move, "{name}");
         let said = words(name, &[]).contains("this mechanism cannot move: there is no other");
         assert_eq!(said, cannot_move, "{name}");
-        // No words of a search where nothing could be found.
+        // No text about a search if nothing could be found.
         assert!(
             !words(name, &[]).contains("none could be reached"),
             "{name}"
@@ -86,8 +86,8 @@ joint = [
     )
 }
 
-/// Said once for all joints of a type, where the reader may miss a force in another joint, and
-/// nowhere else.
+/// The note appears once for all joints of a type, if the reader may look for a force in another
+/// joint, and not otherwise.
 #[test]
 fn what_a_reaction_leaves_out_is_noted() {
     let held = rack_and_gear(
@@ -112,13 +112,13 @@ fn what_a_reaction_leaves_out_is_noted() {
         &stdout(&with_scene(&["analyze", "-"], &held)),
         &[&format!("note: {}", text(0)), &format!("note: {}", text(1))],
     );
-    // Bodies that nothing else pushes, and scenes without gears.
+    // Bodies without other forces, and scenes without gears.
     assert_eq!(of(&rack_and_gear("")), json!([]));
     assert_eq!(analysis("four-bar", &[])["notes"], json!([]));
 }
 
-/// A number as `motion` is accepted, and said to hold the measure; what is advised instead is
-/// accepted without a word.
+/// A number as `motion` is accepted, with a note that it keeps the measure constant; the syntax
+/// that the note recommends is accepted without a note.
 #[test]
 fn a_constant_motion_is_said_to_hold_the_measure() {
     let scene = |motion: &str| {
@@ -178,8 +178,8 @@ type = "angle"
     }
 }
 
-/// A truck going straight is compared with poses in which it is jackknifed: its edges do not hold
-/// on the way there.
+/// A truck that goes straight is compared with poses in which it is jackknifed: the constraints of
+/// its edges are not enforced between these poses.
 #[test]
 fn a_singular_configuration_says_what_it_was_compared_with() {
     let d = analysis("truck", &[]);
@@ -197,8 +197,8 @@ fn a_singular_configuration_says_what_it_was_compared_with() {
     );
 }
 
-/// Two guides of one carriage: deleting single rows does not help, and deleting a whole guide has
-/// to be allowed.
+/// Two guides of one carriage: deleting single rows does not help, and the deletion of a whole
+/// guide must be allowed.
 #[test]
 fn what_only_whole_joints_make_unique_is_said() {
     let text = words("carriage", &[]);
@@ -212,7 +212,7 @@ fn what_only_whole_joints_make_unique_is_said() {
     contains(&whole, &["delete `front`"]);
 }
 
-/// 12 N·m at the input, 0.01, 0.04 and 0.9 kg·m² at the speeds 1, −½ and ⅙.
+/// 12 N·m at the input; 0.01, 0.04 and 0.9 kg·m² at the relative speeds 1, −½ and ⅙.
 #[test]
 fn sums_have_numbers() {
     let reduced = 0.01 + 2.0 * 0.04 / 4.0 + 0.9 / 36.0;
@@ -244,7 +244,7 @@ fn sums_have_numbers() {
     }
 }
 
-/// A number is only shown where every solution has it, or with a choice.
+/// A number is only shown if it is the same in every solution, or for a chosen solution.
 #[test]
 fn a_sum_that_is_not_unique_has_a_number_by_choice_only() {
     let sum = ["--combine", "out-1.T - out-2.T"];
@@ -255,12 +255,12 @@ fn a_sum_that_is_not_unique_has_a_number_by_choice_only() {
         &[&sum[..], &["--choose", "minimum-norm"]].concat(),
     );
     let chosen = &d["choices"][0]["groups"][1]["components"][0];
-    // Both meshes are alike.
+    // Both meshes are equal.
     assert_eq!(chosen["value"], 0.0);
     assert!(chosen["choice"].is_string());
 }
 
-/// Nothing turns the carriage, so the torques of the smallest reactions are zero, not rounding.
+/// No load turns the carriage, so the torques of the minimum-norm reactions are zero, not rounding.
 #[test]
 fn what_is_zero_is_printed_as_zero() {
     let d = analysis("carriage", &["--choose", "minimum-norm"]);
@@ -276,8 +276,8 @@ fn what_is_zero_is_printed_as_zero() {
     );
 }
 
-/// An edge has no force along itself: that this is unique is no finding, and an instant at which it
-/// comes about is none.
+/// An edge has no force along itself: that this component is unique (zero) is not reported, and an
+/// instant at which it becomes zero is not reported either.
 #[test]
 fn directions_without_any_force_are_no_findings() {
     let d = analysis("car", &["--along"]);
@@ -285,7 +285,7 @@ fn directions_without_any_force_are_no_findings() {
         assert_eq!(reaction["unique_directions"], json!([]), "{reaction:#}");
     }
     assert_eq!(d["along"]["passages"], json!([]));
-    // Perpendicular to the crank there is a force, and it is unique.
+    // Perpendicular to the crank the force is not zero, and it is unique.
     let d = analysis("three-cranks", &[]);
     assert_eq!(
         d["reactions"][0]["unique_directions"][0]
@@ -295,7 +295,7 @@ fn directions_without_any_force_are_no_findings() {
     );
 }
 
-/// Both cells of an inversor are alike at the start: exactly there, not 5 microseconds later.
+/// Both cells of an inversor are aligned at the start: exactly there, not 5 microseconds later.
 #[test]
 fn an_instant_at_the_start_is_the_start() {
     let d = analysis("peaucellier", &["--along"]);
@@ -318,7 +318,7 @@ fn who_does_not_say_how_long_is_told_how() {
     );
 }
 
-/// The scene without what a message says to leave out.
+/// The scene without the entries that a message recommends to omit.
 fn without(scene: &str, message: &str) -> String {
     let (_, advice) = message.split_once("leave out ").expect("an advice");
     let (advice, _) = advice.split_once(", so that ").expect("its end");
@@ -349,8 +349,8 @@ fn without(scene: &str, message: &str) -> String {
     text
 }
 
-/// What is printed works: without what is to be left out, and with the correction that is offered,
-/// each by itself, every command takes the scene.
+/// The advice in messages works: without the entries that it recommends to omit, and with the
+/// proposed correction, each separately, every command accepts the scene.
 #[test]
 fn the_advice_on_velocities_works() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/wrong");

@@ -1,4 +1,4 @@
-//! What `pfaff analyze` answers, in words and as a document: the published mechanism, and cases
+//! The answers of `pfaff analyze`, in words and as a document: the published mechanism, and cases
 //! that can be checked by hand.
 
 use serde_json::{Value, json};
@@ -6,14 +6,14 @@ use serde_json::{Value, json};
 use super::bad_input::PENDULUM;
 use super::{ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// The analysis of the published mechanism, reviewed by eye; `PFAFF_BLESS=1` writes it anew.
+/// The analysis of the published mechanism, checked by reading; `PFAFF_BLESS=1` rewrites it.
 const GOLDEN: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/tests/contract/robot-trolley.txt"
 );
 
-/// A beam of 2 m on hinges, held along itself by both; loaded by its weight and a pull of 6 N along
-/// it.
+/// A beam of 2 m on hinges, both of which hold it along its axis; loaded by its weight and a force
+/// of 6 N along its axis.
 const BEAM: &str = r#"
 scene = { name = "beam", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "beam", mass = 1.0, inertia = 1.0 }]
@@ -24,8 +24,8 @@ joint = [
 force = [{ name = "pull", type = "point-force", body = "beam", at = [0.0, 0.0], force = [6.0, 0.0] }]
 "#;
 
-/// Parallel cranks of 0.5 m on a common coupler, the first one driven from −0.5 rad at 1 rad/s:
-/// flat at t = 0.5 s.
+/// Parallel cranks of 0.5 m on a common coupler, the first one driven from −0.5 rad at 1 rad/s: all
+/// lie in one line at t = 0.5 s.
 fn cranks() -> String {
     let (sin, cos) = (-0.5_f64).sin_cos();
     let mut scene =
@@ -48,7 +48,7 @@ fn cranks() -> String {
     scene
 }
 
-/// A bob on two pivots that are so far apart (m).
+/// A bob on two pivots at this distance (m).
 fn twin(apart: f64) -> String {
     format!(
         "{PENDULUM}[[joint]]\nname = \"twin\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [{apart:e}, 0.0]\n"
@@ -62,7 +62,7 @@ pub(super) fn document(output: &std::process::Output) -> Value {
 
 #[track_caller]
 pub(super) fn contains(text: &str, pieces: &[&str]) {
-    // Lines are wrapped anywhere.
+    // Lines may be wrapped at any blank.
     let flat = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for piece in pieces {
         assert!(flat.contains(piece), "`{piece}` is not in:\n{text}");
@@ -104,7 +104,7 @@ fn the_rank_comes_with_its_proof_and_what_it_was_compared_with() {
     assert_eq!(d["generic"]["redundancy"], 2);
     let points = d["generic"]["points"].as_array().expect("a list");
     assert!(!points.is_empty() && points.iter().all(|p| p["rank"] == 20));
-    // The same proof, whichever rows carry the dependencies.
+    // The proof is the same, whichever rows are chosen as dependent.
     let dropped = document(&pfaff(&["analyze", ROBOT, "--json", "--drop", "6,21"]));
     assert_eq!(dropped["evidence"]["certified"], true);
     assert_eq!(dropped["dropped_rows"], json!([6, 21]));
@@ -133,8 +133,8 @@ fn nearly_redundant_rows_are_judged_although_they_cannot_move() {
         let sigma = d["evidence"]["nearly_redundant"]["sigma"].as_f64();
         assert_eq!(sigma.is_some(), apart > 1e-14, "{d:#}");
     }
-    // Choices go by the proved rank, the comparison of units by that of double precision: said, not
-    // left out.
+    // Choices use the proved rank, the comparison of units uses the rank in double precision: this
+    // is reported, and the choices are not omitted.
     let output = with_scene(&["analyze", "-", "--choose", "minimum-norm"], &twin(1e-9));
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     contains(
@@ -150,7 +150,7 @@ fn nearly_redundant_rows_are_judged_although_they_cannot_move() {
         &stderr(&output),
         &["the rank is undecided, and with it what may be chosen"],
     );
-    // As small as the rounding of the data: both readings.
+    // A distance as small as the rounding of the data: both interpretations are reported.
     let output = with_scene(&["analyze", "-"], &twin(4e-14));
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     contains(
@@ -208,7 +208,7 @@ fn exactly_the_reactions_that_are_not_unique_are_explained() {
                 .as_array()
                 .is_some_and(|list| !list.is_empty());
             assert_eq!(drawn, open, "{time}: {r:#}");
-            // What the structure settles the numbers confirm.
+            // What the structure decides, the numbers confirm.
             assert!(r["settled"].is_null() || r["verdict"] == "unique", "{r:#}");
         }
     }
@@ -331,7 +331,7 @@ fn sums_have_components_and_frames_have_axes() {
         &text,
         &["In other frames:", "Fn not unique, Ft unique, T unique"],
     );
-    // Nobody asked.
+    // Not requested.
     let d = document(&pfaff(&["analyze", ROBOT, "--json"]));
     assert!(d["reactions"][0].get("frames").is_none());
 }
@@ -352,7 +352,8 @@ fn choices_are_labelled_and_facts_are_not() {
         "minimum-norm:length=0.5",
     ];
     let d = document(&with_scene(&all, BEAM));
-    // The ground carries −6 N along the beam; half and half, two to one, all to the left.
+    // The ground carries −6 N along the beam; the parts are one half each, two to one, and all on
+    // the left.
     for (k, left, right) in [(0, 3.0, 3.0), (1, 4.0, 2.0), (2, 6.0, 0.0), (3, 3.0, 3.0)] {
         let choice = &d["choices"][k];
         for (joint, along) in [(0, left), (1, right)] {
@@ -363,12 +364,12 @@ fn choices_are_labelled_and_facts_are_not() {
                 (&x["choice"], &x["nature"]),
                 (&choice["label"], &json!("choice"))
             );
-            // Half the weight, whatever is chosen.
+            // Half the weight, for every choice.
             assert!((y["value"].as_f64().expect("a number").abs() - 5.0).abs() < 1e-12);
             assert_eq!((y.get("choice"), &y["nature"]), (None, &json!("fact")));
         }
     }
-    // What is not listed does not give way, and both texts say so.
+    // A joint that is not listed is rigid, and both texts state this.
     let rigid = ["analyze", "-", "--choose", "compliance:left=1e-6"];
     let label = "elastic supports: `left` 1e-6 m/N; rigid: `right`";
     contains(&stdout(&with_scene(&rigid, BEAM)), &[label]);
@@ -448,7 +449,7 @@ fn a_motion_through_a_bifurcation_is_judged() {
     assert_eq!(passage["continuation"], "bifurcation");
 }
 
-/// The cranks come to rest in the flat pose: nothing says how they leave it.
+/// The cranks come to rest in the flat pose: no velocity determines on which branch they continue.
 #[test]
 fn a_motion_that_stops_at_a_passage_is_judged_beyond_it() {
     let rests = cranks().replace(
@@ -520,7 +521,7 @@ fn wrong_questions_have_clear_answers() {
         assert!(text.contains(piece), "{option} {value}: {text}");
         assert!(output.stdout.is_empty(), "{option} {value}");
     }
-    // Nobody says how long.
+    // No duration is given.
     let output = with_scene(&["analyze", "-", "--along"], BEAM);
     assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
@@ -563,7 +564,8 @@ fn help_shows_examples() {
     );
 }
 
-/// Two edges that are parallel but for ε: independent as read, and said to be so only just.
+/// Two edges that are parallel except for ε: independent for the given numbers, and reported as
+/// nearly dependent.
 #[test]
 fn nearly_parallel_edges_are_told() {
     for (apart, said) in [

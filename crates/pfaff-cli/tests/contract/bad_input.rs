@@ -1,9 +1,9 @@
-//! Every wrong input gets one clear message that names the thing and the numbers, and the right
-//! exit code.
+//! Every wrong input gives one clear message that names the wrong entry and its numbers, and the
+//! correct exit code.
 
 use super::{Folder, ROBOT, pfaff, stderr, with_scene};
 
-/// A pendulum; cases change one thing.
+/// A pendulum; each case changes one entry.
 pub(super) const PENDULUM: &str = r#"
 [scene]
 name = "pendulum"
@@ -26,7 +26,7 @@ at = [0.0, 0.0]
 t_end = 1.0
 "#;
 
-/// Checks a changed pendulum: exit code and pieces of the message.
+/// Checks a changed pendulum: exit code and parts of the message.
 fn check(change: impl FnOnce(&str) -> String, code: i32, pieces: &[&str]) {
     let scene = change(PENDULUM);
     assert_ne!(scene, PENDULUM, "the case changes nothing");
@@ -124,7 +124,7 @@ fn a_direction_without_length() {
 
 #[test]
 fn constraints_that_cannot_be_assembled() {
-    // A rigid bob cannot hang on two pivots whose distance is not its own.
+    // A rigid bob cannot hang on two pivots whose distance differs from that of its points.
     let second = "[[joint]]\nname = \"other\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\npoints = { ground = [5.0, 0.0], bob = [0.0, 0.0] }\n";
     check(
         added(second),
@@ -219,7 +219,7 @@ type = \"angle\"
 motion = { type = \"constant-rate\", rate = 2.0 }
 ";
     check(added(drives), 2, &["slow", "fast", "differ by", "t = 0"]);
-    // Marked where the drives stand, not at the run.
+    // The mark is at the drives, not at `[run]`.
     check(added(drives), 2, &["<stdin>:23:8", "contradicts too"]);
 }
 
@@ -433,12 +433,12 @@ fn negative_numbers_of_the_command_line_are_values() {
     );
 }
 
-/// The pendulum with velocities that its pivot does not allow: the same rule as for positions.
-/// Those that are given hold, the others follow.
+/// The pendulum with velocities that its pivot does not allow: the same rule as for positions. The
+/// given velocities are kept, the others are computed.
 #[test]
 fn velocities_that_contradict_the_constraints_are_refused_by_name() {
     let given = |velocities: &'static str| replaced("position = [1.0, 0.0]", velocities);
-    // The nearest velocity in the mass metric: 1 rad/s about the centre is I/(I + m·l²) = 1/11
+    // The nearest velocity in the mass metric: 1 rad/s about the centre gives I/(I + m·l²) = 1/11
     // rad/s about the pivot.
     check(
         given("position = [1.0, 0.0]\nvelocity = [0.0, 0.0]\nangular_velocity = 1.0"),
@@ -451,7 +451,7 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
             "not with these constraints",
         ],
     );
-    // Consistent to less than a thousandth, or given in part.
+    // Consistent to less than a thousandth, or given only in part.
     for velocities in [
         "position = [1.0, 0.0]\nangular_velocity = 1.0",
         "position = [1.0, 0.0]\nvelocity = [0.0, 1.0]",
@@ -463,7 +463,7 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
         let output = with_scene(&["check", "-"], &scene);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     }
-    // A zero that is written is given.
+    // A zero that is written in the scene counts as given.
     let motor = "[[drive]]\nname = \"motor\"\njoint = \"pivot\"\ntype = \"angle\"\nmotion = { type = \"constant-rate\", rate = 1.0 }\n";
     check(
         |scene| {

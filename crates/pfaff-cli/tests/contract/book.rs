@@ -1,11 +1,12 @@
-//! The book shows what the command does: every `console` block of `docs/book` is run and compared
-//! line by line, every `toml` block is read. Blocks of Rust are doc tests of the package `tests`.
+//! The book shows the actual behaviour of the command: every `console` block of `docs/book` is run
+//! and compared line by line, every `toml` block is read. Blocks of Rust are doc tests of the
+//! package `tests`.
 //!
 //! - A `toml` block that begins with `# NAME.toml` is a scene; `toml,wrong` marks one that
 //!   `pfaff check` refuses. A block `toml,fragment,NAME.toml` is added to that scene.
-//! - A `console` block has lines `$ COMMAND` with the output below. A line `…` stands for any
-//!   lines. Commands run one after the other, each chapter in a folder of its own that has all
-//!   scenes of the book and the robot. There are `pfaff` (also after `|`), the laboratory
+//! - A `console` block has lines `$ COMMAND` with the output below. A line `…` represents any
+//!   lines. Commands are run in sequence, each chapter in its own folder, which contains all scenes
+//!   of the book and the robot. Available are `pfaff` (also after `|`), the laboratory
 //!   (`cargo run -q --release -p lab --`), `ls` and `head -n`.
 
 use std::fs;
@@ -18,12 +19,12 @@ use super::{Folder, ROBOT, stderr, stdout, with_scene};
 
 const BOOK: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book");
 
-/// What stands for lines that are left out.
+/// Represents omitted lines.
 const LEFT_OUT: &str = "…";
 
 struct Block {
     chapter: String,
-    /// Line of its first fence, from 1.
+    /// Line of its opening fence, from 1.
     line: usize,
     info: Vec<String>,
     text: String,
@@ -34,7 +35,7 @@ impl Block {
         self.info.iter().any(|w| w == word)
     }
 
-    /// The file that it is, if its first line says so.
+    /// The name of the file that the block contains, if its first line states it.
     fn file(&self) -> Option<&str> {
         let name = self.text.lines().next()?.strip_prefix("# ")?;
         name.ends_with(".toml").then_some(name)
@@ -149,8 +150,8 @@ fn with_all_scenes(blocks: &[Block], chapter: &Block) -> Folder {
     folder
 }
 
-/// What a command of a block writes, errors after the rest. One that is refused says so in its
-/// output.
+/// The output of a command of a block, errors after the rest. The output of a refused command ends
+/// with the reason.
 fn run(command: &str, folder: &Path) -> String {
     let words = words(command);
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
@@ -197,7 +198,7 @@ fn run(command: &str, folder: &Path) -> String {
     }
 }
 
-/// What a command of the laboratory answers whose `--out` lies in a folder.
+/// The output of a command of the laboratory whose `--out` is in a folder.
 fn lab_in(folder: &Path, arguments: &[&str]) -> String {
     let mut words = vec!["lab".to_owned()];
     for (k, word) in arguments.iter().enumerate() {

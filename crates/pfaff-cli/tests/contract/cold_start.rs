@@ -1,11 +1,13 @@
-//! Commands are quick from a cold start, process included. Bounds are five times what is promised
-//! for an idle machine, so that only growth is noticed; `cargo xtask cold-start` tells the times.
+//! Commands are quick from a cold start, including the start of the process. The bounds are five
+//! times the times promised for an idle machine, so that only considerable growth is noticed;
+//! `cargo xtask cold-start` prints the times.
 
 use std::time::{Duration, Instant};
 
 use super::{Folder, ROBOT, pfaff};
 
-/// Runs of a command, of which the fastest counts: neighbours only slow down.
+/// Number of runs of a command, of which the fastest counts, because other processes can only slow
+/// it down.
 const RUNS: usize = 11;
 
 fn fastest(arguments: &[&str]) -> Duration {

@@ -1,9 +1,9 @@
-//! Console blocks in pages: what a page shows of the command is what the command prints.
+//! Console blocks in pages: the output shown in a page is the output of the command.
 //!
 //! A block is fenced as `console`. A line that begins with `$ pfaff ` is run, in a folder with the
-//! scenes of the pages in the places where they are in the repository; the lines up to the next
-//! `$ ` are what it prints, errors last. A line `…` stands for any number of lines, also none.
-//! Other commands (`$ cargo …`) are not run.
+//! scenes of the pages at their places in the repository; the lines up to the next `$ ` are its
+//! output, errors last. A line `…` represents any number of lines, possibly none. Other commands
+//! (`$ cargo …`) are not run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use super::{Folder, stderr, stdout};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
-/// Stands for lines that a page leaves out.
+/// Represents lines that a page omits.
 const OMISSION: &str = "…";
 
 /// A command of a page and the lines that it shows.
@@ -72,8 +72,8 @@ fn words(command: &str) -> Vec<String> {
     words
 }
 
-/// Whether lines are those of a pattern with omissions; otherwise the first stretch of it that is
-/// nowhere.
+/// Whether lines match a pattern with omissions; otherwise the first part of the pattern that does
+/// not occur.
 fn matches<'a>(pattern: &[&'a str], lines: &[&str]) -> Result<(), Vec<&'a str>> {
     let stretches: Vec<&[&str]> = pattern.split(|line| *line == OMISSION).collect();
     let mut rest = lines;
@@ -93,7 +93,7 @@ fn matches<'a>(pattern: &[&'a str], lines: &[&str]) -> Result<(), Vec<&'a str>> 
     Ok(())
 }
 
-/// A folder with the scenes that pages speak of.
+/// A folder with the scenes that the pages use.
 fn scenes(name: &str) -> Folder {
     let folder = Folder::new(name);
     for place in ["examples", "crates/robot-trolley"] {
@@ -111,7 +111,7 @@ fn scenes(name: &str) -> Folder {
     folder
 }
 
-/// Runs every `$ pfaff` of a page and compares; how many there were.
+/// Runs every `$ pfaff` of a page and compares the output; returns the number of commands.
 fn check(page: &Path, folder: &Folder) -> usize {
     let text = fs::read_to_string(page).unwrap_or_else(|e| panic!("{}: {e}", page.display()));
     let mut count = 0;
@@ -142,7 +142,7 @@ fn check(page: &Path, folder: &Folder) -> usize {
     count
 }
 
-/// All pages directly in a folder of the repository, every one with a command at least.
+/// Checks all pages directly in a folder of the repository; each must contain at least one command.
 fn check_pages(place: &str) {
     let folder = scenes(&format!("pages of {}", place.replace('/', " ")));
     let entries = fs::read_dir(Path::new(ROOT).join(place)).expect("readable");
@@ -163,7 +163,7 @@ fn the_gallery_shows_what_the_command_prints() {
     check_pages("examples");
 }
 
-/// What some examples are made to show, as their warnings begin.
+/// The beginnings of warnings that some examples demonstrate.
 const WARNED: [(&str, &str); 2] = [
     (
         "chebyshev.toml",
@@ -175,8 +175,8 @@ const WARNED: [(&str, &str); 2] = [
     ),
 ];
 
-/// Every example is read without a word on standard error, and analysed without a warning that is
-/// not meant.
+/// Every example is read without output on standard error, and analysed without warnings except the
+/// intended ones.
 #[test]
 fn the_gallery_is_read_in_silence() {
     let folder = scenes("the gallery in silence");

@@ -1,4 +1,4 @@
-//! `pfaff diff`: what changes where a joint is relaxed.
+//! `pfaff diff`: the changes if a joint is relaxed.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 const DOOR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/door.toml");
 const SLEIGH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/sleigh.toml");
 
-/// A scene with other words in it.
+/// A scene with some text replaced.
 fn changed(folder: &Folder, of: &str, from: &str, to: &str) -> String {
     fs::create_dir_all(&folder.0).expect("writable");
     let text = fs::read_to_string(of).expect("readable");
@@ -57,7 +57,7 @@ fn a_relaxed_hinge_is_told_in_words_and_numbers() {
     assert_eq!(d["changed"][1]["b"]["type"], "pin-in-slot");
     assert_eq!(d["dependencies_gone"].as_array().map(Vec::len), Some(1));
     assert_eq!(d["dependencies_new"].as_array().map(Vec::len), Some(0));
-    // A door that stands in its frame stands there with a roller, too.
+    // A door that cannot move with two hinges cannot move with a roller either.
     assert!(
         d["motion"]["bodies"][0]["distance"]
             .as_f64()

@@ -147,7 +147,7 @@ fn simulate_writes_the_files_of_the_contract() {
     );
 }
 
-/// The choice behind the reactions that the model leaves open is named.
+/// The run names the choice of the reactions that the model does not determine.
 #[test]
 fn the_run_names_its_choice() {
     let folder = Folder::new("choice");
@@ -164,7 +164,7 @@ fn the_run_names_its_choice() {
     assert!(choice.get("deleted_rows").is_some(), "{choice}");
 }
 
-/// What is not projected is written with what it misses.
+/// Without projection, the remaining errors of the constraints are written.
 #[test]
 fn stabilisations_tell_their_drift() {
     let mut missed = Vec::new();

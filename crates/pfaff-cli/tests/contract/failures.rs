@@ -1,5 +1,5 @@
-//! What fails says so in one JSON document where one was asked for, with the same exit code as in
-//! words.
+//! Failures are reported in one JSON document if one was requested, with the same exit code as
+//! without it.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use super::analyze::{contains, document};
 use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// The document of a failure; nothing else may be said.
+/// The document of a failure; there may be no other output.
 #[track_caller]
 fn failure(output: &std::process::Output, code: i32) -> Value {
     assert_eq!(output.status.code(), Some(code), "{output:?}");
@@ -87,7 +87,7 @@ fn a_run_that_stops_has_code_1() {
 
 #[test]
 fn what_can_be_judged_but_not_moved_is_checked_analysed_and_not_simulated() {
-    // Two pivots nearly at one place: one constraint too many, or a bar that cannot turn.
+    // Two pivots nearly at one point: one constraint too many, or a bar that cannot turn.
     for distance in ["1e-9", "1e-12"] {
         let twin = format!(
             "[[joint]]\nname = \"twin\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [{distance}, 0.0]\n"
@@ -100,7 +100,7 @@ fn what_can_be_judged_but_not_moved_is_checked_analysed_and_not_simulated() {
         contains(&words, &["assembled", &format!("warning: {warning}")]);
         let d = document(&with_scene(&["analyze", "-", "--json"], &scene));
         assert_eq!(d["warnings"][0], warning, "{d:#}");
-        // Why, in words of the scene.
+        // The reason, in terms of the scene.
         let folder = Folder::new("twin-pivots");
         let out = folder.0.to_str().expect("UTF-8");
         let output = with_scene(&["simulate", "-", "--out", out], &scene);

@@ -1,6 +1,6 @@
-//! Faults of the surroundings: nobody listens, the disk is full, a directory takes nothing,
-//! somebody asks to stop. What was computed is kept and can be read, what looks whole is whole, and
-//! older results stay until newer ones are.
+//! Faults of the environment: closed output, full disk, read-only directory, request to stop.
+//! Computed results are kept and readable, files that look complete are complete, and older results
+//! are kept until newer ones are complete.
 
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader};
@@ -14,7 +14,7 @@ use serde_json::Value;
 use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stderr, stdout};
 
-/// How long a test waits for what must happen.
+/// How long a test waits for an event that must occur.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A directory with the scene of a pendulum in it, which runs up to `t_end`.
@@ -31,7 +31,7 @@ fn place(name: &str, t_end: &str) -> (Folder, String) {
     (folder, scene)
 }
 
-/// Every command that prints, with what it needs.
+/// Every command that prints, with its arguments.
 fn commands<'a>(scene: &'a str, out: &'a str) -> Vec<Vec<&'a str>> {
     vec![
         vec!["--help"],
@@ -68,7 +68,7 @@ fn begun(arguments: &[&str], output: Stdio) -> Child {
     command.spawn().expect("the command starts")
 }
 
-/// Waits for something, and says what when it does not come.
+/// Waits for a condition; the panic message names it.
 #[track_caller]
 fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
     let begin = Instant::now();
@@ -85,8 +85,8 @@ fn send(signal: &str, child: &Child) {
     assert!(sent.is_ok_and(|status| status.success()));
 }
 
-/// A table whose rows all have as many numbers as its header has names: how many, and the first
-/// number of the last.
+/// A table in which every row has as many numbers as the header has names: the number of rows and
+/// the first number of the last row.
 fn rows(path: &Path) -> (usize, f64) {
     let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     assert!(
@@ -141,7 +141,7 @@ fn nobody_has_to_listen_to_the_end() {
         .expect("a line");
     assert!(line.starts_with("pendulum"), "{line}");
     assert_eq!(child.wait().expect("it ends").code(), Some(0));
-    // What is wrong stays wrong.
+    // A wrong input is still reported as wrong.
     let mut child = begun(&["check", "no-such-file.toml", "--json"], Stdio::piped());
     drop(child.stdout.take());
     assert_eq!(child.wait().expect("it ends").code(), Some(2));
@@ -176,10 +176,10 @@ fn a_full_disk_leaves_older_results_alone() {
     assert_eq!(pfaff(&simulate).status.code(), Some(0));
     let before = contents(&out);
     assert_eq!(before.len(), 4);
-    // Full at each of its files, when the first bytes go there.
+    // Each of its files meets the full disk when the first bytes are written.
     for name in ["trajectory.csv", "reactions.csv"] {
         let part = out.0.join(format!("{name}.part"));
-        // The other table of the run before.
+        // The other table of the previous run.
         let _ = fs::remove_file(&part);
         symlink("/dev/full", &part).expect("links");
         let output = pfaff(&simulate);
@@ -196,7 +196,7 @@ fn a_full_disk_leaves_older_results_alone() {
             .collect();
         assert_eq!(whole, before, "after {name}");
     }
-    // What an earlier run left lying is no obstacle.
+    // Files that an earlier run left are no obstacle.
     fs::write(out.0.join("trajectory.csv.part"), "half a li").expect("writable");
     assert_eq!(pfaff(&simulate).status.code(), Some(0));
     let names: Vec<_> = contents(&out).into_iter().map(|(name, _)| name).collect();
@@ -213,8 +213,8 @@ fn a_full_disk_leaves_older_results_alone() {
 fn a_disk_that_fills_up_leaves_whole_rows() {
     let (folder, scene) = place("faults-filling", "10.0");
     let out = Folder(folder.0.join("out"));
-    // At most 8 blocks of 512 or 1024 bytes for each file; a signal that nobody waits for would end
-    // the program instead.
+    // At most 8 blocks of 512 or 1024 bytes for each file; without the trap the signal would end
+    // the program.
     let script = "trap '' XFSZ; ulimit -f 8; exec \"$0\" \"$@\"";
     let output = Command::new("sh")
         .args([
@@ -231,7 +231,7 @@ fn a_disk_that_fills_up_leaves_whole_rows() {
     let text = stderr(&output);
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(text.contains(".csv.part`: File too large"), "{text}");
-    // Nothing looks whole, and what there is can be read.
+    // No file looks complete, and the existing files are readable.
     let names: Vec<_> = contents(&out).into_iter().map(|(name, _)| name).collect();
     assert_eq!(names, ["reactions.csv.part", "trajectory.csv.part"]);
     let (count, t) = rows(&out.0.join("trajectory.csv.part"));
@@ -272,7 +272,7 @@ fn places_that_take_no_files_are_named() {
     let file = folder.0.join("file");
     fs::write(&file, "here first").expect("writable");
     let inside = file.join("deeper");
-    // Nobody, not even root, makes files in /proc.
+    // No user, not even root, can create files in /proc.
     for out in [
         file.to_str(),
         inside.to_str(),
@@ -354,8 +354,8 @@ fn a_second_request_ends_the_program_at_once() {
     let (folder, scene) = place("faults-second", "50000.0");
     let out = Folder(folder.0.join("out"));
     fs::create_dir_all(&out.0).expect("writable");
-    // Nobody reads from this pipe: once it is full, the run waits for ever and cannot see that
-    // somebody asked.
+    // Nobody reads from this pipe: once it is full, the run blocks for ever and cannot notice the
+    // request to stop.
     let part = out.0.join("trajectory.csv.part");
     assert!(
         Command::new("mkfifo")
@@ -384,11 +384,11 @@ fn a_second_request_ends_the_program_at_once() {
 
 #[test]
 fn what_has_nothing_to_keep_ends_at_once() {
-    // A motion of days, judged along its way.
+    // A motion of several days, with verdicts along it.
     let (_folder, scene) = place("faults-along", "50000.0");
     let mut child = begun(&["analyze", &scene, "--along"], Stdio::piped());
     let state = format!("/proc/{}/status", child.id());
-    // Bit 1 of the caught signals is SIGINT.
+    // Bit 1 of the mask of caught signals is SIGINT.
     wait_until("it listens", || {
         let text = fs::read_to_string(&state).unwrap_or_default();
         let mask = text.lines().find_map(|line| line.strip_prefix("SigCgt:"));
@@ -418,7 +418,7 @@ fn a_killed_run_leaves_nothing_that_looks_whole() {
         .filter(|(name, _)| !name.ends_with(".part"))
         .collect();
     assert_eq!(names, before);
-    // The same again replaces what was left.
+    // The same command again replaces the remaining files.
     assert_eq!(pfaff(&short).status.code(), Some(0));
     assert!(
         contents(&out)

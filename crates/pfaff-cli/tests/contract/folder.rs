@@ -1,4 +1,4 @@
-//! What tests of programs share: a directory of their own and what a program said.
+//! Helpers for tests of programs: a directory for each test, and the output of a program.
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

@@ -1,5 +1,5 @@
-//! Unique reactions that are made of the last digits of a drawing: every output says so, and none
-//! says so of ordinary scenes.
+//! Unique reactions that depend on the last digits of the data: every output reports them, and none
+//! reports them for ordinary scenes.
 
 use lab::generate::Kind;
 use std::fs;
@@ -10,8 +10,8 @@ use super::{Folder, ROBOT, pfaff, stderr, stdout};
 
 const NAMES: [&str; 6] = ["O1", "P1", "O2", "P2", "O3", "P3"];
 
-/// A coupler on three parallel cranks of half a metre, 6 kg in all; the pin of the third on the
-/// ground is off by this much, and the crank has its hole there.
+/// A coupler on three parallel cranks of half a metre, 6 kg in all; the pin of the third crank on
+/// the ground is displaced by this much, and so is the hole of the crank there.
 fn three_cranks(folder: &Folder, name: &str, off: f64) -> String {
     let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
     let mut bodies = String::new();
@@ -47,7 +47,7 @@ simulate = {{ t_end = 0.01 }}
     path.to_str().expect("UTF-8").to_owned()
 }
 
-/// What a command says that has to end well.
+/// The output of a command that must succeed.
 fn said(arguments: &[&str]) -> String {
     let output = pfaff(arguments);
     assert_eq!((output.status.code(), &*stderr(&output)), (Some(0), ""));
@@ -58,7 +58,7 @@ fn document(arguments: &[&str]) -> Value {
     serde_json::from_str(&said(arguments)).expect("one JSON document")
 }
 
-/// In one line, as lines are wrapped anywhere.
+/// In one line, because lines may be wrapped at any blank.
 fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -90,7 +90,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
         assert!(r["sensitivity"].as_f64().is_some_and(|x| x > 0.1), "{r:#}");
     }
     let from = d["data"]["lower_rank_from"].as_f64().expect("near");
-    // An eighth of the misfit, as eight points share it.
+    // An eighth of the misfit, because eight points share it.
     assert!((from / 5e-5 - 1.0).abs() < 0.05, "{from}");
     assert!(d["evidence"]["nearly_redundant"]["change_per_micrometre"].is_number());
 
@@ -168,7 +168,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
     assert_eq!(counts, [Some("6"), Some("6")]);
 }
 
-/// The verdicts are the same, and only one of them hangs on the data.
+/// The verdicts are equal, and only one of them depends on the last digits of the data.
 #[test]
 fn a_difference_in_nothing_else_is_told() {
     let folder = Folder::new("fragile-diff");
@@ -203,7 +203,7 @@ fn with_the_pin_where_it_belongs_nothing_is_fragile() {
     }
 }
 
-/// A warning that appears in every scene would say nothing.
+/// A warning that appears in every scene would be useless.
 #[test]
 fn ordinary_scenes_have_no_fragile_reaction() {
     let folder = Folder::new("fragile-ordinary");
@@ -239,8 +239,8 @@ joint = [
     }
 }
 
-/// Every robot of a fleet says of itself what the one robot says, whether springs couple them or
-/// nothing does.
+/// Every robot of a fleet has the same report as a single robot, with and without springs between
+/// them.
 #[test]
 fn robots_of_a_fleet_are_as_fragile_as_one() {
     let folder = Folder::new("fragile-fleet");

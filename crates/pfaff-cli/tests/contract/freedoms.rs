@@ -1,5 +1,5 @@
-//! Mobility with the drives and without them, free motions, and drives that contradict each other:
-//! in every output.
+//! Mobility with and without the drives, free motions, and drives that contradict each other, in
+//! every output.
 
 use serde_json::{Value, json};
 
@@ -46,7 +46,7 @@ fn document(arguments: &[&str], scene: &str) -> Value {
     serde_json::from_slice(&output.stdout).expect("one JSON document")
 }
 
-/// `[vx, vy, omega]` of the crank that turns about its pin.
+/// `[vx, vy, omega]` of the crank that rotates about its pin.
 fn turns() -> Value {
     json!([{ "text": "`crank` turns about `pin`", "velocities": [{ "crank": [0.0, 0.5, 1.0] }] }])
 }
@@ -103,7 +103,7 @@ fn documents_have_both() {
     }
 }
 
-/// Nothing is said twice where there is no drive.
+/// Without drives there is no duplicate text.
 #[test]
 fn words_have_both_where_they_differ() {
     let said = |arguments: &[&str], scene: &str| stdout(&with_scene(arguments, scene));
@@ -132,7 +132,7 @@ fn words_have_both_where_they_differ() {
     contains(&robot, &["mobility 1 with its drive, 2 without"]);
 }
 
-/// Hinges that lock a leaf: nothing moves, whatever is driven.
+/// Hinges that lock a leaf: it cannot move, whichever drive is added.
 #[test]
 fn what_cannot_move_is_said_to() {
     let locked = crank(true).replace(
@@ -148,7 +148,7 @@ fn what_cannot_move_is_said_to() {
         &stdout(&with_scene(&["analyze", "-"], &still)),
         &["this mechanism cannot move, with its drive or without: there is no other configuration"],
     );
-    // The motor asks for what the hinges forbid.
+    // The motor prescribes a motion that the hinges prevent.
     let output = with_scene(&["check", "-"], &locked);
     assert_eq!(output.status.code(), Some(2));
     contains(
@@ -161,8 +161,8 @@ fn what_cannot_move_is_said_to() {
     );
 }
 
-/// One motor is to turn by 1 rad, the other by 1.1, from 0.5 s on: `check` refuses, `analyze`
-/// warns, the run stops; all name both.
+/// From 0.5 s on, one motor prescribes 1 rad, the other 1.1 rad: `check` refuses the scene,
+/// `analyze` warns, the run stops; all name both motors.
 #[test]
 fn drives_that_part_later_are_named_by_every_command() {
     let scene = contradiction_at_half_a_second();

@@ -1,5 +1,5 @@
-//! What the library says of a scene is what the command writes: one format, key by key and number
-//! by number.
+//! The results of the library equal the files of the command: one format, key by key and number by
+//! number.
 
 use std::ops::ControlFlow;
 
@@ -49,7 +49,7 @@ fn a_journey_is_the_one_of_the_command() {
     assert_eq!(written(&document), stdout(&output));
 }
 
-/// Flat cranks: the redundancy is larger here than elsewhere, and the document warns.
+/// Flat cranks: the redundancy is larger here than at other configurations, and the document warns.
 #[test]
 fn warnings_of_a_singular_configuration_are_those_of_the_command() {
     let flat = flat_cranks(&[0.0, 1.0]);
@@ -82,7 +82,7 @@ fn the_summary_of_a_run_is_the_one_of_the_command() {
     let directory = OutputDirectory::create(folder.0.join("again")).expect("a folder");
     let run = study.simulate_into(&directory, |_| ControlFlow::Continue(()));
     assert_eq!(timeless(&written(&run.expect("a run"))), of_command);
-    // The same as plain data, rows and all, without a folder.
+    // The same as plain data, including the rows, without a folder.
     let motion = study.motion(study.options.as_ref().expect("a run"));
     let motion = serde_json::to_value(motion.expect("a run")).expect("plain data");
     let keys = |value: &Value| -> Vec<String> {

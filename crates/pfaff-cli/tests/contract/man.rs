@@ -1,4 +1,4 @@
-//! `pfaff man`, `pfaff completions` and the help: every command is in them.
+//! `pfaff man`, `pfaff completions` and the help contain every command.
 
 use super::{pfaff, stderr, stdout};
 
@@ -49,7 +49,7 @@ fn pages_are_for_man() {
         assert_eq!(page.status.code(), Some(0), "{}", stderr(&page));
         let page = stdout(&page);
         assert!(page.contains(&format!(".TH pfaff-{command} 1")), "{page}");
-        // Lines stay lines, and points at their beginning are no commands.
+        // Lines are not joined, and points at their beginning are not commands.
         assert!(page.contains("\n.nf\n"), "{page}");
         assert!(
             page.contains(&format!("\n  pfaff {}", command.replace('-', "\\-"))),

@@ -1,4 +1,4 @@
-//! `pfaff new`: templates are the examples, and no file is lost.
+//! `pfaff new`: the templates are the examples, and no existing file is overwritten.
 
 use std::fs;
 use std::path::Path;

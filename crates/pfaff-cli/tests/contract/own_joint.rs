@@ -1,5 +1,5 @@
-//! The whole command for a joint that is not shipped: a program of a user's own calls
-//! `pfaff_cli::run` with its registry.
+//! The whole command with a joint that is not built in: a user's program calls `pfaff_cli::run`
+//! with its registry.
 
 use std::fs;
 use std::process::ExitCode;
@@ -26,8 +26,8 @@ pfaff::joint! { plane BeadOnWire(i, j) {
     place: point(j, s_j);
 } }
 
-/// At x = 1 the slope is 1, so that half of gravity accelerates along each axis: the wire pushes
-/// with m·(a − g) = 2·(−5, 5) N.
+/// At x = 1 the slope is 1, so that half of gravity accelerates along each axis: the wire exerts
+/// m·(a − g) = 2·(−5, 5) N.
 const BEAD: &str = r#"
 scene = { name = "bead", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "bead", mass = 2.0, inertia = 1.0, position = [1.0, 0.5] }]
@@ -88,7 +88,7 @@ fn a_joint_of_ones_own_has_every_command() {
     let at = |name: &str| header.iter().position(|h| h == name).expect("a column");
     let first = rows.records().next().expect("a row").expect("read");
     let number = |name: &str| -> f64 { first[at(name)].parse().expect("a number") };
-    // On the first body, the ground: the opposite of what pushes the bead.
+    // On the first body, the ground: the opposite of the force on the bead.
     assert!((number("wire.Fx") - 10.0).abs() < 1e-9 && (number("wire.Fy") + 10.0).abs() < 1e-9);
 
     assert!(answer(&["schema"]).contains("bead-on-wire"));

@@ -1,4 +1,4 @@
-//! `pfaff plan`, and what runs obey of it.
+//! `pfaff plan`, and that runs follow the plan.
 
 use serde_json::Value;
 
@@ -9,7 +9,7 @@ fn json(text: &str) -> Value {
     serde_json::from_str(text).expect("one JSON document and nothing else")
 }
 
-/// The decision about something, of a component where there are several.
+/// The decision on a subject, of one component if there are several.
 fn decision<'d>(document: &'d Value, what: &str, component: Option<&str>) -> &'d Value {
     let decisions = document["decisions"].as_array().expect("a list");
     let mut found = decisions.iter().filter(|d| {
@@ -81,7 +81,7 @@ fn flags_change_the_plan_as_they_change_the_run() {
         decision(&radau, "linear_systems", None)["taken"],
         "on independent coordinates"
     );
-    // What no run does has no plan.
+    // Options that no run has cannot be planned.
     for wrong in [
         &["--method", "radau5", "--stabilisation", "none"][..],
         &["--drop", "1,2"],

@@ -1,4 +1,4 @@
-//! `report.html` of a run: one file, whole, harmless, small, and the same for the same input.
+//! `report.html` of a run: one file, complete, safe, small, and the same for the same input.
 
 use lab::generate::Kind;
 use serde_json::Value;
@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// Bytes that the page of the published mechanism may have; the contract allows 3 MB.
+/// Largest size of the page of the published mechanism (bytes); the specification allows 3 MB.
 const ROBOT_MOST: usize = 600_000;
 
 /// Runs a scene into a folder.
@@ -17,7 +17,7 @@ fn page(folder: &Folder, scene: &str) -> String {
     folder.read("report.html")
 }
 
-/// The document that scripts read.
+/// The document that scripts can read.
 #[track_caller]
 fn data(page: &str) -> Value {
     let begin = "<script id=\"data\" type=\"application/json\">";
@@ -26,7 +26,7 @@ fn data(page: &str) -> Value {
     serde_json::from_str(text).expect("the data are JSON")
 }
 
-/// Without the one number that no run has twice.
+/// Without the run time, the only number that differs between runs.
 fn without_time(page: &str) -> String {
     let (before, after) = page
         .split_once("<dt>Time of the integration</dt>")
@@ -104,7 +104,7 @@ fn reactions_that_are_not_unique_come_with_several_choices() {
     );
     assert!(labels[1].starts_with("least norm"), "{labels:?}");
     assert!(labels[2].starts_with("no reaction in rows"), "{labels:?}");
-    // Fx of B is determined at the start, where it lies along the platform, and no more once the
+    // Fx of B is determined at the start, where B is on the axis of the platform, but not after the
     // platform has turned.
     let (place, b) = joint(&data, "B");
     let at = compared.iter().position(|k| *k == place as u64);
@@ -112,8 +112,8 @@ fn reactions_that_are_not_unique_come_with_several_choices() {
     assert_eq!(b["components"][0]["verdict"], "unique");
     let free = &comparison["freedom"][at]["components"];
     assert_eq!(*free, serde_json::json!([true, true, false]));
-    // An edge pushes along its normal only, which goes with its body: the other direction stays
-    // determined.
+    // An edge has a force along its normal only, which turns with its body: the other direction
+    // remains determined.
     let edge = joint(&data, "W1").0 as u64;
     let edge = compared.iter().position(|k| *k == edge);
     let edge = edge.expect("W1 is compared");
@@ -139,7 +139,7 @@ fn names_are_text_wherever_they_stand() {
         .replace("name = \"pendulum\"", "name = \"]]><!-- & \\\"'\"");
     let folder = Folder::new("report-names");
     let page = page(&folder, &scene);
-    // The ends of the two scripts are those of the page.
+    // The closing tags of the two scripts are those of the page.
     assert_eq!(page.matches("</script>").count(), 2);
     assert!(
         !page.contains("<script>alert") && !page.contains("<img src=x") && !page.contains("<!-- &")
@@ -147,7 +147,7 @@ fn names_are_text_wherever_they_stand() {
     let data = data(&page);
     assert_eq!(data["drawing"]["bodies"][0]["name"], name);
     assert_eq!(data["name"], "]]><!-- & \"'");
-    // The text of the scene is there, too.
+    // The page contains the text of the scene.
     assert!(page.contains("name = &quot;&lt;/script&gt;"));
 }
 

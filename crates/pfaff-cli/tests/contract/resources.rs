@@ -1,10 +1,10 @@
-//! Threads and memory: results do not depend on the one, and more of the other than there may be is
-//! refused beforehand.
+//! Threads and memory: results do not depend on the number of threads, and a command that needs
+//! more memory than is allowed is refused beforehand.
 
 use super::{Folder, pfaff, stderr, stdout, with_scene};
 use lab::generate::Kind;
 
-/// Three pendulums that do not feel each other.
+/// Three uncoupled pendulums.
 const APART: &str = r#"
 scene = { name = "apart", space = "plane", gravity = [0.0, -9.81] }
 body = [

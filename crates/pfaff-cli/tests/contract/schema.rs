@@ -1,5 +1,5 @@
-//! `pfaff schema`: one document, that of the reader. What it says is tested with the reader, in
-//! `scene`.
+//! `pfaff schema` prints one document, that of the reader. Its content is tested with the reader,
+//! in `scene`.
 
 use serde_json::Value;
 

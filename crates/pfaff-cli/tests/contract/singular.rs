@@ -3,7 +3,7 @@
 use super::analyze::{contains, document};
 use super::{Folder, stderr, stdout, with_scene};
 
-/// Cranks of length 0.5 at these pivots, all flat and turning with 1 rad/s, under one coupler.
+/// Cranks of length 0.5 at these pivots, all in one line and turning at 1 rad/s, under one coupler.
 pub(crate) fn flat_cranks(pivots: &[f64]) -> String {
     let bodies = pivots.iter().enumerate().map(|(k, x)| {
         let middle = x + 0.25;
@@ -27,7 +27,7 @@ pub(crate) fn flat_cranks(pivots: &[f64]) -> String {
     )
 }
 
-/// Two flat cranks may go on in parallel or against each other; a third one forbids the latter at
+/// Two flat cranks may continue in parallel or antiparallel; a third one excludes the latter at
 /// second order.
 #[test]
 fn a_singular_start_says_how_the_motion_goes_on() {
@@ -52,8 +52,8 @@ fn a_singular_start_says_how_the_motion_goes_on() {
     }
 }
 
-/// The catalogue's flat cranks with a turning drive: the verdict of the start does not wait for
-/// velocities with which it can be left.
+/// The catalogue's flat cranks with a turning drive: the verdict of the start does not require
+/// velocities with which the start can be left.
 #[test]
 fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
     let drive = r#"
@@ -87,8 +87,8 @@ fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
     assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
 
-/// Two edges of one cart whose normals or places differ by less than a rounding: one is redundant,
-/// and the cart moves as it would with equal ones.
+/// Two edges of one cart whose normals or positions differ by less than a rounding error: one is
+/// redundant, and the cart moves as with equal edges.
 #[test]
 fn edges_that_differ_by_a_rounding_are_judged_and_named() {
     for (motion, point, normal) in [
@@ -120,8 +120,8 @@ fn edges_that_differ_by_a_rounding_are_judged_and_named() {
     }
 }
 
-/// A slider-crank in line: no rate of the slider turns the crank there. One drive cannot contradict
-/// another one.
+/// A slider-crank at its dead centre: no rate of the slider turns the crank there. A single drive
+/// cannot contradict another one.
 #[test]
 fn a_drive_at_a_dead_centre_is_told_that_the_configuration_is_singular() {
     let scene = |motion: &str| {
@@ -155,7 +155,7 @@ fn a_drive_at_a_dead_centre_is_told_that_the_configuration_is_singular() {
             2,
             "the mechanism is locked, or in a singular configuration",
         ),
-        // Seen only once the slider has moved.
+        // This is only noticed after the slider has moved.
         (
             r#"type = "polynomial", coefficients = [0.0, 0.0, 0.0, -1.0]"#,
             1,

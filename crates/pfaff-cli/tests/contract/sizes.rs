@@ -1,5 +1,5 @@
-//! Every option of `analyze` answers at every size, by the parts that it touches; a part that is
-//! too large for it is named.
+//! Every option of `analyze` works for mechanisms of every size, by analysing the parts that it
+//! concerns; a part that is too large is named.
 
 use lab::generate::Kind;
 use serde_json::Value;
@@ -12,8 +12,8 @@ fn document(arguments: &[&str], scene: &str) -> Value {
     serde_json::from_slice(&output.stdout).expect("a document")
 }
 
-/// Eighty parallelograms in a row, of which two in three have a third crank: each is a part, and
-/// the answers are those of one of them alone.
+/// Eighty parallelograms in a row, two of three with a third crank: each is a part, and the answers
+/// equal those for one of them alone.
 #[test]
 fn options_answer_by_parts() {
     let scene = super::generated(Kind::Parallelograms, 80);
@@ -42,7 +42,7 @@ fn options_answer_by_parts() {
         .map(|g| &g["verdict"])
         .collect();
     assert_eq!(verdicts, ["not_unique", "unique"]);
-    // In one cell any one of ten rows of the other revolutes will do.
+    // In one cell any one of ten rows of the other revolutes can be deleted.
     let ways = asked["make_unique"][0]["ways"].as_array().expect("a list");
     assert_eq!(ways.len(), 10);
     let rows_of = |name: &str| {
@@ -55,7 +55,7 @@ fn options_answer_by_parts() {
         let row = &way["rows"][0];
         assert!(!own.as_array().expect("a list").contains(row), "{row}");
     }
-    // Twelve of each of more than fifty cells: more sets than can be counted, and the first ones
+    // Twelve for each of more than fifty cells: more sets than can be counted, and the first ones
     // differ in the last cell.
     let eliminations = &asked["eliminations"];
     assert!(
@@ -71,7 +71,7 @@ fn options_answer_by_parts() {
         sets.iter()
             .all(|set| set.as_array().is_some_and(|s| s.len() == p))
     );
-    // What a choice gives depends on it exactly where the verdict says so.
+    // A chosen reaction depends on the choice exactly if its verdict is "not unique".
     let choice = asked["choices"][0]["reactions"].as_array().expect("a list");
     let reactions = asked["reactions"].as_array().expect("a list");
     for (chosen, reaction) in choice.iter().zip(reactions) {
@@ -130,8 +130,8 @@ fn a_part_that_is_too_large_is_named() {
     );
 }
 
-/// Rows are counted in the whole, and a part that an answer lacks is named; every unique reaction
-/// has a sensitivity.
+/// Rows are counted in the whole mechanism, and a part that an answer omits is named; every unique
+/// reaction has a sensitivity.
 #[test]
 fn what_is_asked_of_all_parts_is_told_of_all() {
     let scene = super::generated(Kind::Parallelograms, 80);
@@ -142,7 +142,7 @@ fn what_is_asked_of_all_parts_is_told_of_all() {
         assert_eq!(r["sensitivity"].is_number(), is_unique, "{r}");
     }
     let p = known["redundancy"].as_u64().expect("a number");
-    // The rows that analyze drops itself: the label at every number stays short.
+    // The rows that analyze drops by itself: the label at every number stays short.
     let dropped = known["dropped_rows"].as_array().expect("a list");
     let dropped: Vec<String> = dropped.iter().map(Value::to_string).collect();
     let chosen = document(

@@ -1,5 +1,5 @@
-//! `sweep`: its tables, its refusals, and that no finished run is lost or made again whatever
-//! happens to it.
+//! `sweep`: its tables, its refusals, and that no finished run is lost or repeated after any
+//! interruption.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -13,14 +13,14 @@ use serde_json::Value;
 use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// The promised first columns; those of bodies and reactions follow.
+/// The documented first columns; those of bodies and reactions follow.
 const COLUMNS: &str = "status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,fragile,seconds,\
 max_position_residual,max_velocity_residual,energy_balance,start_correction,start_velocity_correction,t_state,";
 
-/// Masses of the platform of the robot: long enough that a sweep can be stopped on its way.
+/// Masses of the robot's platform: enough of them that a sweep can be stopped while it runs.
 const MASSES: &str = "body.platform.mass=10:40:24";
 
-/// How long a test waits for what must happen.
+/// How long a test waits for an event that must occur.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A table, header included, cell by cell.
@@ -35,7 +35,7 @@ fn cells(folder: &Folder) -> Vec<Vec<String>> {
     rows.collect()
 }
 
-/// The same without its seconds.
+/// The same without the run times.
 fn table(folder: &Folder) -> Vec<Vec<String>> {
     let mut rows = cells(folder);
     let seconds = rows[0]
@@ -55,7 +55,7 @@ fn begun(arguments: &[&str]) -> Child {
     command.spawn().expect("the command starts")
 }
 
-/// Waits until a journal has so many finished runs.
+/// Waits until a journal contains this number of finished runs.
 fn wait_for(journal: &Path, runs: usize) {
     let begin = Instant::now();
     loop {
@@ -102,7 +102,7 @@ fn a_killed_sweep_loses_nothing_and_repeats_nothing() {
         let words = arguments(&killed, "2");
         let mut child = begun(&words.iter().map(String::as_str).collect::<Vec<_>>());
         wait_for(&journal, 3 * k);
-        // SIGKILL: nothing of the program runs any more.
+        // SIGKILL: no code of the program runs after it.
         child.kill().expect("it runs");
         assert!(!child.wait().expect("it ends").success());
         let mut bytes = fs::read(&journal).expect("written");
@@ -113,7 +113,7 @@ fn a_killed_sweep_loses_nothing_and_repeats_nothing() {
             kept.iter().filter(|b| **b == b'\n').count() < 25,
             "it was too fast to be killed"
         );
-        // The half of a line, as a power failure leaves it.
+        // Half of a line, as a power failure leaves it.
         bytes.truncate(end);
         bytes.extend_from_slice(&kept[kept.len() - 100..kept.len() - 1]);
         fs::write(&journal, &bytes).expect("writable");
@@ -124,7 +124,7 @@ fn a_killed_sweep_loses_nothing_and_repeats_nothing() {
     assert_eq!(bytes.iter().filter(|b| **b == b'\n').count(), 25);
     assert_eq!(run(&whole, "1").status.code(), Some(0));
     assert_eq!(table(&killed), table(&whole));
-    // Once more: there is nothing left to do.
+    // A third run finds nothing to do.
     assert_eq!(run(&killed, "1").status.code(), Some(0));
     assert_eq!(fs::read(&journal).expect("written"), bytes);
 }
@@ -158,7 +158,7 @@ fn an_interrupted_sweep_says_so_and_has_code_1() {
         (&document["partial"], &document["runs"]),
         (&Value::Bool(true), &Value::from(24))
     );
-    // What was reached stands in the table, in the order of the grid.
+    // The finished runs are in the table, in the order of the grid.
     let runs: Vec<usize> = table(&folder)[1..]
         .iter()
         .map(|r| r[0].parse().expect("a run"))
@@ -312,7 +312,7 @@ fn wrong_keys_and_changed_sweeps_have_code_2() {
     ] {
         refused(&sweep(PENDULUM, vary), piece);
     }
-    // A scene that is wrong as it stands is shown with its place.
+    // A scene that is wrong without any variation is reported with its place.
     refused(
         &sweep(&PENDULUM.replace("inertia", "inertja"), "body.bob.mass=1,2"),
         "<stdin>:10:1",

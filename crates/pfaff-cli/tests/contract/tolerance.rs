@@ -1,11 +1,11 @@
-//! What the data are known to: flags that go before the scene, the documents and sentences that
-//! tell it, and wrong values.
+//! Tolerances of the data: flags that take precedence over the scene, the documents and sentences
+//! that report them, and wrong values.
 
 use serde_json::{Value, json};
 
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// A door on one hinge, 2 m long, with its sizes from a drawing.
+/// A door on one hinge, 2 m long, with its dimensions from a drawing.
 const DOOR: &str = r#"
 [scene]
 name = "door"
@@ -42,7 +42,7 @@ fn flags_go_before_the_scene() {
         let arguments = [&["analyze", "-", "--json"], flags].concat();
         data(&with_scene(&arguments, DOOR))
     };
-    // Angles: the length over the 2 m of the mechanism.
+    // Angles: the length divided by the 2 m of the mechanism.
     assert_eq!(told(&[]), known_to(1e-3.into(), 5e-4.into()));
     assert_eq!(
         told(&["--tolerance", "1e-4"]),
@@ -125,8 +125,8 @@ fn every_command_that_judges_takes_them() {
     }
 }
 
-/// An arm that two parallel cylinders turn about its hinge, the direction of their axes typed with
-/// four digits.
+/// An arm that two parallel cylinders turn about its hinge, with the direction of their axes typed
+/// with four digits.
 fn cylinders(axis: &str) -> String {
     let mut text = String::from(
         r#"
@@ -191,8 +191,8 @@ motion = {{ type = "constant-rate", rate = 0.0 }}
     text
 }
 
-/// What the last digits of an axis leave to the slides is nothing within the tolerance, and its
-/// margin is told.
+/// The part of the reactions of the slides that results from the last digits of an axis is zero
+/// within the tolerance, and its margin is reported.
 #[test]
 fn what_is_unique_within_the_tolerance_says_so() {
     let slides = |axis: &str, flags: &[&str]| -> Vec<Value> {
@@ -286,7 +286,7 @@ normal = [1e-4, 1.0]
     )
 }
 
-/// What is known of directions decides by itself, by the flag as by the scene.
+/// The tolerance of directions alone changes verdicts, whether the flag or the scene states it.
 #[test]
 fn an_angle_tolerance_changes_verdicts_without_a_length() {
     let judged = |stated: &str, flags: &[&str]| -> Value {
@@ -309,7 +309,7 @@ fn an_angle_tolerance_changes_verdicts_without_a_length() {
     assert_eq!((&d["rank"], &d["redundancy"]), (&json!(2), &json!(0)));
     assert_eq!(d["data"]["lower_rank_from"], Value::Null);
     let from = d["data"]["lower_rank_from_angle"].as_f64().expect("near");
-    // One of them turns by all of the difference: both are to be perpendicular to the axle.
+    // One of them rotates by the whole difference: both must become perpendicular to the axle.
     assert!((from / 1e-4 - 1.0).abs() < 0.06, "{from:e}");
     let output = with_scene(&["analyze", "-"], &axle("angle_tolerance = 1e-5"));
     let text = stdout(&output)

@@ -54,7 +54,7 @@ fn the_page_is_written_beside_the_caller_and_nothing_is_opened_without_a_display
         said.contains("written to robot-trolley.html\nnot opened: "),
         "{said}"
     );
-    // The page of a run without what only a run has.
+    // The page of a run without the parts that only a run has.
     let page = folder.read("robot-trolley.html");
     assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n"));
     assert!(page.contains("22 constraint rows have rank 20: two are redundant"));

@@ -1,4 +1,4 @@
-//! `pfaff check --watch`: a result for each change, and an end that is no failure.
+//! `pfaff check --watch`: a result for each change, and an end that does not count as a failure.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -9,10 +9,10 @@ use std::time::Duration;
 
 use super::{Folder, pfaff, stderr};
 
-/// Longer than any machine takes for one look.
+/// Longer than any machine needs for one check.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Lines until one has these words.
+/// Reads lines until one contains this text.
 fn until(lines: &Receiver<String>, words: &str) -> String {
     let mut seen = String::new();
     loop {

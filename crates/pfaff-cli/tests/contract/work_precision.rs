@@ -5,11 +5,11 @@ use serde_json::Value;
 use super::bad_input::PENDULUM;
 use super::{Folder, pfaff, stderr, stdout, with_scene};
 
-/// The promised columns, in their order; more may follow.
+/// The documented columns, in their order; more may follow.
 const COLUMNS: &str = "scene,formulation,method,stabilisation,tolerance,error_position,error_velocity,error_acceleration,\
 error_reaction,constraint_residual,evaluations,projections,factorisations,steps,seconds,status,";
 
-/// Runs a scene quickly; the lines of the table below its header.
+/// Runs a scene with `--quick`; returns the lines of the table below its header.
 fn quick(folder: &Folder, scene: &str) -> (std::process::Output, Vec<Vec<String>>) {
     let output = pfaff(&["work-precision", scene, "--quick", "--out", folder.text()]);
     let table = folder.read("work_precision.csv");
@@ -23,8 +23,8 @@ fn quick(folder: &Folder, scene: &str) -> (std::process::Output, Vec<Vec<String>
 #[test]
 fn runs_that_fail_are_rows_with_their_reason() {
     let folder = Folder::new("work-precision-failing");
-    // A hand-made contradiction: the drive of the pivot is met by a second one, until half a
-    // second.
+    // A deliberate contradiction: the pivot has a second drive, which agrees with the first until
+    // half a second.
     let scene = super::bad_input::contradiction_at_half_a_second();
     let path = folder.0.join("scene.toml");
     std::fs::create_dir_all(&folder.0).expect("writable");

@@ -1,6 +1,6 @@
-//! Wrong scenes with the texts that `pfaff check` answers: `tests/wrong/*.toml`, each with one
-//! fault and a remark on it, and beside it the text in `*.txt`. Every text names the place and what
-//! to do. `PFAFF_BLESS=1` writes the texts anew; read them before they are committed.
+//! Wrong scenes with the messages of `pfaff check`: `tests/wrong/*.toml`, each with one fault and a
+//! remark on it, and the expected message in `*.txt`. Every message names the place and the
+//! correction. `PFAFF_BLESS=1` rewrites the messages; read them before they are committed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use super::{stderr, stdout};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/wrong");
 
-/// The scenes by name.
+/// The scenes, sorted by name.
 fn scenes() -> Vec<PathBuf> {
     let entries = fs::read_dir(FOLDER).expect("readable").flatten();
     let files = entries.map(|entry| entry.path());
@@ -40,7 +40,7 @@ fn every_wrong_scene_has_its_text() {
             (Some(2), ""),
             "{name:?}"
         );
-        // Lines of the picture are padded with blanks.
+        // Lines of the excerpt are padded with blanks.
         let said: String = stderr(&output)
             .lines()
             .map(|line| format!("{}\n", line.trim_end()))
