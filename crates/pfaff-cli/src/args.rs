@@ -21,8 +21,8 @@ use crate::output::Answer;
 use crate::resources::Resources;
 use crate::template::Template;
 
-/// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be
-/// believed.
+/// Mechanisms with redundant constraints: how they move, and which of their joint reactions are
+/// unique.
 #[derive(Parser)]
 #[command(
     name = "pfaff",
@@ -42,25 +42,25 @@ pub(crate) enum Command {
     /// Motion and reactions, written into a directory with a report for any browser
     #[command(after_help = examples::SIMULATE)]
     Simulate(Simulate),
-    /// What a run of the scene needs, what is left out, and why
+    /// What a run of the scene computes and omits, and why
     #[command(after_help = examples::PLAN)]
     Plan(Plan),
     /// Many runs with other numbers in the scene: parallel, resumable, in shards
     #[command(after_help = examples::SWEEP)]
     Sweep(Sweep),
-    /// Error against run time, for every method and tolerance
+    /// Error versus run time, for every method and tolerance
     #[command(after_help = examples::WORK_PRECISION)]
     WorkPrecision(WorkPrecision),
-    /// Read and assemble only: every problem of the file, with its place
+    /// Read and assemble only: report every error of the file, with its place
     #[command(after_help = examples::CHECK)]
     Check(Check),
-    /// Begin a scene from a template; without a name, list them
+    /// Create a scene from a template; without a name, list the templates
     #[command(after_help = examples::NEW)]
     New(New),
-    /// A picture of the assembled start, joints marked by their verdicts
+    /// Draw the assembled start, with joints marked by their verdicts
     #[command(after_help = examples::VIEW)]
     View(View),
-    /// Two scenes side by side: ranks, verdicts, dependencies, motion
+    /// Compare two scenes: ranks, verdicts, dependencies, motion
     #[command(after_help = examples::DIFF)]
     Diff(Diff),
     /// The JSON schema of scene files, for editors
@@ -72,10 +72,10 @@ pub(crate) enum Command {
     /// The manual page, on standard output
     #[command(after_help = examples::MAN)]
     Man(Man),
-    /// Stands in the laboratory
+    /// Part of the laboratory
     #[command(hide = true)]
     Stress(Elsewhere),
-    /// Stands in the laboratory
+    /// Part of the laboratory
     #[command(hide = true)]
     Generate(Elsewhere),
 }
@@ -107,7 +107,7 @@ impl Command {
 pub(crate) struct Analyze {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
-    /// Time of the motion at which to look (s)
+    /// Time of the motion at which the mechanism is analysed (s)
     #[arg(
         long,
         value_name = "T",
@@ -115,33 +115,33 @@ pub(crate) struct Analyze {
         allow_hyphen_values = true
     )]
     pub(crate) at_time: f64,
-    /// Rows that carry the dependencies, counted from 1
+    /// Rows to take as the dependent ones, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
-    /// A sum of components whose verdict is wanted, as "W3.N + W4.N"; may be given several times
+    /// A sum of components to judge, as "W3.N + W4.N"; may be given several times
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub(crate) combine: Vec<String>,
-    /// What to delete so that this reaction becomes unique, the smallest sets; may be given several
-    /// times
+    /// Find the smallest sets of rows to delete so that this reaction becomes unique; may be given
+    /// several times
     #[arg(long, value_name = "NAME")]
     pub(crate) make_unique: Vec<String>,
-    /// What may be deleted for it: sensible (no joint of several rows loses all of them), whole
-    /// (joints and drives as a whole), rows (any), or rows:4,6,21 (these)
+    /// What may be deleted for --make-unique: sensible (no joint of several rows loses all of
+    /// them), whole (joints and drives as a whole), rows (any), or rows:4,6,21 (these)
     #[arg(long, value_name = "WHAT", default_value = "sensible")]
     pub(crate) allow: String,
-    /// List the sets of rows that can be eliminated without a change of motion, N at most
+    /// List at most N sets of rows that can be eliminated without a change of the motion
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "100")]
     pub(crate) eliminations: Option<usize>,
-    /// Verdicts in the frames of the first body and of the edge, too
+    /// Also judge the components in the frames of the first body and of the edge
     #[arg(long)]
     pub(crate) frames: bool,
-    /// Run the motion, as long as the scene says or to T_END (s): one verdict, and where another
-    /// holds
+    /// Run the motion, for the duration that the scene states or to T_END (s): the verdict that
+    /// holds along it, and the intervals with other verdicts
     #[arg(long, value_name = "T_END", num_args = 0..=1, allow_negative_numbers = true)]
     pub(crate) along: Option<Option<f64>>,
-    /// Reactions by a choice: minimum-norm, minimum-norm:length=L (torques count as forces at this
-    /// arm), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)), drop:6,21; may be given
-    /// several times
+    /// Compute the reactions for a choice: minimum-norm, minimum-norm:length=L (a torque counts as
+    /// a force on an arm of length L), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)),
+    /// drop:6,21; may be given several times
     #[arg(long, value_name = "CHOICE")]
     pub(crate) choose: Vec<String>,
     #[command(flatten)]
@@ -175,7 +175,7 @@ pub(crate) struct Simulate {
     /// Integrator
     #[arg(long, value_name = "M", value_parser = chosen("method", Method::ALL, Method::name))]
     pub(crate) method: Option<Method>,
-    /// None: every run keeps independent rows
+    /// Removed: every run keeps independent rows
     #[arg(long, value_name = "F", value_parser = no_formulation, hide = true)]
     pub(crate) formulation: Option<String>,
     /// Treatment of drift
@@ -203,7 +203,7 @@ pub(crate) struct Plan {
     /// Integrator
     #[arg(long, value_name = "M", value_parser = chosen("method", Method::ALL, Method::name))]
     pub(crate) method: Option<Method>,
-    /// None: every run keeps independent rows
+    /// Removed: every run keeps independent rows
     #[arg(long, value_name = "F", value_parser = no_formulation, hide = true)]
     pub(crate) formulation: Option<String>,
     /// Treatment of drift
@@ -236,13 +236,13 @@ pub(crate) struct Sweep {
     /// Every n-th run only, beginning with the i-th; shards may share a directory
     #[arg(long, value_name = "I/N", default_value = "1/1")]
     pub(crate) shard: Shard,
-    /// Runs at the same time; as many as there are cores where it is not given
+    /// Number of runs at the same time; default: the number of cores
     #[arg(long, value_name = "K")]
     pub(crate) threads: Option<NonZeroUsize>,
     /// Keep the trajectory of each run, in runs/NUMBER/trajectory.csv
     #[arg(long)]
     pub(crate) keep_rows: bool,
-    /// Instead of runs: one table of what these directories have
+    /// Instead of runs: write one table of the results in these directories
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["vary", "shard", "threads", "keep_rows"])]
     pub(crate) merge: Vec<PathBuf>,
     /// The summary as one JSON document on standard output
@@ -258,7 +258,7 @@ pub(crate) struct WorkPrecision {
     /// Directory for the results
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Three tolerances, for a first look
+    /// Three tolerances, for a quick overview
     #[arg(long, conflicts_with = "all")]
     pub(crate) quick: bool,
     /// Every method with every stabilisation
@@ -287,23 +287,23 @@ pub(crate) struct Check {
     pub(crate) known: Known,
     #[command(flatten)]
     pub(crate) resources: Resources,
-    /// Problems, or what was read, as one JSON document on standard output
+    /// The errors, or a summary of the scene, as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 #[derive(Args)]
 pub(crate) struct New {
-    /// Which one; none: list them
+    /// The template; without it, list all templates
     #[arg(value_parser = named(Template::ALL, Template::name), value_name = "TEMPLATE")]
     pub(crate) template: Option<Template>,
-    /// File for the scene, or - for standard output; TEMPLATE.toml where it is not given
+    /// File for the scene, or - for standard output; default: TEMPLATE.toml
     #[arg(long, value_name = "FILE", requires = "template")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace a file that is there already
+    /// Replace an existing file
     #[arg(long, requires = "template")]
     pub(crate) force: bool,
-    /// What was written, or the templates, as one JSON document on standard output
+    /// The written file, or the templates, as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -316,14 +316,14 @@ pub(crate) struct View {
     /// the scene file, in this directory
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Do not open it
+    /// Do not open the file
     #[arg(long)]
     pub(crate) no_open: bool,
     #[command(flatten)]
     pub(crate) known: Known,
     #[command(flatten)]
     pub(crate) resources: Resources,
-    /// What was written as one JSON document on standard output; opens nothing
+    /// The written file as one JSON document on standard output; opens nothing
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -332,7 +332,7 @@ pub(crate) struct View {
 pub(crate) struct Diff {
     /// Scene file, or - for standard input
     pub(crate) a: PathBuf,
-    /// The other one
+    /// The other scene file
     pub(crate) b: PathBuf,
     #[command(flatten)]
     pub(crate) known: Known,
@@ -345,13 +345,13 @@ pub(crate) struct Diff {
 
 #[derive(Args)]
 pub(crate) struct Completions {
-    /// Which one
+    /// The shell
     pub(crate) shell: Shell,
 }
 
 #[derive(Args)]
 pub(crate) struct Man {
-    /// The page of this command; none: that of all
+    /// The command whose page is printed; without it, the page of all commands
     pub(crate) command: Option<String>,
 }
 
@@ -367,8 +367,8 @@ pub fn named<T: Copy + Send + Sync + 'static>(
     })
 }
 
-/// Reads one of the names of an option of a run; for a name that has been moved to another option
-/// the error says so.
+/// Reads one of the names of an option of a run; for the name of a method that is no longer part of
+/// runs, the error says what to use instead.
 fn chosen<T: Copy + Send + Sync + 'static>(
     key: &'static str,
     all: &'static [T],
@@ -409,7 +409,7 @@ impl<P: TypedValueParser> TypedValueParser for Moved<P> {
     }
 }
 
-/// Refuses every formulation and explains that the option no longer exists.
+/// Refuses every formulation; the error says what to use instead.
 fn no_formulation(text: &str) -> Result<String, String> {
     let words = moved("formulation", text);
     Err(words.unwrap_or_else(|| "a run has one formulation".to_owned()))

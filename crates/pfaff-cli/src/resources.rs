@@ -16,11 +16,11 @@ use crate::output::Failure;
 
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct Resources {
-    /// Threads at most; as many as there are cores where it is not given
+    /// Largest number of threads; default: the number of cores
     #[arg(long, value_name = "K")]
     pub(crate) threads: Option<NonZeroUsize>,
-    /// Memory at most, as 500MB or 4GiB: more is refused beforehand; what the machine has left
-    /// where it is not given
+    /// Largest memory, as 500MB or 4GiB: computations that need more are refused; default: the
+    /// available memory of the machine
     #[arg(long, value_name = "SIZE")]
     pub(crate) max_memory: Option<Bytes>,
 }

@@ -5,12 +5,11 @@ use pfaff::model::Tolerance;
 
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct Known {
-    /// What points and lengths of the scene are known to (m), in place of `tolerance` in its
-    /// [scene]
+    /// Tolerance of points and lengths of the scene (m), in place of `tolerance` in its [scene]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = length)]
     pub(crate) tolerance: Option<f64>,
-    /// What directions, angles and ratios are known to (rad), in place of `angle_tolerance`; LENGTH
-    /// over the size where neither is given
+    /// Tolerance of directions, angles and ratios (rad), in place of `angle_tolerance`; if neither
+    /// is given: LENGTH divided by the mechanism's size
     #[arg(long, value_name = "RAD", allow_hyphen_values = true, value_parser = angle)]
     pub(crate) angle_tolerance: Option<f64>,
 }
