@@ -1,5 +1,6 @@
-//! The data of a constraint: which numbers it stores, and what changes with each of them. What is
-//! computed from other numbers alone is no datum: it changes with those by the chain rule.
+//! The data of a constraint: the numbers that it stores, and its derivatives with respect to each
+//! of them. A value that is computed from other numbers is not a datum: its derivative follows from
+//! theirs by the chain rule.
 
 use proc_macro2::Ident;
 use quote::{format_ident, quote};
@@ -10,7 +11,7 @@ use crate::identity;
 use crate::kernel::kernel;
 use crate::parse::{Definition, Kept, ParamKind};
 
-/// Numbers that mean something together.
+/// Numbers that form one quantity, as the two components of a point.
 #[derive(Clone)]
 pub(crate) struct Datum {
     /// Its name in the facts.
@@ -20,23 +21,23 @@ pub(crate) struct Datum {
     pub(crate) field: Ident,
     /// The optional parameter that overrides the field.
     pub(crate) overridden_by: Option<Ident>,
-    /// The inputs of kernels that stand for its numbers, in order.
+    /// The kernel inputs that represent its numbers, in order.
     pub(crate) symbols: Vec<Expr>,
 }
 
-/// What the numbers of a datum are.
+/// The meaning of the numbers of a datum.
 #[derive(Clone)]
 pub(crate) enum Shape {
     Point(Ident),
     Direction(Ident),
     Line,
-    /// One number with its unit; its place in a list of several.
+    /// One number with its unit, and its index in a list of several.
     Number(Ident, Option<usize>),
     Kept(Ident),
     KeptVector(Ident),
 }
 
-/// The data in order: parameters, then what is kept from the start.
+/// The data in order: parameters, then values kept from the start.
 pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
     let mut data = Vec::new();
     for p in &d.params {
@@ -67,7 +68,7 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
                     push(format!("{name}[{k}]"), shape, &values[k..=k]);
                 }
             }
-            // Optional numbers are kept values; functions of time travel as jets.
+            // Optional numbers are kept values; functions of time are passed as jets.
             ParamKind::Number(_) | ParamKind::Function(_) | ParamKind::Functions(_) => {}
         }
     }
@@ -101,14 +102,14 @@ pub(crate) fn of_measure(model: &Model, unit: Ident) -> Datum {
     }
 }
 
-/// The derivation by each number, in order.
+/// The derivation with respect to each number, in order.
 pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Derivation> {
     let numbers = data.iter().flat_map(|d| d.symbols.iter().copied());
     numbers.map(|number| by(model, number)).collect()
 }
 
-/// The derivation by one number: computed values have their own derivatives as images, each by
-/// those before it.
+/// The derivation with respect to one number. The images of computed values are their own
+/// derivatives, each found with those of the values before it.
 fn by(model: &mut Model, number: Expr) -> Derivation {
     let mut images = vec![(number, model.g.number(1.0))];
     let mut along = Derivation::new(&model.g, &images);
@@ -129,8 +130,8 @@ fn by(model: &mut Model, number: Expr) -> Derivation {
     along
 }
 
-/// The slope itself, or an input that stands for it: kernels are polynomials, and numbers that a
-/// constraint stores may be divided before.
+/// Returns the derivative itself, or an input that represents it if it is not a polynomial: kernels
+/// must be polynomials, and the derivative of a stored number can be divided in advance.
 fn polynomial(model: &mut Model, slope: Expr, of: Expr, by: Expr) -> Expr {
     if !not_polynomial(model, slope) {
         return slope;

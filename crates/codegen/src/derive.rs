@@ -1,7 +1,8 @@
-//! What follows from a definition: nothing below is written by hand for any joint.
+//! The kernels that follow from a definition; none of them is written by hand for any joint.
 //!
-//! Both levels meet at the velocity row `e = Φ̇` or `e = Ψ·q̇ + ψ`, which is `e = C·v − b`:
-//! `C = ∂e/∂v`, `b = −e(v = 0)`, and `Γ = −ė` with the accelerations left out.
+//! Holonomic and nonholonomic rows both lead to a velocity row `e = Φ̇` or `e = Ψ·q̇ + ψ`, which is
+//! `e = C·v − b`: `C = ∂e/∂v`, `b = −e(v = 0)`, and `Γ = −ė` without the terms in the
+//! accelerations.
 
 use proc_macro2::Ident;
 use quote::format_ident;
@@ -45,7 +46,8 @@ pub(crate) struct ConstraintKernels {
 }
 
 impl ConstraintKernels {
-    /// The unit of the measure that a driven row prescribes: what moves no origin is an angle.
+    /// The unit of the measure that a driven row prescribes: it is an angle if the row does not
+    /// depend on the velocities of origins.
     pub(crate) fn unit_of_measure(&self) -> Ident {
         if self.c.iter().all(|e| e.column % N_DOF == N_DOF - 1) {
             format_ident!("Angle")
@@ -62,7 +64,7 @@ pub(crate) struct ForceKernels {
     pub(crate) dq_dv: Sparse,
 }
 
-/// What a reaction component is named after.
+/// How a reaction component is computed.
 pub(crate) enum Component {
     None,
     /// The component of the force along the body's vector.
@@ -71,9 +73,9 @@ pub(crate) enum Component {
     Multiplier,
 }
 
-/// Derives the kernels of a constraint, or tells which row restricts no motion. Rows of Ψ are
-/// linear in velocities: elaboration refuses others. `data` are the derivations by the numbers that
-/// the constraint stores.
+/// Derives the kernels of a constraint, or reports which row restricts no motion. Rows of Ψ are
+/// linear in velocities, because elaboration refuses others. `data` are the derivations with
+/// respect to the numbers that the constraint stores.
 pub(crate) fn constraint(
     model: &mut Model,
     body: &ConstraintBody,
@@ -230,8 +232,9 @@ fn b_rows(model: &mut Model, velocity: &[Expr]) -> Vec<Expr> {
     }
 }
 
-/// `[Fx, Fy, T]` on the first body about the place, by multiplier: the force is `−C_vᵀ`, the torque
-/// at the mass centre `−C_ωᵀ`, moved by the lever from the body's origin to the place.
+/// `[Fx, Fy, T]` on the first body about the place, for each multiplier: the force is `−C_vᵀ`; the
+/// torque is `−C_ωᵀ` at the mass centre, transferred to the place with the arm from the body's
+/// origin.
 fn wrench(model: &mut Model, c: &[Entry], place: [Expr; 2], rows: usize) -> Sparse {
     let [x, y, ..] = model.inputs.slots[0].pose;
     let lever = [model.g.sub(place[0], x), model.g.sub(place[1], y)];
@@ -254,7 +257,7 @@ fn wrench(model: &mut Model, c: &[Entry], place: [Expr; 2], rows: usize) -> Spar
     map
 }
 
-/// Coefficients of the component of the force on the first body along a vector.
+/// Coefficients of the component along a vector of the force on the first body.
 fn force_along(model: &mut Model, c: &[Entry], along: [Expr; 2], rows: usize) -> Vec<Expr> {
     (0..rows)
         .map(|row| {
@@ -272,7 +275,8 @@ fn entry(model: &mut Model, c: &[Entry], row: usize, column: usize) -> Expr {
     }
 }
 
-/// Whether a row keeps something of the start, so that it cannot restrict it.
+/// Whether a row contains a value kept from the start; such a row is satisfied at any start and
+/// does not restrict it.
 fn keeps_start(model: &Model, row: Expr) -> bool {
     model.depends_on(row, |s| match s {
         Source::Kept { field, .. } => {
@@ -348,7 +352,7 @@ fn along_columns(model: &mut Model, rows: &[Expr], columns: &[Derivation]) -> Sp
     out
 }
 
-/// Partial derivatives of `rows` by the velocities.
+/// Partial derivatives of `rows` with respect to the velocities.
 fn velocity_derivatives(model: &mut Model, rows: &[Expr]) -> Sparse {
     let mut out = Vec::new();
     for (row, &e) in rows.iter().enumerate() {

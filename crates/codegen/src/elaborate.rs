@@ -1,5 +1,5 @@
-//! Expressions of the language become scalars of the expression graph. Shapes are checked here, and
-//! here names are resolved; after this step only mathematics is left.
+//! Translation of expressions of the language into scalars of the expression graph. Shapes are
+//! checked and names are resolved here; the result is purely mathematical.
 
 mod body;
 mod check;
@@ -25,10 +25,10 @@ pub(crate) use model::{Body, Comparison, Condition, ConstraintBody, KeptValue, M
 use scope::Scope;
 use value::Value;
 
-/// Names of fields, locals and patterns of the generated type: no parameter can have them.
+/// Names of fields, locals and patterns of the generated type, which no parameter can have.
 const RESERVED: [&str; 5] = ["motion", "measure_0", "reader", "arguments", "None"];
 
-/// Names of types and traits in the generated module: no definition can have them.
+/// Names of types and traits in the generated module, which no definition can have.
 const RESERVED_TYPES: [&str; 36] = [
     "Argument",
     "ArgumentError",
@@ -228,7 +228,7 @@ impl<'a> Scope<'a> {
         values: Vec<Expr>,
         overridden_by: Option<Ident>,
     ) -> syn::Result<Value> {
-        // The optional parameter keeps its own name; what it resolves to is another field.
+        // The optional parameter keeps its own name; the value that is used is another field.
         let field = match overridden_by {
             Some(_) => format!("{name}_0"),
             None => name.to_string(),
@@ -264,7 +264,7 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// `arm_i` for the only point in slot i, `arm_s` for one of several.
+/// `arm_i` for the only point in slot i, `arm_s` for a point `s` if the slot has several.
 fn arm_name(definition: &Definition, p: &Param, slot: usize) -> String {
     let here = |q: &&Param| match &q.kind {
         ParamKind::Point(s) => *s == definition.slots[slot],

@@ -172,7 +172,7 @@ fn constraint_type(
         #structure
         #drives
 
-        // Methods have one signature; not every definition uses every argument of it.
+        // The methods of the trait have fixed signatures; not every definition uses every argument.
         #[allow(unused_variables)]
         impl Constraint for #name {
             #spec
@@ -273,7 +273,7 @@ pub(crate) fn force(
     })
 }
 
-/// What a method takes besides `x`, `f` and `out`.
+/// Arguments of a method in addition to `x`, `f` and `out`.
 #[derive(Clone, Copy)]
 enum Signature {
     /// Nothing.
@@ -303,7 +303,7 @@ fn method(name: &str, what: &str, model: &Model, outputs: &[Expr], s: Signature)
     }
 }
 
-/// Entries of C at their places in the pattern.
+/// Entries of C at their positions in the pattern.
 fn indexed(
     name: &str,
     what: &str,

@@ -1,6 +1,6 @@
-//! Is an expression zero for every pose? Decided by evaluation at fixed pseudo-random points that
-//! respect `cos² + sin² = 1` and unit directions; used only to leave structural zeros out of
-//! patterns.
+//! Decides whether an expression is zero for every pose, by evaluation at fixed pseudo-random
+//! points that satisfy `cos² + sin² = 1` and have unit directions; used only to omit structural
+//! zeros from patterns.
 
 use std::ops::{Add, Div, Mul, Neg};
 
@@ -8,14 +8,14 @@ use symbolic::{Expr, Function, Graph, Number};
 
 use crate::elaborate::{Inputs, Source};
 
-/// Points tried; a polynomial that is not zero vanishes at all of them with probability zero.
+/// Number of points; a polynomial that is not zero vanishes at all of them with probability zero.
 const POINTS: u64 = 6;
 
-/// Rounding relative to the size of what cancels: ε = 2.2e-16 for each of at most some thousand
+/// Rounding error relative to the terms that cancel: ε = 2.2e-16 for each of at most some thousand
 /// operations.
 const ROUNDING: f64 = 1e-12;
 
-/// A value with the size of its terms: what the value would be, did nothing cancel.
+/// A value with the size of its terms, which is the value that it would have without cancellation.
 #[derive(Clone, Copy)]
 struct Measured {
     value: f64,

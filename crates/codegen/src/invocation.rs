@@ -6,19 +6,19 @@ use quote::quote;
 
 use crate::Kind;
 
-/// A macro call, taken apart.
+/// The parts of a macro call.
 pub struct Invocation {
-    /// Path of the crate `joints` as seen from the expanded code; `::joints` where none is given.
+    /// Path of the crate `joints` in the expanded code; `::joints` if none is given.
     pub runtime: TokenStream,
     /// The definition.
     pub body: TokenStream,
-    /// The call as its author wrote it: source text where the compiler knows it, printed tokens
+    /// The call as its author wrote it: the source text if the compiler provides it, printed tokens
     /// otherwise.
     pub text: String,
 }
 
 impl Invocation {
-    /// Takes a macro call apart: `#![runtime = some::path]`, if it is there, and the rest.
+    /// Splits a macro call into `#![runtime = some::path]`, if it is there, and the rest.
     ///
     /// # Errors
     /// If the definition starts with another inner attribute.
@@ -49,8 +49,8 @@ impl Invocation {
     }
 }
 
-/// The path in `#![runtime = path]`. It is not looked at: `$crate` of a wrapping macro passes
-/// through.
+/// The path in `#![runtime = path]`. It is not checked, so that `$crate` of a wrapping macro can be
+/// passed.
 fn runtime(attribute: &[TokenTree]) -> syn::Result<TokenStream> {
     if let [_, TokenTree::Punct(not), TokenTree::Group(group)] = attribute
         && not.as_char() == '!'
@@ -74,7 +74,8 @@ fn runtime(attribute: &[TokenTree]) -> syn::Result<TokenStream> {
     ))
 }
 
-/// `plane Name(i, j) { … }` are four tokens; each knows its own source text.
+/// The text of `plane Name(i, j) { … }`, which consists of four tokens, each with its own source
+/// text.
 fn text(kind: Kind, body: &TokenStream) -> String {
     let name = match kind {
         Kind::Constraint => "joint",

@@ -1,5 +1,5 @@
-//! One function from one list of expressions: inputs that are used, shared pieces, outputs, and the
-//! count.
+//! One function for one list of expressions: the inputs that are used, shared parts, outputs, and
+//! the number of operations.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -9,7 +9,7 @@ use crate::elaborate::Model;
 
 /// The body of a kernel.
 pub(crate) struct Kernel {
-    /// `let` statements for inputs and shared pieces.
+    /// `let` statements for inputs and shared parts.
     pub(crate) statements: Vec<TokenStream>,
     /// One expression for each output.
     pub(crate) outputs: Vec<TokenStream>,

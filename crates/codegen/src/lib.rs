@@ -8,9 +8,9 @@
 //! | [`parse`] | tokens → [`parse::Definition`] |
 //! | `vector` | vectors as sums of parts in frames: products of parts of one frame need no rotation |
 //! | `elaborate` | expressions of the language → scalars of the graph, with shapes checked |
-//! | `data` | the numbers that a constraint stores, and what changes with each of them |
+//! | `data` | the numbers that a constraint stores, and the derivatives with respect to them |
 //! | `identity` | is an expression zero for every pose? |
-//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods and by the data; laws → Q and its derivatives |
+//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods and with respect to the data; laws → Q and its derivatives |
 //! | `kernel` | a list of expressions → one function with its operation count |
 //! | `emit` | kernels and facts → the text of a module |
 //! | `names` | names of types as names of modules and of scene types |
@@ -47,12 +47,12 @@ pub struct Expansion {
     pub items: TokenStream,
 }
 
-/// Expands the body of one `joint!` or `force!`. `runtime` is the path of the crate `joints` as
-/// seen from the expanded code, `text` the definition as its author wrote it.
+/// Expands the body of one `joint!` or `force!`. `runtime` is the path of the crate `joints` in the
+/// expanded code, `text` the definition as its author wrote it.
 ///
 /// # Errors
-/// At the token that is wrong: an unknown name, a wrong shape, a Ψ that is not linear in
-/// velocities, a parameter that is never used, …
+/// At the wrong token: an unknown name, a wrong shape, a Ψ that is not linear in velocities, a
+/// parameter that is never used, …
 pub fn expand(
     kind: Kind,
     body: TokenStream,
@@ -75,7 +75,7 @@ pub fn expand(
 /// Expands a file that holds one `joint! { … }` or `force! { … }`.
 ///
 /// # Errors
-/// If the file is no Rust, holds something else, or its definition is wrong.
+/// If the file is not valid Rust, contains something else, or its definition is wrong.
 pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Expansion> {
     let file = syn::parse_file(source)?;
     let [syn::Item::Macro(item)] = file.items.as_slice() else {

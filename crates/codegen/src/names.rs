@@ -1,4 +1,4 @@
-//! Names of types as names of modules and of scene types.
+//! Conversion of type names into names of modules and scene types.
 
 /// `PinInSlot` → `pin_in_slot`
 #[must_use]

@@ -1,15 +1,15 @@
 //! Hints for misspelt names.
 
-/// Most edits between a name and a hint.
+/// Largest number of edits between a name and a hint.
 const EDITS: usize = 2;
 
-/// `; did you mean …?` or the list of what is known.
+/// `; did you mean …?`, or the list of the known names.
 pub(crate) fn hint(text: &str, known: &[&str]) -> String {
     let nearest = known
         .iter()
         .map(|k| (distance(text, k), *k))
         .min()
-        // More than half of the letters changed is no likeness.
+        // A name with more than half of its letters changed is not similar.
         .filter(|(d, k)| *d <= EDITS && 2 * *d <= k.chars().count());
     match nearest {
         Some((_, k)) => format!("; did you mean `{k}`?"),

@@ -1,4 +1,4 @@
-//! The definition language: what may be written, as a tree. Meaning comes later, in `elaborate`.
+//! The syntax of the definition language, as a tree. Its meaning is resolved later, in `elaborate`.
 //!
 //! ```text
 //! plane Name(slot, …) {
@@ -39,7 +39,7 @@ pub use tree::{Binding, Definition, Kept, Kind, Param, ParamKind};
 /// Parses the body of a `joint!` or `force!`.
 ///
 /// # Errors
-/// At the token that does not fit.
+/// At the first token that does not fit the syntax.
 pub fn definition(kind: Kind, body: TokenStream) -> syn::Result<Definition> {
     limits::check(&body)?;
     (|input: ParseStream<'_>| item::definition(kind, input)).parse2(body)

@@ -1,6 +1,6 @@
-//! Planar vectors as sums of parts, each in its own frame: `r_i + R_i·s_i` keeps `s_i` in the frame
-//! of body i. Products of parts of one frame need no rotation (`(R·a)·(R·b) = a·b`), and a part
-//! that turns with its body has the derivative `ω·Ω·s` in the same frame.
+//! Planar vectors as sums of parts, each in its own frame: `r_i + R_i·s_i` stores `s_i` in the
+//! frame of body i. Products of parts in the same frame need no rotation (`(R·a)·(R·b) = a·b`), and
+//! a part fixed in its body has the derivative `ω·Ω·s` in the same frame.
 
 use std::collections::BTreeMap;
 

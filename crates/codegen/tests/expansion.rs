@@ -1,4 +1,4 @@
-//! The whole way, from tokens to the text of a module.
+//! The complete translation, from tokens to the text of a module.
 
 use codegen::{Kind, expand, expand_file, in_module, kebab_case, snake_case};
 use quote::quote;

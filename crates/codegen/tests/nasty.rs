@@ -1,5 +1,5 @@
-//! Whatever the tokens, `expand` returns Rust or an error: no panic, no endless loop, no overflow
-//! of the stack.
+//! For any tokens `expand` returns Rust code or an error: no panic, no endless loop, no stack
+//! overflow.
 
 use std::thread;
 
@@ -8,10 +8,10 @@ use proc_macro2::{TokenStream, TokenTree};
 use proptest::prelude::*;
 use quote::quote;
 
-/// Stack of the compiler's main thread, where macros run (RUST_MIN_STACK).
+/// Stack size of the compiler's main thread, in which macros run (RUST_MIN_STACK).
 const STACK: usize = 8 << 20;
 
-/// Expands both ways; what comes out is Rust or has a message.
+/// Expands the text as both kinds; the result is valid Rust or an error with a message.
 fn expand_any(text: &str) {
     let Ok(body) = text.parse::<TokenStream>() else {
         return;
@@ -207,7 +207,7 @@ const SHIPPED: [&str; 4] = [
     }",
 ];
 
-/// The tokens one by one; brackets open and close as tokens of their own.
+/// The tokens one by one; brackets are two tokens of their own.
 fn flat(tokens: TokenStream, out: &mut Vec<String>) {
     for token in tokens {
         match token {
@@ -227,8 +227,8 @@ fn flat(tokens: TokenStream, out: &mut Vec<String>) {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
-    /// Correct definitions with some tokens removed, doubled or replaced by others of any
-    /// definition.
+    /// Correct definitions with some tokens removed, doubled or replaced by tokens of other
+    /// definitions.
     #[test]
     fn mutated_definitions(
         which in 0..SHIPPED.len(),

@@ -380,7 +380,7 @@ fn chosen<T: Copy + Send + Sync + 'static>(
     }
 }
 
-/// A parser that first checks whether the value has been moved to another option.
+/// A parser that first refuses names that are no longer part of runs.
 #[derive(Clone)]
 struct Moved<P> {
     key: &'static str,

@@ -1,4 +1,4 @@
-//! Derived kernels against formulas found by hand.
+//! Derived kernels compared with formulas derived by hand.
 
 use super::{Entry, Sparse};
 use crate::testing::{KNIFE_EDGE, REVOLUTE, State, VELOCITY, assert_close, constraint, force};
@@ -58,9 +58,9 @@ fn revolute() {
     // Γ = R_i·s_i·ω_i² − R_j·s_j·ω_j²
     let gamma = [9.0 * a[0] - 4.0 * b[0], 9.0 * a[1] - 4.0 * b[1]];
     assert_close(&state.values(&model, &k.gamma), &gamma);
-    // The force is −λ, and it acts at the place: no torque.
+    // The force is −λ and acts at the place, so there is no torque.
     assert_eq!(places(&k.wrench), [[0, 0], [1, 1]]);
-    // Only the turning of each body changes Cᵀλ, and only in its own torque.
+    // Only the rotation of each body changes Cᵀλ, and only its own torque.
     assert_eq!(places(&k.d_force_dx), [[2, 2], [5, 5]]);
     // ∂Γ/∂ω_i = 2·R_i·s_i·ω_i
     assert_eq!(places(&k.d_gamma_dv), [[0, 2], [0, 5], [1, 2], [1, 5]]);
@@ -112,7 +112,8 @@ fn knife_edge() {
         &[n[0], n[1], -n[0] * s[1] + n[1] * s[0]],
     );
     assert_close(&state.values(&model, &k.gamma), &[edge_gamma()]);
-    // The torque about the contact vanishes identically, though no rule of the graph says so.
+    // The torque about the contact vanishes identically, although no simplification rule of the
+    // graph shows it.
     assert_eq!(places(&k.wrench), [[0, 0], [1, 0]]);
     // The force −λ·n along n is −λ.
     assert_close(&state.values(&model, &k.component), &[-1.0]);
@@ -125,7 +126,7 @@ fn affine_rheonomic_psi() {
     // n·v_s − f(t) = 0: b = f, Γ = Γ of the knife edge + ḟ.
     assert_close(&state.values(&model, &k.b), &[0.25]);
     assert_close(&state.values(&model, &k.gamma), &[edge_gamma() - 1.5]);
-    // ∂(C·v − b)/∂φ = (Ω·n)·v of the origin: what ω adds turns with the normal.
+    // ∂(C·v − b)/∂φ = (Ω·n)·v of the origin: the contribution of ω turns with the normal.
     let (n, ..) = edge();
     assert_eq!(places(&k.d_velocity_dx), [[0, 2]]);
     assert_close(

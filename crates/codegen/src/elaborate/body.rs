@@ -1,4 +1,4 @@
-//! What a definition states: rows with their reaction, or laws with their coordinates.
+//! The body of a definition: rows with their reaction, or laws with their coordinates.
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
@@ -9,7 +9,7 @@ use super::model::ConstraintBody;
 use super::scope::Scope;
 use crate::parse::Definition;
 
-/// A scalar row with the text that states it.
+/// A scalar row with the source text of its expression.
 type Row<'a> = (Expr, &'a syn::Expr);
 
 impl<'a> Scope<'a> {

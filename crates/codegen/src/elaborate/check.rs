@@ -1,12 +1,12 @@
-//! What each part of a definition may depend on. A refusal points at the smallest part of the
-//! expression that is at fault, also where it hides behind a `let`.
+//! The inputs that each part of a definition may depend on. An error points at the smallest wrong
+//! part of the expression, also if that part is used through a `let`.
 
 use symbolic::{Derivation, Expr, Node};
 
 use super::inputs::Source;
 use super::model::Model;
 
-/// What is refused, and why.
+/// A forbidden kind of input, and the reason.
 pub(super) struct Refusal {
     pub(super) bad: fn(&mut Model, Expr) -> bool,
     pub(super) why: &'static str,
@@ -76,7 +76,7 @@ pub(super) const COMPONENT: &[Refusal] = &[
     },
 ];
 
-/// What a drive prescribes.
+/// The measure that a drive prescribes.
 pub(super) const MEASURE: &[Refusal] = &[
     NO_QUOTIENT,
     Refusal {
@@ -89,14 +89,14 @@ pub(super) const MEASURE: &[Refusal] = &[
     },
 ];
 
-/// What a force does work on.
+/// The coordinate along which a force does work.
 pub(super) const COORDINATE: &[Refusal] = &[Refusal {
     bad: moves,
     why: "a force acts on a relative position or angle, not on a velocity: write `force: law on coordinate;` and put \
           the velocity into the law",
 }];
 
-/// What `rate` and `velocity` take.
+/// Arguments of `rate` and `velocity`.
 pub(super) const DIFFERENTIABLE: &[Refusal] = &[
     Refusal {
         bad: moves,

@@ -1,4 +1,4 @@
-//! One expression of the language: names, functions, shapes.
+//! Elaboration of one expression of the language: names, functions, shapes.
 
 use proc_macro2::Ident;
 use symbolic::{Expr, Graph, Node};
@@ -11,11 +11,11 @@ use crate::nearest::hint;
 use crate::parse::Definition;
 use crate::vector::Vector;
 
-/// Magnitudes of numbers: products of a few of them, and of their derivatives, are far from
+/// Allowed magnitudes of numbers: products of a few of them, and of their derivatives, do not
 /// overflow.
 const NUMBERS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
-/// Highest power; what needs more is no joint.
+/// Highest allowed power; no joint needs more.
 const POWER: u32 = 32;
 
 impl<'a> Scope<'a> {
@@ -209,7 +209,7 @@ impl<'a> Scope<'a> {
         self.refuse(e, &value, refusals)
     }
 
-    /// Applies refusals to `value`, which is that of `e`.
+    /// Applies refusals to `value`, which is the value of `e`.
     pub(super) fn refuse(
         &mut self,
         e: &'a syn::Expr,
@@ -236,7 +236,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The smallest part of `e` that is bad.
+    /// The smallest part of `e` to which the refusal applies.
     fn culprit(&mut self, e: &'a syn::Expr, r: &Refusal) -> &'a syn::Expr {
         match parts(self.definition, e)
             .into_iter()
@@ -264,7 +264,7 @@ fn number(g: &mut Graph, literal: &Lit) -> syn::Result<Value> {
     Ok(Value::Scalar(g.number(x)))
 }
 
-/// Returns why the coefficients or the powers of a value are not accepted.
+/// Returns the reason if the coefficients or the powers of a value are not accepted.
 fn out_of_bounds(g: &Graph, value: &Value) -> Option<String> {
     let scalars = match value {
         Value::Scalar(e) => vec![*e],
@@ -296,7 +296,7 @@ fn out_of_bounds(g: &Graph, value: &Value) -> Option<String> {
     })
 }
 
-/// What an expression is made of; for the name of a `let`, what the name stands for.
+/// The direct parts of an expression; for the name of a `let`, those of its value.
 fn parts<'a>(definition: &'a Definition, e: &'a syn::Expr) -> Vec<&'a syn::Expr> {
     match e {
         syn::Expr::Paren(inner) => vec![&inner.expr],

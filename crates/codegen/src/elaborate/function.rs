@@ -1,4 +1,4 @@
-//! Functions of the language, and body slots, which only functions take.
+//! Functions of the language, and body slots, which only occur as arguments of functions.
 
 use proc_macro2::Ident;
 use symbolic::Function;
@@ -10,7 +10,7 @@ use super::value::Value;
 use crate::nearest::{hint, list};
 use crate::vector::{Frame, Vector};
 
-/// Names of the functions and how many arguments they take.
+/// Names of the functions with their numbers of arguments.
 const FUNCTIONS: [(&str, usize); 13] = [
     ("point", 2),
     ("direction", 2),

@@ -1,5 +1,5 @@
-//! The inputs of kernels: which symbol stands for which argument. Symbols are made in a fixed
-//! order, because the canonical order of terms follows it.
+//! The inputs of kernels: which symbol represents which argument. Symbols are created in a fixed
+//! order, because the canonical order of terms depends on it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +10,7 @@ use symbolic::{Derivation, Expr, Graph, Symbol};
 use crate::parse::{Definition, Kept, ParamKind};
 use crate::vector::Turn;
 
-/// Where a kernel finds an input.
+/// The location from which a kernel reads an input.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Source {
     /// A field of the pose of a slot.
@@ -21,18 +21,19 @@ pub(crate) enum Source {
     Acceleration { slot: usize, field: &'static str },
     /// A derivative of a function of time.
     Function { index: usize, order: usize },
-    /// A parameter, by the tokens that read it.
+    /// A parameter, with the tokens that read it.
     Parameter { access: String },
-    /// A value kept from the start, by the tokens that read it.
+    /// A value kept from the start, with the tokens that read it.
     Kept { field: String, access: String },
-    /// A derivative of a number that is computed from others, by the tokens that compute it.
+    /// A derivative of a computed number, with the tokens that compute it.
     Slope { access: String },
     /// A multiplier.
     Lambda { row: usize },
 }
 
 impl Source {
-    /// The value as an expression of the kernel; numbers that are always `f64` come with `true`.
+    /// The value as an expression of the kernel; the flag is `true` for numbers that are always
+    /// `f64`.
     pub(crate) fn access(&self) -> (TokenStream, bool) {
         let index = Literal::usize_unsuffixed;
         let of_slot = |array: TokenStream, slot: usize, field: &str| {
@@ -88,7 +89,7 @@ pub(crate) struct Inputs {
     pub(crate) lambda: Vec<Expr>,
 }
 
-/// Arguments of kernels: an input of the same name gets another one.
+/// Arguments of kernels: an input with one of these names is renamed.
 pub(crate) const ARGUMENTS: [&str; 6] = ["x", "v", "a", "f", "lambda", "out"];
 
 const POSE: [&str; 5] = ["x", "y", "angle", "cos", "sin"];
@@ -192,7 +193,7 @@ impl Inputs {
         self.params.insert(name.to_owned(), values);
     }
 
-    /// Inputs for pairs of a name and the field that holds the value.
+    /// Creates inputs for pairs of a name and the field that holds the value.
     fn add_numbers(&mut self, g: &mut Graph, components: &[(String, String)]) -> Vec<Expr> {
         components
             .iter()
@@ -224,8 +225,9 @@ impl Inputs {
         })
     }
 
-    /// A new input. Different inputs have different names, whatever the author called them: the
-    /// point `s_i` and a length `s_i_x` are distinguished by an underscore.
+    /// A new input. Different inputs have different names, whatever names the author used: the
+    /// component `s_i_x` of a point `s_i` and a length called `s_i_x` are distinguished by an
+    /// underscore.
     fn add(&mut self, g: &mut Graph, name: &str, source: Source) -> Expr {
         let mut name = name.to_owned();
         while !self.taken.insert(name.clone()) {
@@ -255,7 +257,7 @@ impl Inputs {
             .collect()
     }
 
-    /// A symbol for a derivative that is no polynomial; `access` are the tokens that compute it.
+    /// A symbol for a derivative that is not a polynomial; `access` are the tokens that compute it.
     pub(crate) fn slope(&mut self, g: &mut Graph, name: &str, access: String) -> Expr {
         self.add(g, name, Source::Slope { access })
     }
@@ -292,7 +294,7 @@ impl Inputs {
             .collect()
     }
 
-    /// What a unit velocity of one degree of freedom of a slot does to its pose.
+    /// The derivation of the pose of a slot along a unit velocity of one degree of freedom.
     pub(crate) fn along_dof(&self, g: &mut Graph, slot: usize, dof: usize) -> Derivation {
         let one = g.number(1.0);
         let [x, y, angle, cos, sin] = self.slots[slot].pose;
@@ -306,7 +308,7 @@ impl Inputs {
         }
     }
 
-    /// `d/dt` along the motion, with the accelerations left out.
+    /// `d/dt` along the motion, without the terms in the accelerations.
     pub(crate) fn time_derivation(&self, g: &mut Graph) -> Derivation {
         let mut images = Vec::new();
         for s in &self.slots {

@@ -1,4 +1,4 @@
-//! A definition as mathematics: what is left after names are resolved.
+//! A definition as mathematics, after names are resolved.
 
 use proc_macro2::{Ident, TokenStream};
 use symbolic::{Derivation, Expr, Graph};
@@ -12,7 +12,7 @@ use crate::vector::{Frame, Turn, Vector};
 pub(crate) struct Model {
     pub(crate) g: Graph,
     pub(crate) inputs: Inputs,
-    /// Total time derivative with the accelerations left out.
+    /// Total time derivative without the terms in the accelerations.
     pub(crate) time: Derivation,
     pub(crate) turns: Vec<Turn>,
     /// Sub-expressions that have a name.
@@ -28,7 +28,7 @@ pub(crate) struct KeptValue {
     /// Name of its field.
     pub(crate) field: String,
     pub(crate) kind: Kept,
-    /// The inputs of kernels that stand for it.
+    /// The kernel inputs that represent it.
     pub(crate) symbols: Vec<Expr>,
     /// Its value at the start.
     pub(crate) values: Vec<Expr>,
@@ -50,7 +50,7 @@ pub(crate) struct ConstraintBody {
     /// Whether `rows` are Φ; otherwise they are Ψ·q̇ + ψ.
     pub(crate) holonomic: bool,
     pub(crate) rows: Vec<Expr>,
-    /// The text of each row, where errors point.
+    /// The source text of each row, for the positions of errors.
     pub(crate) at: Vec<TokenStream>,
     pub(crate) place: Vector,
     pub(crate) component: Option<(Ident, Vector)>,
@@ -82,7 +82,7 @@ impl Model {
             .any(|s| origin(self.inputs.source(s)))
     }
 
-    /// Whether a kept value is computed from other numbers alone, so that it changes with them.
+    /// Whether a kept value is computed only from other numbers, so that it changes with them.
     pub(crate) fn is_computed(&self, kept: &KeptValue) -> bool {
         let reads_poses = |&e: &Expr| self.depends_on(e, |s| matches!(s, Source::Pose { .. }));
         kept.overridden_by.is_none() && !kept.values.iter().any(reads_poses)
@@ -97,7 +97,7 @@ impl Model {
         })
     }
 
-    /// Names the components of a vector of a body, turned to the ground.
+    /// Names the ground components of a vector that is fixed in a body.
     pub(super) fn name_rotated(&mut self, slot: usize, pair: [Expr; 2], name: &str) {
         let Model {
             g, turns, names, ..
@@ -109,7 +109,7 @@ impl Model {
         }
     }
 
-    /// Names the pieces of a value.
+    /// Gives names to the scalars of a value.
     pub(super) fn name_value(&mut self, name: &str, value: &Value) {
         let pieces: Vec<(Expr, String)> = match value {
             Value::Scalar(e) => vec![(*e, name.to_owned())],
@@ -122,7 +122,7 @@ impl Model {
             }
             _ => Vec::new(),
         };
-        // A local of this name would hide an argument.
+        // A local variable of this name would hide an argument.
         let free = |name: &String| !inputs::ARGUMENTS.contains(&name.as_str()) && name != "None";
         self.names
             .extend(pieces.into_iter().filter(|(_, name)| free(name)));

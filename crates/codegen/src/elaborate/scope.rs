@@ -1,4 +1,4 @@
-//! Names of a definition, and what they stand for.
+//! Names of a definition, and their meanings.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! Names, shapes, and what each part of a definition may depend on.
+//! Names, shapes, and the inputs that each part of a definition may depend on.
 
 use super::Body;
 use crate::Kind;
@@ -356,7 +356,7 @@ fn fields_do_not_collide() {
     );
 }
 
-/// A function of time may appear in a law with both derivatives.
+/// A function of time may occur in a law with both derivatives.
 #[test]
 fn laws_take_rates() {
     let text = "plane A(i) { /// Doc.

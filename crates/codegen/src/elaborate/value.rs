@@ -1,4 +1,4 @@
-//! What an expression of the language stands for.
+//! Values of expressions of the language.
 
 use symbolic::Expr;
 

@@ -1,5 +1,4 @@
-//! The methods that tell the numbers of a constraint and put others in their place, and the facts
-//! about them.
+//! The methods that return the data of a constraint and replace them, and the facts about the data.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -82,7 +81,7 @@ fn write(datum: &Datum, number: &[TokenStream]) -> TokenStream {
             quote!(self.#field[#k] = #x;)
         }
         (_, [x]) => {
-            // A value that was given stays given, whenever initial values are taken again.
+            // A value that the user stated is kept when initial values are computed again.
             let given = datum.overridden_by.as_ref();
             let given = given.map(|p| quote!(self.#p = self.#p.map(|_| #x);));
             quote!(#given self.#field = #x;)

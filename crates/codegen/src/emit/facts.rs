@@ -149,7 +149,7 @@ fn common(
     }
     let points_apart = d.points_apart;
     let requirements = d.requirements.iter().map(|(words, _)| words.value());
-    // The text of a drive is that of its joint, which carries it already.
+    // The text of a drive is that of its joint, whose facts already contain it.
     let text = if driven { "" } else { text };
     quote! {
         Spec {

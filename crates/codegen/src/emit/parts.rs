@@ -1,4 +1,4 @@
-//! Parts that constraints and forces share: the type, its constructor, what is kept from the start.
+//! Parts that constraints and forces share: the type, its constructor, values kept from the start.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -10,7 +10,7 @@ use crate::kernel::kernel;
 use crate::names::kebab_case;
 use crate::parse::{Definition, Kept, Param, ParamKind};
 
-/// What differs between a constraint and the drives of its measures.
+/// The differences between a constraint and the drives of its measures.
 pub(super) struct Type {
     pub(super) name: Ident,
     pub(super) rows: Vec<String>,
@@ -42,7 +42,7 @@ pub(super) fn scene_type(d: &Definition) -> String {
     }
 }
 
-/// What the generated items name.
+/// The imports that the generated items need.
 pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
     let (traits, specs) = if constraint {
         (
@@ -124,8 +124,8 @@ pub(super) fn structure(
     }
 }
 
-/// The drives of a joint with its parameters, one method for each measure; nothing where there is
-/// none.
+/// The drives of a joint with its parameters, one method for each measure; empty if there is no
+/// measure.
 pub(super) fn drives(
     d: &Definition,
     model: &Model,
@@ -152,7 +152,7 @@ pub(super) fn drives(
     (!methods.is_empty()).then(|| quote!(impl #name { #(#methods)* }))
 }
 
-/// What a parameter is for, then what it takes.
+/// The purpose of a parameter, then its kind.
 fn param_doc(p: &Param, d: &Definition) -> String {
     let slot = |s: &Ident| match d.slots.len() {
         1 => "the body".to_owned(),
@@ -176,7 +176,7 @@ fn param_doc(p: &Param, d: &Definition) -> String {
     }
 }
 
-/// Functions of time are no fields: they travel as jets.
+/// Functions of time are not fields: they are passed as jets.
 fn field_type(p: &Param) -> Option<TokenStream> {
     Some(match &p.kind {
         ParamKind::Point(_) => quote!([f64; 2]),
@@ -239,7 +239,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> Tok
         }
     });
     let measure = driven.then(|| quote!(measure_0: 0.0,));
-    // Without parameters nothing is read, and only the count is checked.
+    // Without parameters only the number of arguments is checked.
     let reader = if reads.is_empty() {
         quote!(Reader::new(Self::SPEC.common.parameters, arguments)?;)
     } else {
@@ -254,7 +254,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> Tok
     }
 }
 
-/// The method that keeps values from the start. Each value may use those before it.
+/// The method that computes the values kept from the start. Each value may use those before it.
 pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
     let kept = model.kept.iter().map(|k| {
         let field = format_ident!("{}", k.field);
@@ -309,7 +309,7 @@ pub(super) fn requirement(model: &Model) -> TokenStream {
     }
 }
 
-/// The method that tells the points that the definition takes hold of.
+/// The method that returns the points at which the definition acts.
 pub(super) fn points(d: &Definition) -> TokenStream {
     let points = d.params.iter().filter_map(|p| match p.kind {
         ParamKind::Point(_) => Some(&p.name),

@@ -1,4 +1,4 @@
-//! Expressions that vanish by an identity, and expressions that merely are small.
+//! Expressions that vanish by an identity, and expressions that are only small.
 
 use super::is_zero;
 use crate::Kind;
@@ -30,7 +30,7 @@ fn directions_have_length_one() {
     let (xx, yy) = (m.g.mul(x, x), m.g.mul(y, y));
     let e = m.g.sum(&[(1.0, xx), (1.0, yy), (-1.0, one)]);
     assert!(is_zero(&m.g, &m.inputs, e));
-    // A point has any length.
+    // A point may have any length.
     let [x, y] = m.inputs.pair("s");
     let (xx, yy) = (m.g.mul(x, x), m.g.mul(y, y));
     let e = m.g.sum(&[(1.0, xx), (1.0, yy), (-1.0, one)]);
@@ -43,7 +43,7 @@ fn the_unit_of_length_does_not_decide() {
     let angle = m.inputs.slots[0].pose[2];
     let small = m.g.product(1e-30, &[(angle, 1)]);
     assert!(!is_zero(&m.g, &m.inputs, small), "small is not zero");
-    // 1e30·(cos² + sin² − 1) is rounded to something far from zero, and is zero.
+    // 1e30·(cos² + sin² − 1) is zero, but rounding gives a value far from zero.
     let [.., cos, sin] = m.inputs.slots[0].pose;
     let one = m.g.number(1.0);
     let (cc, ss) = (m.g.mul(cos, cos), m.g.mul(sin, sin));

@@ -1,4 +1,4 @@
-//! The definition with its items, `word … ;` one after the other.
+//! The definition with its items, each of the form `word … ;`.
 
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;

@@ -7,7 +7,7 @@ use syn::{Attribute, Expr, Ident, Token, bracketed};
 use super::tree::{Binding, Kept, Param, ParamKind, name};
 use crate::nearest::hint;
 
-/// Units that a parameter may have: the variants of `joints::spec::Unit`, `PerLength` left out.
+/// Units that a parameter may have: the variants of `joints::spec::Unit` except `PerLength`.
 pub const UNITS: [&str; 11] = [
     "Length",
     "Angle",
@@ -22,10 +22,10 @@ pub const UNITS: [&str; 11] = [
     "TorsionDamping",
 ];
 
-/// Kinds of parameters beside units.
+/// Kinds of parameters in addition to units.
 const KINDS: [&str; 4] = ["Point", "Direction", "GroundLine", "Function"];
 
-/// Kinds of initial values beside units.
+/// Kinds of initial values in addition to units.
 const INITIAL_KINDS: [&str; 2] = ["Vector", "PerLength"];
 
 impl Parse for Param {

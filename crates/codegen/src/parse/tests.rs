@@ -1,4 +1,4 @@
-//! What may be written, and what is said about the rest. How errors point is shown by the
+//! Valid syntax, and the messages for invalid syntax. The positions of errors are tested by the
 //! compile-fail cases of `joint-macro`.
 
 use super::{Definition, Kept, Kind, ParamKind, definition};
@@ -14,7 +14,7 @@ fn error(kind: Kind, text: &str) -> String {
     }
 }
 
-/// A constraint that is complete but for the given items.
+/// A constraint that is complete except for the given items.
 fn joint(items: &str) -> String {
     format!("plane A(i, j) {{ /// Doc.\n {items} }}")
 }

@@ -22,9 +22,9 @@ pub struct Definition {
     pub doc: Vec<String>,
     /// Its parameters.
     pub params: Vec<Param>,
-    /// Whether its place in a scene is one point for each point parameter.
+    /// Whether its place in a scene consists of one point for each point parameter.
     pub points_apart: bool,
-    /// `let` and `initial`, in the order written.
+    /// `let` and `initial`, in the order of the text.
     pub bindings: Vec<Binding>,
     /// Conditions on the assembled start.
     pub requirements: Vec<(LitStr, Expr)>,
@@ -34,17 +34,17 @@ pub struct Definition {
     pub phi: Option<Expr>,
     /// Velocity level constraint.
     pub psi: Option<Expr>,
-    /// What drives may prescribe.
+    /// The measures that drives may prescribe.
     pub measures: Vec<(Ident, Expr)>,
-    /// Where the reaction is reported.
+    /// The point at which the reaction is reported.
     pub place: Option<Expr>,
     /// A named direction of the reaction.
     pub component: Option<(Ident, Expr)>,
-    /// What a reader of the reaction must know.
+    /// A note that readers of the reaction need.
     pub note: Option<LitStr>,
     /// Laws and their coordinates.
     pub forces: Vec<(Expr, Expr)>,
-    /// Scene type, if it is not the name.
+    /// Scene type, if it differs from the name.
     pub scene: Option<LitStr>,
     /// Key, value and whether it is the default.
     pub variant: Option<(Ident, LitStr, bool)>,
@@ -56,13 +56,13 @@ pub struct Param {
     pub name: Ident,
     /// Its doc comment.
     pub doc: Vec<String>,
-    /// What it takes.
+    /// The kind of its value.
     pub kind: ParamKind,
-    /// Value at the assembled start where none is given.
+    /// Value at the assembled start if none is given.
     pub default: Option<Expr>,
 }
 
-/// What a parameter takes.
+/// The kind of a parameter.
 pub enum ParamKind {
     /// A point of the body in a slot.
     Point(Ident),
@@ -86,11 +86,11 @@ pub struct Binding {
     pub name: Ident,
     /// Its value.
     pub value: Expr,
-    /// What is kept, for `initial`; nothing for `let`.
+    /// The kind of the kept value, for `initial`; `None` for `let`.
     pub kept: Option<Kept>,
 }
 
-/// What an `initial` value is.
+/// The kind of an `initial` value.
 #[derive(Clone, PartialEq, Eq)]
 pub enum Kept {
     /// One number with its unit.
@@ -99,7 +99,7 @@ pub enum Kept {
     Vector(Ident),
 }
 
-/// A name that becomes a name of generated code, too.
+/// A name that is also used as a name in the generated code.
 pub(super) fn name(input: ParseStream<'_>) -> syn::Result<Ident> {
     let name: Ident = input.parse()?;
     match name.to_string().strip_prefix("r#") {

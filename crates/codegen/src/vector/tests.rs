@@ -1,4 +1,4 @@
-//! Frames: what needs no rotation has none.
+//! Frames: operations that need no rotation contain none.
 
 use symbolic::{Derivation, Expr, Graph};
 
