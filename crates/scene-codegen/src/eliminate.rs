@@ -1,11 +1,11 @@
-//! Elimination of kept rows as straight-line code. The order of the pivots is chosen once, over all
-//! sampled states: the pivot with the least fill among those that are large beside their row and
-//! their column everywhere (Markowitz with a threshold).
+//! Elimination of kept rows as straight-line code. The order of the pivots is chosen once, for all
+//! sampled states: the pivot with the least fill among those that are large compared with their row
+//! and their column at every state (Markowitz with a threshold).
 //!
-//! The rows determine r dependent coordinates; the others are free. Every solve is one with the
-//! null space: x = x₀ + N·w, where x₀ meets the rows with the free coordinates at zero, N is the
-//! motion that each of them causes, and w minimises what is left in the mass metric. Zeros and ones
-//! of the mechanism fold away, so that sparsity needs no bookkeeping.
+//! The rows determine r dependent coordinates; the others are free. Every solve uses the null
+//! space: x = x₀ + N·w, where x₀ satisfies the rows with the free coordinates at zero, the columns
+//! of N are the motions for unit values of the free coordinates, and w minimises the rest in the
+//! mass metric. Zeros and ones of the mechanism are folded, so that sparsity needs no bookkeeping.
 //!
 //! Source of the threshold rule: I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse
 //! Matrices, 2nd ed. (2017), chapters 5 and 7.
@@ -17,28 +17,28 @@ use symbolic::Value;
 use crate::error::CodeError;
 use crate::sampled::Sampled;
 
-/// A pivot should be at least this share of the largest entry of its row and of its column, at
+/// A pivot should be at least this fraction of the largest entry of its row and of its column, at
 /// every state.
 const THRESHOLD: f64 = 0.1;
 
-/// Below this share no pivot is taken: the motion has no fixed order of elimination.
+/// Smallest acceptable fraction: below it the motion has no fixed order of elimination.
 const SMALLEST: f64 = 1e-3;
 
-/// A free motion has no mass of its own if this share of it is left when the others have theirs:
-/// rounding.
+/// A free motion is massless if at most this fraction of its mass remains after the elimination of
+/// the others: rounding.
 const MASSLESS: f64 = 1e-13;
 
-/// Rows in factored form, and the mass of the motions that they leave free.
+/// Rows in factored form, and the mass matrix of the motions that they leave free.
 pub(crate) struct Factored {
     n: usize,
     pivots: Vec<Pivot>,
     /// Coordinates that the rows do not determine.
     free: Vec<usize>,
-    /// N: for each free coordinate the motion of all.
+    /// N: the motion of all coordinates for each free coordinate.
     frame: Vec<Vec<Value>>,
     /// Rows of the factor L of NᵀMN = L·D·Lᵀ, and 1/D.
     reduced: Vec<(Vec<Value>, Value)>,
-    /// Everything that is divided by.
+    /// All divisors.
     pub(crate) divisors: Vec<Value>,
 }
 
@@ -46,11 +46,11 @@ struct Pivot {
     row: usize,
     column: usize,
     inverse: Value,
-    /// Rows that are eliminated with it, and by what multiple.
+    /// Rows that are eliminated with it, and the multiple of it that is subtracted.
     below: Vec<(usize, Value)>,
-    /// Its row: later dependent coordinates.
+    /// The entries of its row in later dependent coordinates.
     right: Vec<(usize, Value)>,
-    /// Its row: free coordinates, in their order.
+    /// The entries of its row in the free coordinates, in their order.
     free: Vec<Value>,
 }
 
@@ -120,8 +120,8 @@ impl Factored {
         Ok(factored)
     }
 
-    /// Smallest x in the mass metric beside M⁻¹·force with `rows·x = rhs`: the accelerations of
-    /// force and Γ.
+    /// The x with `rows·x = rhs` that is nearest to M⁻¹·force in the mass metric: for Q and Γ these
+    /// are the accelerations.
     pub(crate) fn solve(
         &self,
         code: &mut Sampled,
@@ -152,7 +152,7 @@ impl Factored {
         x
     }
 
-    /// λ with `rowsᵀ·λ = excess` in the dependent coordinates, for each of the rows.
+    /// λ with `rowsᵀ·λ = excess` in the dependent coordinates, one multiplier for each of the rows.
     pub(crate) fn multipliers(&self, code: &mut Sampled, excess: &[Value]) -> Vec<Value> {
         let p = &mut code.program;
         let zero = p.number(0.0);
@@ -199,7 +199,7 @@ impl Factored {
         x
     }
 
-    /// The motion of all coordinates with one free coordinate, for each of them.
+    /// The motion of all coordinates for each free coordinate.
     fn null_frame(&self, code: &mut Sampled) -> Vec<Vec<Value>> {
         let p = &mut code.program;
         let (zero, one) = (p.number(0.0), p.number(1.0));
@@ -231,7 +231,7 @@ impl Factored {
             })
             .collect();
         let k = self.free.len();
-        // Row by row; `row` holds that of L·D.
+        // Row by row; `row` contains the row of L·D.
         for i in 0..k {
             let mut row: Vec<Value> = (0..=i)
                 .map(|j| dot(code, &self.frame[i], &heavy[j]))
@@ -301,8 +301,8 @@ fn dot(code: &mut Sampled, a: &[Value], b: &[Value]) -> Value {
     })
 }
 
-/// The entry with the least fill among those that are large enough everywhere; constants before
-/// others.
+/// The entry with the least fill among those that are large enough at every state; constants are
+/// preferred.
 fn best_pivot(
     code: &mut Sampled,
     rows: &[Vec<Value>],
@@ -360,13 +360,14 @@ fn best_pivot(
     }
 }
 
-/// What speaks for a pivot.
+/// The criteria by which a pivot is chosen.
 struct Candidate {
-    /// Whether it has one sign at all states: else the motion passes where it vanishes.
+    /// Whether it has the same sign at all states; otherwise the motion passes a point where it
+    /// vanishes.
     keeps_sign: bool,
-    /// Smallest share of the largest entry of its row and column.
+    /// Smallest fraction of the largest entry of its row and column.
     share: f64,
-    /// New entries at most.
+    /// Upper bound of the number of new entries.
     fill: usize,
     varies: bool,
 }

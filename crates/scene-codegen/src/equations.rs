@@ -9,19 +9,19 @@ use symbolic::{Function, Graph, Value};
 use crate::sampled::Sampled;
 use crate::subject::Subject;
 
-/// What an input of the program stands for.
+/// The meaning of an input of the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
-    /// Of the mechanism.
+    /// An input of the mechanism.
     Mechanism(Input),
-    /// A right-hand side, by row.
+    /// An entry of a right-hand side, by row.
     Rhs(usize),
 }
 
 /// The equations as values of a program.
 pub(crate) struct Equations {
     pub(crate) code: Sampled,
-    /// Names of the inputs, and what they stand for.
+    /// Names of the inputs, and their meanings.
     pub(crate) names: Graph,
     pub(crate) sources: Vec<Source>,
     inputs: Vec<Value>,
@@ -76,7 +76,7 @@ impl Equations {
         }
     }
 
-    /// The input that stands for something; all of them are there from the beginning.
+    /// The input with this meaning; all inputs exist from the beginning.
     pub(crate) fn input(&self, source: Source) -> Option<Value> {
         let at = self.sources.iter().position(|&s| s == source)?;
         self.inputs.get(at).copied()
@@ -93,7 +93,7 @@ impl Equations {
     }
 }
 
-/// C by dense rows of a replayed recording, and what looks up its other results.
+/// C as dense rows of a replayed recording, and a function that looks up its other results.
 pub(crate) fn results<'v>(
     code: &mut Sampled,
     recording: &RecordedEquations,
@@ -115,7 +115,7 @@ pub(crate) fn results<'v>(
     (c, of)
 }
 
-/// The operations of a tape in a program, which folds what is known.
+/// Repeats the operations of a tape in a program, which folds known values.
 pub(crate) fn replay(
     code: &mut Sampled,
     recording: &RecordedEquations,

@@ -1,13 +1,13 @@
-//! Why there is no code for a mechanism.
+//! Reasons why there is no code for a mechanism.
 
 use dynamics::{MotionError, MotionFault};
 use scene::Diagnostic;
 
-/// What kept a module from being generated.
+/// Why a module could not be generated.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodeError {
-    /// The scene is wrong, with the places of its text.
+    /// The scene contains errors, with places in its text.
     #[error("{}", lines(.0))]
     Scene(Vec<Diagnostic>),
     /// The motion cannot be sampled.
@@ -19,7 +19,7 @@ pub enum CodeError {
     /// A state of the motion cannot be evaluated.
     #[error(transparent)]
     MotionFault(#[from] MotionFault),
-    /// There is no order of elimination that serves the whole motion.
+    /// No order of elimination is suitable for the whole motion.
     #[error(
         "no fixed order of elimination serves the whole motion: with {left} rows left the best pivot falls to {share:.1e} of its row or column \
          (at least 1e-3 is needed); run this scene interpreted, or generate code for a shorter motion"
@@ -46,7 +46,7 @@ pub enum CodeError {
     TooLong {
         /// Operations of the longest function.
         operations: usize,
-        /// What is allowed.
+        /// Largest allowed number.
         limit: usize,
     },
     /// A file cannot be read or written.
@@ -54,38 +54,39 @@ pub enum CodeError {
     File {
         /// The file.
         path: String,
-        /// Why.
+        /// The reason.
         source: std::io::Error,
     },
-    /// Rows are kept of which the frame of a body has no part.
+    /// Of a vector, only one component is kept, so the equations cannot be turned into the frame of
+    /// a body.
     #[error("the kept rows have one component of a vector without the other")]
     NoView,
-    /// What should be the path of a crate is none.
+    /// The given path is not the path of a crate.
     #[error(
         "`{path}` is no path of a crate; `--dynamics` wants one as the module sees it, such as `pfaff::dynamics`"
     )]
     Path {
-        /// What was given.
+        /// The given text.
         path: String,
     },
-    /// A module cannot be compared with a file that is not there.
+    /// A module cannot be compared with a file that does not exist.
     #[error("{path} cannot be read ({source}): write it first, without `--check`")]
     Unwritten {
         /// The file.
         path: String,
-        /// Why.
+        /// The reason.
         source: std::io::Error,
     },
-    /// Rows count from 1.
+    /// Rows are counted from 1.
     #[error("rows to drop are counted from 1, found 0")]
     RowZero,
-    /// A generated file does not agree with its scene.
+    /// A generated file differs from the module of its scene.
     #[error("{path} does not agree with its scene: generate it again")]
     Stale {
         /// The file.
         path: String,
     },
-    /// What was generated is no Rust: an error of this crate.
+    /// The generated text is not valid Rust: a bug in this crate.
     #[error("the generated text is no Rust: {0}")]
     Text(String),
 }

@@ -1,11 +1,12 @@
-//! The equations in the frame of one of the bodies. What moves freely in the plane has the same
-//! accelerations whichever way it points; seen from a body, the arms on that body are constants,
-//! fewer products are left, and no pivot wears out because the whole has turned.
+//! The equations in the frame of one of the bodies. If a mechanism moves freely in the plane, its
+//! accelerations relative to itself do not depend on its orientation. In the frame of a body the
+//! arms on that body are constants, so there are fewer products, and no pivot becomes small only
+//! because the whole mechanism has turned.
 //!
-//! The frame stands still and is turned by the angle θ of the body: positions and velocities are
-//! turned by −θ, and accelerations back. Rows that are components x and y of one vector are turned
-//! in pairs. Whether a mechanism may be seen like this does not follow from its parts: its C, Γ and
-//! Q are compared with the turned ones at states far from any motion, to rounding.
+//! The frame does not move; it is turned by the angle θ of the body: positions and velocities are
+//! turned by −θ, and accelerations back by θ. Rows that are components x and y of one vector are
+//! turned in pairs. Whether this is allowed cannot be seen from the joints of a mechanism: its C, Γ
+//! and Q are compared with the turned ones at states far from any motion, up to rounding.
 
 use model::System;
 use model::record::Input;
@@ -15,10 +16,11 @@ use crate::equations::{Equations, Source, replay, results};
 use crate::sampled::Sampled;
 use crate::subject::{State, Subject};
 
-/// Turned equations may differ from those in the frame by this share of their largest number.
+/// Largest difference between the turned equations and those in the frame, as a fraction of their
+/// largest number.
 const SAME: f64 = 1e-10;
 
-/// States at which they are compared.
+/// Number of states at which they are compared.
 const STATES: usize = 8;
 
 /// A frame that is turned by θ.
@@ -26,7 +28,7 @@ const STATES: usize = 8;
 pub(crate) struct Frame {
     /// cos θ and sin θ.
     turn: Option<[Value; 2]>,
-    /// Places of x and y of each body, in q and in v.
+    /// Indices of x and y of each body, in q and in v.
     bodies: Vec<[usize; 2]>,
     /// Rows that are x and y of one vector.
     rows: Vec<[usize; 2]>,
@@ -43,7 +45,7 @@ pub(crate) struct Seen {
 }
 
 impl Frame {
-    /// From the ground: nothing is turned.
+    /// The frame of the ground, which is not turned.
     fn ground() -> Self {
         Self {
             turn: None,
@@ -52,22 +54,22 @@ impl Frame {
         }
     }
 
-    /// The components of row quantities in the frame.
+    /// Row quantities, converted from ground components to components in the frame.
     pub(crate) fn rows_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.rows, false)
     }
 
-    /// Row quantities of the frame in ground components.
+    /// Row quantities, converted from the frame to ground components.
     pub(crate) fn rows_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.rows, true)
     }
 
-    /// Velocities or accelerations of the frame in ground components.
+    /// Velocities or accelerations, converted from the frame to ground components.
     pub(crate) fn velocities_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.bodies, true)
     }
 
-    /// The components of velocities or forces in the frame.
+    /// Velocities or forces, converted from ground components to components in the frame.
     fn velocities_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.bodies, false)
     }
@@ -95,7 +97,7 @@ impl Frame {
 }
 
 impl Seen {
-    /// From the ground.
+    /// The equations in the frame of the ground.
     pub(crate) fn from_ground(e: &Equations) -> Self {
         Self {
             frame: Frame::ground(),
@@ -105,7 +107,7 @@ impl Seen {
         }
     }
 
-    /// In the frame of the body whose angle has this place in q.
+    /// The equations in the frame of the body whose angle has this index in q.
     pub(crate) fn from_body(
         e: &mut Equations,
         subject: &Subject<'_>,
@@ -138,7 +140,7 @@ impl Seen {
         let values = replay(&mut e.code, &recording, &inputs);
         let (c, of) = results(&mut e.code, &recording, &values);
         let (gamma, mut force) = (of(&recording.gamma), of(&recording.force));
-        // The weight has the direction of the ground.
+        // The weight has a fixed direction on the ground, so it is turned.
         let weight: Vec<Value> = mechanism
             .weight()
             .iter()
@@ -157,7 +159,7 @@ impl Seen {
         })
     }
 
-    /// Whether the kept rows have both components of a vector or none.
+    /// Whether the kept rows contain, of every vector, both components or none.
     pub(crate) fn keeps_pairs(&self, kept: &[usize]) -> bool {
         let pairs = self.frame.rows.iter();
         pairs
@@ -166,7 +168,7 @@ impl Seen {
     }
 }
 
-/// The inputs of the mechanism as seen from a body.
+/// The inputs of the mechanism in the frame of a body.
 fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value>> {
     let recording = e.recording.clone();
     let all: Vec<Value> = recording
@@ -218,8 +220,8 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
     Some(seen)
 }
 
-/// Whether a mechanism may be seen from the body whose angle has this place: C, Γ and Q in its
-/// frame are the turned ones, at states that no constraint holds.
+/// Whether the equations of a mechanism may be solved in the frame of the body whose angle has this
+/// index: C, Γ and Q in its frame equal the turned ones, at states that violate the constraints.
 pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
     let elsewhere = Subject {
         prepared: subject.prepared,
@@ -260,12 +262,12 @@ pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
     })
 }
 
-/// A state that nothing holds: far from the k-th of the motion.
+/// A state that satisfies no constraint, far from the k-th state of the motion.
 fn anywhere(subject: &Subject<'_>, k: usize) -> State {
     let State { t, mut q, mut v } = subject.states[k % subject.states.len()].clone();
     let mechanism = &subject.prepared.mechanism;
     let size = subject.prepared.assembly.size;
-    // No symmetry of a mechanism is one of these numbers.
+    // No symmetry of a mechanism equals one of these numbers.
     let shift = |i: usize| (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin();
     let away: Vec<f64> = (0..v.len())
         .map(|j| shift(j) * model::space::unit(j, size))

@@ -12,21 +12,21 @@ use crate::error::CodeError;
 use crate::frame::{Seen, may_be_seen_from};
 use crate::subject::Subject;
 
-/// Longest function that is generated. A compiler takes about a minute for it.
+/// Largest number of operations of a generated function. A compiler takes about a minute for it.
 const LIMIT: usize = 60_000;
 
-/// Bodies from which a mechanism is looked at, at most.
+/// Largest number of bodies whose frames are tried.
 const VIEWS: usize = 12;
 
-/// This part of its median counts as the smallest size of a divisor.
+/// The smallest size of a divisor is taken as at least this fraction of its median.
 const OF_MEDIAN: f64 = 0.5;
 
-/// One function: straight-line code from inputs to outputs, and the shares of its divisors.
+/// One function: straight-line code from inputs to outputs, and the relative sizes of its divisors.
 pub(crate) struct Function {
     pub(crate) signature: Signature,
     /// Number of outputs.
     pub(crate) n_out: usize,
-    /// Outputs, then shares.
+    /// Outputs, then relative sizes of divisors.
     pub(crate) program: Program,
 }
 
@@ -35,10 +35,10 @@ pub(crate) struct Function {
 pub(crate) struct Signature {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
-    /// After the time.
+    /// Arguments after the time.
     pub(crate) arguments: &'static [(&'static str, &'static str)],
     pub(crate) out: (&'static str, &'static str),
-    /// Whether it returns a health.
+    /// Whether it returns a health, the smallest relative size of its divisors.
     pub(crate) divides: bool,
 }
 
@@ -96,13 +96,13 @@ pub(crate) struct Functions {
     pub(crate) list: Vec<Function>,
     /// The body in whose frame the equations are solved, if it is not the ground.
     pub(crate) seen_from: Option<String>,
-    /// At how many of the sampled states the health of accelerations is below what runs ask for.
+    /// Number of sampled states at which the health of accelerations is below the limit of runs.
     pub(crate) unhealthy: usize,
 }
 
 impl Functions {
-    /// From the ground, or from the body from which accelerations cost least, if the mechanism may
-    /// be seen from its bodies.
+    /// In the frame of the ground, or of the body in whose frame accelerations need the fewest
+    /// operations, if the equations may be solved in the frames of bodies.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
         let from_ground = Self::seen_from(subject, None);
         let angles: Vec<usize> = (2..subject.prepared.mechanism.layout().n_q)
@@ -133,8 +133,8 @@ impl Functions {
         }
     }
 
-    /// All functions, with the equations solved from the ground or in the frame of the body whose
-    /// angle has this place in q.
+    /// All functions, with the equations solved in the frame of the ground or of the body whose
+    /// angle has this index in q.
     fn seen_from(subject: &Subject<'_>, angle: Option<usize>) -> Result<Self, CodeError> {
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
@@ -230,9 +230,9 @@ impl Functions {
     }
 }
 
-/// Each divisor as a signed share of its smallest size over the sampled states, or of a part of its
-/// median where it came nearer to zero: a motion that passes a singular configuration must not make
-/// that the measure.
+/// Each divisor relative to its smallest size over the sampled states, with its sign. If that size
+/// is less than a fraction of its median, the fraction of the median is used: a motion that passes
+/// near a singular configuration must not define the reference.
 fn shares(e: &mut Equations, factored: &Factored) -> Vec<Value> {
     let share = |&divisor: &Value| {
         let at = e.code.at(divisor);

@@ -24,8 +24,9 @@ use std::path::Path;
 use dynamics::{MotionError, RowChoice, prepare};
 use model::{Mechanism, Registry};
 
-/// The module of a scene file: made for the run that the scene asks for, or for its start if it
-/// asks for none. Rows `drop`, from 0, are dropped instead of those that the scene drops.
+/// The module of a scene file, made for the run that the scene requests, or for its start if it
+/// requests none. The rows `drop`, counted from 0, are dropped instead of those that the scene
+/// drops.
 ///
 /// # Errors
 /// If the file cannot be read, the scene is wrong or its run stops, or there is no code for it.
@@ -43,8 +44,8 @@ pub fn scene(
     scene_text(&name, &text, registry, drop, choices)
 }
 
-/// The same from the text of a scene; `name` is the file's name in messages, `registry` knows the
-/// joints and forces that it may use.
+/// The same from the text of a scene; `name` is the file's name in messages, `registry` contains
+/// the joints and forces that the scene may use.
 ///
 /// # Errors
 /// As [`scene()`].

@@ -1,4 +1,4 @@
-//! `scene-codegen SCENE --out FILE`: one scene, one module.
+//! `scene-codegen SCENE --out FILE`: generates one module for one scene.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -7,8 +7,8 @@ use clap::Parser;
 use model::Registry;
 use scene_codegen::{Choices, CodeError, scene};
 
-/// Writes one scene as one Rust module: its numbers folded in, its kept rows eliminated in an order
-/// that serves its whole motion.
+/// Writes one Rust module for one scene, with its numbers folded in and its kept rows eliminated in
+/// an order that is suitable for its whole motion.
 #[derive(Parser)]
 struct Arguments {
     /// The scene file.
@@ -19,11 +19,11 @@ struct Arguments {
     /// Rows to drop, from 1, separated by commas; default: those of the scene.
     #[arg(long, value_delimiter = ',', value_name = "ROWS")]
     drop: Option<Vec<usize>>,
-    /// Path of the crate `dynamics` as the module sees it; then the module implements its trait
+    /// Path of the crate `dynamics` in the module; if given, the module implements its trait
     /// `SceneCode`.
     #[arg(long)]
     dynamics: Option<String>,
-    /// Sines and roots of the crate `libm`, for programs without the standard library.
+    /// Use sines and roots of the crate `libm`, for programs without the standard library.
     #[arg(long)]
     libm: bool,
     /// Compare with the file instead of writing it.

@@ -1,5 +1,5 @@
 //! The text of a module: constants, functions on arrays, the same for several states at once, and
-//! the face for `dynamics`.
+//! the interface to `dynamics`.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -18,13 +18,13 @@ use crate::subject::Subject;
 use crate::support::SUPPORT;
 use crate::time;
 
-/// What a module has beside its functions on arrays.
+/// The content of a module in addition to its functions on arrays.
 #[derive(Clone, Debug, Default)]
 pub struct Choices {
-    /// The path of the crate `dynamics` as the module sees it: then `Code` implements its trait
-    /// `SceneCode`. Without, the module imports nothing.
+    /// The path of the crate `dynamics` in the module: if given, `Code` implements its trait
+    /// `SceneCode`. Otherwise the module imports nothing.
     pub dynamics: Option<String>,
-    /// Sines, cosines and roots of the crate `libm` instead of `std`.
+    /// Use sines, cosines and roots of the crate `libm` instead of `std`.
     pub libm: bool,
 }
 
@@ -44,14 +44,14 @@ const ATTRIBUTES: [&str; 2] = [
 ];
 
 impl Module {
-    /// The same by another name.
+    /// The same with another name.
     #[must_use]
     pub fn named(self, name: &str) -> Self {
         let name = identifier(name);
         Self { name, ..self }
     }
 
-    /// The text of a file that is the module; `origin` tells how it was made.
+    /// The text of a file that contains only the module; `origin` states how it was made.
     #[must_use]
     pub fn as_file(&self, origin: &str) -> String {
         let origin = one_line(origin);
@@ -139,12 +139,12 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
     })
 }
 
-/// A text without line breaks and other control characters: comments end there.
+/// Removes line breaks and other control characters, because a line break ends a comment.
 fn one_line(text: &str) -> String {
     text.replace(|c: char| c.is_control(), " ")
 }
 
-/// A name as Rust has it.
+/// Converts a name into a Rust identifier.
 fn identifier(name: &str) -> String {
     let name = name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) {
@@ -155,7 +155,7 @@ fn identifier(name: &str) -> String {
 }
 
 const ROOT: &str = "
-/// Roots without the standard library.
+/// Square roots without the standard library.
 trait Root {
     fn sqrt(self) -> f64;
 }
@@ -176,7 +176,7 @@ fn parse(text: &str) -> Result<TokenStream, CodeError> {
     text.parse().map_err(|e| CodeError::Text(format!("{e}")))
 }
 
-/// What all functions of a module share.
+/// Data that all functions of a module share.
 struct Shape {
     /// Coordinates whose cosine or sine is used.
     rotations: Vec<usize>,
@@ -352,8 +352,8 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
     })
 }
 
-/// A function on arrays: its straight-line core on readers and a writer, the face for one state,
-/// and the face for many.
+/// A function on arrays: its straight-line core on readers and a writer, the interface for one
+/// state, and the interface for many.
 fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     let e = &functions.equations;
     let (statements, outputs) = Printer::new(&e.names, &f.program, Scalar::F64, &[]).print();
@@ -444,7 +444,7 @@ fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     }
 }
 
-/// The array that an input is read from, and its place there.
+/// The array from which an input is read, and its index there.
 fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
     let turn = |place: usize| {
         let at = shape.rotations.iter().position(|&r| r == place);

@@ -1,9 +1,9 @@
-//! A program with its values at sampled states: what an elimination needs to choose pivots that
-//! serve a whole motion.
+//! A program with its values at sampled states, by which an elimination chooses pivots that are
+//! suitable for a whole motion.
 
 use symbolic::{Program, Value};
 
-/// Straight-line code and what each of its operations is worth at some states.
+/// Straight-line code and the values of its operations at some states.
 pub(crate) struct Sampled {
     pub(crate) program: Program,
     /// Values of the inputs, state by state.
@@ -13,7 +13,7 @@ pub(crate) struct Sampled {
 }
 
 impl Sampled {
-    /// An empty program; `inputs` holds the values of all inputs for each state.
+    /// An empty program; `inputs` contains the values of all inputs for each state.
     pub(crate) fn new(inputs: Vec<Vec<f64>>) -> Self {
         Self {
             program: Program::empty(),
@@ -27,7 +27,7 @@ impl Sampled {
         self.inputs.len()
     }
 
-    /// A value at all states.
+    /// The values of an operation at all states.
     pub(crate) fn at(&mut self, v: Value) -> &[f64] {
         for k in self.values.len()..=v.index() {
             let op = self.program.op(self.program.value_at(k));

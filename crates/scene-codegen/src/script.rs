@@ -1,4 +1,4 @@
-//! For build scripts: modules that follow their scenes.
+//! For build scripts: modules that are regenerated with their scenes.
 
 use std::path::{Path, PathBuf};
 
@@ -7,8 +7,8 @@ use model::Registry;
 use crate::error::CodeError;
 use crate::module::Choices;
 
-/// Writes the module of a scene file as `NAME.rs` into the folder that cargo gives to build
-/// scripts, to be included as an item, and returns what the script has to tell cargo.
+/// Writes the module of a scene file as `NAME.rs` into the directory that cargo provides for build
+/// scripts, to be included as an item, and returns the lines that the script must print for cargo.
 ///
 /// ```no_run
 /// // build.rs

@@ -1,4 +1,4 @@
-//! What code is generated for: a prepared mechanism and states of its motion.
+//! The input of code generation: a prepared mechanism and states of its motion.
 
 use std::ops::ControlFlow;
 
@@ -7,7 +7,7 @@ use model::record::Input;
 
 use crate::error::CodeError;
 
-/// States of a run by which pivots are chosen.
+/// Number of states of a run for the choice of pivots.
 const STATES: f64 = 48.0;
 
 /// A state of the motion.

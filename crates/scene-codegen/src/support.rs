@@ -1,4 +1,4 @@
-//! Functions that generated modules carry with them, as text and, for tests, as code.
+//! Functions that are copied into generated modules, as text and, for tests, as code.
 
 /// Names and texts, in the order in which modules have them.
 pub(crate) const SUPPORT: [(&str, &str); 7] = [
@@ -26,7 +26,7 @@ mod tests {
             }
             x *= 1.0003;
         }
-        // Near multiples of π/2 what is small has its digits.
+        // Near multiples of π/2 small values are accurate relative to their size.
         for k in 1..200_000 {
             let x = f64::from(k) * core::f64::consts::FRAC_PI_2;
             let ([cos, sin], (s, c)) = (cos_sin(x), x.sin_cos());

@@ -1,5 +1,5 @@
-//! The same code without a compiler: operations in a list, carried out one after the other. For
-//! scenes that are met at run time, and for tests of runs on code; a compiled module is about five
+//! The same code without a compiler: a list of operations, executed in sequence. For scenes that
+//! are read at run time, and for tests of runs on generated code; a compiled module is about five
 //! times faster.
 
 use std::cell::RefCell;
@@ -38,14 +38,14 @@ pub struct Tape {
     times: Vec<(TimeFunction, f64)>,
 }
 
-/// One function: where its inputs come from, and what is done with them.
+/// One function: the sources of its inputs, and its operations.
 struct List {
     sources: Vec<Source>,
     program: Program,
     n_out: usize,
 }
 
-/// What a function is called with.
+/// The arguments of a function.
 #[derive(Clone, Copy, Default)]
 struct Arguments<'a> {
     t: f64,
@@ -55,7 +55,7 @@ struct Arguments<'a> {
 }
 
 thread_local! {
-    /// Values of all operations of the last function of this thread.
+    /// Values of all operations of the last function that ran in this thread.
     static VALUES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -102,7 +102,7 @@ impl Tape {
         })
     }
 
-    /// Carries out one function; the health.
+    /// Executes one function and returns the health.
     fn run(&self, name: &str, arguments: Arguments<'_>, out: &mut [f64]) -> f64 {
         let Some((_, list)) = self.functions.iter().find(|(n, _)| *n == name) else {
             return f64::NAN;
@@ -148,7 +148,7 @@ fn jet((f, offset): &(TimeFunction, f64), t: f64) -> [f64; 3] {
     [value - offset, rate, second]
 }
 
-/// The value of an input; NaN where the caller's arrays are too short.
+/// The value of an input; NaN if the caller's arrays are too short.
 fn read(source: Source, a: Arguments<'_>, jets: &[[f64; 3]]) -> f64 {
     let of = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(f64::NAN);
     match source {

@@ -1,5 +1,5 @@
-//! Code against the interpreter, which solves the same equations by another elimination in another
-//! order.
+//! Generated code compared with the interpreter, which solves the same equations by an elimination
+//! in another order.
 
 use dynamics::KeptRowMotion;
 use linalg::KeptRowSaddle;
@@ -12,15 +12,15 @@ use crate::frame::may_be_seen_from;
 use crate::functions::{Function, Functions};
 use crate::subject::{State, Subject};
 
-/// Relative difference of two eliminations in `f64`.
+/// Largest relative difference of two eliminations in `f64`.
 const SAME: f64 = 1e-13;
 
-/// States per scene; the robot has a thousand.
+/// Number of states per scene; the robot has a thousand.
 const STATES: usize = 40;
 
 pub(crate) const ROBOT: &str = include_str!("../../robot-trolley/robot-trolley.toml");
 
-/// Two bodies in space that nothing holds, tied by a spring.
+/// Two bodies in space without constraints, connected by a spring.
 const FREE: &str = r#"
 scene = { name = "free", space = "plane", gravity = [0.0, -1.0] }
 body = [
@@ -31,7 +31,7 @@ force = [{ name = "s", type = "spring-damper", bodies = ["a", "b"], points = { a
 simulate = { t_end = 2.0 }
 "#;
 
-/// A crank without freedom, driven by a table through which the drive's rate bends.
+/// A crank without freedom, driven by a table with a kink in the drive's rate.
 const DRIVEN: &str = r#"
 scene = { name = "driven", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "crank", mass = 1.0, inertia = 0.2, position = [0.5, 0.0] }]
@@ -51,7 +51,7 @@ simulate = { t_end = 2.0 }
 
 pub(crate) fn scenes() -> Vec<(String, String)> {
     let mut scenes: Vec<(String, String)> = suite::all()
-        // The same mechanism as the shorter one.
+        // The same mechanism as in the shorter scene.
         .filter(|case| case.name != "a01-pendulum-2000s")
         .map(|case| (case.name.to_owned(), case.scene.to_owned()))
         .collect();
@@ -72,7 +72,7 @@ pub(crate) fn subject<'a>(study: &'a Study, name: &str) -> Subject<'a> {
     Subject::of_run(&study.prepared, options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// What a function of a module gives at a state, and its health; `extra` gives the other inputs.
+/// The results and the health of a function of a module at a state; `extra` gives the other inputs.
 fn run(
     functions: &Functions,
     subject: &Subject<'_>,
@@ -94,7 +94,7 @@ fn run(
     (values, shares.into_iter().fold(f64::INFINITY, f64::min))
 }
 
-/// States on the constraints around the motion.
+/// States near the motion that satisfy the constraints.
 fn states(study: &Study, subject: &Subject<'_>, n: usize) -> Vec<State> {
     let mut motion = KeptRowMotion::new(&study.prepared).expect("moves");
     let (mechanism, size) = (&study.prepared.mechanism, study.prepared.assembly.size);
@@ -125,8 +125,8 @@ fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// Largest difference of accelerations and multipliers, relative, over states where neither is near
-/// a singular configuration.
+/// Largest relative difference of accelerations and multipliers, over states where neither method
+/// is near a singular configuration.
 fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
     let study = study(name, text);
     let subject = subject(&study, name);
@@ -144,8 +144,8 @@ fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
             continue;
         }
         compared += 1;
-        // What cancels in an acceleration is as large as the squares of velocities and the
-        // accelerations of forces.
+        // The terms that cancel in an acceleration are as large as the squares of velocities and
+        // the accelerations due to forces.
         let size = largest(&expected).max(largest(v).powi(2)).max(1e-3);
         let differences = a.iter().zip(&expected).map(|(a, e)| (a - e).abs() / size);
         let apart = differences.fold(0.0, f64::max);
@@ -200,7 +200,7 @@ fn code_equals_the_interpreter_at_a_thousand_states_of_the_robot() {
     assert!(worst < SAME, "{worst:e}");
 }
 
-/// Corrections against a saddle solve.
+/// Corrections compared with the solution of a saddle-point system.
 #[test]
 fn corrections_are_those_of_a_saddle_solve() {
     for (name, text) in scenes() {
@@ -251,7 +251,7 @@ fn corrections_are_those_of_a_saddle_solve() {
     }
 }
 
-/// What the robot costs: a change that needs more operations has to say so here.
+/// Number of operations of the robot: a change that needs more must update this test.
 #[test]
 fn the_robot_needs_no_more_operations_than_it_did() {
     let study = study("robot-trolley", ROBOT);
@@ -274,8 +274,8 @@ fn the_robot_needs_no_more_operations_than_it_did() {
     }
 }
 
-/// A vehicle that has turned right round is the same vehicle: seen from its bodies no pivot has
-/// changed.
+/// A vehicle that has turned by any angle has the same equations: in the frames of its bodies the
+/// pivots are unchanged.
 #[test]
 fn it_does_not_matter_which_way_a_vehicle_points() {
     let study = study("robot-trolley", ROBOT);
@@ -296,7 +296,7 @@ fn it_does_not_matter_which_way_a_vehicle_points() {
     for health in healths {
         assert!((health - healths[0]).abs() < 1e-9, "{healths:?}");
     }
-    // Pins on the ground look the same from everywhere, a line on it does not.
+    // Pins on the ground have the same equations in every frame; a line on the ground does not.
     let pinned = self::study("driven", DRIVEN);
     assert!(may_be_seen_from(&Subject::at_start(&pinned.prepared), 2));
     let bead = self::study("bead", BEAD);

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use model::Function;
 use model::function::Parts;
 
-/// The expression of the jet of a function at `t`, and the support that it needs.
+/// The expression of the jet of a function at `t`, and the support functions that it needs.
 pub(crate) fn jet(function: &Function) -> (String, &'static [&'static str]) {
     match function.parts() {
         Parts::Polynomial(c) => (format!("polynomial(t, &{c:?})"), &["polynomial"]),
@@ -48,7 +48,7 @@ pub(crate) fn jets<'f>(
         } else {
             format!(" - {offset:?}")
         };
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = write!(text, "let [f{k}, d{k}, dd{k}] = {call};");
         let _ = write!(names, "f{k}{minus}, d{k}, dd{k},");
     }

@@ -1,5 +1,5 @@
-//! Modules of all scenes as a compiler sees them: without imports, also without the standard
-//! library, one state at a time and several.
+//! Modules of all scenes, compiled: without imports, also without the standard library, for one
+//! state at a time and for several.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use pfaff::model::Registry;
 use pfaff::{AssembledScene, Overrides, Study};
 use scene_codegen::{Choices, Subject, generate};
 
-/// States of each scene.
+/// Number of states of each scene.
 const STATES: usize = 4;
 
 struct Expected {
@@ -54,8 +54,8 @@ fn subject<'a>(study: &'a Study, name: &str) -> Subject<'a> {
     Subject::of_run(&study.prepared, options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// Prints the bits of accelerations one state at a time, and asserts that several at once give the
-/// same.
+/// Prints the bits of accelerations computed for one state at a time, and asserts that several at
+/// once give the same.
 const HARNESS: &str = "
 macro_rules! run { ($m:ident, $states:expr) => {{
     use $m::*;
@@ -159,8 +159,8 @@ fn modules_compile_without_the_standard_library() {
     rustc(&folder, &emit);
 }
 
-/// The module of the robot is that of its scene: a change of the generator or of the scene has to
-/// write it again.
+/// The module of the robot in the repository is that of its scene: after a change of the generator
+/// or of the scene it must be written again.
 #[test]
 fn the_checked_in_module_agrees_with_its_scene() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -1,4 +1,5 @@
-//! Runs on code of every scene: the motion is that of the interpreter, whatever happens on the way.
+//! Runs on generated code for every scene: the motion equals that of the interpreter, also if the
+//! run switches between them.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -8,11 +9,11 @@ use pfaff::model::Registry;
 use pfaff::{AssembledScene, Overrides};
 use scene_codegen::{Subject, Tape};
 
-/// Two runs at this tolerance …
+/// Two runs with this tolerance …
 const RTOL: f64 = 1e-10;
 
-/// … may differ by this share of the largest coordinate or velocity: stiff cranks forget nothing in
-/// their run.
+/// … may differ by this fraction of the largest coordinate or velocity: in stiff cranks no error
+/// decays during the run.
 const SAME: f64 = 1e-6;
 
 fn run(prepared: &Prepared, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
@@ -65,7 +66,7 @@ fn runs_on_code_are_those_of_the_interpreter_on_every_scene() {
     }
 }
 
-/// The cranks that turn over without the third one.
+/// The turning cranks without the third one.
 fn two_turning_cranks(three: &str) -> String {
     let blocks = three.split("\n\n");
     blocks
@@ -74,9 +75,9 @@ fn two_turning_cranks(three: &str) -> String {
         .join("\n\n")
 }
 
-/// Where cranks are in line branches of the motion meet. Code is left on the way there, at another
-/// place for every tolerance; the interpreter, alone or after it, passes at all of them and stays
-/// on the branch of parallel cranks.
+/// Where the cranks are in line, branches of the motion meet. The run leaves the code before these
+/// points, at another place for every tolerance; the interpreter, alone or after the code, passes
+/// all of them and stays on the branch of parallel cranks.
 #[test]
 fn passages_do_not_depend_on_tolerances_or_on_who_evaluates() {
     let three = suite::find("turning-cranks").expect("a case").scene;
