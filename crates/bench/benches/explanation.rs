@@ -1,5 +1,4 @@
-//! What an explanation of the robot costs beyond its rank decision:
-//! `cargo bench -p bench --bench explanation`.
+//! The cost of an explanation of the robot in addition to its rank decision:
 
 use std::hint::black_box;
 

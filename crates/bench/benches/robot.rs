@@ -1,5 +1,5 @@
 //! The robot with its trolley, from one kernel to the whole run. Each benchmark asserts its result
-//! before it is timed. Compare ratios within one run: `cargo bench -p bench`.
+//! before it is timed. Compare only ratios within one run: `cargo bench -p bench`.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -95,7 +95,8 @@ fn right_hand_side(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| motion.acceleration(black_box(1.5), &p.q, &p.v, black_box(&mut a)));
 }
 
-/// For scale: one dense LU of the saddle matrix of the same size by nalgebra, nothing assembled.
+/// For comparison: one dense LU of the saddle matrix of the same size by nalgebra, without
+/// assembly.
 #[divan::bench]
 fn dense_lu_41_of_nalgebra(bencher: Bencher<'_, '_>) {
     let a = nalgebra::DMatrix::from_fn(41, 41, |i, j| {
@@ -110,7 +111,7 @@ fn dense_lu_41_of_nalgebra(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| black_box(&a).clone().lu().solve(black_box(&b)));
 }
 
-/// The whole run of ten seconds at the default tolerances, rows of output without reactions.
+/// The whole run of ten seconds at the default tolerances, with output rows without reactions.
 #[divan::bench(sample_count = 20)]
 fn whole_run(bencher: Bencher<'_, '_>) {
     let p = prepared();

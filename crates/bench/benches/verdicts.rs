@@ -1,5 +1,5 @@
-//! The 22 × 21 matrix of the robot as a library user sees it: certificates, and verdicts at a point
-//! that is certified already. Each benchmark asserts its result before it is timed:
+//! The 22 × 21 matrix of the robot from a library user's view: certificates, and verdicts at a
+//! point that is already certified. Each benchmark asserts its result before it is timed:
 //! `cargo bench -p bench --bench verdicts`.
 
 use std::hint::black_box;
@@ -48,7 +48,7 @@ fn unique(s: &Solvability, groups: &[Range<usize>]) -> usize {
         .count()
 }
 
-/// Rank, dependencies and proof for the entries as they stand.
+/// Rank, dependencies and proof for the entries as exact numbers.
 #[divan::bench]
 fn certify_exact(bencher: Bencher<'_, '_>) {
     let (c, _) = matrix();
@@ -64,15 +64,15 @@ fn certify_within(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::certify_within(black_box(&c), 1e-15));
 }
 
-/// Verdicts of all rows and groups from nothing but the matrix.
+/// Verdicts of all rows and groups, computed only from the matrix.
 #[divan::bench]
 fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     let (c, groups) = matrix();
     bencher.bench_local(|| Solvability::of(black_box(&c), 0.0).map(|s| unique(&s, &groups)));
 }
 
-/// The verdict of every reaction of the robot, with its certificate and what the data would have to
-/// be wrong by for a lower rank.
+/// The verdict of every reaction of the robot, with its certificate and the smallest error of the
+/// data that would give a lower rank.
 #[divan::bench]
 fn analysis(bencher: Bencher<'_, '_>) {
     let p = prepared();
@@ -81,7 +81,7 @@ fn analysis(bencher: Bencher<'_, '_>) {
     bencher.bench_local(analysed);
 }
 
-/// How much each unique reaction of the robot hangs on the data.
+/// The sensitivity of each unique reaction of the robot to the data.
 #[divan::bench]
 fn sensitivities(bencher: Bencher<'_, '_>) {
     let p = prepared();

@@ -1,6 +1,6 @@
-//! Ten seconds of the robot at the default tolerances, 201 rows that go nowhere: the least time of
-//! a run, interpreted and on generated code. `cargo xtask guards` compares it with the same program
-//! compiled without monitors.
+//! Ten seconds of the robot at the default tolerances, with 201 rows that are discarded: the least
+//! time of a run, interpreted and on generated code. `cargo xtask guards` compares it with the same
+//! program compiled without monitors.
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Least time and evaluations.
+/// Least time and number of evaluations.
 fn least(prepared: &Prepared, runs: usize) -> Result<(f64, u64), Box<dyn Error>> {
     let options = MotionOptions::to(10.0);
     let (mut least, mut evaluations) = (f64::INFINITY, 0);

@@ -1,1 +1,1 @@
-//! Nothing to use here: see `benches/`.
+//! This library is empty; the benchmarks are in `benches/`.

@@ -1,4 +1,4 @@
-//! Numbers `mantissa·2^exponent`, what `f64` and its sums and products are.
+//! Numbers `mantissa·2^exponent`: every finite `f64` is one, and so are sums and products of them.
 
 use num_bigint::BigInt;
 use num_traits::Zero;
@@ -64,7 +64,7 @@ impl Dyadic {
     /// The whole number `self/2^exponent`.
     ///
     /// # Panics
-    /// If it is none.
+    /// If it is not a whole number.
     #[must_use]
     pub fn over_power(&self, exponent: i64) -> BigInt {
         if self.is_zero() {
@@ -89,7 +89,7 @@ impl From<f64> for Dyadic {
         assert!(x.is_finite(), "{x} is no number");
         const FIELD: u64 = (1 << 52) - 1;
         let (bits, biased) = (x.to_bits() & FIELD, (x.to_bits() >> 52) & 0x7ff);
-        // Subnormal numbers have no hidden bit and the exponent of the smallest normal ones.
+        // Subnormal numbers have no hidden bit and the exponent of the smallest normal numbers.
         let hidden = if biased == 0 { 0 } else { FIELD + 1 };
         let mantissa = BigInt::from(bits + hidden);
         let mantissa = if x < 0.0 { -mantissa } else { mantissa };

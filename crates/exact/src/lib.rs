@@ -7,7 +7,7 @@
 //! | `dyadic` | numbers `mantissa·2^exponent` |
 //! | `elimination` | elimination without fractions |
 //! | `solve` | accelerations and multipliers of the equations of motion |
-//! | `rank` | rank, left null space, and the verdicts that follow from it |
+//! | `rank` | rank, left null space, and the verdicts that follow from them |
 
 mod dyadic;
 mod elimination;

@@ -1,4 +1,4 @@
-//! Rank, left null space and verdicts of a matrix of `f64`: exactly one of each.
+//! Exact rank, left null space and verdicts of a matrix of `f64`.
 
 use num_bigint::BigInt;
 use num_traits::Zero;
@@ -6,11 +6,11 @@ use num_traits::Zero;
 use crate::dyadic::Dyadic;
 use crate::elimination::eliminate;
 
-/// Rank and left null space of a matrix, exactly.
+/// Exact rank and left null space of a matrix.
 ///
 /// ```
 /// use exact::Exact;
-/// // Rows 0 and 1 say the same but for one part in 2⁶⁶⁴; row 2 is their sum.
+/// // Rows 0 and 1 differ by one part in 2⁶⁶⁴; row 2 is their sum.
 /// let tiny = 2_f64.powi(-664);
 /// let exact = Exact::of(&[[1.0, 0.0], [1.0, tiny], [2.0, tiny]]);
 /// assert_eq!(exact.rank(), 2);
@@ -18,17 +18,17 @@ use crate::elimination::eliminate;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Exact {
-    /// Whole numbers: row i of the matrix is row i of these times `2^row_exponents[i]` times a
-    /// power of two for each column.
+    /// Whole numbers: row i of the matrix is row i of these numbers times `2^row_exponents[i]`
+    /// times a power of two for each column.
     rows: Vec<Vec<BigInt>>,
     row_exponents: Vec<i64>,
     rank: usize,
-    /// Basis of the vectors z with `zᵀ·rows = 0`, one in each row.
+    /// Basis of the vectors z with `zᵀ·rows = 0`, one vector per row.
     z: Vec<Vec<BigInt>>,
 }
 
 impl Exact {
-    /// The matrix with these rows, all of one length.
+    /// The matrix with these rows, which have equal lengths.
     ///
     /// # Panics
     /// If an entry is not finite.
@@ -63,7 +63,7 @@ impl Exact {
     fn of_scaled(rows: Vec<Vec<BigInt>>, row_exponents: Vec<i64>) -> Self {
         let m = rows.len();
         let n = rows.first().map_or(0, Vec::len);
-        // What turns the left part to zero stands in the right part.
+        // The right part records the row combinations that make the left part zero.
         let with_identity = rows.iter().enumerate().map(|(i, row)| {
             let identity = (0..m).map(|l| BigInt::from(u8::from(l == i)));
             row.iter().cloned().chain(identity).collect()
@@ -78,7 +78,7 @@ impl Exact {
         }
     }
 
-    /// r
+    /// The rank r.
     #[must_use]
     pub fn rank(&self) -> usize {
         self.rank
@@ -90,8 +90,8 @@ impl Exact {
         self.z.iter().all(|z| z[i].is_zero())
     }
 
-    /// Basis of the vectors z with `zᵀ·C = 0`, for a matrix of whole entries; other rows were
-    /// multiplied by powers of two.
+    /// Basis of the vectors z with `zᵀ·C = 0`, for a matrix of whole numbers; the rows of other
+    /// matrices are multiplied by powers of two.
     #[must_use]
     pub fn null_space(&self) -> &[Vec<BigInt>] {
         &self.z
@@ -104,7 +104,8 @@ impl Exact {
         self.z.iter().all(|z| product(z).is_zero())
     }
 
-    /// Rank of `B_X = C_Xᵀ·Z_X`: in so many directions the reaction of the rows X is not unique.
+    /// Rank of `B_X = C_Xᵀ·Z_X`: the number of directions in which the reaction of the rows X is
+    /// not unique.
     #[must_use]
     pub fn freedom(&self, rows: &[usize]) -> usize {
         let n = self.rows.first().map_or(0, Vec::len);
@@ -115,7 +116,8 @@ impl Exact {
         eliminate(self.z.iter().map(b_x).collect(), n).0
     }
 
-    /// Rank of `Z_X`: in so many directions the multipliers of the rows X are not unique.
+    /// Rank of `Z_X`: the number of directions in which the multipliers of the rows X are not
+    /// unique.
     #[must_use]
     pub fn multiplier_freedom(&self, rows: &[usize]) -> usize {
         let z_x = |z: &Vec<BigInt>| rows.iter().map(|&i| z[i].clone()).collect();
@@ -128,7 +130,7 @@ impl Exact {
     /// If a coefficient is not finite.
     #[must_use]
     pub fn combination_is_unique(&self, l: &[f64]) -> bool {
-        // `2^−row_exponents` times z annihilates the rows as they were given.
+        // `2^−row_exponents` times z annihilates the original rows.
         let term = |(i, z): (usize, &BigInt)| {
             Dyadic::from(l[i]).times(&Dyadic::new(z.clone(), -self.row_exponents[i]))
         };
@@ -140,7 +142,8 @@ impl Exact {
     }
 }
 
-/// Whole numbers made small by powers of two for rows and columns, and the exponents of the rows.
+/// The matrix in whole numbers, made small by powers of two for rows and columns, and the exponents
+/// of the rows.
 fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
     let n = matrix.first().map_or(0, Vec::len);
     let entries: Vec<(usize, usize, i64)> = matrix
@@ -156,7 +159,7 @@ fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
         let above = entries.iter().map(|&(i, k, e)| (k, e - down[i]));
         across = means(n, above);
     }
-    // No exponent may stay negative.
+    // No exponent may remain negative.
     for (i, e) in down.iter_mut().enumerate() {
         let own = entries.iter().filter(|entry| entry.0 == i);
         *e = own.map(|&(_, k, e)| e - across[k]).min().unwrap_or(0);
@@ -168,11 +171,11 @@ fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
     (rows.collect(), down)
 }
 
-/// Sweeps that bring the powers of two of rows and columns near their least-squares values; more
-/// would only save time.
+/// Number of sweeps that bring the powers of two of rows and columns near their least-squares
+/// values; more sweeps could only make the later steps faster.
 const SWEEPS: usize = 12;
 
-/// The mean of the values at each place.
+/// The mean of the values for each index.
 fn means(n: usize, values: impl Iterator<Item = (usize, i64)>) -> Vec<i64> {
     let mut sums = vec![(0, 0); n];
     for (place, value) in values {

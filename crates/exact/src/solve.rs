@@ -5,11 +5,11 @@
 //! | C  0  | | λ | = | Γ |     M = diag(m) ≥ 0 (n), C the kept rows (r×n)
 //! ```
 //!
-//! All numbers are taken as they are given, as fractions of whole numbers, and the answer is
-//! rounded once, at the end. So this is right for the C, M, Q and Γ that a program in `f64` has to
-//! solve with; what rounding did to these numbers themselves is not in it. Of redundant rows only
-//! kept ones may be given: Γ of the others is off by its own rounding, and all rows together have
-//! no solution.
+//! All numbers are taken as given, as exact fractions, and the result is rounded once, at the end.
+//! So it is correct for the C, M, Q and Γ that a program in `f64` has to solve with; the rounding
+//! errors in these numbers themselves are not included. Of redundant rows only kept ones may be
+//! given: Γ of the others contains its own rounding error, and the equations of all rows together
+//! have no solution.
 
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, ToPrimitive, Zero};
@@ -27,12 +27,12 @@ pub struct Solution {
     pub lambda: Vec<f64>,
 }
 
-/// Why there is none, or more than one.
+/// Why there is no solution, or more than one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Singular {
     /// The rows are dependent.
     Rows,
-    /// The rows are independent, and M is not positive definite on ker C: a motion that they allow
+    /// The rows are independent, but M is not positive definite on ker C: a motion that they allow
     /// moves no mass.
     Massless,
 }
@@ -47,7 +47,7 @@ pub enum Singular {
 ///
 /// ```
 /// use exact::solve;
-/// // Two carts tied together, 1 kg and 2⁻⁷⁰ kg, and 3 N on the light one: in f64 the sum of the masses is 1 kg.
+/// // Two rigidly connected carts, 1 kg and 2⁻⁷⁰ kg, and 3 N on the light one: in f64 the sum of the masses is 1 kg.
 /// let tiny = 2_f64.powi(-70);
 /// let found = solve(&[1.0, tiny], &[[1.0, -1.0]], &[0.0, 3.0], &[0.0]).unwrap();
 /// assert_eq!((found.a, found.lambda), (vec![3.0, 3.0], vec![-3.0]));
@@ -93,7 +93,7 @@ pub fn solve<R: AsRef<[f64]>>(
     Ok(Solution { a, lambda })
 }
 
-/// A row of numbers as whole numbers, all multiplied by one power of two.
+/// A row of numbers as whole numbers, all multiplied by the same power of two.
 fn whole(row: &[f64]) -> Vec<BigInt> {
     let row: Vec<Dyadic> = row.iter().map(|&x| Dyadic::from(x)).collect();
     let least = row.iter().filter_map(Dyadic::exponent).min().unwrap_or(0);
@@ -101,7 +101,7 @@ fn whole(row: &[f64]) -> Vec<BigInt> {
 }
 
 /// The unknowns of an upper triangular system whose last column is its right-hand side. Multiplied
-/// by the determinant they are whole numbers (Cramer's rule), so that all divisions but the last
+/// by the determinant they are whole numbers (Cramer's rule), so that all divisions except the last
 /// are exact.
 fn back_substituted(rows: &[Vec<BigInt>]) -> Vec<f64> {
     let n = rows.len();
@@ -117,11 +117,12 @@ fn back_substituted(rows: &[Vec<BigInt>]) -> Vec<f64> {
     x.iter().map(|x| quotient(x, &determinant)).collect()
 }
 
-/// The nearest `f64`, ties to even, of x/y, as long as it is a normal number.
+/// The `f64` nearest to x/y, ties to even, if it is a normal number.
 fn quotient(x: &BigInt, y: &BigInt) -> f64 {
     let is_negative = (x < &BigInt::zero()) != (y < &BigInt::zero());
     let (x, y) = (x.magnitude(), y.magnitude());
-    // 64 bits or 65 of the quotient, the last one set where digits follow: enough to round once.
+    // The first 64 or 65 bits of the quotient, with the last bit set if further digits follow:
+    // enough to round once.
     let shift = 64 + y.bits() as i64 - x.bits() as i64;
     let scaled = |x: &BigUint, by: i64| if by > 0 { x << by } else { x.clone() };
     let (x, y) = (scaled(x, shift), scaled(y, -shift));
@@ -150,8 +151,8 @@ mod tests {
         ] {
             assert_eq!(quotient(&big(x), &big(y)), x / y, "{x}/{y}");
         }
-        // Half a unit of the last place, and a little more or less: only the digits far behind
-        // tell.
+        // Half a unit in the last place, slightly more and slightly less: only digits far behind
+        // decide.
         let half = (BigInt::one() << 200) + (BigInt::one() << 147);
         let one = BigInt::one() << 200;
         assert_eq!(quotient(&half, &one), 1.0);
@@ -183,7 +184,7 @@ mod tests {
             solve(&[1.0; 2], &rows, &[0.0; 2], &[0.0; 2]),
             Err(Singular::Rows)
         );
-        // 0.3 is not 3·0.1 in f64: exactly these rows are independent.
+        // 0.3 is not 3·0.1 in f64: these rows are exactly independent.
         let rows = [[0.1, 1.0], [0.3, 3.0]];
         assert!(solve(&[1.0; 2], &rows, &[0.0; 2], &[0.0; 2]).is_ok());
     }

@@ -46,7 +46,7 @@ pub(crate) fn write(
             r.component.unwrap_or(f64::NAN)
         }),
     ];
-    // Columns: what differs on the left, what agrees on the right.
+    // Two columns: reactions that differ on the left, reactions that agree on the right.
     let pairs = non_unique.into_iter().zip(unique).flat_map(|(a, b)| [a, b]);
     Ok(vec![
         directory.write("mechanism.svg", drawing.as_bytes())?,

@@ -1,5 +1,5 @@
-//! The robot with its trolley of Wojtyra and Frączek (2013), section 4: prints what the paper
-//! publishes and draws its figures, for the dimensions of `robot-trolley.toml`.
+//! The robot with its trolley of Wojtyra and Frączek (2013), section 4: prints the published
+//! results and draws the published figures, for the dimensions of `robot-trolley.toml`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod figures;

@@ -1,4 +1,4 @@
-//! What is printed: the published facts beside the computed ones.
+//! The printed text: published results and computed ones for comparison.
 
 use pfaff::model::{Mechanism, System};
 use pfaff::solvability::Analysis;
@@ -76,7 +76,7 @@ pub(crate) fn verdicts(a: &Analysis, agreeing: usize, instants: usize) -> String
     out
 }
 
-/// The variants side by side.
+/// Comparison of the variants.
 pub(crate) fn variants(mechanism: &Mechanism, variants: &[Variant]) -> String {
     let mut out = format!(
         "Elimination of redundant rows: three variants, rtol = atol = {TOLERANCE:e}, t = 0 … 10 s\n\n"
@@ -141,7 +141,7 @@ pub(crate) fn variants(mechanism: &Mechanism, variants: &[Variant]) -> String {
     out
 }
 
-/// The motion on generated code beside that of a variant.
+/// Comparison of the motion on generated code with that of a variant.
 pub(crate) fn generated(variant: &Variant, generated: &Variant) -> String {
     let [a, b] = generated.deleted;
     let s = &generated.summary;

@@ -1,5 +1,5 @@
-//! Three ways to eliminate the two redundant rows, run one after the other, and the rows that are
-//! chosen where nobody asks, on code generated for them.
+//! Three ways to eliminate the two redundant rows, run one after the other, and a run on generated
+//! code with the rows that are chosen automatically.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -38,7 +38,7 @@ pub(crate) struct Instant {
     pub(crate) reactions: Vec<Reaction>,
 }
 
-/// Reads the scene, with some rows chosen to be dropped.
+/// Reads the scene, with the given rows dropped.
 pub(crate) fn read(overrides: &Overrides) -> Result<Study, StudyError> {
     Study::read("robot-trolley.toml", SCENE, &Registry::planar(), overrides)
 }

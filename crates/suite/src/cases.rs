@@ -4,20 +4,20 @@ use crate::closed_forms;
 use crate::reference::Reference;
 use crate::table;
 
-/// A mechanism whose motion is known.
+/// A mechanism with a known motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Its name, which is that of its scene.
     pub name: &'static str,
-    /// What it is, in a few words.
+    /// A short description.
     pub title: &'static str,
-    /// The scene: how long it takes, and an output step of which all times of the reference are
+    /// The scene; it states the duration and an output step of which all times of the reference are
     /// multiples.
     pub scene: &'static str,
     known: Known,
 }
 
-/// Where the reference is.
+/// The source of the reference.
 #[derive(Clone, Copy, Debug)]
 enum Known {
     Table(&'static str),
@@ -25,7 +25,7 @@ enum Known {
 }
 
 impl Case {
-    /// What is known of its motion.
+    /// The reference values of its motion.
     ///
     /// ```
     /// // The three cranks start from the angle of 30° with the angular acceleration −(1.5·mc + M)·g·sin θ/((mc + M)·L).
@@ -42,7 +42,7 @@ impl Case {
     }
 }
 
-/// A case of this crate: its files have its name.
+/// A case of this crate: the names of its files are derived from its name.
 macro_rules! case {
     ($name:literal, $title:literal) => {
         case!(
@@ -69,7 +69,8 @@ macro_rules! case {
     };
 }
 
-/// Cases by which methods are compared: different in what they ask for, and done in a second.
+/// Cases by which methods are compared: they have different requirements, and a run takes less than
+/// a second.
 pub const COMPARED: [Case; 11] = [
     case!(
         "robot-trolley",
@@ -97,7 +98,7 @@ pub const COMPARED: [Case; 11] = [
     case!("stiff-cranks", "Three cranks, spring of 10¹²"),
 ];
 
-/// Cases that ask nothing more of a method, but of its digits.
+/// Cases that only test the accuracy of a method.
 pub const CHECKED: [Case; 3] = [
     case!("a01-pendulum-2000s", "Pendulum (A01), 2000 s"),
     case!("sundials-pendulum", "Pendulum with a period of 2 s"),
@@ -109,7 +110,7 @@ pub fn all() -> impl Iterator<Item = &'static Case> {
     COMPARED.iter().chain(&CHECKED)
 }
 
-/// The case with a name.
+/// The case with this name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Case> {
     all().find(|case| case.name == name)

@@ -1,9 +1,8 @@
-//! Motions that elementary functions describe, evaluated in `f64`: right to some units of the last
-//! digit.
+//! Motions with a closed form, evaluated in `f64`: accurate to some units of the last digit.
 
 use crate::reference::{Fact, Instant, Quantity, Reference, Trust};
 
-/// Rounding of some products and of the sine of an angle of some tens of radians.
+/// Rounding error of some products and of the sine of an angle of some tens of radians.
 const ROUNDING: f64 = 4e-15;
 
 /// Times at which the closed forms are evaluated (s).
@@ -20,7 +19,7 @@ const TIMES: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 /// ```
 /// let reference = suite::closed_forms::knife_edge();
 /// let x = &reference.instants[3].facts[0];
-/// assert!((x.value - 9.0206458501199992783).abs() < 1e-14); // worked out to 20 digits
+/// assert!((x.value - 9.0206458501199992783).abs() < 1e-14); // computed to 20 digits
 /// ```
 #[must_use]
 pub fn knife_edge() -> Reference {
@@ -54,10 +53,10 @@ pub fn knife_edge() -> Reference {
     )
 }
 
-/// A vertical disk that rolls with spin rate `Ω` while it turns with heading rate `ω`, a circle:
+/// A vertical disk that rolls with spin rate `Ω` while it turns with heading rate `ω`, on a circle:
 ///
-/// `x = RΩ/ω·sin ωt`, `y = RΩ/ω·(1 − cos ωt)`; the contact pushes across the heading with
-/// `N = m·ω·RΩ`, and not along it.
+/// `x = RΩ/ω·sin ωt`, `y = RΩ/ω·(1 − cos ωt)`; the contact force is perpendicular to the heading,
+/// `N = m·ω·RΩ`, without a component along it.
 ///
 /// Here m = 3 kg, R = 0.4 m, ω = 2 rad/s, Ω = 1 rad/s. Source: Bloch, Nonholonomic Mechanics and
 /// Control, chapter 1.
@@ -65,7 +64,7 @@ pub fn knife_edge() -> Reference {
 /// ```
 /// let reference = suite::closed_forms::rolling_disk();
 /// let y = &reference.instants[3].facts[1];
-/// assert!((y.value - 0.11838358763732160279).abs() < 1e-15); // worked out to 20 digits
+/// assert!((y.value - 0.11838358763732160279).abs() < 1e-15); // computed to 20 digits
 /// ```
 #[must_use]
 pub fn rolling_disk() -> Reference {

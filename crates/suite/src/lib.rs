@@ -4,10 +4,10 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`cases`] | which cases there are |
-//! | [`reference`](mod@reference) | named values at instants, and how far to trust them |
+//! | [`cases`] | the list of cases |
+//! | [`reference`](mod@reference) | named values at instants, and their accuracy |
 //! | `table` | reference values as text |
-//! | [`closed_forms`] | motions that elementary functions describe |
+//! | [`closed_forms`] | motions with a closed form |
 
 pub mod cases;
 pub mod closed_forms;

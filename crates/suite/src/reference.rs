@@ -1,7 +1,7 @@
-//! Reference values: what is known of a motion, at which instants, and how well.
+//! Reference values: known values of a motion at given instants, with their accuracy.
 
-/// What a value says of a body, a joint or a drive. SI units and radians, global components;
-/// reactions are forces on the first body.
+/// A quantity of a body, a joint or a drive. SI units and radians, global components; reactions are
+/// forces on the first body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Centre of mass, x.
@@ -12,17 +12,17 @@ pub enum Quantity {
     Angle,
     /// Rate of x.
     Vx,
-    /// Rate of y.
+    /// Time derivative of x.
     Vy,
-    /// Rate of the angle.
+    /// Time derivative of y.
     Omega,
-    /// Rate of vx.
+    /// Time derivative of the angle.
     Ax,
-    /// Rate of vy.
+    /// Time derivative of vx.
     Ay,
-    /// Rate of omega.
+    /// Time derivative of vy.
     Alpha,
-    /// Force along x.
+    /// Time derivative of omega.
     Fx,
     /// Force along y.
     Fy,
@@ -32,14 +32,14 @@ pub enum Quantity {
     Normal,
 }
 
-/// What is compared with its like.
+/// Kind of a quantity; quantities of the same kind are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Coordinates.
     Position,
-    /// Their rates.
+    /// Time derivatives of the coordinates.
     Velocity,
-    /// Rates of the rates.
+    /// Second time derivatives.
     Acceleration,
     /// Forces and torques of joints and drives.
     Reaction,
@@ -85,7 +85,7 @@ impl Quantity {
         (Self::Normal, "N"),
     ];
 
-    /// What it is compared with.
+    /// The kind of the quantity.
     #[must_use]
     pub fn kind(self) -> Kind {
         match self {
@@ -102,13 +102,13 @@ impl Quantity {
 pub struct Fact {
     /// The body, joint or drive.
     pub of: String,
-    /// What of it.
+    /// The quantity.
     pub quantity: Quantity,
     /// The value.
     pub value: f64,
 }
 
-/// What is known at one time.
+/// The known values at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
     /// Time (s).
@@ -117,8 +117,8 @@ pub struct Instant {
     pub facts: Vec<Fact>,
 }
 
-/// How far values of each kind are from the truth at most, relative to the largest value of the
-/// kind; infinite if nothing of the kind is known.
+/// Largest errors of the values of each kind, relative to the largest value of the kind; infinite
+/// if no value of the kind is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trust {
     /// Coordinates.
@@ -132,7 +132,7 @@ pub struct Trust {
 }
 
 impl Trust {
-    /// Nothing is known.
+    /// No value is known.
     pub const NOTHING: Self = Self {
         position: f64::INFINITY,
         velocity: f64::INFINITY,
@@ -140,7 +140,7 @@ impl Trust {
         reaction: f64::INFINITY,
     };
 
-    /// That of one kind.
+    /// The error of one kind.
     #[must_use]
     pub fn of(&self, kind: Kind) -> f64 {
         match kind {
@@ -161,13 +161,13 @@ impl Trust {
     }
 }
 
-/// What is known of a motion.
+/// The known values of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
-    /// Where the values come from.
+    /// The source of the values.
     pub source: String,
-    /// How well they are known.
+    /// The accuracy of the values.
     pub trust: Trust,
-    /// Values, in the order of time.
+    /// The values at each time, in the order of time.
     pub instants: Vec<Instant>,
 }

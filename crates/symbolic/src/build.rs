@@ -1,6 +1,6 @@
-//! Straight-line code built operation by operation. What is known is folded: numbers, zeros and
-//! ones, signs, `x − x`. Nothing is regrouped, so that the order of operations, which decides about
-//! rounding, stays that of the caller.
+//! Straight-line code, built operation by operation. Known values are folded: numbers, zeros and
+//! ones, signs, `x − x`. Nothing is regrouped, so that the order of operations, which determines
+//! the rounding, stays that of the caller.
 
 use crate::evaluate::Number;
 use crate::graph::{Function, Symbol};
@@ -27,7 +27,7 @@ impl Program {
         Self::default()
     }
 
-    /// The same with these outputs, and without the operations that they do not need.
+    /// A program with these outputs and only the operations that they need.
     #[must_use]
     pub fn with_outputs(&self, outputs: &[Value]) -> Self {
         let mut needed = vec![false; self.ops().len()];
@@ -63,7 +63,7 @@ impl Program {
         self.push(Op::Number(if x == 0.0 { 0.0_f64 } else { x }.to_bits()))
     }
 
-    /// The constant behind a handle, if it is one.
+    /// The constant that a handle refers to, if it is one.
     #[must_use]
     pub fn as_number(&self, v: Value) -> Option<f64> {
         match self.op(v) {
@@ -144,7 +144,7 @@ impl Program {
         }
     }
 
-    /// A number times a value that is none.
+    /// A number times a value that is not a constant.
     fn scale(&mut self, x: f64, v: Value) -> Value {
         match (x, self.op(v)) {
             (0.0, _) => self.number(0.0),
@@ -162,7 +162,7 @@ impl Program {
         }
     }
 
-    /// `a / b`; by a constant the product with its reciprocal.
+    /// `a / b`; if `b` is a constant, the product with its reciprocal.
     pub fn div(&mut self, a: Value, b: Value) -> Value {
         match self.as_number(b) {
             Some(y) if y != 0.0 => {
@@ -197,8 +197,8 @@ impl Program {
         }
     }
 
-    /// The values of the outputs where each input has the value `input(symbol)`: what printed code
-    /// computes, bit for bit.
+    /// The values of the outputs if each input has the value `input(symbol)`: the results of the
+    /// printed code, bit for bit.
     #[must_use]
     pub fn run(&self, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.ops().len());
@@ -210,7 +210,8 @@ impl Program {
 }
 
 impl Op {
-    /// Its value where its operands have the values `of`, and inputs those of `input`.
+    /// The value of the operation for operands with the values `of` and inputs with the values
+    /// `input`.
     pub fn evaluate(&self, of: impl Fn(Value) -> f64, input: impl Fn(Symbol) -> f64) -> f64 {
         match *self {
             Self::Number(bits) => f64::from_bits(bits),

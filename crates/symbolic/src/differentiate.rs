@@ -1,12 +1,13 @@
-//! Exact derivatives. A derivation is fixed by what it does to the inputs; sum, product and chain
+//! Exact derivatives. A derivation is defined by its values for the inputs; sum, product and chain
 //! rule do the rest. A partial derivative, a derivative along a rotation (`cos ↦ −sin`,
-//! `sin ↦ cos`) and a total time derivative are the same mechanism with other images.
+//! `sin ↦ cos`) and a total time derivative differ only in these values.
 
 use std::collections::{BTreeMap, HashMap};
 
 use crate::graph::{Expr, Function, Graph, Node, Symbol};
 
-/// A derivation `D`: the image `D(s)` of each input; inputs that are not listed are constants.
+/// A derivation `D`, defined by the image `D(s)` of each input; inputs that are not listed are
+/// constants.
 ///
 /// ```
 /// use symbolic::{Derivation, Graph};
@@ -30,7 +31,7 @@ impl Derivation {
     /// The derivation with these images of inputs.
     ///
     /// # Panics
-    /// If the first entry of a pair is no input of `g`.
+    /// If the first entry of a pair is not an input of `g`.
     #[must_use]
     pub fn new(g: &Graph, images: &[(Expr, Expr)]) -> Self {
         let images = images
@@ -45,7 +46,7 @@ impl Derivation {
         Self { images }
     }
 
-    /// The partial derivative by one input.
+    /// The partial derivative with respect to one input.
     #[must_use]
     pub fn partial(g: &mut Graph, by: Expr) -> Self {
         let one = g.number(1.0);
@@ -90,8 +91,8 @@ impl Derivation {
             Node::Call(f, u) => {
                 let du = self.derive(g, u, done);
                 let outer = match f {
-                    // Zero at zero, so that the length of a vanishing vector has a finite
-                    // derivative.
+                    // Zero at zero, so that the length of a vector has a finite derivative where it
+                    // vanishes.
                     Function::Sqrt => {
                         let recip = g.call(Function::RecipOrZero, e);
                         g.product(0.5, &[(recip, 1)])

@@ -1,12 +1,12 @@
-//! Direct evaluation of an expression over any number type: constants of definitions, and the
-//! oracle against which printed code is tested.
+//! Direct evaluation of an expression for any number type: for constants of definitions, and as the
+//! reference against which printed code is tested.
 
 use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg};
 
 use crate::graph::{Expr, Function, Graph, Node, Symbol};
 
-/// What direct evaluation needs of a number.
+/// The operations of a number that direct evaluation needs.
 pub trait Number:
     Copy + From<f64> + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -32,7 +32,7 @@ impl Number for f64 {
 }
 
 impl Graph {
-    /// The value of `e` where each input has the value `input(symbol)`.
+    /// The value of `e` if each input has the value `input(symbol)`.
     pub fn evaluate<T: Number>(&self, e: Expr, input: &impl Fn(Symbol) -> T) -> T {
         self.value(e, input, &mut HashMap::new())
     }

@@ -1,20 +1,20 @@
 //! Expressions as nodes of one graph. Every constructor returns the canonical form, so that equal
-//! expressions are equal handles and a derivative meets the subexpressions it came from.
+//! expressions have equal handles, and a derivative shares the subexpressions of its original.
 //!
-//! What is simplified: like terms and like factors merge, numbers fold, a factor common to all
-//! terms of a sum moves out of it, the first term of a sum is positive, `√u²` is `u`. What is not:
-//! products are never multiplied out and nested sums stay nested unless terms cancel, because the
-//! nesting written in a definition is the sharing its kernel should have.
+//! The simplifications are: like terms and like factors are merged, numbers are folded, a factor
+//! common to all terms of a sum is moved out of it, the first term of a sum is positive, `√u²` is
+//! `u`. Products are never multiplied out, and nested sums stay nested unless terms cancel, because
+//! the nesting written in a definition determines the shared values of its kernel.
 //!
-//! Numbers fold in `f64`, in the order in which they are met: with coefficients that are no binary
-//! fractions, two groupings of the same constants may differ in the last digit, and are two
-//! expressions then.
+//! Numbers are folded in `f64`, in the order of construction: if the coefficients are not binary
+//! fractions, two groupings of the same constants may differ in the last digit, and are then two
+//! different expressions.
 
 use std::collections::HashMap;
 
 use crate::order;
 
-/// Handle of an expression; equal handles of one [`Graph`] are equal expressions.
+/// Handle of an expression; in one [`Graph`], equal handles mean equal expressions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Expr(u32);
 
@@ -23,14 +23,14 @@ pub struct Expr(u32);
 pub struct Symbol(u32);
 
 impl Symbol {
-    /// Its place among the inputs of its graph, in the order of first use.
+    /// Its index among the inputs of its graph, in the order of first use.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// Functions of one argument that are no polynomials.
+/// Functions of one argument that are not polynomials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Function {
     /// `√u`
@@ -95,7 +95,7 @@ impl Graph {
         Self::default()
     }
 
-    /// The node behind a handle.
+    /// The node that a handle refers to.
     #[must_use]
     pub fn node(&self, e: Expr) -> &Node {
         &self.nodes[e.0 as usize]
@@ -107,7 +107,7 @@ impl Graph {
         &self.names[s.0 as usize]
     }
 
-    /// The input called `name`, made on first use. Inputs are ordered by first use.
+    /// The input called `name`, created at its first use. Inputs are ordered by first use.
     pub fn symbol(&mut self, name: &str) -> Expr {
         let id = match self.names.iter().position(|n| n == name) {
             Some(k) => Symbol(k as u32),
@@ -119,7 +119,7 @@ impl Graph {
         self.intern(Node::Symbol(id))
     }
 
-    /// The input behind a handle, if it is one.
+    /// The input that a handle refers to, if it is one.
     #[must_use]
     pub fn as_symbol(&self, e: Expr) -> Option<Symbol> {
         match self.node(e) {
@@ -128,7 +128,7 @@ impl Graph {
         }
     }
 
-    /// The constant behind a handle, if it is one.
+    /// The constant that a handle refers to, if it is one.
     #[must_use]
     pub fn as_number(&self, e: Expr) -> Option<f64> {
         match self.node(e) {
@@ -160,7 +160,7 @@ impl Graph {
         found.into_iter().collect()
     }
 
-    /// Expressions that a node is made of.
+    /// The operands of a node.
     #[must_use]
     pub fn children(&self, e: Expr) -> Vec<Expr> {
         match self.node(e) {
@@ -303,7 +303,7 @@ impl Graph {
         }
     }
 
-    /// `c·e` as a number times an expression without numerical coefficient.
+    /// `c·e` as a number times an expression without a numerical coefficient.
     fn split_coefficient(&mut self, c: f64, e: Expr) -> (f64, Expr) {
         match self.node(e) {
             Node::Number(x) => {
@@ -318,7 +318,8 @@ impl Graph {
         }
     }
 
-    /// Opens those nested sums in which a term cancels exactly against a term elsewhere.
+    /// Replaces nested sums by their terms if one of these cancels exactly against a term
+    /// elsewhere.
     fn open_cancelling_sums(&mut self, list: &mut Vec<(f64, Expr)>) {
         loop {
             let mut leaves: HashMap<Expr, f64> = HashMap::new();
@@ -346,7 +347,7 @@ impl Graph {
         }
     }
 
-    /// Total coefficient of each term that is no sum, through all nested sums.
+    /// Collects the total coefficient of each term that is not a sum, through all nested sums.
     fn collect_leaves(&self, c: f64, e: Expr, leaves: &mut HashMap<Expr, f64>) {
         match self.node(e) {
             Node::Sum(terms) => {
@@ -403,7 +404,7 @@ impl Graph {
     }
 }
 
-/// `xᵏ` by squaring: the same bits everywhere, which `f64::powi` does not promise.
+/// `xᵏ` by squaring: the same bits on every machine, which `f64::powi` does not guarantee.
 fn power(x: f64, k: i32) -> f64 {
     let (mut result, mut square, mut rest) = (1.0, x, k.unsigned_abs());
     while rest > 0 {

@@ -9,11 +9,11 @@
 //! | [`differentiate`] | exact derivatives along any derivation |
 //! | [`evaluate`] | direct evaluation, for tests and constants |
 //! | [`program`] | straight-line code: common subexpressions and operation counts |
-//! | `build` | the same built by operations, known parts folded |
-//! | `lower` | from expressions to straight-line code |
+//! | `build` | the same, built by operations, with known parts folded |
+//! | `lower` | expressions → straight-line code |
 //! | [`mod@print`] | Rust tokens |
 //!
-//! No mechanics here: bodies, joints and frames belong to the crate `codegen`.
+//! This crate contains no mechanics: bodies, joints and frames belong to the crate `codegen`.
 
 mod build;
 pub mod differentiate;

@@ -1,4 +1,4 @@
-//! From expressions to straight-line code.
+//! Translation of expressions into straight-line code.
 
 use crate::graph::{Expr, Graph, Node};
 use crate::program::{Binary, Op, Program, Value};
@@ -30,7 +30,8 @@ impl Program {
         v
     }
 
-    /// Left to right; the first coefficient is positive in canonical form, so no sign is wasted.
+    /// Left to right; the first coefficient is positive in canonical form, so no change of sign is
+    /// needed.
     fn lower_sum(&mut self, g: &Graph, terms: &[(f64, Expr)]) -> Value {
         let mut sum = None;
         for &(c, e) in terms {

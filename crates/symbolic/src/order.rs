@@ -1,5 +1,5 @@
-//! The canonical order of terms and factors: by structure, never by the order of construction or by
-//! a hash, so that the same mathematics prints as the same bytes.
+//! The canonical order of terms and factors: it depends on the structure, never on the order of
+//! construction or on a hash, so that the same mathematics is printed as the same bytes.
 
 use std::cmp::Ordering;
 
@@ -25,7 +25,7 @@ pub(crate) fn compare(g: &Graph, a: Expr, b: Expr) -> Ordering {
     }
 }
 
-/// Order of the terms of a sum: as [`compare`], a constant last.
+/// Order of the terms of a sum: as [`compare`], with a constant last.
 pub(crate) fn compare_terms(g: &Graph, a: Expr, b: Expr) -> Ordering {
     let constant = |e| g.as_number(e).is_some();
     constant(a).cmp(&constant(b)).then_with(|| compare(g, a, b))

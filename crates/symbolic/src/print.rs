@@ -1,5 +1,5 @@
-//! Straight-line code as Rust tokens. What is used once is written where it is used; what is
-//! shared, or has a name, becomes a `let`.
+//! Straight-line code as Rust tokens. A value that is used once is written at its use; a value that
+//! is shared or has a name becomes a `let`.
 
 use std::collections::{HashMap, HashSet};
 
@@ -27,7 +27,7 @@ pub struct Printer<'a> {
     uses: Vec<usize>,
 }
 
-/// Binding strength of a printed piece.
+/// Precedence of a printed expression.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Strength {
     Sum,
@@ -37,7 +37,7 @@ enum Strength {
 }
 
 impl<'a> Printer<'a> {
-    /// A printer that calls the given expressions by the given names wherever they are computed.
+    /// A printer that uses the given names for the given expressions wherever they are computed.
     #[must_use]
     pub fn new(
         graph: &'a Graph,
@@ -64,7 +64,7 @@ impl<'a> Printer<'a> {
     /// A name that would hide an input or an earlier `let` is not used.
     ///
     /// # Panics
-    /// If the name of an input or a piece is no Rust identifier.
+    /// If the name of an input or of an expression is not a Rust identifier.
     #[must_use]
     pub fn print(&self) -> (Vec<TokenStream>, Vec<TokenStream>) {
         let mut bound: HashMap<Value, Ident> = HashMap::new();
@@ -77,7 +77,8 @@ impl<'a> Printer<'a> {
             }
             let v = self.program.value_at(k);
             let name = match self.names.get(&v) {
-                // A named piece that is used once inside another still reads better under its name.
+                // A named value that is used once inside another one is still easier to read under
+                // its name.
                 Some(name)
                     if self.uses[k] > 0 && !self.is_only_output(v) && !taken.contains(name) =>
                 {
@@ -111,7 +112,7 @@ impl<'a> Printer<'a> {
         inputs.collect()
     }
 
-    /// Whether nothing but one output uses the value.
+    /// Whether one output is the only use of the value.
     fn is_only_output(&self, v: Value) -> bool {
         self.uses[v.index()] == 1 && self.program.outputs().contains(&v)
     }
@@ -137,7 +138,7 @@ impl<'a> Printer<'a> {
             }
             Op::Call(f, a) => {
                 let name = Ident::new(function_name(f), Span::call_site());
-                // A bare literal has no definite type, hence no methods.
+                // A literal without suffix has no definite type, hence no methods.
                 let bare =
                     self.scalar == Scalar::F64 && matches!(self.program.op(a), Op::Number(_));
                 let tokens = if bare {
@@ -151,9 +152,11 @@ impl<'a> Printer<'a> {
             }
             Op::Binary(kind, a, b) => {
                 let (left, right, strength) = match kind {
-                    // A sum on the right keeps its parentheses: a + (b + c) is rounded as computed.
+                    // A sum on the right keeps its parentheses: a + (b + c) must be rounded in this
+                    // order.
                     Binary::Add | Binary::Sub => (Strength::Sum, Strength::Product, Strength::Sum),
-                    // A product on the right keeps its parentheses: so does a product on the right.
+                    // A product or quotient on the right keeps its parentheses, for the same
+                    // reason.
                     Binary::Mul | Binary::Div => {
                         (Strength::Product, Strength::Sign, Strength::Product)
                     }
@@ -185,7 +188,7 @@ impl<'a> Printer<'a> {
         } else if x.is_infinite() {
             quote!(f64::INFINITY)
         } else {
-            // The shortest text that reads back as the same bits.
+            // The shortest text that is parsed as the same bits.
             let literal = Literal::f64_unsuffixed(x.abs());
             quote!(#literal)
         };

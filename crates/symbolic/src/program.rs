@@ -1,17 +1,17 @@
-//! Straight-line code: binary operations with value numbering, so that what is shared is computed
-//! once, and the count of what is left. A program is lowered from expressions ([`Program::new`]) or
-//! built by operations that fold what is known.
+//! Straight-line code: binary operations with value numbering, so that shared values are computed
+//! once, and the number of operations. A program is lowered from expressions ([`Program::new`]) or
+//! built by operations that fold known values.
 
 use std::collections::HashMap;
 use std::fmt;
 
 use crate::graph::{Expr, Function, Symbol};
 
-/// Handle of an operation of a [`Program`]; operands come before their uses.
+/// Handle of an operation of a [`Program`]; operands precede their uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Value(u32);
 
-/// Operations of two operands.
+/// Operations with two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Binary {
     /// `a + b`
@@ -55,7 +55,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// All of them.
+    /// Sum of all kinds.
     #[must_use]
     pub fn total(&self) -> usize {
         self.mul + self.add + self.neg + self.div + self.call
@@ -99,28 +99,28 @@ impl Program {
         &self.ops
     }
 
-    /// Where each output is found.
+    /// The handle of each output.
     #[must_use]
     pub fn outputs(&self) -> &[Value] {
         &self.outputs
     }
 
-    /// Where an expression is found, if the program computes it on its way.
+    /// The handle of an expression, if the program computes it.
     #[must_use]
     pub fn value_of(&self, e: Expr) -> Option<Value> {
         self.values.get(&e).copied()
     }
 
-    /// The operation behind a handle.
+    /// The operation that a handle refers to.
     #[must_use]
     pub fn op(&self, v: Value) -> Op {
         self.ops[v.0 as usize]
     }
 
-    /// The handle of the operation at a place of [`Program::ops`].
+    /// The handle of the operation with this index in [`Program::ops`].
     ///
     /// # Panics
-    /// If there is no such place.
+    /// If the index is too large.
     #[must_use]
     pub fn value_at(&self, place: usize) -> Value {
         assert!(
@@ -163,7 +163,7 @@ impl Program {
         counts
     }
 
-    /// The value of an operation: an old one if it has been computed before.
+    /// The handle of an operation: an existing one if it has been computed before.
     pub(crate) fn push(&mut self, op: Op) -> Value {
         if let Some(&v) = self.table.get(&op) {
             return v;
@@ -176,7 +176,7 @@ impl Program {
 }
 
 impl Value {
-    /// Place in [`Program::ops`].
+    /// Index in [`Program::ops`].
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
@@ -184,7 +184,7 @@ impl Value {
 }
 
 impl Op {
-    /// The values that it takes.
+    /// Its operands.
     pub(crate) fn operands(&self) -> impl Iterator<Item = Value> + use<> {
         let (a, b) = match *self {
             Op::Number(_) | Op::Input(_) => (None, None),
@@ -194,7 +194,7 @@ impl Op {
         a.into_iter().chain(b)
     }
 
-    /// The same operation on other values, if there are any for all of them.
+    /// The same operation on other operands, if all of them have a replacement.
     pub(crate) fn with_operands(&self, to: impl Fn(Value) -> Option<Value>) -> Option<Self> {
         Some(match *self {
             Op::Number(_) | Op::Input(_) => *self,

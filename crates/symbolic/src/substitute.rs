@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::graph::{Expr, Graph, Node};
 
 impl Graph {
-    /// `e` with each input of `pairs` replaced by its partner, in canonical form again.
+    /// `e` with each input of `pairs` replaced by the second entry of its pair, in canonical form.
     pub fn substitute(&mut self, e: Expr, pairs: &[(Expr, Expr)]) -> Expr {
         let mut done = pairs.iter().copied().collect();
         self.rebuild(e, &mut done)

@@ -1,5 +1,5 @@
-//! What is compared. Each candidate is evaluated in every state of the motion and must give what is
-//! known there before it is timed. A new one is one line in [`all`].
+//! The candidates of the comparison. Each candidate is evaluated at every state of the motion and
+//! must give the known result there before it is timed. A new one needs one line in [`all`].
 
 use std::hint::black_box;
 
@@ -19,7 +19,7 @@ use crate::recursive;
 use crate::robot::{Robot, State};
 use crate::saddle::Saddle;
 
-/// What a candidate computes.
+/// The result of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
     /// (t, q, v) → v̇.
@@ -36,7 +36,7 @@ impl Group {
     /// In the order of the table.
     pub(crate) const ALL: [Self; 4] = [Self::RightHandSide, Self::Solve, Self::Matrices, Self::Run];
 
-    /// As a heading.
+    /// The heading of the table.
     pub(crate) fn title(self) -> &'static str {
         match self {
             Self::RightHandSide => "Right-hand side: (t, q, v) → accelerations of all bodies",
@@ -51,21 +51,22 @@ impl Group {
 pub(crate) struct Work<'r> {
     /// Its name in commands and in the CSV.
     pub(crate) key: &'static str,
-    /// What it is.
+    /// Its description.
     pub(crate) title: String,
-    /// With what it is compared.
+    /// The group with which it is compared.
     pub(crate) group: Group,
-    /// Calls in one lap.
+    /// Number of calls in one lap.
     pub(crate) calls: usize,
-    /// Does them.
+    /// Makes the calls of one lap.
     pub(crate) lap: Box<dyn FnMut() + 'r>,
 }
 
-/// Largest difference, relative to the largest value that is known in any state. Ill-conditioned by
-/// 1/σ_r ≈ 25 at most; the rest is for solvers that square or truncate.
+/// Largest difference, relative to the largest known value at any state. The problem is
+/// ill-conditioned by at most 1/σ_r ≈ 25; the rest is a margin for solvers that square the
+/// condition number or truncate.
 const AGREES: f64 = 1e-10;
-/// Singular values below this share of the largest one are zero: with all rows the smallest true
-/// one is 1e-3 of it.
+/// Singular values below this fraction of the largest one are zero: with all rows the smallest
+/// nonzero one is 1e-3 of it.
 const SINGULAR: f64 = 1e-9;
 
 /// The candidates, in the order of the table.
@@ -137,10 +138,10 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
     Ok(list?.works)
 }
 
-/// Evaluates in a state, into the caller's storage.
+/// Evaluates at a state into the caller's storage.
 type Call<'r> = Box<dyn FnMut(&State, &mut [f64]) -> bool + 'r>;
 
-/// L states, state by state in the last index.
+/// L states; the last index is the state.
 struct Lanes<const L: usize> {
     t: [f64; L],
     q: [[f64; L]; automatic::N_Q],
@@ -177,7 +178,7 @@ impl<'r> List<'r> {
         })
     }
 
-    /// Generated code on L states at once, checked in all of them. A call is one state.
+    /// Generated code on L states at once, checked at all of them. One state counts as a call.
     fn lanes<const L: usize>(mut self, key: &'static str, title: &str) -> Outcome<Self> {
         let states = &self.robot.states;
         let size = states
@@ -214,7 +215,7 @@ impl<'r> List<'r> {
         Ok(self)
     }
 
-    /// Checks the candidate in all states and takes it up.
+    /// Checks the candidate at all states and adds it.
     fn add(
         mut self,
         key: &'static str,
@@ -255,7 +256,7 @@ impl<'r> List<'r> {
     }
 }
 
-/// As a run calls it.
+/// Called in the same way as in a run.
 fn generated<'r>() -> Call<'r> {
     let code: &dyn SceneCode = &automatic::Code;
     Box::new(move |s, a| code.acceleration(s.t, &s.q, &s.v, a) > 0.0)
@@ -275,7 +276,7 @@ fn kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     }))
 }
 
-/// A comparator of the laboratory, made from C and M at the start and the rank there.
+/// A comparator of the laboratory, built from C and M at the start and the rank there.
 fn all_rows<'r>(
     robot: &'r Robot,
     solver: impl FnOnce(
@@ -299,7 +300,7 @@ fn kept_rows_by_dual_numbers(robot: &Robot) -> Outcome<Call<'_>> {
     let mut both = vec![0.0; rows * (n + 1)];
     let kept = &robot.prepared.decision.kept;
     let mut saddle = KeptRowSaddle::new(n, kept.len())?;
-    // Nothing acts on the robot but its constraints.
+    // Only the constraints act on the robot.
     let force = vec![0.0; n];
     let (mut gamma, mut lambda) = (vec![0.0; kept.len()], vec![0.0; kept.len()]);
     Ok(Box::new(move |s, a| {
@@ -361,7 +362,7 @@ fn dense_svd(robot: &Robot) -> Call<'_> {
     })
 }
 
-/// Rows of C_K out of the assembled matrix of a state: behind the mass its columns are those of
+/// The rows of C_K from the assembled matrix of a state: the columns after those of the mass are
 /// C_Kᵀ.
 fn solve_kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     let mass = robot.prepared.mechanism.mass();

@@ -1,12 +1,13 @@
-//! C and Γ of the robot by dual numbers: each joint states Φ, or the velocity that an edge forbids,
-//! and `num-dual` differentiates. As good as it gets: forward derivatives over the six coordinates
-//! of one joint instead of all, sizes known to the compiler, nothing on the heap.
+//! C and Γ of the robot by dual numbers: each joint states Φ, or the velocity that an edge
+//! prevents, and `num-dual` differentiates. This is the best case for the method: forward
+//! derivatives with respect to the six coordinates of one joint instead of all, sizes known to the
+//! compiler, no heap.
 
 use model::{Function, Mechanism};
 use nalgebra::SVector;
 use num_dual::{Dual2_64, Dual64, DualNum, gradient, jacobian};
 
-/// Numbers in which joints are stated.
+/// Number types for the equations of joints.
 trait Number: DualNum<Primitive = f64> + Copy {}
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
@@ -30,10 +31,10 @@ const EDGES: [(usize, [f64; 2]); 5] = [
     (6, [-0.8, 0.0]),
 ];
 
-/// Platform and slider, joined by H and its drive at a place.
+/// Platform and slider, connected by H and its drive at this point.
 const SLIDE: (usize, usize, [f64; 2]) = (0, 5, [0.0, -0.2]);
 
-/// Columns of C, and rows.
+/// Numbers of columns and rows of C.
 const COLUMNS: usize = 21;
 const ROWS: usize = 22;
 
@@ -122,7 +123,7 @@ fn halves<D: Number>(x: &SVector<D, 6>) -> [[D; 3]; 2] {
     [[x[0], x[1], x[2]], [x[3], x[4], x[5]]]
 }
 
-/// Six derivatives into a row of C.
+/// Writes six derivatives into a row of C.
 fn spread<'d>(d: impl Iterator<Item = &'d f64>, bodies: [usize; 2], row: &mut [f64]) {
     for (k, d) in d.enumerate() {
         row[3 * bodies[k / 3] + k % 3] = *d;

@@ -1,11 +1,11 @@
-//! Bars of times on a logarithmic axis, the shortest on top.
+//! A bar chart of times on a logarithmic axis, the shortest on top.
 
 use std::fmt::Write;
 
 use crate::table::{Line, duration};
 
 const WIDTH: f64 = 820.0;
-/// Room for names, and for numbers behind the longest bar.
+/// Space for names, and for numbers to the right of the longest bar.
 const LEFT: f64 = 330.0;
 const RIGHT: f64 = 80.0;
 const TOP: f64 = 44.0;

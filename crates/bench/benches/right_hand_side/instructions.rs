@@ -1,11 +1,12 @@
-//! Instructions per call by callgrind, which do not depend on neighbours or the speed of the
-//! processor. Callgrind shows no AVX-512 to programs, so faer takes its AVX2 kernels there.
+//! Instructions per call, counted by callgrind; they do not depend on other processes or on the
+//! speed of the processor. Callgrind does not offer AVX-512 to programs, so faer uses its AVX2
+//! kernels there.
 
 use std::process::Command;
 
 use crate::Outcome;
 
-/// Laps of a short and a long repetition; the difference has no start-up in it.
+/// Laps of a short and a long run; the difference does not contain the start-up.
 const LAPS: [u64; 2] = [1, 4];
 
 /// Instructions of one lap of a candidate.
@@ -15,7 +16,7 @@ pub(crate) fn per_lap(key: &str) -> Outcome<u64> {
     Ok(difference / (many - few))
 }
 
-/// What callgrind counts while this very program repeats one candidate.
+/// The count of callgrind while this program repeats one candidate.
 fn collected(key: &str, laps: u64) -> Outcome<u64> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])

@@ -1,14 +1,14 @@
-//! The right-hand side of the robot with its trolley by every way we know, side by side in one run:
-//! `cargo bench -p bench --bench right_hand_side`. Candidates take turns, so that ratios survive a
-//! processor that changes its speed; each must give the accelerations (or the matrices) of the
-//! others before it is timed.
+//! The right-hand side of the robot with its trolley by all known methods, compared in one run:
+//! `cargo bench -p bench --bench right_hand_side`. Candidates take turns, so that ratios are
+//! correct on a processor with changing speed; each must give the accelerations (or the matrices)
+//! of the others before it is timed.
 //!
-//! | arguments | do |
+//! | arguments | action |
 //! | --- | --- |
 //! | none | times |
 //! | `--instructions` | instructions per call by callgrind, with the times |
 //! | `--out DIR` | the same, and `table.md`, `table.csv` and `table.svg` in a directory |
-//! | `--repeat KEY LAPS` | nothing but calls of one candidate: what callgrind runs |
+//! | `--repeat KEY LAPS` | only calls of one candidate, for callgrind |
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod candidates;
@@ -35,7 +35,7 @@ use table::Line;
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 fn main() -> ExitCode {
-    // Cargo tells that it is a benchmark.
+    // Cargo adds the argument `--bench`.
     let arguments: Vec<String> = std::env::args()
         .skip(1)
         .filter(|a| a != "--bench")
@@ -57,7 +57,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The workspace: cargo runs benchmarks in the folder of their package.
+/// The directory of the workspace: cargo runs benchmarks in the directory of their package.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -68,7 +68,7 @@ fn tell(instructions: bool) -> Outcome<Vec<Line>> {
     let mut all = candidates::all(&robot)?;
     all.extend(runs::all(&robot)?);
     let times = timing::take_turns(&mut all);
-    // The cost of a run that no machine changes is its number of evaluations, which is told anyway.
+    // The number of evaluations, which does not depend on the machine, is printed in every case.
     let count = |work: &Work<'_>| {
         if instructions && work.group != Group::Run {
             instructions::per_lap(work.key).map(Some)

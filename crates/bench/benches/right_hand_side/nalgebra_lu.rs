@@ -1,5 +1,5 @@
-//! The dense equations by nalgebra: LU with partial pivoting of a matrix whose size the compiler
-//! knows or not, and singular values.
+//! The dense equations by nalgebra: LU with partial pivoting of a matrix whose size is known or
+//! unknown to the compiler, and singular values.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
@@ -11,13 +11,13 @@ pub(crate) fn solve_static(matrix: SMatrix<f64, N, N>, x: &mut SVector<f64, N>) 
     matrix.lu().solve_mut(x)
 }
 
-/// LU of a matrix on the heap, which is consumed: nalgebra has no other way.
+/// LU of a matrix on the heap, which is consumed, because nalgebra offers no other way.
 pub(crate) fn solve_dynamic(matrix: DMatrix<f64>, x: &mut DVector<f64>) -> bool {
     matrix.lu().solve_mut(x)
 }
 
-/// Least solution of a singular system; singular values below `tolerance` times the largest are
-/// zero.
+/// Least-norm solution of a singular system; singular values below `tolerance` times the largest
+/// are taken as zero.
 pub(crate) fn solve_singular(
     matrix: DMatrix<f64>,
     load: &DVector<f64>,

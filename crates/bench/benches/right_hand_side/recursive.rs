@@ -1,27 +1,26 @@
-//! The robot by hand: what an engineer writes who has looked at this one mechanism for an
-//! afternoon. Nothing of it comes from a definition, and nothing of it is good for another
-//! mechanism.
+//! The equations of the robot derived by hand for this one mechanism. Nothing in this module comes
+//! from a definition, and nothing can be used for another mechanism.
 //!
-//! The wheels W3 and W4 leave the platform a speed u along its x-axis; W1 turns it with `ω = κ·u`,
-//! `κ = tan β/0.3`, β the angle of the front knuckle; W2 says the same by symmetry. β follows from
-//! the displacement d(t) of the slider in closed form, and the trolley follows its hitch:
-//! `ω₇ = −(sin δ/0.4 + κ·cos δ)·u`, δ its angle to the platform. All velocities are `J·u + c(t)`,
-//! all accelerations `J·u̇ + Γ`, hence
+//! The wheels W3 and W4 allow the platform only a speed u along its x-axis; W1 turns it with
+//! `ω = κ·u`, `κ = tan β/0.3`, β the angle of the front knuckle; W2 gives the same condition by
+//! symmetry. β follows from the displacement d(t) of the slider in closed form, and the trolley
+//! follows its hitch: `ω₇ = −(sin δ/0.4 + κ·cos δ)·u`, δ its angle to the platform. All velocities
+//! are `J·u + c(t)`, all accelerations `J·u̇ + Γ`, hence
 //!
 //! `(Σ Jᵀ·M·J)·u̇ = −Σ Jᵀ·M·Γ`.
 //!
-//! Off the constraints, where a stage of an integrator may be, it is another continuation of the
-//! same motion. Vectors are in the frame of the platform.
+//! At states that violate the constraints, which occur in the stages of an integrator, the
+//! accelerations differ from those of the other methods. Vectors are in the frame of the platform.
 
-/// Half the wheelbase, and the distance from hitch to platform centre, hitch to trolley wheel and
-/// to the trolley's centre (m).
+/// Half the wheelbase, and the distances from the hitch to the platform centre, to the trolley
+/// wheel and to the trolley's centre (m).
 const WHEEL: f64 = 0.3;
 const HITCH: f64 = 0.4;
 const TONGUE: f64 = 0.4;
 const CENTRE: f64 = 0.35;
 /// From the pivot of the front knuckle to the joint of its link, at β = 0.
 const ARM: [f64; 2] = [-0.09, 0.05];
-/// Where the front link holds the slider, at d = 0.
+/// The point of the slider that holds the front link, at d = 0.
 const EYE: [f64; 2] = [0.2, -0.2];
 /// Squared length of a link: from (0.2, −0.2) to (0.21, 0.05).
 const LINK_2: f64 = 0.01 * 0.01 + 0.25 * 0.25;
@@ -34,8 +33,8 @@ const LINK: [f64; 2] = [0.3, 0.0016];
 const SLIDER: [f64; 2] = [1.0, 0.02];
 const TROLLEY: [f64; 2] = [8.0, 0.5];
 
-/// A body carried by the platform: its place with two derivatives, and the second one of its angle,
-/// relative to the platform.
+/// A body carried by the platform: its position and angle relative to the platform, with
+/// derivatives.
 #[derive(Clone, Copy)]
 struct Carried {
     r: [f64; 2],
@@ -45,7 +44,7 @@ struct Carried {
 }
 
 impl Carried {
-    /// The same body on the other side of the platform.
+    /// The mirror image of the body on the other side of the platform.
     fn mirrored(&self) -> Self {
         let across = |[x, y]: [f64; 2]| [-x, y];
         Self {
@@ -57,8 +56,8 @@ impl Carried {
     }
 }
 
-/// Directions of the velocity and the rest of the acceleration: `a = J·u̇ + Γ`, two components
-/// and the angle.
+/// The direction J of the velocity and the rest Γ of the acceleration: `a = J·u̇ + Γ`, two
+/// components and the angle.
 type Share = ([f64; 3], [f64; 3]);
 
 /// v̇ of all bodies.
@@ -69,7 +68,7 @@ pub(crate) fn acceleration(t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
     let (knuckle, link, slider, [kappa, kappad]) = linkage(steering(t));
     let (omega, beside) = (kappa * u, kappad * u);
 
-    // The trolley hangs at the hitch: ω₇ = κ₇·u.
+    // The trolley is connected at the hitch: ω₇ = κ₇·u.
     let kappa_7 = -(sin_d / TONGUE + kappa * cos_d * (HITCH / TONGUE));
     let omega_7 = kappa_7 * u;
     let deltad = omega_7 - omega;
@@ -120,9 +119,9 @@ pub(crate) fn acceleration(t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
 
 /// Front knuckle, front link, slider, and `[κ, κ̇]`, for `[d, ḋ, d̈]`.
 ///
-/// The arm p of the knuckle and the link ℓ close the loop `w + p = ℓ` with w from the eye to the
-/// pivot; `|w + p| = |ℓ|` is `cos β·(w·s) + sin β·(w·s⊥) = c`, and its derivatives are two linear
-/// equations for the rates of p and ℓ.
+/// The arm p of the knuckle and the link ℓ close the loop `w + p = ℓ` with w from the slider's
+/// point to the pivot; `|w + p| = |ℓ|` is `cos β·(w·s) + sin β·(w·s⊥) = c`, and its derivatives are
+/// two linear equations for the rates of p and ℓ.
 fn linkage([d, dd, ddd]: [f64; 3]) -> (Carried, Carried, Carried, [f64; 2]) {
     let w = [WHEEL - EYE[0], -EYE[1] - d];
     let along = w[0] * ARM[0] + w[1] * ARM[1];

@@ -1,5 +1,5 @@
-//! The robot on its way: states of the motion in which all candidates are evaluated, and what must
-//! come out there.
+//! The moving robot: states of its motion at which all candidates are evaluated, and the expected
+//! results.
 
 use std::ops::ControlFlow;
 
@@ -11,19 +11,19 @@ use pfaff::{Overrides, Study};
 use crate::Outcome;
 use crate::saddle::Saddle;
 
-/// Time between the states (s). With the first at half of it none is at a break time, and half of
-/// them lie within turns.
+/// Time between the states (s). The first is at half of it, so that none is at a break time, and
+/// half of them are within turns.
 const STEP: f64 = 0.5;
 
 /// The robot and states of its motion.
 pub(crate) struct Robot {
     /// Start and kept rows.
     pub(crate) prepared: Prepared,
-    /// On the constraints, over ten seconds.
+    /// States that satisfy the constraints, over ten seconds.
     pub(crate) states: Vec<State>,
 }
 
-/// A state, and what follows from it.
+/// A state and the expected results.
 pub(crate) struct State {
     /// Time (s).
     pub(crate) t: f64,
@@ -40,7 +40,7 @@ pub(crate) struct State {
 }
 
 impl Robot {
-    /// Moves it for ten seconds.
+    /// Computes ten seconds of its motion.
     pub(crate) fn moving() -> Outcome<Self> {
         let case = suite::find("robot-trolley").ok_or("the suite has no robot")?;
         let study = Study::read(

@@ -1,6 +1,6 @@
-//! Ten seconds of the robot at a wanted error: the loosest tolerance that gives it is looked for
-//! first, because errors and not tolerances are what runs are compared at. Two rows of output, not
-//! written anywhere; the start is not included, the storage of the motion is.
+//! Ten seconds of the robot for a required error: first the loosest tolerance that achieves it is
+//! determined, because runs are to be compared at equal errors, not at equal tolerances. Two rows
+//! of output, not written to a file; the start is not included, the storage of the motion is.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -16,12 +16,12 @@ use crate::robot::Robot;
 /// Length of the run (s).
 const T_END: f64 = 10.0;
 
-/// Tolerances that are tried in each decade.
+/// Number of tolerances that are tried in each decade.
 const PER_DECADE: i32 = 8;
 /// Loosest and tightest tolerance (decades).
 const DECADES: [i32; 2] = [-4, -13];
 
-/// The runs, in the order of the table. What else can move the robot is one line here.
+/// The runs, in the order of the table. Another way to move the robot needs one line here.
 pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'static>>> {
     let known = end(robot)?;
     let run = |key, name, prepared, error| run(key, name, prepared, error, &known);
@@ -70,8 +70,8 @@ struct Found {
     summary: Summary,
 }
 
-/// The loosest tolerance from which on all tighter ones give the wanted error. Tolerances are tried
-/// from the tight end, so that an accident at a loose one does not count.
+/// The loosest tolerance from which all tighter ones achieve the required error. Tolerances are
+/// tried from the tight end, so that a loose one that achieves it by chance does not count.
 fn loosest(prepared: &Prepared, wanted: f64, known: &[f64]) -> Outcome<Found> {
     let mut best = None;
     for k in (PER_DECADE * DECADES[1]..=PER_DECADE * DECADES[0])
@@ -106,7 +106,7 @@ fn loosest(prepared: &Prepared, wanted: f64, known: &[f64]) -> Outcome<Found> {
     best.ok_or_else(|| format!("no tolerance gives an error of {wanted:e}").into())
 }
 
-/// q and v at the end, by the reference of the suite.
+/// q and v at the end, from the reference of the suite.
 fn end(robot: &Robot) -> Outcome<Vec<f64>> {
     let case = suite::find("robot-trolley").ok_or("the suite has no robot")?;
     let reference = case.reference();

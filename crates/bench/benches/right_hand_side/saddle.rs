@@ -1,4 +1,4 @@
-//! The equations of motion as one dense matrix, for solvers that know nothing of mechanics.
+//! The equations of motion as one dense matrix, for general solvers.
 
 use dynamics::Prepared;
 use model::{Mechanism, Scratch, System};
@@ -13,7 +13,7 @@ pub(crate) struct Saddle<'p> {
 }
 
 impl<'p> Saddle<'p> {
-    /// With the rows that are kept: 41 × 41 and regular.
+    /// With the kept rows: 41 × 41 and regular.
     pub(crate) fn of_kept_rows(prepared: &'p Prepared) -> Self {
         Self::of_rows(prepared, prepared.decision.kept.clone())
     }
@@ -33,7 +33,7 @@ impl<'p> Saddle<'p> {
         }
     }
 
-    /// Evaluates and assembles at one instant.
+    /// Evaluates and assembles the equations at one instant.
     pub(crate) fn fill(
         &mut self,
         t: f64,

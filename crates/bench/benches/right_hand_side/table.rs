@@ -1,4 +1,4 @@
-//! What was measured, as text for people, as a page, and as CSV.
+//! The results as text, as a page, and as CSV.
 
 use std::fmt::Write;
 use std::process::Command;
@@ -11,18 +11,18 @@ use crate::timing::{ROUNDS, Time};
 /// One line of the table.
 pub(crate) struct Line {
     key: &'static str,
-    /// What it is, with the marks of a page.
+    /// Its description, with the markup of a page.
     pub(crate) title: String,
-    /// Its table.
+    /// The table that it belongs to.
     pub(crate) group: Group,
-    /// Of one call.
+    /// Time of one call.
     pub(crate) time: Time,
-    /// Of one call, if they were counted.
+    /// Instructions of one call, if they were counted.
     pub(crate) instructions: Option<u64>,
 }
 
 impl Line {
-    /// Of a work that has been measured; `instructions` are those of a lap.
+    /// The line of a measured candidate; `instructions` are those of one lap.
     pub(crate) fn new(work: &Work<'_>, time: Time, instructions: Option<u64>) -> Self {
         Self {
             key: work.key,
@@ -33,12 +33,12 @@ impl Line {
         }
     }
 
-    /// Ours, which the others are compared with.
+    /// Whether it is code of this project, with which the others are compared.
     pub(crate) fn is_ours(&self) -> bool {
         self.title.starts_with("**")
     }
 
-    /// The title alone.
+    /// The title without markup.
     pub(crate) fn plain_title(&self) -> &str {
         self.title.trim_matches('*')
     }
@@ -90,7 +90,7 @@ pub(crate) fn text(lines: &[Line]) -> String {
     out
 }
 
-/// The tables with what they were measured on.
+/// The tables and a description of the machine.
 pub(crate) fn page(lines: &[Line]) -> String {
     let versions = ["faer", "nalgebra", "num-dual"].map(|name| format!("{name} {}", version(name)));
     format!(
@@ -104,7 +104,7 @@ pub(crate) fn page(lines: &[Line]) -> String {
     ) + "\n"
 }
 
-/// One line per candidate, all digits.
+/// One line per candidate, with all digits.
 pub(crate) fn csv(lines: &[Line]) -> String {
     let mut out = String::from("key,title,seconds,seconds_median,instructions\n");
     for line in lines {
@@ -126,7 +126,7 @@ fn said_by(program: &str, arguments: &[&str]) -> String {
     text.unwrap_or_else(|_| format!("{program} unknown"))
 }
 
-/// As the lock file has it.
+/// The version of a dependency from the lock file.
 fn version(name: &str) -> &'static str {
     const LOCK: &str = include_str!("../../../../Cargo.lock");
     let package = LOCK

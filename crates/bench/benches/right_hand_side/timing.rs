@@ -1,15 +1,15 @@
-//! Times of works that take turns: in each round all of them run for a while, so that changes of
-//! the machine's speed meet all alike. Neighbours on the machine can only add time: the least over
-//! the rounds is what a work needs, the median tells how much was added.
+//! Times of candidates that take turns: in each round all of them run for a while, so that changes
+//! of the machine's speed affect all equally. Other processes can only add time: the least time
+//! over the rounds is what a candidate needs, the median shows how much was added.
 
 use std::time::{Duration, Instant};
 
 use crate::candidates::Work;
 
-/// Rounds over all works.
+/// Number of rounds over all candidates.
 pub(crate) const ROUNDS: usize = 101;
 
-/// A work is repeated in a round until this has passed.
+/// A candidate is repeated in a round until this time has passed.
 const ENOUGH: Duration = Duration::from_micros(500);
 
 /// Time of one call.
@@ -17,11 +17,11 @@ const ENOUGH: Duration = Duration::from_micros(500);
 pub(crate) struct Time {
     /// Median over the rounds (s).
     pub(crate) median: f64,
-    /// Least of the rounds (s).
+    /// Least over the rounds (s).
     pub(crate) least: f64,
 }
 
-/// Times of all works; the first round warms up and counts for nothing.
+/// Times of all candidates; the first round warms up and is not counted.
 pub(crate) fn take_turns(works: &mut [Work<'_>]) -> Vec<Time> {
     let mut times = vec![Vec::with_capacity(ROUNDS); works.len()];
     for round in 0..=ROUNDS {

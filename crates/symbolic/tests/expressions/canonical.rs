@@ -1,4 +1,4 @@
-//! Canonical form: the order of construction leaves no trace.
+//! Canonical form: it does not depend on the order of construction.
 
 use proptest::prelude::*;
 use symbolic::{Expr, Function, Graph, Node, Printer, Program, Scalar};
@@ -44,7 +44,7 @@ fn print(g: &Graph, outputs: &[Expr]) -> String {
     interpreter::text(Printer::new(g, &program, Scalar::F64, &[]).print())
 }
 
-/// What a node breaks of the promises in the docs of [`Node`].
+/// The first violated guarantee of the documentation of [`Node`], if any.
 fn violation(g: &Graph, e: Expr) -> Option<&'static str> {
     match g.node(e) {
         Node::Number(_) | Node::Symbol(_) => None,
@@ -110,8 +110,8 @@ fn has_duplicates(handles: impl Iterator<Item = Expr>) -> bool {
     list.len() < n
 }
 
-/// `x + y`, `x + y + z`, `x·y`, `x·y·z`, `2·x·y`: each the beginning of another, or different by a
-/// number.
+/// `x + y`, `x + y + z`, `x·y`, `x·y·z`, `2·x·y`: each is the beginning of another one, or differs
+/// by a number.
 fn similar(g: &mut Graph, k: usize) -> Expr {
     let [x, y, z] = INPUTS.map(|name| g.symbol(name));
     match k {
@@ -162,7 +162,7 @@ fn nested_sums_stay_nested_but_their_difference_is_zero() {
 #[test]
 fn terms_and_factors_are_ordered_by_first_use_of_their_inputs() {
     let mut g = Graph::new();
-    // Not alphabetical on purpose.
+    // Deliberately not in alphabetical order.
     let (z, a) = (g.symbol("z"), g.symbol("a"));
     let one = g.number(1.0);
     let sum = g.sum(&[(1.0, one), (1.0, a), (1.0, z)]);

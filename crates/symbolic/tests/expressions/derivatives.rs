@@ -1,4 +1,4 @@
-//! Derivatives against dual numbers, and derivations with a closed form.
+//! Derivatives compared with dual numbers, and derivations with a closed form.
 
 use proptest::prelude::*;
 use symbolic::{Derivation, Function, Graph};
@@ -7,7 +7,8 @@ use crate::config;
 use crate::running::Running;
 use crate::tree::{INPUTS, Order, graph, input_of, points, trees};
 
-/// A point is well-conditioned if rounding explains no more than this part of the derivative.
+/// A point is well-conditioned if the bound of the rounding errors is at most this fraction of the
+/// derivative.
 const RELATIVE: f64 = 1e-12;
 
 proptest! {
@@ -30,7 +31,8 @@ proptest! {
         let tolerance = ours.tolerance(dual);
         prop_assume!(tolerance.is_finite());
         prop_assert!(ours.agrees(dual), "{ours:?} instead of {dual:?}");
-        // What is left is relative accuracy; too many ill-conditioned points make the test fail.
+        // The rest is a test of relative accuracy; too many ill-conditioned points make the test
+        // fail.
         prop_assume!(tolerance <= RELATIVE * dual.value.abs() || dual.value == 0.0);
         prop_assert!((ours.value - dual.value).abs() <= RELATIVE * dual.value.abs());
     }

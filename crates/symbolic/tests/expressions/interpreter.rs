@@ -1,6 +1,6 @@
-//! Runs printed code from its text, with the precedence that `syn` gives it, and counts what it
-//! executes. Anything that would not compile is an error here too: literals of no definite type as
-//! receivers of methods, bare literals in generic code, names that nobody defined.
+//! Runs printed code from its text, with the precedence that `syn` assigns to it, and counts the
+//! executed operations. Code that would not compile is an error here too: literals without definite
+//! type as receivers of methods, unsuffixed literals in generic code, undefined names.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use quote::quote;
 use symbolic::{Counts, Scalar};
 use syn::{BinOp, Expr, Lit, Pat, Stmt, UnOp};
 
-/// Values of the outputs and the operations it took.
+/// Values of the outputs and the executed operations.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Run {
     pub(crate) outputs: Vec<f64>,

@@ -1,7 +1,7 @@
-//! The contract of the crate, seen from outside: canonical form, derivatives, programs and printed
-//! code.
+//! The guarantees of the crate, tested through its public interface: canonical form, derivatives,
+//! programs and printed code.
 //!
-//! The references are independent of the code under test: [`tree`] keeps an expression as it was
+//! The references are independent of the code under test: [`tree`] stores an expression as it was
 //! written, [`running`] evaluates it on dual numbers with a bound of its rounding error,
 //! [`interpreter`] runs printed code from its text.
 
@@ -17,7 +17,7 @@ mod tree;
 
 use proptest::test_runner::Config;
 
-/// Enough that each kind of node meets each other one; a run takes about a second.
+/// Enough cases that each kind of node is combined with each other one; a run takes about a second.
 const CASES: u32 = 1000;
 
 fn config() -> Config {

@@ -1,5 +1,5 @@
-//! Printed code: the same values as direct evaluation, the counted operations and no others, and
-//! the text.
+//! Printed code: the same values as direct evaluation, exactly the counted operations, and the
+//! text.
 
 use proptest::prelude::*;
 use symbolic::{Expr, Function, Graph, Printer, Program, Scalar};
@@ -31,7 +31,7 @@ proptest! {
         for (output, printed) in outputs.into_iter().zip(run.outputs) {
             let direct = g.evaluate(output, &|s| input_of(&inputs, g.name(s))).value();
             prop_assume!(direct.error.is_finite());
-            // The same operations in another order: the same bound.
+            // The same operations in another order have the same error bound.
             let printed = Bounded { value: printed, ..direct };
             prop_assert!(printed.agrees(direct), "{printed:?} instead of {direct:?} in\n{text}");
         }
@@ -218,7 +218,7 @@ fn names_appear_where_their_expression_is_part_of_another() {
 
 #[test]
 fn temporaries_hide_no_input_and_no_name() {
-    // Inputs may be called t0, and a name may be that of an input or be given twice.
+    // Inputs may be called t0, and a given name may equal that of an input or be given twice.
     let mut g = Graph::new();
     let (t0, x) = (g.symbol("t0"), g.symbol("x"));
     let square = g.mul(x, x);

@@ -1,17 +1,16 @@
-//! Dual numbers that know how wrong they may be: `num-dual` gives value and derivative, a
-//! first-order running error analysis (Wilkinson; Higham 2002, section 3.3) gives a bound for the
-//! rounding of each. Two evaluations of the same mathematics may differ by the sum of their bounds
-//! and by no more.
+//! Dual numbers with error bounds: `num-dual` computes value and derivative, a first-order running
+//! error analysis (Wilkinson; Higham 2002, section 3.3) a bound for the rounding error of each. Two
+//! evaluations of the same mathematics differ by at most the sum of their bounds.
 
 use std::ops::{Add, Div, Mul, Neg};
 
 use num_dual::{Dual64, DualNum};
 use symbolic::{Function, Number};
 
-/// Covers terms of second order, and constants folded by the graph in an order of its own.
+/// Covers terms of second order, and constants that the graph folds in another order.
 const SAFETY: f64 = 4.0;
 
-/// Beyond this relative error of an argument the first order says nothing about `1/u`, `√u`,
+/// Above this relative error of an argument the first-order analysis is not valid for `1/u`, `√u`,
 /// `sin u`.
 const FIRST_ORDER: f64 = 1e-6;
 
@@ -31,19 +30,19 @@ pub(crate) struct Bounded {
 }
 
 impl Bounded {
-    /// The largest difference that rounding explains.
+    /// The largest difference that rounding can cause.
     pub(crate) fn tolerance(self, other: Self) -> f64 {
         self.error + other.error
     }
 
-    /// Whether the two agree within their bounds; false if one of them is no number.
+    /// Whether the two agree within their bounds; false if one of them is NaN.
     pub(crate) fn agrees(self, other: Self) -> bool {
         (self.value - other.value).abs() <= self.tolerance(other)
     }
 }
 
 impl Running {
-    /// An input; `slope` is 1 for the input of differentiation and 0 for the others.
+    /// An input; `slope` is 1 for the variable of differentiation and 0 for the others.
     pub(crate) fn input(value: f64, slope: f64) -> Self {
         Self {
             dual: Dual64::new(value, slope),
@@ -72,7 +71,7 @@ impl Running {
         self.chain(self.dual.recip(), f1, f2, u.abs())
     }
 
-    /// `f(self)`, where `dual` is the result and `f1`, `f2` are first and second derivatives at the
+    /// `f(self)`; `dual` is the result, and `f1`, `f2` are the first and second derivative at the
     /// argument.
     fn chain(self, dual: Dual64, f1: f64, f2: f64, scale: f64) -> Self {
         let slope = self.dual.eps;

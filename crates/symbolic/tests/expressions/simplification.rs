@@ -1,4 +1,4 @@
-//! What the constructors recognise, one line of algebra each.
+//! The identities that the constructors recognise, one line of algebra each.
 
 use symbolic::{Expr, Function, Graph};
 

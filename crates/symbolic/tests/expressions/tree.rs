@@ -1,4 +1,4 @@
-//! An expression as it was written, before the graph simplifies anything, and random ones.
+//! An expression as it was written, without simplification by the graph, and random ones.
 
 use proptest::prelude::*;
 use symbolic::{Expr, Function, Graph, Number};
@@ -22,7 +22,7 @@ pub(crate) enum Tree {
     Cos(Box<Tree>),
 }
 
-/// In which order a tree is turned into nodes. The mathematics is the same.
+/// The order in which a tree is converted into nodes. The mathematics is the same.
 #[derive(Clone, Copy)]
 pub(crate) enum Order {
     Written,
@@ -30,7 +30,7 @@ pub(crate) enum Order {
 }
 
 impl Tree {
-    /// The expression of the graph.
+    /// Builds the expression in the graph.
     pub(crate) fn build(&self, g: &mut Graph, order: Order) -> Expr {
         match self {
             Tree::Input(k) => g.symbol(INPUTS[*k]),
@@ -78,7 +78,7 @@ impl Tree {
         }
     }
 
-    /// The value, by the operations as written.
+    /// The value, computed by the operations as written.
     pub(crate) fn evaluate<T: Number>(&self, inputs: &[T; 3]) -> T {
         match self {
             Tree::Input(k) => inputs[*k],
@@ -118,7 +118,7 @@ fn build_pair(a: &Tree, b: &Tree, g: &mut Graph, order: Order) -> (Expr, Expr) {
     }
 }
 
-/// A graph that knows the inputs and nothing else.
+/// A graph that contains only the inputs.
 pub(crate) fn graph() -> Graph {
     let mut g = Graph::new();
     for name in INPUTS {
