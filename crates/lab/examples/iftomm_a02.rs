@@ -1,10 +1,10 @@
 //! The benchmark A02 of the IFToMM/LIM library: forty four-bars in a row for twenty seconds,
-//! through flat poses. Largest error of the first top's coordinates over 400 rows of output, and
-//! time, for some tolerances and methods.
+//! through flat poses. Prints the largest error of the coordinates of the first upright's top over
+//! 400 rows of output, and the run time, for some tolerances and methods.
 //!
 //! `cargo run --release -p lab --example iftomm_a02`
 //!
-//! The reference is one angle, θ of all uprights from the upward vertical:
+//! The reference has one unknown, the angle θ of all uprights from the upward vertical:
 //! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ`, θ̇(0) = 1 rad/s.
 #![allow(clippy::print_stdout)]
 
@@ -22,7 +22,7 @@ const N: usize = 40;
 const T_END: f64 = 20.0;
 const ROWS: usize = 400;
 
-/// Steps of the reference between two rows.
+/// Number of steps of the reference between two rows.
 const STEPS: usize = 5000;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let (mut error, mut row) = (0.0_f64, 0);
             let clock = Instant::now();
             let ended = simulate(&study.prepared, &options, |sample| {
-                // The first upright; its top is as far from its centre as its foot.
+                // The first upright; its top and its foot have the same distance from its centre.
                 let angle = sample.q[2];
                 let top = [
                     sample.q[0] + 0.5 * angle.cos(),
@@ -70,7 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The first top at all rows of output, by the classical method of Runge and Kutta.
+/// The position of the first top for all rows of output, by the classical Runge–Kutta method.
 fn tops() -> Vec<[f64; 2]> {
     let h = T_END / (ROWS * STEPS) as f64;
     let f = |[angle, rate]: [f64; 2]| [rate, acceleration(N, angle)];

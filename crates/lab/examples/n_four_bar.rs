@@ -1,5 +1,5 @@
-//! Chains of four-bars through their flat poses, where branches meet: time for an error, and how
-//! many of sixteen runs stay on their branch.
+//! Chains of four-bars through their flat poses, where branches of the motion meet: run time for a
+//! given error, and the number of runs out of sixteen that stay on their branch.
 //!
 //! `cargo run --release -p lab --example n_four_bar -- 1 16 64`
 #![allow(clippy::print_stdout)]
@@ -13,11 +13,11 @@ use lab::generate::{Kind, Order};
 use pfaff::model::Registry;
 use pfaff::{Overrides, Study};
 
-/// Last time (s), and steps of the reference.
+/// Last time (s), and number of steps of the reference.
 const T_END: f64 = 5.0;
 const STEPS: u32 = 2_000_000;
 
-/// Runs of each size, and the spread of their tolerances.
+/// Number of runs of each size, and the range of their tolerances.
 const RUNS: u32 = 16;
 const SPREAD: f64 = 0.15;
 
@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 rows = study.prepared.decision.rank;
                 let mut options = study.options.clone().ok_or("no end")?;
                 options.output_step = T_END;
-                // The last upright; its top is as far from its centre as its foot.
+                // The last upright; its top and its foot have the same distance from its centre.
                 let upright = 3 * n;
                 let mut miss = f64::INFINITY;
                 let clock = Instant::now();
@@ -84,8 +84,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Where the top of an upright is at the end, from its foot: the angle from the upward vertical by
-/// the classical method of Runge and Kutta.
+/// The final position of the top of an upright relative to its foot: the angle from the upward
+/// vertical, by the classical Runge–Kutta method.
 fn tip(n: usize) -> [f64; 2] {
     let h = T_END / f64::from(STEPS);
     let f = |[angle, rate]: [f64; 2]| [rate, acceleration(n, angle)];

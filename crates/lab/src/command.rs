@@ -1,4 +1,4 @@
-//! The command `lab`: what judges the product, from a terminal.
+//! The command `lab`: tests and comparisons of pfaff on the command line.
 
 mod examples;
 mod fuzz;
@@ -15,7 +15,8 @@ use pfaff_cli::console::Console;
 use pfaff_cli::output::{Answer, Outcome};
 use pfaff_cli::{CommandLine, Stream, serve};
 
-/// The laboratory of pfaff: extreme cases, scenes of any size, other ways to move a mechanism.
+/// The laboratory of pfaff: extreme cases, generated scenes of any size, other methods to compute
+/// motions.
 #[derive(Parser)]
 #[command(
     name = "lab",
@@ -29,16 +30,16 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// The stiff and extreme cases, each with its right answer and what came out
+    /// Run the stiff and extreme cases, each compared with its known answer
     #[command(after_help = examples::STRESS)]
     Stress(stress::Stress),
-    /// Write a large scene whose answer is known
+    /// Write a large scene with a known answer
     #[command(after_help = examples::GENERATE)]
     Generate(generate::Generate),
-    /// Random, damaged and degenerate scenes through check, analyze and simulate
+    /// Test random, damaged and degenerate scenes with check, analyze and simulate
     #[command(subcommand, after_help = examples::FUZZ)]
     Fuzz(fuzz::Fuzz),
-    /// Error against run time: the product's methods, and others, at many tolerances
+    /// Error versus run time: the methods of pfaff and others, at many tolerances
     #[command(after_help = examples::WORK_PRECISION)]
     WorkPrecision(work_precision::WorkPrecision),
 }

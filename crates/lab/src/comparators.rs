@@ -1,7 +1,7 @@
-//! Other ways to move a mechanism: formulations as right-hand sides over [`model::System`], and two
-//! methods with steppers of their own.
+//! Other methods to compute a motion: formulations as right-hand sides over [`model::System`], and
+//! two methods with their own steppers.
 //!
-//! Each is short, dense and without monitors. The rank is that of the start and never decided
+//! Each is short, dense and without monitors. The rank is that of the start and is never determined
 //! again.
 //!
 //! | module | content |
@@ -9,7 +9,7 @@
 //! | [`mod@equations`] | the differential equation, with Baumgarte's terms or projection |
 //! | `kept_rows`, `null_space`, `minimum_norm`, `proximal` | accelerations from the saddle equations |
 //! | `stepping` | the loop of steps for `gbs` and `generalized_alpha` |
-//! | `way` | formulation, method, drift |
+//! | `way` | the combination of formulation, method, and treatment of drift |
 //! | `run` | from a prepared mechanism to rows at given times |
 
 pub mod equations;
@@ -56,14 +56,14 @@ pub trait Solver {
     fn solve(&mut self, at: &Saddle<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Fault>;
 }
 
-/// Why a comparator gives up.
+/// The reason why a comparator stops.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// The kept rows have no solution.
+    /// The equations of the kept rows have no solution.
     #[error(transparent)]
     Saddle(#[from] SaddleError),
-    /// Rows that were independent at the start no longer are.
+    /// Rows that were independent at the start became dependent.
     #[error("the constraints have lost their rank {rank} of the start")]
     RankLost {
         /// The rank of the start.
@@ -81,7 +81,7 @@ pub enum Fault {
     /// Newton's iterations of an implicit step do not converge.
     #[error("the equations of a step cannot be solved")]
     Newton,
-    /// Steps became too short.
+    /// The steps became too short.
     #[error("at t = {time} s steps have become too short")]
     StepTooShort {
         /// Time (s).
@@ -95,16 +95,16 @@ pub enum Fault {
         /// Accepted and rejected steps.
         steps: u64,
     },
-    /// The run takes longer than it may.
+    /// The run exceeds its time limit.
     #[error("the time of computing was over at t = {time} s")]
     TooLong {
         /// Time (s).
         time: f64,
     },
-    /// The loop of `integrators` ended.
+    /// The integration loop of `integrators` failed.
     #[error("{0}")]
     Integration(String),
-    /// No finite number.
+    /// A number is not finite.
     #[error("at t = {time} s there is a number that is not finite")]
     NotFinite {
         /// Time (s).

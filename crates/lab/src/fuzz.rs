@@ -1,21 +1,21 @@
-//! Random and damaged scenes, each through check, analyze and a short simulate. Whatever the text,
-//! the answer is a result whose numbers fit together or an error by name: no panic, no hang, no
-//! growth of memory, no number that contradicts another.
+//! Random and damaged scenes, each tested with check, analyze and a short simulate. For any text,
+//! the answer is a consistent result or an error with a message: no panic, no hang, no growth of
+//! memory, no contradicting numbers.
 //!
-//! An input is a function of the seed and its number, so nothing has to be stored. Each is tried in
-//! a process of its own kind, which its parent watches: an overflow of the stack, an exhausted
-//! memory and an endless loop are found as panics are.
+//! An input is a function of the seed and its number, so no input needs to be stored. Inputs are
+//! tested in child processes that are supervised by their parent: stack overflows, exhausted memory
+//! and endless loops are found as well as panics.
 //!
 //! | module | content |
 //! | --- | --- |
 //! | [`input`] | the text of an input |
 //! | [`scenes`] | a random scene of all joints, drives, forces and functions |
-//! | [`damage`] | what is done to a text |
-//! | [`trial`] | one text through the library, and what must hold of what comes out |
-//! | [`watch`] | processes that try texts, with limits of time and memory |
-//! | [`campaign`] | many inputs, several at the same time; what was found |
-//! | [`minimise`] | the shortest text that still fails alike |
-//! | [`mod@exact`] | degenerate scenes whose answer exact arithmetic knows: does the program give it? |
+//! | [`damage`] | random changes of a text |
+//! | [`trial`] | one text passed to the library, and the properties that its results must have |
+//! | [`watch`] | child processes that test texts, with limits of time and memory |
+//! | [`campaign`] | many inputs, several at the same time, and the failures |
+//! | [`minimise`] | the shortest text with the same failure |
+//! | [`mod@exact`] | degenerate scenes whose answer is known by exact arithmetic, compared with that of the program |
 
 pub mod campaign;
 pub mod damage;

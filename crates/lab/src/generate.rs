@@ -1,16 +1,17 @@
-//! Large scenes whose answer is known: families of mechanisms of any size, written as text, one
-//! thing after the other.
+//! Large scenes with known answers: families of mechanisms of any size, written as text in
+//! sequence.
 //!
-//! An [`Order`] says what is wanted; [`Order::generate`] checks it; a [`Generator`] knows the
-//! answer and writes the scene. Same order, same bytes. Nothing is read here, and nothing moves.
+//! An [`Order`] is a request; [`Order::generate`] checks it; a [`Generator`] contains the answer
+//! and writes the scene. The same order gives the same bytes. No scene is read here, and no motion
+//! is computed.
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `order` | what may be asked for, and how large it would be |
+//! | `order` | requests, and the size of their scenes |
 //! | `answer` | counts, ranks, and which reactions are not determined |
-//! | `family` | what the families have in common |
-//! | [`n_four_bar`], `parallelograms`, `lattice`, `fleet`, `random` | the families, each with the reasoning behind its answer |
-//! | `text`, `points`, `share` | a scene as text; points and directions; cells spread evenly |
+//! | `family` | the common interface of the families |
+//! | [`n_four_bar`], `parallelograms`, `lattice`, `fleet`, `random` | the families, each with the derivation of its answer |
+//! | `text`, `points`, `share` | a scene as text; points and directions; cells distributed evenly |
 
 mod answer;
 mod family;

@@ -4,10 +4,10 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`comparators`] | other formulations of redundancy and other methods, to compare the product's with |
-//! | [`mod@work_precision`] | the comparators in the table of the product's methods, and the cases of the suite |
-//! | [`fuzz`] | random, damaged and degenerate scenes, judged by what must hold and by exact arithmetic |
-//! | [`stress`] | stiff and extreme cases, each with its right answer |
+//! | [`comparators`] | other formulations of redundancy and other methods, to compare those of pfaff with |
+//! | [`mod@work_precision`] | the comparators in the table of pfaff's methods, and the cases of the suite |
+//! | [`fuzz`] | random, damaged and degenerate scenes, tested for consistency and by exact arithmetic |
+//! | [`stress`] | stiff and extreme cases, each with its known answer |
 //! | [`generate`] | scenes of any size, with their answers |
 //! | [`mechanisms`] | mechanisms that cases and tests use |
 //! | [`numbers`] | seeded numbers, the same on every machine |

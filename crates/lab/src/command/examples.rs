@@ -1,4 +1,4 @@
-//! Examples at the end of `--help`: what people look for first.
+//! Examples at the end of `--help`.
 
 pub(super) const STRESS: &str = "Examples:
   lab stress --list                                the families of cases

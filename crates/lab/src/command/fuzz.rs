@@ -19,9 +19,9 @@ use crate::fuzz::{input, trial};
 
 #[derive(Subcommand)]
 pub(super) enum Fuzz {
-    /// Tries many inputs; exit code 1 if one of them fails
+    /// Tests many inputs; exit code 1 if one of them fails
     Run {
-        /// How many
+        /// Number of inputs
         #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
         inputs: u64,
         /// Seed of all inputs
@@ -30,7 +30,7 @@ pub(super) enum Fuzz {
         /// The first input
         #[arg(long, default_value_t = 0)]
         from: u64,
-        /// Processes at the same time
+        /// Number of processes at the same time
         #[arg(long, default_value_t = 2)]
         threads: usize,
         /// Longest time for one input (s)
@@ -39,11 +39,11 @@ pub(super) enum Fuzz {
         /// Largest memory of a process (MiB)
         #[arg(long, default_value_t = 2048)]
         memory: u64,
-        /// Where found texts are kept
+        /// Directory for the inputs that fail
         #[arg(long, default_value = "found")]
         found: PathBuf,
     },
-    /// Tries one text, or standard input for -
+    /// Tests one text, or standard input for -
     Try {
         /// The file
         file: PathBuf,
@@ -52,12 +52,12 @@ pub(super) enum Fuzz {
     Show {
         /// Seed
         seed: u64,
-        /// Number
+        /// Number of the input
         number: u64,
     },
-    /// Examines degenerate scenes by exact arithmetic; exit code 1 if an answer is wrong
+    /// Tests degenerate scenes by exact arithmetic; exit code 1 if an answer is wrong
     Exact {
-        /// How many
+        /// Number of scenes
         #[arg(long, default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
         scenes: u64,
         /// Seed of all scenes
@@ -66,34 +66,34 @@ pub(super) enum Fuzz {
         /// The first scene
         #[arg(long, default_value_t = 0)]
         from: u64,
-        /// Writes one scene with what is so and what the program says, and ends
+        /// Writes one scene with the correct answer and that of the program, then ends
         #[arg(long, value_name = "NUMBER")]
         show: Option<u64>,
-        /// Folder for scenes with a wrong answer, the shortest of each kind
+        /// Directory for scenes with a wrong answer, the shortest of each kind
         #[arg(long, value_name = "DIR")]
         keep: Option<PathBuf>,
     },
-    /// Examines scenes with 3 … 16 significant digits; exit code 1 if an answer is wrong
+    /// Tests scenes with 3 … 16 significant digits; exit code 1 if an answer is wrong
     Rounded(Drawings),
-    /// Examines scenes of full rank near a lower one, with tolerances below a third of what they
-    /// are off by; exit code 1 if one is called redundant
+    /// Tests scenes of full rank near a lower rank, with tolerances below a third of their distance
+    /// from it; exit code 1 if one is called redundant
     FullRank(Drawings),
-    /// Tries inputs one after the other and answers each with a letter: what `run` begins
+    /// Tests inputs in sequence and answers each with a letter: the process that `run` starts
     #[command(hide = true)]
     Work {
         /// Seed
         seed: u64,
-        /// The first one
+        /// The first input
         from: u64,
-        /// The first one that is not tried
+        /// The input after the last one
         to: u64,
     },
 }
 
-/// Which drawings, each of which is written down in several ways.
+/// A range of drawings, each of which is written in several ways.
 #[derive(Args)]
 pub(super) struct Drawings {
-    /// How many
+    /// Number of drawings
     #[arg(long, default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
     drawings: u64,
     /// Seed of all scenes
@@ -102,7 +102,7 @@ pub(super) struct Drawings {
     /// The first drawing
     #[arg(long, default_value_t = 0)]
     from: u64,
-    /// Writes one scene with what is so and what the program says, and ends
+    /// Writes one scene with the correct answer and that of the program, then ends
     #[arg(long, value_name = "NUMBER")]
     show: Option<u64>,
 }
@@ -128,7 +128,7 @@ impl Drawings {
     }
 }
 
-/// How many are done; hidden if standard error is no terminal.
+/// A progress bar; it hides itself if standard error is not a terminal.
 fn progress(all: u64) -> ProgressBar {
     let bar = ProgressBar::new(all);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {per_sec}, {eta} left") {
@@ -137,7 +137,7 @@ fn progress(all: u64) -> ProgressBar {
     bar
 }
 
-/// Exit code 1 if something failed; what failed has been said.
+/// Exit code 1 if a test failed; the failures have been printed already.
 fn passed(all: bool) -> Outcome {
     if all {
         Ok(())
@@ -228,7 +228,7 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// Tries a text: a letter for each stage that begins, and one for how far it came.
+/// Tests a text: writes a letter for each stage that begins, and one for the last stage reached.
 fn answer(out: &mut impl Write, text: &str) -> io::Result<()> {
     let mut written = Ok(());
     let mut say = |letter: char| {

@@ -1,4 +1,4 @@
-//! `lab generate`: a large scene whose answer is known, into a file or to standard output.
+//! `lab generate`: writes a large scene with a known answer to a file or to standard output.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -22,19 +22,19 @@ pub(super) struct Generate {
     /// Family of mechanisms
     #[arg(value_parser = named(Kind::ALL, Kind::name))]
     kind: Kind,
-    /// How large: loops, cells, cells along each side, robots, modules
+    /// Size: number of loops, cells, cells along each side, robots, modules
     #[arg(long, value_name = "N")]
     n: usize,
-    /// Seed of what is drawn at random (parallelograms, random); 1 where it is not given
+    /// Seed of the random choices (parallelograms, random); default: 1
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
-    /// Share of the cells, blocks or modules that are redundant, 0 to 1
+    /// Fraction of the cells, blocks or modules that are redundant, 0 to 1
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     redundant: Option<f64>,
-    /// File for the scene; standard output where it is not given
+    /// File for the scene; default: standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// What is known of the scene as one JSON document on standard output
+    /// The known answer of the scene as one JSON document on standard output
     #[arg(long, requires = "out")]
     pub(super) json: bool,
 }
@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Generate, console: &Console<'_>) -> Outcome {
 }
 
 fn to_standard_output(generator: &Generator, console: &Console<'_>) -> Outcome {
-    // Two things on one terminal would overwrite each other.
+    // The scene and the progress bar on one terminal would overwrite each other.
     let target = if console.is_terminal() {
         ProgressDrawTarget::hidden()
     } else {
@@ -74,8 +74,8 @@ fn to_standard_output(generator: &Generator, console: &Console<'_>) -> Outcome {
     written
 }
 
-/// Writes a temporary file and renames it, so that what has the name is whole; pipes and devices
-/// are written as they are. Tells how many bytes were written.
+/// Writes a temporary file and renames it, so that a file with this name is always complete; pipes
+/// and devices are written directly. Returns the number of bytes.
 fn to_file(generator: &Generator, path: &Path) -> Result<u64, Failure> {
     let refused =
         |e: io::Error| Failure::stopped(format!("cannot write `{}`: {e}", path.display()));
@@ -93,7 +93,7 @@ fn to_file(generator: &Generator, path: &Path) -> Result<u64, Failure> {
         bar.finish_and_clear();
         return written.map(|()| watched.bytes).map_err(refused);
     }
-    // A link stays, and the file behind it is the one that is renamed.
+    // A symbolic link is kept; the file that it refers to is replaced.
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let name = path
         .file_name()
@@ -112,7 +112,8 @@ fn to_file(generator: &Generator, path: &Path) -> Result<u64, Failure> {
     let bytes = watched.bytes;
     bar.finish_and_clear();
     if let Err(e) = written {
-        // Half a scene is of no use; where even this is refused, its name says enough.
+        // An incomplete file is removed; if that fails, its temporary name shows that it is
+        // incomplete.
         drop(file);
         let _ = fs::remove_file(folder.join(format!("{name}.part")));
         return Err(Failure::stopped(e.to_string()));
@@ -128,7 +129,7 @@ fn bar(generator: &Generator, target: ProgressDrawTarget) -> ProgressBar {
         reason = "a size below 10 GB"
     )]
     let bytes = generator.bytes() as u64;
-    // Hidden by itself where standard error is no terminal.
+    // It hides itself if standard error is not a terminal.
     let bar = ProgressBar::with_draw_target(Some(bytes), target);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {bytes}, {eta} left") {
         bar.set_style(style);
@@ -136,7 +137,7 @@ fn bar(generator: &Generator, target: ProgressDrawTarget) -> ProgressBar {
     bar
 }
 
-/// A writer that shows how far it is, and stops where somebody asks.
+/// A writer that shows its progress and stops if a stop is requested.
 struct Watched<'a, W> {
     out: W,
     bytes: u64,

@@ -1,4 +1,4 @@
-//! `lab stress`: the stiff and extreme cases, each with its right answer and what came out.
+//! `lab stress`: runs the stiff and extreme cases and compares each with its known answer.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -24,10 +24,10 @@ pub(super) struct Stress {
     /// Directory for the results
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
-    /// Cases of this family only; may be given several times
+    /// Only cases of this family; may be given several times
     #[arg(long, value_name = "NAME")]
     family: Vec<String>,
-    /// Name the families
+    /// List the families
     #[arg(long, conflicts_with = "json")]
     list: bool,
     /// All results as one JSON document on standard output
@@ -78,7 +78,7 @@ pub(super) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// The families that are asked for, or all.
+/// The requested families, or all.
 fn families(arguments: &Stress) -> Result<Vec<Family>, Failure> {
     if arguments.family.is_empty() {
         return Ok(stress::families());
@@ -97,14 +97,14 @@ fn list(families: &[Family]) -> String {
     columns(&families.iter().map(line).collect::<Vec<_>>())
 }
 
-/// Makes all cases; what there is of them when somebody asks to stop.
+/// Runs all cases; if a stop is requested, returns the results so far.
 fn make(
     families: &[Family],
     mut table: StressTable<OutputFile>,
 ) -> Result<(StressDocument, StressTable<OutputFile>), Failure> {
     let interrupt = Interrupt::listen()?;
     let cases: usize = families.iter().map(|f| (f.cases)().len()).sum();
-    // Hidden by itself where standard error is no terminal.
+    // It hides itself if standard error is not a terminal.
     let bar = ProgressBar::new(cases as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases{msg}, {eta} left") {
         bar.set_style(style);
@@ -152,7 +152,7 @@ fn family(family: &Family, rows: &[StressRow]) -> StressFamily {
     }
 }
 
-/// The summary in words: what does not pass, and how many there are of each kind.
+/// The summary in words: the cases that fail, and the number of outcomes of each kind.
 fn describe(document: &StressDocument, out: &str) -> String {
     let mut text = String::new();
     for row in document.families.iter().flat_map(|f| &f.rows) {

@@ -1,4 +1,4 @@
-//! `lab work-precision`: error against run time, by the product's methods and by others.
+//! `lab work-precision`: error versus run time, for the methods of pfaff and others.
 
 use std::path::{Path, PathBuf};
 
@@ -14,18 +14,18 @@ use crate::work_precision::{of_case, ways};
 
 #[derive(Args)]
 pub(super) struct WorkPrecision {
-    /// Scene files, - for standard input, or names of cases of the suite; none: the suite
+    /// Scene files, - for standard input, or names of cases of the suite; default: the suite
     scenes: Vec<PathBuf>,
     /// Directory for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Three tolerances, for a first look
+    /// Three tolerances, for a quick overview
     #[arg(long, conflicts_with = "all")]
     quick: bool,
-    /// Every method of the product with every stabilisation
+    /// Every method of pfaff with every stabilisation
     #[arg(long)]
     all: bool,
-    /// The product's methods only
+    /// Only the methods of pfaff
     #[arg(long)]
     own: bool,
     /// All results as one JSON document on standard output
@@ -47,14 +47,14 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     .run(console)
 }
 
-/// The scenes that are asked for, or those of the suite. All are read before the first is run.
+/// The requested scenes, or those of the suite. All are read before the first is run.
 fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subject>, Failure> {
     let case = |case| of_case(case).map_err(|e| Failure::stopped(e.to_string()));
     if arguments.scenes.is_empty() {
         return suite::COMPARED.iter().map(case).collect();
     }
     let scenes = arguments.scenes.iter().map(|path| {
-        // A file is nearer to the user than a case of the same name.
+        // A file takes precedence over a case with the same name.
         let name = path.to_str().filter(|_| !path.exists());
         match name.and_then(suite::find) {
             Some(found) => case(found),
@@ -68,7 +68,7 @@ fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subj
     scenes.collect()
 }
 
-/// Whether this is a name alone: no directory, no ending, not standard input.
+/// Whether this is a plain name: without a directory or an extension, and not standard input.
 fn is_bare(path: &Path) -> bool {
     path.components().count() == 1 && path.extension().is_none() && path.as_os_str() != "-"
 }

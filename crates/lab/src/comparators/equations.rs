@@ -1,5 +1,5 @@
-//! The differential equation of a comparator: y = [q; v], accelerations from a [`Solver`], and what
-//! is done about drift.
+//! The differential equation of a comparator: y = [q; v], accelerations from a [`Solver`], and the
+//! treatment of drift.
 
 use std::time::Instant;
 
@@ -12,11 +12,11 @@ use super::kept_rows::KeptRows;
 use super::way::Drift;
 use super::{Fault, Saddle, Solver};
 
-/// Corrections of a projection at most: Newton's method converges quadratically from where a step
-/// ends.
+/// Largest number of corrections of a projection: Newton's method converges quadratically from the
+/// end of a step.
 const CORRECTIONS: usize = 10;
 
-/// A correction below this share of the size of the mechanism is rounding.
+/// A correction below this fraction of the size of the mechanism is rounding.
 const SETTLED: f64 = 1e-13;
 
 /// The equations of motion of a mechanism by one formulation.
@@ -29,21 +29,21 @@ pub struct Equations<'a> {
     velocities: KeptRows,
     drift: Drift,
     at: Scaled,
-    /// Right-hand sides evaluated, states projected.
+    /// Number of right-hand sides evaluated, and of states projected.
     pub(super) evaluations: u64,
     pub(super) projections: u64,
-    /// After it nothing is evaluated any more.
+    /// The time after which no more evaluations are made.
     pub(super) deadline: Option<Instant>,
 }
 
 /// The saddle equations of an instant in units of the mechanism: lengths in its size.
 struct Scaled {
-    /// What coordinates count in those units, and the masses there, n_v each.
+    /// The unit of each coordinate, and the masses in these units, n_v each.
     units: Vec<f64>,
     mass: Vec<f64>,
     /// All rows; holonomic ones are those of Φq.
     c: Matrix,
-    /// Q and its answer, the accelerations or a correction, n_v.
+    /// Q, replaced by the solution (accelerations or a correction), n_v.
     force: Vec<f64>,
     motion: Vec<f64>,
     /// Multipliers and right-hand sides of all rows.
@@ -52,7 +52,7 @@ struct Scaled {
 }
 
 impl Scaled {
-    /// Solves for motion and multipliers.
+    /// Solves for accelerations (or a correction) and multipliers.
     fn solve(&mut self, solver: &mut dyn Solver) -> Result<(), Fault> {
         let at = Saddle {
             c: &self.c,
@@ -63,7 +63,7 @@ impl Scaled {
         solver.solve(&at, &mut self.motion, &mut self.lambda)
     }
 
-    /// The motion in SI.
+    /// The solution in SI units.
     fn motion(&self) -> impl Iterator<Item = f64> + '_ {
         let of = |(x, unit): (&f64, &f64)| x * unit;
         self.motion.iter().zip(&self.units).map(of)
@@ -82,10 +82,11 @@ pub(super) fn in_units(mechanism: &Mechanism, s: &Scratch, units: &[f64], c: &mu
 }
 
 impl<'a> Equations<'a> {
-    /// `solver` is made from C and M at the start, in units of the mechanism.
+    /// Creates the equations; `solver` is made from C and M at the start, in units of the
+    /// mechanism.
     ///
     /// # Errors
-    /// What it fails with.
+    /// The error of the solver.
     pub fn new(
         prepared: &'a Prepared,
         drift: Drift,
@@ -137,7 +138,7 @@ impl<'a> Equations<'a> {
         [self.mechanism.layout().n_q, self.mechanism.layout().n_v]
     }
 
-    /// Accelerations in `a`, multipliers of all rows in `self.lambda`.
+    /// Computes the accelerations in `a` and the multipliers of all rows in `self.lambda`.
     ///
     /// # Errors
     /// Those of the solver; [`Fault::TooLong`].
@@ -182,7 +183,7 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// Accelerations and reactions of all joints and drives at a state; allocates.
+    /// Returns accelerations and reactions of all joints and drives at a state; allocates.
     ///
     /// # Errors
     /// As [`Equations::accelerate`].
@@ -200,7 +201,7 @@ impl<'a> Equations<'a> {
         Ok((a, ids.map(of).collect()))
     }
 
-    /// Moves q and v onto the constraints by the smallest corrections in the metric of the masses.
+    /// Moves q and v onto the constraints by the smallest corrections in the mass metric.
     ///
     /// # Errors
     /// [`Fault::Projection`], or those of the kept rows.
@@ -231,7 +232,7 @@ impl<'a> Equations<'a> {
         self.project_velocity(t, q, v)
     }
 
-    /// The same of velocities alone.
+    /// Projects only the velocities.
     fn project_velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Fault> {
         let (mechanism, s) = (self.mechanism, &mut self.s);
         mechanism.pose(t, q, s);
@@ -247,8 +248,8 @@ impl<'a> Equations<'a> {
         Ok(())
     }
 
-    /// The smallest correction that changes rows by γ; returns its largest component, in units of
-    /// the mechanism.
+    /// Computes the smallest correction that changes the rows by γ; returns its largest component,
+    /// in units of the mechanism.
     fn correct(&mut self, of_positions: bool) -> Result<f64, Fault> {
         let at = &mut self.at;
         in_units(self.mechanism, &self.s, &at.units, &mut at.c);
@@ -261,7 +262,7 @@ impl<'a> Equations<'a> {
         Ok(at.motion.iter().fold(0.0, |a: f64, d| a.max(d.abs())))
     }
 
-    /// Ends a step: projects, where states are projected. Returns whether it did.
+    /// Ends a step with a projection, if states are projected. Returns whether it projected.
     ///
     /// # Errors
     /// As [`Equations::project`].
@@ -307,7 +308,7 @@ impl Ode for Equations<'_> {
         })
     }
 
-    /// Rates that jump make the velocities jump, by an impulse of the constraints.
+    /// At a jump of the prescribed rates the velocities jump, by an impulse of the constraints.
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = y.split_at_mut(self.mechanism.layout().n_q);
         self.project_velocity(t, q, v)

@@ -1,11 +1,11 @@
-//! Extrapolation of the explicit midpoint rule (Gragg, Bulirsch, Stoer): orders 4 to 18, chosen
-//! step by step together with the size.
+//! Extrapolation of the explicit midpoint rule (Gragg, Bulirsch, Stoer): orders 4 to 18, chosen for
+//! each step together with its size.
 //!
-//! Column j crosses the step with n_j = 2·j equal substeps of the midpoint rule; the results of
-//! columns 1 to k, extrapolated to infinitely many substeps, have order 2k. The step is not
-//! smoothed at its end, which saves one evaluation a column. Source: the program ODEX of E. Hairer
-//! and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
-//! II.9.
+//! Column j covers the step with n_j = 2·j equal substeps of the midpoint rule; the results of
+//! columns 1 to k, extrapolated to infinitely many substeps, have order 2k. The smoothing at the
+//! end of the step is omitted, which saves one evaluation per column. Source: the program ODEX of
+//! E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd
+//! ed., II.9.
 
 mod columns;
 mod order;
@@ -36,9 +36,9 @@ fn weights(first: usize, last: usize) -> [f64; COLUMNS] {
 /// The midpoint rule, extrapolated.
 pub(super) struct Gbs {
     control: OrderControl,
-    /// Change of the state over the whole step by each column.
+    /// Change of the state over the whole step, for each column.
     columns: [Vec<f64>; COLUMNS],
-    /// The two last states of the midpoint rule, and f.
+    /// The last two states of the midpoint rule, and f.
     previous: Vec<f64>,
     present: Vec<f64>,
     state: Vec<f64>,
@@ -60,7 +60,7 @@ impl Gbs {
         }
     }
 
-    /// Column j: `z_1 = h_j·f0`, `z_{m+1} = z_{m−1} + 2·h_j·f(t + m·h_j, y0 + z_m)`, z being the
+    /// Column j: `z_1 = h_j·f0`, `z_{m+1} = z_{m−1} + 2·h_j·f(t + m·h_j, y0 + z_m)`, where z is the
     /// change of the state.
     fn column(
         &mut self,
@@ -154,8 +154,8 @@ mod tests {
         }
     }
 
-    /// The control takes more columns where more accuracy is wanted, and starts where the tolerance
-    /// says.
+    /// The control uses more columns for a higher accuracy, and begins with the column that the
+    /// tolerance suggests.
     #[test]
     fn the_column_to_begin_with_follows_the_tolerance() {
         let mut control = OrderControl::new();

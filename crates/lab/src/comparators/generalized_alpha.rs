@@ -1,5 +1,5 @@
 //! The generalized-α method on the positions (index 3) and kept rows: order 2, with damping of high
-//! frequencies as chosen by ρ∞.
+//! frequencies that is set by ρ∞.
 //!
 //! ```text
 //! q1 = q0 + h·v0 + h²·((½ − β)·a0 + β·a1),   v1 = v0 + h·((1 − γ)·a0 + γ·a1)
@@ -7,9 +7,9 @@
 //! M·v'1 + Cᵀ·λ1 = Q(t1, q1, v1),   Φ(t1, q1) = 0,   C·v1 = b for rows that are not holonomic
 //! ```
 //!
-//! a is the acceleration at t + (α_m − α_f)·h: where the step size changes, it is moved along.
-//! Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375, DOI 10.1115/1.2900803; M.
-//! Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007) 185–202, DOI 10.1007/s11044-007-9084-0.
+//! a is the acceleration at t + (α_m − α_f)·h; if the step size changes, it is converted to the new
+//! time. Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375, DOI 10.1115/1.2900803;
+//! M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007) 185–202, DOI 10.1007/s11044-007-9084-0.
 
 use integrators::Ode;
 use linalg::{Lu, Matrix};
@@ -19,7 +19,7 @@ use super::Fault;
 use super::equations::Equations;
 use super::stepping::{Stepper, Trial};
 
-/// ρ∞: what remains of an oscillation of infinite frequency after a step.
+/// ρ∞: the factor of an oscillation of infinite frequency over one step.
 const RHO: f64 = 0.8;
 const ALPHA_M: f64 = (2.0 * RHO - 1.0) / (RHO + 1.0);
 const ALPHA_F: f64 = RHO / (RHO + 1.0);
@@ -28,20 +28,20 @@ const BETA: f64 = 0.25 * (GAMMA + 0.5) * (GAMMA + 0.5);
 /// ∂a1/∂v'1.
 const SHARE: f64 = (1.0 - ALPHA_F) / (1.0 - ALPHA_M);
 
-/// Local errors of q and v over h³·y''', by Taylor expansion with a = v'(t + (α_m − α_f)·h).
+/// Local errors of q and v divided by h³·y''', by Taylor expansion with a = v'(t + (α_m − α_f)·h).
 const LAG: f64 = ALPHA_F - ALPHA_M;
 const OF_POSITION: f64 = BETA - 0.5 * LAG - 1.0 / 6.0;
 const OF_VELOCITY: f64 = 1.0 / 12.0 - 0.5 * LAG * LAG;
 
-/// Newton's iterations of a step, at most.
+/// Largest number of Newton iterations of a step.
 const ITERATIONS: usize = 10;
-/// Increments that Newton's method may leave, in tolerances: an error of Φ enters λ multiplied by
-/// 1/h².
+/// Increments at which Newton's method may stop, relative to the tolerance: an error of Φ enters λ
+/// multiplied by 1/h².
 const PERMITTED: f64 = 1e-6;
-/// Increments below this share of the state are rounding.
+/// Increments below this fraction of the state are rounding.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
 
-/// What the method remembers at the end of a step.
+/// The state of the method at the end of a step.
 #[derive(Clone, Default)]
 struct Memory {
     a: Vec<f64>,
@@ -54,7 +54,7 @@ pub(super) struct GeneralizedAlpha<'a> {
     mechanism: &'a Mechanism,
     s: Scratch,
     derivatives: Derivatives,
-    /// Kept rows; how many of them are holonomic. Position rows are those of Φq.
+    /// Kept rows, and the number of them that are holonomic. Position rows are those of Φq.
     kept: Vec<usize>,
     matrix: Matrix,
     lu: Lu,
@@ -93,7 +93,7 @@ impl<'a> GeneralizedAlpha<'a> {
         }
     }
 
-    /// Positions and velocities at the end, and a there, from v' there.
+    /// Computes positions and velocities at the end, and a there, from v' there.
     fn move_to_end(&mut self, trial: &Trial<'_>, a0: &[f64], y1: &mut [f64]) {
         let (h, n_q) = (trial.h, self.mechanism.layout().n_q);
         let (q0, v0) = trial.y0.split_at(n_q);
@@ -149,7 +149,8 @@ impl<'a> GeneralizedAlpha<'a> {
         factored.map_err(|_| Fault::Newton)
     }
 
-    /// Minus the residuals, rows of constraints divided by what v'1 changes in them.
+    /// The negative residuals; rows of constraints are divided by the factor with which v'1 changes
+    /// them.
     fn residual(&mut self, t: f64, y: &[f64], [c_v, c_q]: [f64; 2]) {
         let (mechanism, layout) = (self.mechanism, self.mechanism.layout());
         let (n, (q, v)) = (layout.n_v, y.split_at(layout.n_q));
@@ -219,8 +220,8 @@ impl Stepper for GeneralizedAlpha<'_> {
                 *l += x;
             }
             self.move_to_end(trial, &a0, y1);
-            // What the increment has changed, against the tolerance and the rounding of the largest
-            // coordinate.
+            // The change by the increment, compared with the tolerance and the rounding of the
+            // largest coordinate.
             let largest = y1.iter().fold(1.0, |a: f64, y| a.max(y.abs()));
             let of = |c: f64| {
                 self.x[..n_v]
@@ -238,8 +239,8 @@ impl Stepper for GeneralizedAlpha<'_> {
             }
             before = size;
         }
-        // The error is C·h³·y''', from y' at both ends and at the start of the step before, or in
-        // the middle.
+        // The error is C·h³·y''', from y' at both ends of the step and at the start of the previous
+        // step, or in the middle.
         ode.rhs(t1, y1, &mut self.f1)?;
         let mut third = vec![0.0; y1.len()];
         if let Some((h_before, _, f_before)) = &self.before {
@@ -264,7 +265,7 @@ impl Stepper for GeneralizedAlpha<'_> {
         Ok(trial.norm(&third, y1))
     }
 
-    /// For an estimate of order 2 of a method of order 2.
+    /// For a method of order 2 with an error estimate of order 2.
     fn next_size(&mut self, h: f64, error: f64, is_accepted: bool) -> f64 {
         if is_accepted {
             let slopes = self.to.vd.iter().zip(&self.from.vd);

@@ -1,4 +1,4 @@
-//! Independent rows alone: what the product does, without its monitors and refinement.
+//! Independent rows only: the formulation of pfaff, without its monitors and refinement.
 
 use linalg::{KeptRowSaddle, SaddleError};
 
@@ -13,7 +13,7 @@ pub struct KeptRows {
 }
 
 impl KeptRows {
-    /// The rows to keep, for n coordinates.
+    /// A solver that keeps these rows, for n coordinates.
     ///
     /// # Errors
     /// If there are more rows than coordinates.

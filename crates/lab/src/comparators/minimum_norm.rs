@@ -1,5 +1,5 @@
-//! All rows by a complete orthogonal decomposition of locked rank: a where rows that contradict
-//! each other are met in the sense of least squares, and of all λ the shortest.
+//! All rows by a complete orthogonal decomposition of fixed rank: accelerations that satisfy
+//! contradicting rows in the sense of least squares, and the multipliers of minimum norm.
 //!
 //! `Cᵀ·P = [Q₁ Q₂]·[R; ≈0]`, R r × m, and `Rᵀ·P' = Q'·R'`: `C⁺ = Q₁·P'·R'⁻¹·Q'ᵀ·Pᵀ`. Source: G. H.
 //! Golub, C. F. Van Loan, Matrix Computations, section 5.4.7; F. E. Udwadia, R. E. Kalaba, Proc. R.
@@ -10,7 +10,7 @@ use linalg::{Matrix, PivotedQr};
 use super::null_space::{factored, move_freely};
 use super::{Fault, Saddle, Solver};
 
-/// A solver of all rows of a locked rank.
+/// A solver for all rows, with a fixed rank.
 pub struct MinimumNorm {
     rank: usize,
 }

@@ -1,19 +1,20 @@
-//! The null space: `C·a = γ` leaves `a = a_p + Z·w` with C·Z = 0, and `(Zᵀ·M·Z)·w = Zᵀ·(f − M·a_p)`
-//! has no multipliers.
+//! The null-space method: the solutions of `C·a = γ` are `a = a_p + Z·w` with C·Z = 0, and
+//! `(Zᵀ·M·Z)·w = Zᵀ·(f − M·a_p)` contains no multipliers.
 //!
-//! With `Cᵀ·P = [Q₁ Q₂]·R`, pivoted, of locked rank r: Z = Q₂, and a_p is the smallest solution of
-//! the first r pivoted rows. Source: S. S. Kim, M. J. Vanderploeg, QR decomposition for state space
-//! representation of constrained mechanical dynamic systems, J. Mech. Trans. Autom. Des. 108 (1986)
-//! 183–188, DOI 10.1115/1.3260800.
+//! With `Cᵀ·P = [Q₁ Q₂]·R`, pivoted, of fixed rank r: Z = Q₂, and a_p is the solution of minimum
+//! norm of the first r pivoted rows. Source: S. S. Kim, M. J. Vanderploeg, QR decomposition for
+//! state space representation of constrained mechanical dynamic systems, J. Mech. Trans. Autom.
+//! Des. 108 (1986) 183–188, DOI 10.1115/1.3260800.
 
 use linalg::{Lu, Matrix, PivotedQr};
 
 use super::{Fault, Saddle, Solver, dot};
 
-/// Pivots below this share of the first are rounding.
+/// Pivots below this fraction of the first are rounding.
 const LOST: f64 = 1e-14;
 
-/// A solver of all rows of a locked rank; multipliers of rows that the pivoting leaves are zero.
+/// A solver for all rows, with a fixed rank; multipliers of rows that the pivoting does not select
+/// are zero.
 pub struct NullSpace {
     rank: usize,
 }
@@ -26,7 +27,7 @@ impl NullSpace {
     }
 }
 
-/// `Cᵀ·P = Q·R` of the locked rank.
+/// `Cᵀ·P = Q·R` of the fixed rank.
 ///
 /// # Errors
 /// [`Fault::RankLost`].

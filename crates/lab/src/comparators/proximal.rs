@@ -4,20 +4,21 @@
 //! (M + C̃ᵀ·C̃/μ)·δ = f − M·a − C̃ᵀ·(λ̃ + (C̃·a − γ̃)/μ),   a ← a + δ,   λ̃ ← λ̃ + (C̃·a − γ̃)/μ,   C̃ = W·C
 //! ```
 //!
-//! W makes the diagonal of C̃·M⁻¹·C̃ᵀ one; μ compares with its eigenvalues σ². A direction σ is off
-//! by the share `(μ/(μ + σ²))^k` after k iterations; one that is zero on the constraints and δ off
-//! them gives accelerations of `k·δ²/μ`: a smaller μ is worse there, not better. No rank enters a
-//! solve. Source: J. Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of
-//! constrained dynamic equations, Robotics: Science and Systems XVII (2021).
+//! W makes the diagonal of C̃·M⁻¹·C̃ᵀ one; μ is compared with its eigenvalues σ². The relative
+//! error in a direction with singular value σ is `(μ/(μ + σ²))^k` after k iterations; a direction
+//! whose singular value is zero on the constraints and δ off them gives accelerations of `k·δ²/μ`:
+//! there a smaller μ is worse. No rank is needed for a solve. Source: J. Carpentier, R. Budhiraja,
+//! N. Mansard, Proximal and sparse resolution of constrained dynamic equations, Robotics: Science
+//! and Systems XVII (2021).
 
 use linalg::{Lu, Matrix, singular_values};
 
 use super::{Fault, Saddle, Solver, dot};
 
-/// μ lies this far below σ_r²: eleven times more accurate with each iteration.
+/// Ratio of μ to σ_r²: each iteration reduces the error by a factor of eleven.
 const DECADE: f64 = 0.1;
 
-/// Smallest mass that tuning divides by, relative to the largest: masses that vanish move with
+/// Smallest mass by which tuning divides, relative to the largest: a massless body moves with
 /// others.
 const LEAST_MASS: f64 = 1e-12;
 
@@ -31,8 +32,8 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// μ a decade below σ_r², and as many iterations as leave the share `tolerance` of the slowest
-    /// direction.
+    /// μ a decade below σ_r², and so many iterations that the fraction `tolerance` remains in the
+    /// slowest direction.
     ///
     /// ```
     /// let tuning = lab::comparators::Tuning::rule(4e-3, 1e-8);
@@ -50,7 +51,7 @@ impl Tuning {
     }
 }
 
-/// A solver of all rows, of any rank.
+/// A solver for all rows, of any rank.
 pub struct Proximal {
     tuning: Tuning,
     /// Diagonal of W.
@@ -58,8 +59,7 @@ pub struct Proximal {
 }
 
 impl Proximal {
-    /// Weights and tuning that reach a relative `tolerance` at rows C of this rank, where the
-    /// masses are these.
+    /// Weights and tuning for a relative `tolerance` with rows C of this rank and these masses.
     ///
     /// # Errors
     /// [`Fault::RankLost`].
@@ -90,7 +90,7 @@ impl Proximal {
         ))
     }
 
-    /// The same with a tuning and weights of the caller's.
+    /// The same with the tuning and weights of the caller.
     #[must_use]
     pub fn with_tuning(tuning: Tuning, weights: Vec<f64>) -> Self {
         Self { tuning, weights }

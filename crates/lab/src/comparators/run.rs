@@ -16,7 +16,7 @@ use super::stepping::{Limits, Stepper, Steps, drive};
 use super::way::{Formulation, Method, Way};
 use super::{Fault, KeptRows, MinimumNorm, NullSpace, Proximal, Solver};
 
-/// A state of a run, with what follows from it.
+/// A state of a run, with its accelerations and reactions.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// Time (s).
@@ -27,40 +27,40 @@ pub struct Row {
     pub v: Vec<f64>,
     /// Accelerations.
     pub a: Vec<f64>,
-    /// Reactions of all joints and drives; those that are not unique belong to the formulation.
+    /// Reactions of all joints and drives; those that are not unique depend on the formulation.
     pub reactions: Vec<Reaction>,
 }
 
 /// A finished run.
 #[derive(Clone, Debug, Default)]
 pub struct Run {
-    /// One row for each time that was asked for.
+    /// One row for each requested time.
     pub rows: Vec<Row>,
     /// Accepted and rejected steps.
     pub steps: u64,
     /// Rejected steps.
     pub rejected: u64,
-    /// Accelerations solved for, rows included.
+    /// Number of solves for accelerations, including those for rows.
     pub evaluations: u64,
-    /// Projected states.
+    /// Number of projected states.
     pub projections: u64,
     /// Run time (s).
     pub seconds: f64,
 }
 
-/// Steps of a run at most.
+/// Largest number of steps of a run.
 const MOST_STEPS: u64 = 1_000_000;
 
-/// Moves a prepared mechanism from t = 0 to the last of `times` (s; ascending and > 0), at a
-/// tolerance that is relative and absolute.
+/// Moves a prepared mechanism from t = 0 to the last of `times` (s; ascending and > 0), with a
+/// tolerance that is both relative and absolute.
 ///
 /// # Errors
-/// Why it did not reach the end.
+/// The reason why the run did not reach the end.
 pub fn run(prepared: &Prepared, way: Way, tolerance: f64, times: &[f64]) -> Result<Run, Fault> {
     run_within(prepared, way, tolerance, times, Duration::MAX)
 }
 
-/// The same, given up with [`Fault::TooLong`] once it takes longer than `budget`.
+/// The same, stopped with [`Fault::TooLong`] once it exceeds `budget`.
 ///
 /// # Errors
 /// As [`run`].
@@ -119,7 +119,7 @@ pub fn run_within(
     })
 }
 
-/// The row of a state, projected where states are.
+/// The row of a state, projected if the method projects.
 fn observed(equations: &mut Equations<'_>, t: f64, y: &[f64]) -> Result<Row, Fault> {
     let mut y = y.to_vec();
     equations.end(t, &mut y)?;
@@ -134,7 +134,7 @@ fn observed(equations: &mut Equations<'_>, t: f64, y: &[f64]) -> Result<Row, Fau
     })
 }
 
-/// By a method of `integrators`.
+/// Runs a method of `integrators`.
 fn integrated<'a, M: integrators::Method<Equations<'a>>>(
     method: &M,
     equations: &mut Equations<'a>,
@@ -164,7 +164,7 @@ fn integrated<'a, M: integrators::Method<Equations<'a>>>(
         &options,
         &wanted,
         |e, t, y| {
-            // A row at a break time is that just before.
+            // A row at a break time shows the state just before it.
             let t = if breaks.contains(&t) {
                 t.next_down()
             } else {

@@ -1,5 +1,5 @@
-//! The loop of steps for methods with steppers of their own. Steps end at all times that are asked
-//! for, and at break times.
+//! The loop of steps for methods with their own steppers. Steps end at all requested times, and at
+//! break times.
 
 use integrators::Ode;
 use model::System;
@@ -7,22 +7,22 @@ use model::System;
 use super::Fault;
 use super::equations::Equations;
 
-/// The first step, as share of the time there is.
+/// The first step, as a fraction of the available time.
 const FIRST: f64 = 1e-3;
 
-/// Steps shorter than so many roundings of the time are too short.
+/// Steps shorter than this number of rounding errors of the time are too short.
 const SHORTEST: f64 = 16.0;
 
-/// Step-size factor after a step that could not be made.
+/// Factor of the step size after a step that failed.
 const AFTER_FAILURE: f64 = 0.5;
 
-/// A method with a step of its own.
+/// A method that makes its own steps.
 pub(super) trait Stepper {
-    /// Forgets the steps before: the solution may jump here.
+    /// Forgets the previous steps, because the solution may jump here.
     fn restart(&mut self);
 
     /// Makes the step from (t, y0) with y0' = f0 over h to y1; returns its error, at most 1 if it
-    /// is good enough.
+    /// is small enough.
     ///
     /// # Errors
     /// If there is no such step.
@@ -33,17 +33,18 @@ pub(super) trait Stepper {
         y1: &mut [f64],
     ) -> Result<f64, Fault>;
 
-    /// The size of the next step after one of this size and error, which was accepted or not.
+    /// Returns the size of the next step after one of this size and error, which was accepted or
+    /// not.
     fn next_size(&mut self, h: f64, error: f64, is_accepted: bool) -> f64;
 }
 
 /// One trial.
 pub(super) struct Trial<'a> {
-    /// Start and size (s); the last time at which the equations are those of the step.
+    /// Start and size (s), and the last time at which the equations of the step are valid.
     pub(super) t: f64,
     pub(super) h: f64,
     pub(super) last: f64,
-    /// Whether the step is not of the size that was wanted.
+    /// Whether the step is shorter than the method requested.
     pub(super) is_cut: bool,
     pub(super) y0: &'a [f64],
     pub(super) f0: &'a [f64],
@@ -52,7 +53,7 @@ pub(super) struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// The time at the share c of the step.
+    /// The time at the fraction c of the step.
     pub(super) fn time(&self, c: f64) -> f64 {
         (self.t + c * self.h).min(self.last)
     }
@@ -77,10 +78,10 @@ pub(super) struct Steps {
     pub(super) rejected: u64,
 }
 
-/// When a run is given up.
+/// Limits at which a run is stopped.
 pub(super) struct Limits {
     pub(super) tolerance: f64,
-    /// Steps at most.
+    /// Largest number of steps.
     pub(super) steps: u64,
 }
 
@@ -95,10 +96,11 @@ impl Limits {
     }
 }
 
-/// Integrates from t = 0 and shows the states at `times`, ascending and > 0.
+/// Integrates from t = 0 and passes the states at `times` to `show`; the times are ascending and >
+/// 0.
 ///
 /// # Errors
-/// Where steps become too short or too many, and whatever `show` returns.
+/// If steps become too short or too many, or if `show` returns an error.
 pub(super) fn drive(
     stepper: &mut dyn Stepper,
     equations: &mut Equations<'_>,
@@ -148,7 +150,7 @@ pub(super) fn drive(
             match made {
                 Ok(error) if error <= 1.0 => {
                     let next = stepper.next_size(h, error, true);
-                    // A step that was cut short says little about the next one.
+                    // A step that was shortened does not predict the size of the next one.
                     wanted = if is_last { next.max(wanted) } else { next };
                     steps.accepted += 1;
                     t = if is_last { stop } else { t + h };

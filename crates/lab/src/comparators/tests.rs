@@ -1,4 +1,4 @@
-//! Orders of the two methods with steppers of their own, on steps of one size.
+//! Orders of the two methods with their own steppers, for constant step sizes.
 
 use dynamics::{Prepared, RowChoice, prepare};
 use integrators::Ode;
@@ -21,7 +21,7 @@ fn falling() -> Prepared {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("a start")
 }
 
-/// The state at the end after `n` steps of one size, projected after each.
+/// The state at the end after `n` steps of equal size, with a projection after each.
 fn at_end(p: &Prepared, stepper: &mut dyn Stepper, tolerance: f64, n: usize) -> Vec<f64> {
     let kept = &p.decision.kept;
     let columns = p.mechanism.layout().n_v;
@@ -55,8 +55,8 @@ fn at_end(p: &Prepared, stepper: &mut dyn Stepper, tolerance: f64, n: usize) -> 
     y
 }
 
-/// Half the step divides the error by 2^order. A tolerance that everything meets leaves `gbs` at
-/// its two first columns, which have order 4.
+/// Halving the step divides the error by 2^order. With a tolerance that every step meets, `gbs`
+/// uses only its first two columns, which have order 4.
 #[test]
 fn errors_fall_with_the_order() {
     let p = falling();

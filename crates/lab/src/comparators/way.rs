@@ -1,11 +1,11 @@
-//! Ways to move a mechanism: formulation, method, and what is done about drift.
+//! Combinations of formulation, method, and treatment of drift.
 
-/// How redundant rows are dealt with.
+/// The treatment of redundant rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Formulation {
     /// Independent rows, those of the start.
     KeptRows,
-    /// A basis of the motions that C allows.
+    /// Null-space method: a basis of the motions that C allows.
     NullSpace,
     /// All rows by a complete orthogonal decomposition.
     MinimumNorm,
@@ -34,7 +34,7 @@ impl Formulation {
     }
 }
 
-/// How the equations are integrated.
+/// The integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Dormand–Prince 8(5,3).
@@ -45,7 +45,7 @@ pub enum Method {
     Tsit5,
     /// Extrapolated midpoint rule, order 4 to 18.
     Gbs,
-    /// Generalized-α on positions and kept rows, order 2; the formulation gives the first
+    /// Generalized-α on positions and kept rows, order 2; the formulation is used for the first
     /// accelerations and those of rows.
     GeneralizedAlpha,
 }
@@ -73,20 +73,19 @@ impl Method {
     }
 }
 
-/// What is done about drift off the constraints.
+/// The treatment of drift from the constraints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Drift {
-    /// States are projected in the metric of the masses after each step.
+    /// States are projected in the mass metric after each step.
     Projection,
-    /// Accelerations pull back: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic
-    /// rows.
+    /// Baumgarte's terms: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic rows.
     Baumgarte {
         /// α (1/s)
         alpha: f64,
         /// β (1/s)
         beta: f64,
     },
-    /// Nothing.
+    /// No treatment.
     None,
 }
 
@@ -111,7 +110,7 @@ impl Drift {
     }
 }
 
-/// A way to move a mechanism.
+/// A combination of formulation, method, and treatment of drift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
     /// Treatment of redundancy.

@@ -1,4 +1,4 @@
-//! Many inputs, several at the same time. What fails is made short and kept in a file.
+//! Many inputs, several at the same time. A text that fails is shortened and stored in a file.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,56 +14,56 @@ use crate::fuzz::trial::Reach;
 use crate::fuzz::watch::{Fault, Limits, Worker, one};
 use crate::fuzz::{input, minimise};
 
-/// Inputs that one process tries.
+/// Number of inputs that one process tests.
 const CHUNK: u64 = 2000;
 
-/// Longest time for making one text short: those that hang take a deadline for each trial.
+/// Longest time for shortening one text: texts that hang need a deadline for each trial.
 const SHORTEN: Duration = Duration::from_secs(20);
 
-/// What is tried.
+/// A set of inputs to test.
 #[derive(Clone, Debug)]
 pub struct Campaign {
     /// Seed of all inputs.
     pub seed: u64,
     /// The first input.
     pub from: u64,
-    /// How many.
+    /// Number of inputs.
     pub inputs: u64,
-    /// Processes at the same time.
+    /// Number of processes at the same time.
     pub threads: usize,
-    /// How they are begun and limited.
+    /// How processes are started and limited.
     pub limits: Limits,
-    /// Where found texts are kept.
+    /// Directory for texts that fail.
     pub found: PathBuf,
 }
 
-/// What came out.
+/// The results of a campaign.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
-    /// How many texts came how far.
+    /// Number of texts by the last stage that they reached.
     pub reached: BTreeMap<Reach, u64>,
-    /// By place: how many, and the first.
+    /// Failures by place.
     pub faults: BTreeMap<String, Found>,
 }
 
-/// Failures of one place.
+/// The failures at one place.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// How many.
+    /// Number of failures.
     pub count: u64,
     /// The number of the first input.
     pub first: u64,
-    /// How it failed.
+    /// The failure.
     pub fault: Fault,
-    /// Its shortest text.
+    /// The file with its shortest text.
     pub file: PathBuf,
 }
 
 impl Campaign {
-    /// Tries all inputs. `progress` sees how many are done from time to time.
+    /// Tests all inputs. `progress` is called from time to time with the number of finished inputs.
     ///
     /// # Errors
-    /// If processes cannot be begun, or found texts not be kept.
+    /// If processes cannot be started, or texts cannot be stored.
     pub fn run(&self, progress: impl Fn(u64) + Sync) -> io::Result<Tally> {
         let next = AtomicU64::new(0);
         let tally = Mutex::new(Tally::default());
@@ -91,7 +91,7 @@ impl Campaign {
         Ok(tally.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Tries some inputs, in as many processes as it takes.
+    /// Tests a range of inputs, in as many processes as necessary.
     fn stretch(&self, from: u64, to: u64, tally: &Mutex<Tally>) -> io::Result<()> {
         let mut at = from;
         while at < to {
@@ -120,7 +120,7 @@ impl Campaign {
         Ok(())
     }
 
-    /// Keeps the first input of each place, made short.
+    /// Stores the first input of each place, shortened.
     fn note(&self, number: u64, fault: Fault, tally: &Mutex<Tally>) -> io::Result<()> {
         let place = fault.place().to_owned();
         {

@@ -1,9 +1,9 @@
-//! What is done to a text: mostly such that it stays TOML, so that the reader of scenes and what
-//! follows are reached.
+//! Random changes of a text: mostly such that it remains valid TOML, so that the reader of scenes
+//! and the later stages are tested.
 
 use crate::numbers::Numbers;
 
-/// Numbers that are hard to hold, right in some places and wrong in most.
+/// Extreme numbers, valid in some places and invalid in most.
 pub(crate) const EXTREMES: [&str; 30] = [
     "0",
     "0.0",
@@ -65,7 +65,7 @@ const VALUES: [&str; 24] = [
     "\"\\u0000\"",
 ];
 
-/// Lines that make one kind of thing into another.
+/// Lines that change the kind of an element.
 const LINES: [&str; 26] = [
     "type = \"revolute\"",
     "type = \"translational\"",
@@ -95,12 +95,12 @@ const LINES: [&str; 26] = [
     "allow_correction = true",
 ];
 
-/// Signs that mean something to TOML, and some that mean nothing.
+/// Characters with a meaning in TOML, and some without.
 const SIGNS: [&str; 16] = [
     "[", "]", "{", "}", "=", ",", ".", "\"", "'", "\n", "#", "-", "é", "\u{feff}", "𝛗", "\u{0}",
 ];
 
-/// The text with one damage.
+/// Returns the text with one change.
 #[must_use]
 pub fn damaged(text: &str, numbers: &mut Numbers) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -117,7 +117,7 @@ pub fn damaged(text: &str, numbers: &mut Numbers) -> String {
         }
         3 => lines.insert(at, LINES[numbers.below(LINES.len())].to_owned()),
         4 => {
-            // A stretch of lines once more: things with the same name, or arrays that are twice as
+            // Repeats a range of lines: elements with the same name, or arrays that are twice as
             // long.
             let end = (at + 1 + numbers.below(8)).min(lines.len());
             let copy = lines[at..end].to_vec();
@@ -136,7 +136,7 @@ pub fn damaged(text: &str, numbers: &mut Numbers) -> String {
     lines.join("\n")
 }
 
-/// One sign more, less, or another.
+/// Adds, removes or replaces one character.
 fn with_sign(line: &str, numbers: &mut Numbers) -> String {
     let mut signs: Vec<String> = line.chars().map(String::from).collect();
     let sign = SIGNS[numbers.below(SIGNS.len())].to_owned();
@@ -164,7 +164,7 @@ fn with_value_of_another(lines: &[String], at: usize, numbers: &mut Numbers) -> 
     }
 }
 
-/// One of the quoted texts of the line becomes another of the file.
+/// Replaces one of the quoted texts of the line by another of the file.
 fn with_other_name(text: &str, line: &str, numbers: &mut Numbers) -> String {
     let names: Vec<&str> = text.split('"').skip(1).step_by(2).collect();
     let mut parts: Vec<&str> = line.split('"').collect();
@@ -176,7 +176,7 @@ fn with_other_name(text: &str, line: &str, numbers: &mut Numbers) -> String {
     parts.join("\"")
 }
 
-/// One of the numbers of the line becomes an extreme one, or nearly what it was.
+/// Replaces one of the numbers of the line by an extreme or a slightly changed one.
 fn with_other_number(line: &str, numbers: &mut Numbers) -> String {
     let is_part = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     let mut pieces: Vec<String> = Vec::new();

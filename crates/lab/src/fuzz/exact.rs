@@ -1,33 +1,33 @@
-//! A foreign examiner of verdicts: degenerate scenes that are drawn in fractions, moved, written as
-//! text with every number rounded once, and judged by exact arithmetic. What `analyze` says of the
-//! text must be what holds of the fractions: ranks, verdicts, components, rows, dependencies, and
-//! every sentence.
+//! Independent tests of verdicts: degenerate scenes are drawn in fractions, moved, written as text
+//! with every number rounded once, and judged by exact arithmetic. The results of `analyze` for the
+//! text must be those for the fractions: ranks, verdicts, components, rows, dependencies, and every
+//! sentence.
 //!
-//! The oracle shares nothing with what it examines: the rows are lines of force in the coordinates
-//! of the drawing, not derivatives of Φ at coordinates of bodies, and their ranks come from
-//! elimination of whole numbers.
+//! The reference shares no code with the program: its rows are lines of force in the coordinates of
+//! the drawing, not derivatives of Φ with respect to the coordinates of bodies, and their ranks
+//! come from elimination of whole numbers.
 //!
 //! | module | content |
 //! | --- | --- |
 //! | [`ratio`] | fractions, and sums with one square root |
 //! | [`drawing`] | bodies and joints at one configuration, in fractions |
-//! | [`families`] | kinds of degenerate drawings, with their near relatives that are not |
-//! | [`pose`] | where and how a drawing is written down: moved, turned, swapped, in another order |
+//! | [`families`] | kinds of degenerate drawings, with similar ones that are not degenerate |
+//! | [`pose`] | how a drawing is written: moved, turned, swapped, in another order |
 //! | [`text`] | the scene as text |
 //! | [`rows`] | its constraint rows as lines of force |
-//! | [`truth`] | what exact arithmetic says |
-//! | [`answer`] | what the program says |
-//! | [`examine`] | the two compared |
-//! | [`findings`] | what is not right in an answer |
-//! | [`words`] | the same for sentences |
-//! | [`deletions`] | the same for what may be deleted |
+//! | [`truth`] | the results of exact arithmetic |
+//! | [`answer`] | the answer of the program |
+//! | [`examine`] | comparison of the two |
+//! | [`findings`] | the errors in an answer |
+//! | [`words`] | comparison of the sentences |
+//! | [`deletions`] | comparison of the rows that may be deleted |
 //! | [`tally`] | many scenes |
-//! | [`doubles`] | a drawing in doubles, at any configuration and for any data |
+//! | [`doubles`] | a drawing in double precision, at any configuration and for any data |
 //! | [`minimax`] | the smallest change of data that satisfies equations, between proved bounds |
-//! | [`near`] | how far the data are from a lower rank, by these two |
-//! | [`loads`] | reactions under gravity, by doubles |
-//! | [`within`] | what the program says within a tolerance, compared with these |
-//! | [`rounded`] | many scenes with few digits, and of full rank near a lower one |
+//! | [`near`] | the distance of the data from a lower rank, computed with these two |
+//! | [`loads`] | reactions under gravity, in double precision |
+//! | [`within`] | the answers within a tolerance, compared with these |
+//! | [`rounded`] | many scenes with few digits, and many of full rank near a lower one |
 
 pub mod answer;
 pub mod deletions;
@@ -55,19 +55,19 @@ use drawing::Drawing;
 use families::Family;
 use pose::{Posed, Writing};
 
-/// One scene: a drawing, and how it is written down.
+/// One scene: a drawing, and how it is written.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Its family.
     pub family: Family,
-    /// How it is written down.
+    /// How it is written.
     pub writing: Writing,
-    /// The drawing, moved and in its order.
+    /// The drawing after the move, with its elements in the order of the file.
     pub posed: Posed,
 }
 
-/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, written down in the
-/// ways of [`Writing::ALL`].
+/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, written in the ways of
+/// [`Writing::ALL`].
 #[must_use]
 pub fn scene(seed: u64, number: u64) -> Scene {
     let ways = Writing::ALL.len() as u64;

@@ -1,4 +1,4 @@
-//! The text of an input, from the seed of a campaign and a number.
+//! The text of an input, determined by the seed of a campaign and a number.
 
 use crate::numbers::Numbers;
 
@@ -7,13 +7,14 @@ use crate::fuzz::{damage, scenes};
 /// The published mechanism.
 const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
 
-/// Most damages of one text.
+/// Largest number of changes of one text.
 const DAMAGES: usize = 4;
 
 /// The text of input `number`: a random scene, or one of the suite; half of them damaged.
 #[must_use]
 pub fn text(seed: u64, number: u64) -> String {
-    // A seed of its own for each input, by one draw: neighbours have nothing in common.
+    // Each input has its own seed from one random number, so that consecutive inputs are
+    // independent.
     let mut numbers = Numbers::new(seed ^ Numbers::new(number).bits());
     let from_suite = numbers.once_in(4);
     let mut text = if from_suite {
@@ -21,7 +22,7 @@ pub fn text(seed: u64, number: u64) -> String {
     } else {
         scenes::random(&mut numbers)
     };
-    // Scenes of the suite as they are have tests of their own.
+    // Unchanged scenes of the suite have their own tests.
     if from_suite || numbers.once_in(2) {
         for _ in 0..=numbers.below(DAMAGES) {
             text = damage::damaged(&text, &mut numbers);

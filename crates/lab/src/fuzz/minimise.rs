@@ -1,7 +1,7 @@
-//! The shortest text that still fails alike: stretches of lines are left out, long ones first, then
+//! The shortest text with the same failure: ranges of lines are removed, long ones first, then
 //! parts of lines (Zeller and Hildebrandt 2002, doi 10.1109/32.988498, without complements).
 
-/// Makes a text shorter as long as `fails`.
+/// Shortens a text as long as `fails` is true.
 #[must_use]
 pub fn shortest(text: &str, mut fails: impl FnMut(&str) -> bool) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -23,7 +23,7 @@ pub fn shortest(text: &str, mut fails: impl FnMut(&str) -> bool) -> String {
     }
 }
 
-/// Leaves out what can be left out, in stretches of half the length each time.
+/// Removes pieces that are not needed, in ranges of half the length each time.
 fn shorten(pieces: &mut Vec<String>, mut fails: impl FnMut(&[String]) -> bool) {
     let mut length = pieces.len().div_ceil(2);
     while length > 0 {
@@ -44,7 +44,7 @@ fn shorten(pieces: &mut Vec<String>, mut fails: impl FnMut(&[String]) -> bool) {
     }
 }
 
-/// A line in words; what separates them stays with the word before.
+/// The words of a line; separators stay with the word before.
 fn words(line: &str) -> Vec<String> {
     line.split_inclusive([',', ' '])
         .map(str::to_owned)

@@ -1,5 +1,5 @@
-//! A random scene: every joint, drive, force and function of time, on bodies that mostly stand on a
-//! coarse grid, so that parallel axes, coinciding points and redundant loops are frequent.
+//! A random scene: every joint, drive, force and function of time, on bodies that are mostly placed
+//! on a coarse grid, so that parallel axes, coinciding points and redundant loops are frequent.
 
 mod functions;
 mod things;
@@ -9,11 +9,11 @@ use crate::numbers::Numbers;
 
 pub(crate) use values::Values;
 
-/// What has been written of a scene so far.
+/// The part of a scene that has been written so far.
 #[derive(Default)]
 struct Draft {
     text: String,
-    /// Names of bodies as the file has them, quoted.
+    /// Names of bodies as in the file, quoted.
     bodies: Vec<String>,
     /// Joints: name, quoted, and type.
     joints: Vec<(String, &'static str)>,
@@ -60,7 +60,7 @@ pub fn random(numbers: &mut Numbers) -> String {
     for k in 0..bodies {
         things::body(&mut draft, &mut values, k);
     }
-    // A tree first, then loops over it.
+    // First a tree, then additional loops.
     for k in 0..bodies {
         if !values.numbers.once_in(5) {
             let parent = if k == 0 || values.numbers.once_in(3) {

@@ -1,7 +1,7 @@
-//! One text through the library as the commands take it: check, analyze, simulate. What comes out
-//! must fit together.
+//! Tests one text by passing it to the library in the same way as the commands do: check, analyze,
+//! simulate. The results must be consistent.
 //!
-//! What is broken panics: a trial is made in a process that somebody watches.
+//! A failed test panics: a trial runs in a process that is supervised.
 
 mod judged;
 mod moved;
@@ -16,16 +16,16 @@ pub use reach::Reach;
 pub(crate) use reach::T_END;
 use reach::named;
 
-/// What a trial is about to do.
+/// The next stage of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Read the text.
     Read,
-    /// Find its start and choose rows.
+    /// Assemble the start and choose rows.
     Prepare,
-    /// Judge its reactions.
+    /// Compute the verdicts of its reactions.
     Judge,
-    /// Move it.
+    /// Run the motion.
     Move,
 }
 
@@ -45,10 +45,10 @@ impl Stage {
     }
 }
 
-/// Tries a text and says before each stage which one it is.
+/// Tests a text and reports each stage before it begins.
 ///
 /// # Panics
-/// If the library does, or its results do not fit together.
+/// If the library panics, or its results are inconsistent.
 #[must_use]
 pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     begin(Stage::Read);
@@ -82,7 +82,8 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
                 }
                 Err(e) => {
                     named(&e);
-                    // `check` and `analyze` warn of what `simulate` refuses, and accept the same.
+                    // `check` and `analyze` warn of a start that `simulate` refuses, and all accept
+                    // the same inputs.
                     assert!(!e.is_input(), "a start that can be judged is refused: {e}");
                     Reach::NoStart
                 }
@@ -105,7 +106,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     begin(Stage::Move);
     let warning = study.cannot_begin();
     let (reach, rows) = moved::check(&study);
-    // What `simulate` refuses at the start, `check` and `analyze` warn of.
+    // `check` and `analyze` warn of a start that `simulate` refuses.
     assert!(
         rows > 0 || warning.is_some(),
         "no motion begins, and nobody was warned"
@@ -113,7 +114,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     reach
 }
 
-/// Problems are there, and lie in the text.
+/// Asserts that there are problems and that their places are in the text.
 fn places(text: &str, problems: &[Diagnostic]) {
     assert!(!problems.is_empty(), "refused without a reason");
     for problem in problems {

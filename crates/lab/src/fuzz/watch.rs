@@ -1,5 +1,5 @@
-//! Processes that try texts, with limits of time and memory. A process that ends before it was
-//! asked to, or says nothing for too long, has found something.
+//! Processes that test texts, with limits of time and memory. A process that ends too early, or
+//! does not answer in time, has found a failure.
 
 use std::io::{self, Read, Write};
 use std::path::PathBuf;
@@ -10,36 +10,36 @@ use std::time::{Duration, Instant};
 
 use crate::fuzz::trial::{Reach, Stage};
 
-/// How a process is begun, and what it may use.
+/// How a process is started, and its limits.
 #[derive(Clone, Debug)]
 pub struct Limits {
     /// The program.
     pub program: PathBuf,
     /// Longest time for one text.
     pub deadline: Duration,
-    /// Largest memory (MiB); enforced where there is a shell that can.
+    /// Largest memory (MiB); enforced if there is a shell that supports the limit.
     pub memory: u64,
 }
 
-/// How a trial failed.
+/// The failure of a trial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
-    /// The process ended: a panic, an overflow of the stack, no memory.
+    /// The process ended: a panic, a stack overflow, no memory.
     Died {
-        /// Where and why: the line of the panic, or how it ended.
+        /// Place and cause: the line of the panic, or how the process ended.
         place: String,
-        /// All of its last words.
+        /// Its last output.
         words: String,
     },
     /// It took too long.
     Hung {
-        /// At what.
+        /// The stage that took too long.
         place: String,
     },
 }
 
 impl Fault {
-    /// What two faults of one cause have in common.
+    /// The common property of two faults with the same cause.
     #[must_use]
     pub fn place(&self) -> &str {
         match self {
@@ -48,10 +48,10 @@ impl Fault {
     }
 }
 
-/// Tries one text.
+/// Tests one text.
 ///
 /// # Errors
-/// If the process cannot be begun.
+/// If the process cannot be started.
 pub fn one(limits: &Limits, text: &str) -> io::Result<Result<Reach, Fault>> {
     let mut worker = Worker::begin(limits, &["try", "-"], Some(text))?;
     let answer = worker.answer(limits.deadline);
@@ -59,7 +59,7 @@ pub fn one(limits: &Limits, text: &str) -> io::Result<Result<Reach, Fault>> {
     Ok(answer)
 }
 
-/// A process at work. It writes a letter for each [`Stage`] that begins and for the [`Reach`] of
+/// A running process. It writes a letter for each [`Stage`] that begins and for the [`Reach`] of
 /// each text.
 pub struct Worker {
     child: Child,
@@ -68,10 +68,10 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Begins it.
+    /// Starts it.
     ///
     /// # Errors
-    /// If there is no such program, or no process left.
+    /// If there is no such program, or no more processes are allowed.
     pub fn begin(limits: &Limits, arguments: &[&str], input: Option<&str>) -> io::Result<Self> {
         let mut command = if cfg!(unix) {
             let mut shell = Command::new("sh");
@@ -90,7 +90,7 @@ impl Worker {
             .stderr(Stdio::piped())
             .spawn()?;
         if let (Some(mut stdin), Some(text)) = (child.stdin.take(), input) {
-            // It may have died already: then it has no answer.
+            // The process may have died already; then it does not answer.
             let _ = stdin.write_all(text.as_bytes());
         }
         let (send, answers) = channel();
@@ -121,7 +121,7 @@ impl Worker {
     /// The answer for the next text.
     ///
     /// # Errors
-    /// [`Fault`]: there is none.
+    /// [`Fault`] if there is no answer.
     pub fn answer(&mut self, deadline: Duration) -> Result<Reach, Fault> {
         let (end, mut stage) = (Instant::now() + deadline, None);
         loop {
@@ -158,7 +158,7 @@ impl Worker {
         Fault::Died { place, words }
     }
 
-    /// Ends it, whatever it is doing.
+    /// Ends the process at once.
     pub fn end(mut self) {
         // It may have ended by itself.
         let _ = self.child.kill();

@@ -1,4 +1,4 @@
-//! What is known of a generated mechanism at its start.
+//! The known answer for a generated mechanism at its start.
 
 /// Sizes and ranks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,7 +20,8 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// The answer for planar bodies with these rows, of which `redundancy` depend on the others.
+    /// The answer for planar bodies with these rows, of which `redundancy` are dependent on the
+    /// others.
     pub(super) fn new(
         bodies: usize,
         joints: usize,
@@ -46,17 +47,17 @@ impl Answer {
 pub struct FreeReaction {
     /// Name of the joint.
     pub name: String,
-    /// What of it is not determined.
+    /// The part that is not determined.
     pub free: Free,
 }
 
-/// What of a reaction is not determined; the rest of it is.
+/// The part of a reaction that is not determined; the rest is determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Free {
     /// The force, in every direction.
     Force,
-    /// The force along this direction (global components, length 1); across it the force is
-    /// determined.
+    /// The force along this direction (global components, length 1); perpendicular to it the force
+    /// is determined.
     Along([f64; 2]),
     /// The force along this direction, and the torque.
     AlongAndTorque([f64; 2]),

@@ -1,4 +1,4 @@
-//! What the families have in common.
+//! The common interface of the families.
 
 use std::io;
 
@@ -13,10 +13,10 @@ pub(super) trait Family: Send + Sync {
     /// The reactions that are not unique at the start, in the order of the file.
     fn free_reactions(&self) -> Vec<FreeReaction>;
 
-    /// In words, for the head of the file: what it is, and which reactions are not unique. One line
-    /// each.
+    /// A description for the head of the file: the mechanism, and the reactions that are not
+    /// unique. One line each.
     fn words(&self) -> Vec<String>;
 
-    /// Writes everything but the head of the file: gravity, bodies, joints, forces, and the run.
+    /// Writes everything except the head of the file: gravity, bodies, joints, forces, and the run.
     fn write(&self, name: &str, scene: &mut SceneText) -> io::Result<()>;
 }

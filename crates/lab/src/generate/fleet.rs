@@ -1,9 +1,9 @@
-//! Copies of the robot with its trolley, side by side, neighbours coupled by a spring with a damper
+//! Copies of the robot with its trolley in a row; neighbours are coupled by a spring with a damper
 //! between their platforms.
 //!
-//! Forces change no rank: each copy has 21 coordinates, 22 rows, rank 20 and the verdicts of the
-//! one robot. All start alike and steer alike, so the springs keep their lengths, and every copy
-//! moves as the robot alone does.
+//! Forces do not change the rank: each copy has 21 coordinates, 22 rows, rank 20 and the verdicts
+//! of the single robot. All have the same start and the same steering, so the springs keep their
+//! lengths, and every copy moves as the single robot does.
 
 use std::io;
 
@@ -14,8 +14,8 @@ use super::text::SceneText;
 /// The robot.
 const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
 
-/// Joints of the robot whose reactions are not unique, while it drives straight: across the way
-/// only.
+/// Joints of the robot whose reactions are not unique while it drives straight, and only across the
+/// direction of travel.
 const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
 /// Distance between neighbours (m).
@@ -30,11 +30,11 @@ pub(super) struct Fleet {
 /// A piece of the text of the robot.
 #[derive(Debug)]
 enum Piece {
-    /// The same in each copy.
+    /// Text that is the same in each copy.
     Text(&'static str),
     /// The beginning of a name.
     Name,
-    /// A number that grows from copy to copy.
+    /// A number that increases from copy to copy.
     Y(f64),
 }
 
@@ -57,7 +57,7 @@ fn take_apart(line: &'static str, out: &mut Vec<Piece>) {
         "name" | "bodies" | "body" | "joint" => {
             for (k, part) in line.split_inclusive('"').enumerate() {
                 out.push(Piece::Text(part));
-                // After an opening mark.
+                // After an opening quotation mark.
                 if k % 2 == 0 && part.ends_with('"') {
                     out.push(Piece::Name);
                 }
@@ -134,13 +134,13 @@ impl Family for Fleet {
 mod tests {
     use super::*;
 
-    /// Every name is found, and every point: a change of the robot's file that this module does not
-    /// follow shows here.
+    /// Every name and every point is found: the test fails after a change of the robot's file that
+    /// this module does not handle.
     #[test]
     fn the_robot_is_taken_apart() {
         let fleet = Fleet::new(1);
         let count = |is: fn(&Piece) -> bool| fleet.robot.iter().filter(|piece| is(piece)).count();
-        // 21 names of things, two bodies of eight joints, one of five, the joint of the drive.
+        // 21 names of elements, two bodies of eight joints, one of five, the joint of the drive.
         assert_eq!(count(|piece| matches!(piece, Piece::Name)), 21 + 16 + 5 + 1);
         // Seven bodies and thirteen joints.
         assert_eq!(count(|piece| matches!(piece, Piece::Y(_))), 7 + 13);

@@ -1,19 +1,19 @@
-//! A square lattice of N × N cells that hangs from a corner: a rod for each side, pinned where rods
-//! meet, and braces in pairs of neighbouring cells along the diagonal.
+//! A square lattice of N × N cells that hangs from a corner: a rod for each side, pinned at the
+//! nodes, and braces along the diagonals of cells in blocks.
 //!
 //! Without braces, opposite sides of each cell stay parallel, so that every column of cells has one
-//! angle, every row of cells another one, and these 2·N angles are all that can move. A brace ties
-//! the angle of its column to that of its row (Bolker and Crapo, Bracing rectangular frameworks I,
-//! SIAM J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are edges between rows and columns).
-//! Each braced block of 2 × 2 cells has four braces between two rows and two columns: three of them
-//! make four angles one, and the fourth is redundant. So k braced blocks leave `2·N − 3·k` freedoms
+//! angle, every row of cells another one, and these 2·N angles are the freedoms. A brace ties the
+//! angle of its column to that of its row (Bolker and Crapo, Bracing rectangular frameworks I, SIAM
+//! J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are edges between rows and columns). Each
+//! braced block of 2 × 2 cells has four braces between two rows and two columns: three of them make
+//! four angles equal, and the fourth is redundant. So k braced blocks leave `2·N − 3·k` freedoms
 //! and a redundancy of k.
 //!
-//! Without any load, the braces of a block can be stretched by `1, −1, −1, 1` (times √2): on each
-//! line of rods, the forces along it then vanish in sum at both ends, so the sides of the block
-//! take them up, and nothing outside the block feels it. A pin that connects two rods of a node
-//! carries what the rods before it in the node's list bring along. That is a whole number along
-//! each direction, found in [`Lattice::free`] without rounding.
+//! Without any load, the braces of a block can carry tensions in the ratio `1, −1, −1, 1` (times
+//! √2): on each line of rods, the forces along it then sum to zero at both ends, so the sides of
+//! the block balance them, and nothing outside the block is loaded. A pin that connects two rods of
+//! a node carries the sum for the rods before it in the node's list. That is a whole number along
+//! each direction, computed in [`Lattice::free`] without rounding.
 
 use std::io;
 
@@ -32,7 +32,7 @@ const ROD_MASS: f64 = 1.0;
 
 pub(super) struct Lattice {
     n: usize,
-    /// Of the blocks along the diagonal.
+    /// The braced ones of the blocks along the diagonal.
     braced: Share,
 }
 
@@ -43,7 +43,7 @@ enum Rod {
     Across([usize; 2]),
     /// To the next row, downwards.
     Down([usize; 2]),
-    /// To both.
+    /// To the next column and row.
     Brace([usize; 2]),
 }
 
@@ -62,7 +62,7 @@ impl Rod {
         }
     }
 
-    /// Columns and rows from its start to its end.
+    /// Number of columns and rows from its start to its end.
     fn step(self) -> [usize; 2] {
         match self {
             Self::Across(_) => [1, 0],
@@ -71,11 +71,9 @@ impl Rod {
         }
     }
 
-    /// Its pull where the braces of a block (number from 0 along the diagonal) are stretched
-    /// against each other.
+    /// Its tension in the self-stress of a block (number from 0 along the diagonal).
     fn pull(self, block: usize) -> i32 {
-        /// By column and line, of rods across; those downwards are the same with column and line
-        /// exchanged.
+        /// By column and line, for horizontal rods; for vertical ones exchange column and line.
         const SIDES: [[i32; 3]; 2] = [[-1, 1, 0], [0, 1, -1]];
         let [c, r] = self.start();
         let (Some(c), Some(r)) = (c.checked_sub(BLOCK * block), r.checked_sub(BLOCK * block))
@@ -98,7 +96,7 @@ impl Rod {
     }
 }
 
-/// A node as a point of the plane: rows hang down.
+/// The position of a node in the plane: rows are numbered downwards.
 fn place([c, r]: [usize; 2]) -> [f64; 2] {
     [c as f64, -(r as f64)]
 }
@@ -120,7 +118,7 @@ impl Lattice {
         (0..=n).flat_map(move |r| (0..=n).map(move |c| [c, r]))
     }
 
-    /// Whether a cell, named by its first node, has a brace.
+    /// Whether a cell, identified by its first node, has a brace.
     fn is_braced(&self, [c, r]: [usize; 2]) -> bool {
         let block = c / BLOCK;
         block == r / BLOCK && block < self.n / BLOCK && self.braced.has(block)
@@ -152,8 +150,8 @@ impl Lattice {
             .collect()
     }
 
-    /// What of the reaction of the pin number `pin` (from 0) of a node is not determined: all that
-    /// the rods before it, itself included, can pull without any load.
+    /// The part of the reaction of the pin number `pin` (from 0) of a node that is not determined:
+    /// the sum of the tensions, without any load, of the rods before it, including its own.
     fn free(&self, [c, r]: [usize; 2], meeting: &[(Rod, i32)], pin: usize) -> Option<Free> {
         let near = [c / BLOCK, (c / BLOCK).wrapping_sub(1)];
         let blocks = near.into_iter().filter(|&block| {
@@ -183,7 +181,7 @@ impl Lattice {
 impl Family for Lattice {
     fn answer(&self) -> Answer {
         let (rods, nodes) = (self.n_rods(), (self.n + 1) * (self.n + 1));
-        // A pin less than rods at each node, and the hook.
+        // One pin less than rods at each node, and the hook.
         let joints = 2 * rods - nodes + 1;
         Answer::new(rods, joints, 0, 2 * joints, self.braced.chosen)
     }
@@ -250,7 +248,7 @@ impl Family for Lattice {
 mod tests {
     use super::*;
 
-    /// Pulls of a block leave every node in balance.
+    /// The tensions of a block are in equilibrium at every node.
     #[test]
     fn a_block_needs_no_load() {
         let lattice = Lattice::new(6, 1.0);
@@ -266,7 +264,7 @@ mod tests {
                 }
                 assert_eq!(sum, [0, 0], "node {node:?}, block {block}");
             }
-            // Four braces and eight sides, each seen from both ends.
+            // Four braces and eight sides, each counted at both ends.
             assert_eq!(stretched, 24);
         }
     }
@@ -278,7 +276,8 @@ mod tests {
             let answer = lattice.answer();
             let pins = lattice.nodes().map(|node| lattice.meeting(node).len() - 1);
             assert_eq!(answer.joints, pins.sum::<usize>() + 1);
-            // Strips that no brace ties together, against coordinates less independent rows.
+            // Independent strips by the theory of braces, compared with coordinates minus
+            // independent rows.
             assert_eq!(answer.mobility, 2 * n - 3 * (n / 2));
         }
     }

@@ -1,7 +1,7 @@
 //! The N-four-bar: N + 1 unit uprights on the ground, N unit rods between their tops, all loops
-//! parallelograms. Uprights stand at the start, and the tops move with 1 m/s.
+//! parallelograms. The uprights are vertical at the start, and their tops move at 1 m/s.
 //!
-//! One angle tells everything: with θ from the upward vertical, of every upright,
+//! The motion is described by one angle: with θ from the upward vertical, for every upright,
 //! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ` for rods of 1 kg and 1 m. No row is redundant
 //! while the uprights are not horizontal.
 //!
@@ -34,7 +34,7 @@ impl NFourBar {
 ///
 /// ```
 /// use lab::generate::n_four_bar::{GRAVITY, acceleration};
-/// // One loop lying on its side: two uprights of inertia 1/3 and a mass of 1 at their tops; the weight pulls at 1/2, 1/2 and 1.
+/// // One loop, horizontal: two uprights of inertia 1/3 and a mass of 1 at their tops; the weights act at the arms 1/2, 1/2 and 1.
 /// let horizontal = acceleration(1, std::f64::consts::FRAC_PI_2);
 /// assert!((horizontal - 2.0 * GRAVITY / (5.0 / 3.0)).abs() < 1e-14);
 /// ```

@@ -1,4 +1,4 @@
-//! What may be asked for, and how large it would be.
+//! Requests for scenes, and the estimated size of a scene.
 
 use std::io::{self, BufWriter, Write};
 
@@ -14,7 +14,7 @@ use super::text::SceneText;
 /// Largest scene that is written (bytes).
 pub const LARGEST: f64 = 1e10;
 
-/// Names of a thing in its table, and of others that it refers to.
+/// Number of occurrences of names: the element's own name, and those that it refers to.
 const NAMES: f64 = 3.0;
 
 /// A family of mechanisms.
@@ -25,11 +25,11 @@ pub enum Kind {
     /// A chain of parallelogram cells, each on the coupler of the one before; three cranks make a
     /// cell redundant.
     Parallelograms,
-    /// A square grid of rods that hangs from a corner, some of its cells braced.
+    /// A square lattice of rods that hangs from a corner, some of its cells braced.
     Lattice,
-    /// Copies of the robot with its trolley, side by side.
+    /// Copies of the robot with its trolley in a row.
     Fleet,
-    /// Rods, slides and loops at random, some of them doubled.
+    /// Random rods, slides and loops, some of them doubled.
     Random,
 }
 
@@ -55,7 +55,7 @@ impl Kind {
         }
     }
 
-    /// What its n counts.
+    /// The unit that its n counts.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -67,8 +67,7 @@ impl Kind {
         }
     }
 
-    /// The share of its cells that are redundant by default; `None` if there
-    /// is no choice.
+    /// The fraction of its cells that are redundant by default; `None` if there is no choice.
     fn share(self) -> Option<f64> {
         match self {
             Self::NFourBar | Self::Fleet => None,
@@ -92,8 +91,8 @@ impl Kind {
         }
     }
 
-    /// The size by which larger ones are measured: some hundreds of bodies, and enough where they
-    /// differ at random.
+    /// A sample size from which larger sizes are estimated: some hundreds of bodies, and enough of
+    /// them to average random differences.
     fn sample(self) -> usize {
         match self {
             Self::Lattice => 20,
@@ -102,7 +101,7 @@ impl Kind {
         }
     }
 
-    /// How the number of bodies and joints grows from size `a` to size `b`.
+    /// The factor by which the number of bodies and joints grows from size `a` to size `b`.
     fn growth(self, a: usize, b: usize) -> f64 {
         let ratio = b as f64 / a as f64;
         match self {
@@ -112,7 +111,7 @@ impl Kind {
     }
 }
 
-/// What is wanted.
+/// A request for a scene.
 ///
 /// ```
 /// use lab::generate::{Kind, Order};
@@ -130,19 +129,19 @@ impl Kind {
 pub struct Order {
     /// The family.
     pub kind: Kind,
-    /// How large: loops, cells, cells along each side, robots, modules.
+    /// Size: number of loops, cells, cells along each side, robots, modules.
     pub n: usize,
-    /// Seed of what is drawn at random, 1 where none is given.
+    /// Seed of the random choices, 1 if none is given.
     pub seed: Option<u64>,
-    /// Share of the cells that are redundant, 0 to 1.
+    /// Fraction of the cells that are redundant, 0 to 1.
     pub redundant: Option<f64>,
 }
 
-/// Why a scene is not generated.
+/// The reason why a scene is not generated.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GenerateError {
-    /// Nothing would be in it.
+    /// The scene would be empty.
     Empty {
         /// The family.
         kind: Kind,
@@ -151,14 +150,14 @@ pub enum GenerateError {
     TooLarge {
         /// The family.
         kind: Kind,
-        /// The size asked for.
+        /// The requested size.
         n: usize,
-        /// About how large the file would be (bytes).
+        /// Estimated size of the file (bytes).
         bytes: f64,
     },
-    /// A share that is none.
+    /// The fraction is not between 0 and 1.
     Share {
-        /// What was given.
+        /// The given value.
         value: f64,
     },
     /// An option that the family does not have.
@@ -167,7 +166,7 @@ pub enum GenerateError {
         kind: Kind,
         /// The option.
         option: &'static str,
-        /// Why it means nothing there.
+        /// The reason why it does not apply.
         reason: &'static str,
     },
 }
@@ -207,7 +206,7 @@ impl std::fmt::Display for GenerateError {
 impl std::error::Error for GenerateError {}
 
 impl Order {
-    /// A size of a family, and nothing else said.
+    /// A request for a size of a family, with the defaults.
     #[must_use]
     pub fn of(kind: Kind, n: usize) -> Self {
         Self {
@@ -218,12 +217,12 @@ impl Order {
         }
     }
 
-    /// Checks the order.
+    /// Checks the request.
     ///
     /// # Errors
     /// - [`GenerateError::Empty`]: n is 0.
     /// - [`GenerateError::TooLarge`]: the file would be larger than [`LARGEST`].
-    /// - [`GenerateError::Share`]: the share is not from 0 to 1.
+    /// - [`GenerateError::Share`]: the fraction is not from 0 to 1.
     /// - [`GenerateError::Unused`]: the family has no such choice.
     pub fn generate(&self) -> Result<Generator, GenerateError> {
         let Self {
@@ -267,8 +266,8 @@ impl Order {
     }
 }
 
-/// About how large a scene is (bytes): a small one of its family, grown, and the longer numbers in
-/// its names.
+/// The estimated size of a scene (bytes): that of a small one of its family, extrapolated, plus the
+/// longer numbers in its names.
 fn estimate(kind: Kind, n: usize, seed: u64, share: f64) -> f64 {
     let sample = n.min(kind.sample());
     let small = Generator {
@@ -278,7 +277,7 @@ fn estimate(kind: Kind, n: usize, seed: u64, share: f64) -> f64 {
         family: kind.family(sample, seed, share),
     };
     let mut count = Count(0);
-    // A count refuses nothing.
+    // Counting bytes cannot fail.
     let _ = small.write(&mut count);
     let growth = kind.growth(sample, n);
     let answer = small.answer();
@@ -301,7 +300,7 @@ impl Write for Count {
     }
 }
 
-/// A scene that can be written, and what is known of it.
+/// A scene that can be written, and its known answer.
 pub struct Generator {
     kind: Kind,
     n: usize,
@@ -322,13 +321,14 @@ impl Generator {
         self.family.answer()
     }
 
-    /// The reactions that are not unique at the start, in the order of the file; all others are.
+    /// The reactions that are not unique at the start, in the order of the file; all others are
+    /// unique.
     #[must_use]
     pub fn free_reactions(&self) -> Vec<FreeReaction> {
         self.family.free_reactions()
     }
 
-    /// About how large the text is (bytes).
+    /// The estimated size of the text (bytes).
     #[must_use]
     pub fn bytes(&self) -> f64 {
         self.bytes
@@ -337,7 +337,7 @@ impl Generator {
     /// Writes the scene, buffered.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// If the writer fails.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let mut out = BufWriter::with_capacity(1 << 16, out);
         let mut scene = SceneText::new(&mut out);

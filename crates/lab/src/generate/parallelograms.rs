@@ -1,13 +1,13 @@
-//! A chain of parallelogram cells: the cranks of each cell stand on the coupler of the one before,
-//! the first ones on the ground.
+//! A chain of parallelogram cells: the cranks of each cell are mounted on the coupler of the
+//! previous one, the first ones on the ground.
 //!
 //! A cell with two cranks has 9 coordinates and 8 independent rows: its coupler moves on a circle
-//! and does not turn. A third crank adds three coordinates and four rows, and does not change that
-//! motion: 11 of the 12 rows are independent. Without any load its three cranks, which are
-//! parallel, can press with the forces 1 : −2 : 1 along themselves: force and torque on both
-//! couplers vanish, so the rest of the chain does not feel it. So each cell with three cranks has a
-//! redundancy of one, in which only its own six revolutes take part, along the cranks; across the
-//! cranks their reactions are determined by the accelerations of the cranks.
+//! and does not rotate. A third crank adds three coordinates and four rows, and does not change
+//! that motion: 11 of the 12 rows are independent. Without any load its three cranks, which are
+//! parallel, can carry axial forces in the ratio 1 : −2 : 1: force and torque on both couplers
+//! vanish, so the rest of the chain is not loaded. So each cell with three cranks has a redundancy
+//! of one that involves only its own six revolutes, along the cranks; perpendicular to the cranks
+//! their reactions are determined by the accelerations of the cranks.
 
 use std::io;
 
@@ -39,10 +39,10 @@ pub(super) struct Parallelograms {
 struct Cell {
     number: usize,
     n_cranks: usize,
-    /// Of the cranks, from below upwards or as they lie.
+    /// Direction of the cranks, from the lower to the upper end if they are not horizontal.
     direction: [f64; 2],
     length: f64,
-    /// Centre of the coupler below; of the first cell, the place on the ground.
+    /// Centre of the coupler below; for the first cell, the place on the ground.
     base: [f64; 2],
     /// Height of the pivots above it.
     rise: f64,
@@ -69,7 +69,7 @@ impl Parallelograms {
     }
 
     /// The cells in their order. Cranks lean back towards the origin, so that a chain of any length
-    /// stays in a small place.
+    /// stays in a small region.
     fn cells(&self) -> impl Iterator<Item = Cell> + '_ {
         let mut numbers = Numbers::new(self.seed);
         let (mut base, mut rise) = ([0.0; 2], 0.0);
@@ -185,7 +185,7 @@ mod tests {
         let chain = Parallelograms::new(10_000, 7, 0.5);
         let far = chain.cells().flat_map(|cell| cell.coupler).map(f64::abs);
         assert!(far.fold(0.0, f64::max) < 3.0);
-        // The ends of a crank are at the distance that its cell says.
+        // The distance between the ends of a crank is that of its cell.
         let cell = chain.cells().nth(5000).expect("there are 10000");
         let [low, top] = cell.ends(1);
         let length = (top[0] - low[0]).hypot(top[1] - low[1]);

@@ -1,10 +1,10 @@
-//! Modules at random, each on a body of an earlier one or on the ground, with redundancy where it
-//! is known.
+//! Random modules, each on a body of an earlier one or on the ground, with known redundancy.
 //!
-//! A module adds bodies and joints to one body that is there already. Its joints compare its own
-//! bodies with that body, so a combination of its rows that vanishes on its own bodies vanishes on
-//! that body, too: such rows do not feel rigid motions of everything. Hence C is block triangular,
-//! its redundancy is the sum of those of the modules, and so are the loads that need none.
+//! A module adds bodies and joints to one existing body. Its joints constrain its own bodies
+//! relative to that body, so a combination of its rows that vanishes on its own bodies also
+//! vanishes on that body, because the rows are invariant under rigid motions of the whole. Hence C
+//! is block triangular, its redundancy is the sum of those of the modules, and the same holds for
+//! the reactions without loads.
 //!
 //! | module | bodies | rows | redundancy | not unique |
 //! | --- | --- | --- | --- | --- |
@@ -32,10 +32,10 @@ pub(super) struct Random {
     answer: Answer,
 }
 
-/// A body that later modules may stand on.
+/// A body on which later modules may be mounted.
 #[derive(Clone, Copy)]
 struct Place {
-    /// Its module, and the name of the body in it; nothing for the ground.
+    /// Its module, and the name of the body in it; `None` for the ground.
     body: Option<(usize, &'static str)>,
     at: [f64; 2],
     angle: f64,
@@ -47,7 +47,7 @@ const GROUND: Place = Place {
     angle: 0.0,
 };
 
-/// Which module.
+/// The kind of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Build {
     Pin,
@@ -70,7 +70,7 @@ const REDUNDANT: [Build; 5] = [
     Build::Cart,
 ];
 
-/// One module: its bodies, joints, and what is not unique of them.
+/// One module: its bodies, its joints, and their reactions that are not unique.
 struct Module {
     number: usize,
     bodies: Vec<(&'static str, BodyText)>,
@@ -90,7 +90,7 @@ struct JointText {
 
 #[derive(Clone, Copy)]
 enum Of {
-    /// The body that the module stands on.
+    /// The body on which the module is mounted.
     Below,
     /// A body of its own.
     Own(&'static str),
@@ -101,7 +101,7 @@ enum JointKind {
     Revolute,
     /// Axis in the frame of the first body.
     Translational([f64; 2]),
-    /// Normal in the frame of the second body; the first one does not count.
+    /// Normal in the frame of the second body; the first one has no effect.
     KnifeEdge([f64; 2]),
 }
 
@@ -127,7 +127,7 @@ impl Random {
         random
     }
 
-    /// Builds the modules one after the other, each with the body that it stands on.
+    /// Builds the modules in sequence, each with the body on which it is mounted.
     fn each(&self, mut then: impl FnMut(Place, &Module) -> io::Result<()>) -> io::Result<()> {
         let mut numbers = Numbers::new(self.seed);
         let mut places = vec![GROUND];
@@ -270,7 +270,7 @@ impl Module {
         }
     }
 
-    /// Two cranks that stand a metre apart, and a rod between their tops: never all in one line.
+    /// Two cranks that are one metre apart, and a rod between their tops: never all in one line.
     fn four_bar(&mut self, at: [f64; 2], length: f64, numbers: &mut Numbers) {
         let other = [at[0] + 1.0, at[1]];
         let mut up = || direction(numbers.within(0.9, 2.2));
@@ -286,7 +286,7 @@ impl Module {
         self.joint("top-b", [b, coupler], other_top, pin, None);
     }
 
-    /// Three parallel cranks half a metre apart under a level coupler.
+    /// Three parallel cranks half a metre apart under a horizontal coupler.
     fn three_cranks(&mut self, at: [f64; 2], length: f64, up: [f64; 2]) {
         const CRANKS: [[&str; 3]; 3] = [
             ["crank-a", "foot-a", "top-a"],
@@ -307,7 +307,7 @@ impl Module {
         }
     }
 
-    /// A body of its own on two wheels that have one axle.
+    /// A separate body on two wheels with a common axle.
     fn cart(&mut self, at: [f64; 2], turned: f64) {
         let [x, y] = direction(turned);
         let axle = [-y, x];
@@ -343,7 +343,7 @@ impl Family for Random {
             }
             Ok(())
         });
-        // Nothing is written, so nothing is refused.
+        // No text is written, so no error can occur.
         listed.unwrap_or_default();
         found
     }

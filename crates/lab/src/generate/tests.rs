@@ -1,5 +1,5 @@
-//! What can be seen in the text alone. Ranks and verdicts are compared where scenes can be read: in
-//! the package `tests`.
+//! Tests of the text alone. Ranks and verdicts are compared in the package `tests`, which can read
+//! scenes.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -50,7 +50,7 @@ fn names_occur_once_and_bodies_exist() {
         let scene = text(&order);
         let list: Vec<&str> = texts(&scene, "name").collect();
         let names: BTreeSet<&str> = list.iter().copied().collect();
-        // Bodies and joints never share a name here, although they may.
+        // Bodies and joints never have a common name here, although they may.
         assert_eq!(list.len(), names.len(), "{kind:?}");
         for body in texts(&scene, "bodies").chain(texts(&scene, "body")) {
             assert!(body == "ground" || names.contains(body), "{kind:?}: {body}");
@@ -134,7 +134,7 @@ fn impossible_orders_are_refused_with_their_numbers() {
     );
 }
 
-/// Takes some bytes, and then no more.
+/// A writer that accepts some bytes and then fails.
 struct Full(usize);
 
 impl Write for Full {

@@ -1,14 +1,14 @@
-//! A scene as text: tables of the format, written as they come.
+//! A scene as text: tables of the format, written in sequence.
 
 use std::fmt::Display;
 use std::io::{self, Write};
 
-/// Where a scene is written.
+/// The destination of a scene.
 pub(super) struct SceneText<'w> {
     out: &'w mut dyn Write,
 }
 
-/// A body as a scene has it.
+/// A body in the form of a scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct BodyText {
     pub(super) mass: f64,
@@ -20,7 +20,8 @@ pub(super) struct BodyText {
 }
 
 impl BodyText {
-    /// A thin uniform rod from one point to another, at rest: inertia m·L²/12, its x-axis along it.
+    /// A thin uniform rod from one point to another, at rest: inertia m·L²/12, x-axis along the
+    /// rod.
     pub(super) fn rod(mass: f64, from: [f64; 2], to: [f64; 2]) -> Self {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         Self {
@@ -43,12 +44,12 @@ impl<'w> SceneText<'w> {
         writeln!(self.out, "# {line}")
     }
 
-    /// Text as it stands.
+    /// Writes text unchanged.
     pub(super) fn raw(&mut self, text: &str) -> io::Result<()> {
         self.out.write_all(text.as_bytes())
     }
 
-    /// Anything that can be displayed, as it stands.
+    /// Writes anything that can be displayed, unchanged.
     pub(super) fn display(&mut self, text: impl Display) -> io::Result<()> {
         write!(self.out, "{text}")
     }
@@ -61,7 +62,7 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// A body; what is zero is left out where the format has it as default.
+    /// A body; zeros that are the default of the format are omitted.
     pub(super) fn body(&mut self, name: impl Display, body: &BodyText) -> io::Result<()> {
         let BodyText {
             mass,
@@ -132,7 +133,7 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// How long a run takes.
+    /// The duration of the run.
     pub(super) fn run_to(&mut self, t_end: f64) -> io::Result<()> {
         writeln!(self.out, "\n[simulate]\nt_end = {t_end:?}")
     }

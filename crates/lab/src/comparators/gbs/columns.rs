@@ -1,6 +1,6 @@
 //! The columns of the extrapolation: substeps and work.
 
-/// Columns there are.
+/// Number of columns.
 pub(super) const COLUMNS: usize = 9;
 
 /// n_j for j = 1, 2, …
@@ -8,7 +8,7 @@ pub(super) const fn substeps(j: usize) -> usize {
     2 * j
 }
 
-/// Evaluations for columns 1 to j, the derivative at the end included.
+/// Number of evaluations for columns 1 to j, including the derivative at the end.
 pub(super) fn work(j: usize) -> f64 {
     (1 + (1..=j).map(|l| substeps(l) - 1).sum::<usize>()) as f64
 }

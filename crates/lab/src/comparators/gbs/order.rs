@@ -5,42 +5,43 @@
 
 use super::columns::{COLUMNS, substeps, work};
 
-/// A step aims at `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))`.
+/// A step size is chosen as `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))` times the present one.
 const SAFETY: f64 = 0.94;
 const SAFETY_ERROR: f64 = 0.65;
-/// Factors of h lie between `MIN_FACTOR^(1/(2j−1)) / MAX_DIVISOR` and the inverse of
+/// Factors of h are between `MIN_FACTOR^(1/(2j−1)) / MAX_DIVISOR` and the inverse of
 /// `MIN_FACTOR^(1/(2j−1))`.
 const MIN_FACTOR: f64 = 0.02;
 const MAX_DIVISOR: f64 = 4.0;
-/// The order falls if the work per unit of time falls below this part, and rises below that part of
-/// what it is.
+/// The order is lowered if the work per unit of time of the lower order is below the first fraction
+/// of the present work, and raised if that of the present order is below the second fraction of the
+/// lower order's.
 const LOWER_ORDER: f64 = 0.8;
 const HIGHER_ORDER: f64 = 0.9;
-/// Step-size factor where the columns diverge.
+/// Factor of the step size if the columns diverge.
 const FACTOR_DIVERGED: f64 = 0.5;
 
-/// What to do after a column.
+/// The decision after a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Verdict {
     NextColumn,
-    /// The step has converged, or it will not.
+    /// The step has converged, or it will not converge.
     Done,
 }
 
-/// Target column, and what the columns of the last trial promise.
+/// Target column, and the predictions from the columns of the last trial.
 #[derive(Debug, Clone)]
 pub(super) struct OrderControl {
     /// Column in which convergence is expected; 2 ≤ `target` < `COLUMNS`.
     pub(super) target: usize,
     /// Last column of the last trial.
     pub(super) last: usize,
-    /// Step size that column j would like next, and its work per unit of time.
+    /// Best next step size for column j, and its work per unit of time.
     sizes: [f64; COLUMNS + 1],
     rates: [f64; COLUMNS + 1],
     previous_error: f64,
     has_diverged: bool,
     after_rejection: bool,
-    /// At the start of a leg.
+    /// Whether this is the first step of a leg.
     pub(super) is_first: bool,
 }
 
@@ -58,7 +59,7 @@ impl OrderControl {
         }
     }
 
-    /// The column at which to begin for a relative tolerance.
+    /// Sets the first target column from a relative tolerance.
     pub(super) fn aim(&mut self, rtol: f64) {
         let column = 1.5 - 0.6 * rtol.log10();
         self.target = (column as usize).clamp(2, COLUMNS - 1);
@@ -70,8 +71,8 @@ impl OrderControl {
         self.has_diverged = false;
     }
 
-    /// Judges column j ≥ 2 of a trial of size |h| with error norm `error`. `is_fresh`: at the start
-    /// or end of a leg, where the step size is not the choice of this control.
+    /// Decides after column j ≥ 2 of a trial of size |h| with error norm `error`. `is_fresh`: at
+    /// the start or end of a leg, where this control did not choose the step size.
     pub(super) fn judge(&mut self, j: usize, h: f64, error: f64, is_fresh: bool) -> Verdict {
         self.last = j;
         if !error.is_finite() || (j > 2 && error > (4.0 * self.previous_error).max(1.0)) {
@@ -90,7 +91,7 @@ impl OrderControl {
         if error <= 1.0 && (is_fresh || j >= k || (j + 1 == k && !self.after_rejection)) {
             return Verdict::Done;
         }
-        // The largest error that the columns still to come may be hoped to bring below 1.
+        // The largest error that the remaining columns can be expected to reduce below 1.
         let hope = if j > k {
             0.0
         } else if j == k {
@@ -136,13 +137,13 @@ impl OrderControl {
         }
     }
 
-    /// Forgets the steps before; the column to begin with follows the tolerance.
+    /// Forgets the previous steps; the target column is set again from the tolerance.
     pub(super) fn restart(&mut self) {
         self.is_first = true;
         self.after_rejection = false;
     }
 
-    /// The size of the next step after an accepted one.
+    /// Returns the size of the next step after an accepted one.
     pub(super) fn accept(&mut self, h: f64) -> f64 {
         let (c, best) = (self.last, self.best());
         let size = if self.after_rejection {
@@ -152,7 +153,7 @@ impl OrderControl {
             self.target = best;
             self.sizes[best]
         } else {
-            // One column more than was computed: at the same work per unit of time.
+            // One column more than was computed, at the same work per unit of time.
             let rising = c < self.target && self.rates[c] < HIGHER_ORDER * self.rates[c - 1];
             self.target = best;
             let ahead = if rising {
@@ -167,7 +168,7 @@ impl OrderControl {
         size
     }
 
-    /// The size of the next step after one that was refused.
+    /// Returns the size of the next step after a rejected one.
     pub(super) fn reject(&mut self, h: f64) -> f64 {
         self.after_rejection = true;
         self.is_first = false;

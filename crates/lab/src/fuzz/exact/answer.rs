@@ -1,4 +1,4 @@
-//! What `pfaff analyze` says of a text, as its document.
+//! The answer of `pfaff analyze` for a text, as its document.
 
 use pfaff::model::Registry;
 use pfaff::rank::Limits;
@@ -8,20 +8,20 @@ use pfaff::solvability::{Allowed, Choice, NormWeights, Verdict};
 use pfaff::{AssembledScene, ConfigurationAnalysis, Overrides, StudyError};
 use serde_json::Value;
 
-/// Reactions of which it is asked what makes them unique.
+/// Number of reactions for which the deletions that make them unique are requested.
 const ASKED: usize = 2;
 
-/// Sets that are tried for an answer.
+/// Limits of the number of sets that are tried.
 const LIMITS: Limits = Limits {
     trials: 5_000,
     sets: 1_000,
 };
 
-/// The document of the start, found in the way of the command, with `--make-unique` of the first
-/// reactions that are not unique, and reactions of the least norm.
+/// The document of the start, computed as in the command, with `--make-unique` for the first
+/// reactions that are not unique, and reactions of minimum norm.
 ///
 /// # Errors
-/// The refusal in words.
+/// The error message if the scene is refused.
 pub fn answer(text: &str) -> Result<Value, String> {
     let read = || AssembledScene::read("scene.toml", text, &Registry::planar());
     match read().and_then(|assembled| assembled.prepare(&Overrides::default())) {

@@ -1,15 +1,15 @@
-//! What may be deleted: the number of sets of rows without which the motion is the same, and what
-//! makes a reaction unique.
+//! The rows that may be deleted: the number of sets of rows without which the motion is unchanged,
+//! and the sets that make a reaction unique.
 
 use serde_json::Value;
 
 use super::findings::{Findings, Kind, list, rows};
 use super::truth::Truth;
 
-/// More sets than this are not counted one by one.
+/// If there are more sets than this, they are not counted one by one.
 const COUNTED: usize = 400;
 
-/// Examines both.
+/// Compares both with the answer.
 pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let (all, redundancy) = (truth.rows.len(), truth.redundancy());
     if binomial(all, redundancy).is_some_and(|sets| sets <= COUNTED) {
@@ -29,14 +29,15 @@ pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     }
 }
 
-/// Sets of rows in ascending order that can be deleted together with those of `deleted`.
+/// Number of sets of rows, in ascending order, that can be deleted together with those of
+/// `deleted`.
 fn count(truth: &Truth, missing: usize, from: usize, deleted: &mut Vec<usize>) -> usize {
     if missing == 0 {
         return usize::from(truth.keeps_motion(deleted));
     }
     let mut sum = 0;
     for row in from..truth.rows.len() {
-        // A row that no other replaces is in no set.
+        // A row that is independent of all others is in no set.
         if !truth.row_is_unique(row) {
             deleted.push(row);
             sum += count(truth, missing - 1, row + 1, deleted);
@@ -77,7 +78,8 @@ fn make_unique(truth: &Truth, answer: &Value, findings: &mut Findings) {
             findings.note(Kind::Sentence, text);
         }
     }
-    // All of the smallest size are answer; the reaction itself stays.
+    // The answer must contain all sets of the smallest size; rows of the reaction itself are not
+    // deleted.
     let others = (0..truth.rows.len()).filter(|row| !own.contains(row));
     let alone: Vec<usize> = others.filter(|&row| works(&[row])).collect();
     let is_left_out = alone.iter().any(|row| !ways.contains(&vec![*row]));

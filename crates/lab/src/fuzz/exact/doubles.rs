@@ -1,8 +1,9 @@
-//! A drawing in doubles, as a mechanism: Φ and C at any configuration and for any data. Not for
-//! verdicts: it tells how far data are from a lower rank (`near`), and which reactions loads cause.
+//! A drawing in double precision, as a mechanism: Φ and C at any configuration and for any data. It
+//! is not used for verdicts, but for the distance of the data from a lower rank (`near`), and for
+//! the reactions due to loads.
 //!
-//! Written from the definitions of the joints, without the crates that are examined: points as they
-//! move, and the velocity of what a joint keeps constant.
+//! It is written from the definitions of the joints, without the crates under test: positions of
+//! points, and the rate of the quantity that a joint keeps constant.
 
 use pfaff::linalg::Matrix;
 
@@ -10,10 +11,10 @@ use super::drawing::{Side, Tie, Vector};
 use super::pose::Posed;
 use super::ratio::Ratio;
 
-/// A point, a direction or a number: what changes together.
+/// A point, a direction or a number: numbers that change together.
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// Place of its first number.
+    /// Index of its first number.
     pub first: usize,
     /// Two for a point or vector, one otherwise.
     pub count: usize,
@@ -21,7 +22,8 @@ pub struct Block {
     pub is_angle: bool,
 }
 
-/// What a joint or drive keeps constant, with the places of its numbers among the data.
+/// The quantity that a joint or drive keeps constant, with the indices of its numbers among the
+/// data.
 #[derive(Clone, Copy, Debug)]
 enum Kept {
     /// Points coincide.
@@ -57,8 +59,8 @@ enum Kept {
         radius: usize,
         phase: usize,
     },
-    /// Velocity of a point along a direction of its body, less radius times the rotation of
-    /// another.
+    /// Velocity of a point along a direction of its body, minus a radius times the rotation of
+    /// another body.
     Edge {
         side: Side,
         point: usize,
@@ -67,7 +69,8 @@ enum Kept {
     },
 }
 
-/// A mechanism in doubles. Lengths count in its size: angles are multiplied by it.
+/// A mechanism in double precision. Angles are multiplied by the mechanism's size, so that all
+/// quantities are lengths.
 pub struct Doubles {
     kept: Vec<Kept>,
     /// Points, directions and numbers.
@@ -80,11 +83,11 @@ pub struct Doubles {
     pub size: f64,
     /// Joint or drive of each row.
     pub links: Vec<usize>,
-    /// m: holonomic rows come first.
+    /// m: the holonomic rows come first.
     pub holonomic: usize,
 }
 
-/// Position, angle and what follows from it.
+/// Position, angle, cosine and sine of a body.
 #[derive(Clone, Copy)]
 struct Place {
     at: [f64; 2],
@@ -99,7 +102,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// Turned forward by a quarter.
+/// The vector turned by +90°.
 fn quarter([x, y]: [f64; 2]) -> [f64; 2] {
     [-y, x]
 }
@@ -119,7 +122,7 @@ impl Place {
         }
     }
 
-    /// From the origin of the body.
+    /// The vector from the origin of the body to a point, in ground components.
     fn arm(&self, d: &[f64], first: usize) -> [f64; 2] {
         let ([c, s], [x, y]) = (self.turn, [d[first], d[first + 1]]);
         [c * x - s * y, s * x + c * y]
@@ -130,7 +133,7 @@ impl Place {
         [self.at[0] + arm[0], self.at[1] + arm[1]]
     }
 
-    /// A unit vector that stands at an angle in the body.
+    /// A unit vector at a given angle in the body.
     fn direction(&self, d: &[f64], first: usize) -> [f64; 2] {
         let (s, c) = (self.angle + d[first]).sin_cos();
         [c, s]
@@ -157,12 +160,12 @@ impl Kept {
         }
     }
 
-    /// Whether its row is one of angles.
+    /// Whether its row is an equation between angles.
     fn is_angular(&self) -> bool {
         matches!(self, Self::Angle { .. } | Self::Mesh { .. })
     }
 
-    /// What must vanish.
+    /// Appends the quantities that must vanish.
     fn phi(&self, q: &[f64], d: &[f64], out: &mut Vec<f64>) {
         let of = |side: Side| Place::of(side, q);
         let apart = |sides: [Side; 2], points: [usize; 2]| {
@@ -215,7 +218,7 @@ impl Kept {
         }
     }
 
-    /// How fast it changes with velocities v: `C·v`.
+    /// Appends their rates for velocities v: `C·v`.
     fn rate(&self, q: &[f64], d: &[f64], v: &[f64], out: &mut Vec<f64>) {
         let of = |side: Side| Place::of(side, q);
         let moving = |side: Side, point: usize| velocity(twist(side, v), of(side).arm(d, point));
@@ -281,7 +284,7 @@ impl Kept {
     }
 }
 
-/// What collects data.
+/// Collects the data.
 struct Pen<'a> {
     posed: &'a Posed,
     blocks: Vec<Block>,
@@ -438,7 +441,7 @@ impl Pen<'_> {
 }
 
 impl Doubles {
-    /// The drawing where it is written.
+    /// The drawing as it is written.
     #[must_use]
     pub fn of(posed: &Posed) -> Self {
         let k = posed.stretch;
@@ -503,7 +506,7 @@ impl Doubles {
         out
     }
 
-    /// C with one unit for all lengths: rotations times the size.
+    /// C with one unit for all lengths: rotations are multiplied by the size.
     #[must_use]
     pub fn c(&self, q: &[f64], d: &[f64]) -> Matrix {
         let n = q.len();
@@ -543,7 +546,7 @@ impl Doubles {
         self.rate(q, d, &v)
     }
 
-    /// Moves coordinates by a step whose rotations are lengths.
+    /// Changes coordinates by a step whose rotations are lengths.
     pub fn step(&self, q: &mut [f64], step: &[f64]) {
         for (j, (q, step)) in q.iter_mut().zip(step).enumerate() {
             *q += match j % 3 {
@@ -553,7 +556,7 @@ impl Doubles {
         }
     }
 
-    /// By how much a number changes for a change of one metre.
+    /// The change of a number that corresponds to a change of one metre.
     #[must_use]
     pub fn unit(&self, block: &Block) -> f64 {
         if block.is_angle { 1.0 / self.size } else { 1.0 }

@@ -1,14 +1,14 @@
 //! Bodies and joints at one configuration, in fractions. A drawing may be stretched along its
-//! second axis by √k: forces act along lines, and which lines depend on each other does not change
-//! when the plane is stretched. So configurations with irrational coordinates, as of three wheels
-//! at 120°, have an exact answer in fractions.
+//! second axis by √k: forces act along lines, and the dependencies between lines do not change when
+//! the plane is stretched. So configurations with irrational coordinates, such as three wheels at
+//! 120°, have an exact answer in fractions.
 
 use super::ratio::Ratio;
 
 /// A point or vector of the drawing.
 pub type Vector = [Ratio; 2];
 
-/// A body by its place, or the ground.
+/// A body by its index, or the ground.
 pub type Side = Option<usize>;
 
 /// The ground.
@@ -19,15 +19,16 @@ pub const GROUND: Side = None;
 pub struct Drawing {
     /// The second coordinate is stretched by √stretch.
     pub stretch: u32,
-    /// For each body where its origin lies, if that matters.
+    /// The origin of each body, if its position matters.
     pub origins: Vec<Option<Vector>>,
     /// Joints and drives.
     pub links: Vec<Link>,
-    /// The redundancy, where theory tells it without any arithmetic.
+    /// The redundancy, if theory gives it without computation.
     pub redundancy: Option<usize>,
-    /// Theory tells that the rank is the same at all configurations.
+    /// Whether theory shows that the rank is the same at all configurations.
     pub has_constant_rank: bool,
-    /// Positions of bodies are off by one unit in the last place, as a script writes them.
+    /// Whether the positions of bodies have errors of one unit in the last place, as those computed
+    /// by a script.
     pub is_careless: bool,
 }
 
@@ -36,13 +37,13 @@ pub struct Drawing {
 pub struct Link {
     /// Its name.
     pub name: String,
-    /// One side for each slot.
+    /// One side (body or ground) for each slot.
     pub sides: Vec<Side>,
-    /// What it is, and where.
+    /// Its kind and position.
     pub tie: Tie,
 }
 
-/// What a joint or drive does. `at` lies on its last body that has a point, `from` on its first;
+/// The kind of a joint or drive. `at` is on its last body that has a point, `from` on its first;
 /// `along` is a line of force.
 #[derive(Clone, Copy, Debug)]
 pub enum Tie {
@@ -53,7 +54,7 @@ pub enum Tie {
     },
     /// A weld.
     Fixed {
-        /// The place.
+        /// The reference point.
         at: Vector,
     },
     /// A slider of the second body on a line of the first that is perpendicular to `along`.
@@ -62,7 +63,7 @@ pub enum Tie {
         from: Vector,
         /// The slider.
         at: Vector,
-        /// Across the line.
+        /// The normal of the line.
         along: Vector,
     },
     /// A pin of the second body in a slot of the first that is perpendicular to `along`.
@@ -71,14 +72,14 @@ pub enum Tie {
         from: Vector,
         /// The pin.
         at: Vector,
-        /// Across the slot.
+        /// The normal of the slot.
         along: Vector,
     },
     /// A point on a line of the ground that is perpendicular to `along`.
     PointOnLine {
         /// The point.
         at: Vector,
-        /// Across the line.
+        /// The normal of the line.
         along: Vector,
     },
     /// A massless rod.
@@ -90,7 +91,7 @@ pub enum Tie {
     },
     /// Equal rotations.
     Angle,
-    /// Rotations in a ratio, relative to the third side, which is always there.
+    /// Rotations in a ratio, relative to the third side, which is always given.
     Gear {
         /// The ratio.
         ratio: Ratio,
@@ -99,14 +100,14 @@ pub enum Tie {
     Rack {
         /// Its centre.
         at: Vector,
-        /// The rack.
+        /// The direction of the rack.
         along: Vector,
-        /// Torque of a unit of `along` about the centre, in units of the drawing.
+        /// Torque about the centre of a unit force along `along`, in units of the drawing.
         radius: Ratio,
     },
     /// A wheel or blade.
     KnifeEdge {
-        /// Where it touches.
+        /// The contact point.
         at: Vector,
         /// The normal.
         along: Vector,
@@ -122,14 +123,14 @@ pub enum Tie {
     Rolling {
         /// The point on the first body.
         at: Vector,
-        /// The way of rolling.
+        /// The direction of rolling.
         along: Vector,
-        /// Torque of a unit of `along` on the wheel, in units of the drawing.
+        /// Torque on the wheel of a unit force along `along`, in units of the drawing.
         radius: Ratio,
     },
     /// A drive of the angle of a revolute joint.
     AngleDrive {
-        /// The place of the joint among the links.
+        /// The index of the joint among the links.
         joint: usize,
     },
 }
@@ -168,8 +169,8 @@ impl Tie {
         }
     }
 
-    /// Whether its rows are those of the axes of the world, so that it can be turned in a stretched
-    /// drawing by quarters only.
+    /// Whether its rows are parallel to the axes of the world, so that it can be turned in a
+    /// stretched drawing only by multiples of 90°.
     #[must_use]
     pub fn has_axes(&self) -> bool {
         matches!(self, Self::Revolute { .. } | Self::Fixed { .. })
@@ -204,7 +205,7 @@ impl Link {
 }
 
 impl Drawing {
-    /// Nothing yet.
+    /// An empty drawing.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -217,19 +218,19 @@ impl Drawing {
         }
     }
 
-    /// Adds a body whose origin may lie anywhere.
+    /// Adds a body whose origin may be anywhere.
     pub fn body(&mut self) -> Side {
         self.origins.push(None);
         Some(self.origins.len() - 1)
     }
 
-    /// Adds a body with its origin here.
+    /// Adds a body with this origin.
     pub fn body_at(&mut self, origin: Vector) -> Side {
         self.origins.push(Some(origin));
         Some(self.origins.len() - 1)
     }
 
-    /// Adds a joint or drive, and returns its place.
+    /// Adds a joint or drive, and returns its index.
     pub fn link(&mut self, sides: &[Side], tie: Tie) -> usize {
         let place = self.links.len();
         self.links.push(Link {
@@ -246,8 +247,8 @@ impl Drawing {
         self.link(&sides, Tie::AngleDrive { joint });
     }
 
-    /// A direction along the line on which a point may move that a force along `u` holds:
-    /// perpendicular to it once the plane is stretched.
+    /// The direction of the line on which a point may move if a force along `u` constrains it:
+    /// perpendicular to `u` after the plane is stretched.
     #[must_use]
     pub fn across(&self, [x, y]: Vector) -> Vector {
         [Ratio::whole(i64::from(self.stretch)) * y, -x]

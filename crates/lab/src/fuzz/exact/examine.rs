@@ -1,4 +1,4 @@
-//! What the program says, compared with what exact arithmetic says.
+//! Comparison of the answer of the program with exact arithmetic.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use super::findings::{Findings, Kind, along_free, list, rows};
 use super::truth::Truth;
 use super::{deletions, words};
 
-/// Compares a document with the truth.
+/// Compares a document with the correct results.
 #[must_use]
 pub fn examine(truth: &Truth, answer: &Value) -> Findings {
     let mut findings = Findings::default();
@@ -82,7 +82,7 @@ fn ranks(truth: &Truth, answer: &Value, findings: &mut Findings) {
     kept_rows(truth, answer, findings);
 }
 
-/// The kept rows are independent and as many as the rank.
+/// The kept rows must be independent, and their number must be the rank.
 pub(super) fn kept_rows(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let (kept, rank) = (rows(&answer["kept_rows"]), truth.rank());
     if kept.len() != rank || truth.rank_of(&kept) != rank {
@@ -139,8 +139,8 @@ fn of_reaction(truth: &Truth, link: usize, answer: &Value, findings: &mut Findin
     directions(truth, link, answer, findings);
 }
 
-/// The unique directions are as many as there are, and no solution without loads has a component
-/// along them.
+/// The number of unique directions must be correct, and no solution without loads may have a
+/// component along them.
 fn directions(truth: &Truth, link: usize, answer: &Value, findings: &mut Findings) {
     let name = &truth.posed.links[link].link.name;
     let directions = list(&answer["unique_directions"]);
@@ -154,7 +154,7 @@ fn directions(truth: &Truth, link: usize, answer: &Value, findings: &mut Finding
     }
     let right = truth.live_directions(link);
     if directions.len() != right {
-        // None at all are given where their number is in doubt.
+        // No directions are given if their number is uncertain.
         let kind = if directions.is_empty() {
             Kind::Undecided
         } else {

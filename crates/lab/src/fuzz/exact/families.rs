@@ -1,6 +1,6 @@
-//! Kinds of drawings. Each draws degenerate members and near relatives that are not: what is off
-//! its line is off by a step of the grid, at least a hundredth of the size, so that a judge that
-//! calls everything redundant is wrong as often as one that calls nothing redundant.
+//! Kinds of drawings. Each draws degenerate examples and similar ones that are not degenerate: a
+//! point off its line is off by a step of the grid, at least a hundredth of the size, so that a
+//! program that calls everything redundant is wrong as often as one that calls nothing redundant.
 
 mod bars;
 mod doubled;
@@ -35,7 +35,7 @@ pub enum Family {
     Linkages,
     /// Two joints between the same bodies.
     Doubled,
-    /// Two of these in one scene, joined by a hinge or not.
+    /// Two of these in one scene, with or without a hinge between them.
     Several,
 }
 
@@ -76,7 +76,7 @@ impl Family {
     }
 }
 
-/// Adds one of a family to what is drawn.
+/// Adds an example of a family to the drawing.
 fn add(pen: &mut Pen<'_>, family: Family) {
     match family {
         Family::Trusses => trusses::truss(pen),

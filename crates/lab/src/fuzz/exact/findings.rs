@@ -1,20 +1,20 @@
-//! What is not right in an answer, and how the numbers of a document are read.
+//! The errors in an answer, and functions that read the numbers of a document.
 
 use serde_json::Value;
 
 use super::pose::Posed;
 use super::truth::Truth;
 
-/// What is to be thought of one thing that was said, from bad to worst.
+/// The severity of a finding, in ascending order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// No answer: the scene was refused.
     Refused,
-    /// The program says that it does not know.
+    /// The program reports that a result is undecided.
     Undecided,
-    /// A dependency or a sentence that does not hold.
+    /// A dependency or a sentence that is wrong.
     Sentence,
-    /// A force or torque that a joint carries in a dependency is wrong.
+    /// The force or torque of a joint in a dependency is wrong.
     Load,
     /// A wrong verdict.
     Verdict,
@@ -25,7 +25,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether an answer is wrong.
+    /// Whether the finding means that an answer is wrong.
     #[must_use]
     pub fn is_wrong(self) -> bool {
         !matches!(self, Self::Refused | Self::Undecided)
@@ -46,16 +46,16 @@ impl Kind {
     }
 }
 
-/// One thing that is not right.
+/// One error or undecided result.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// What is to be thought of it.
+    /// Its severity.
     pub kind: Kind,
-    /// What was said, and what is so.
+    /// The text of the program, and the correct result.
     pub text: String,
 }
 
-/// All that is not right.
+/// All findings for an answer.
 #[derive(Debug, Default)]
 pub struct Findings(pub Vec<Finding>);
 
@@ -65,14 +65,14 @@ impl Findings {
         self.0.push(Finding { kind, text });
     }
 
-    /// Compares a number.
+    /// Compares a number and adds a finding if it is wrong.
     pub(super) fn number(&mut self, kind: Kind, what: &str, answer: &Value, right: usize) {
         if answer.as_u64() != Some(right as u64) {
             self.note(kind, format!("{what}: answer {answer}, right {right}"));
         }
     }
 
-    /// Compares a verdict.
+    /// Compares a verdict and adds a finding if it is wrong.
     pub(super) fn verdict(&mut self, what: &str, answer: &Value, is_unique: bool) {
         let right = if is_unique { "unique" } else { "not_unique" };
         match answer.as_str() {
@@ -86,14 +86,15 @@ impl Findings {
     }
 }
 
-/// Numbers of dependencies are right to this share of the largest: they were computed in doubles.
+/// Numbers of dependencies must be correct to this fraction of the largest, because they are
+/// computed in double precision.
 const ROUNDING: f64 = 1e-9;
 
-/// The same for each metre that a scene was moved: coordinates are accurate to 1e-16 of that, and
-/// rounding grows ten thousandfold on the way through small angles.
+/// The same for each metre by which a scene was moved: coordinates are accurate to 1e-16 of that,
+/// and small angles increase the rounding errors by a factor of up to ten thousand.
 const ROUNDING_PER_METRE: f64 = 1e-12;
 
-/// What numbers of dependencies may be off by.
+/// The tolerance for numbers of dependencies.
 #[must_use]
 pub fn rounding(posed: &Posed) -> f64 {
     ROUNDING
@@ -107,7 +108,7 @@ pub fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
-/// Rows of the program, from 0.
+/// Row numbers of the program, converted to count from 0.
 pub(super) fn rows(value: &Value) -> Vec<usize> {
     let row = |x: &Value| x.as_u64().and_then(|x| x.checked_sub(1));
     list(value)
@@ -117,8 +118,8 @@ pub(super) fn rows(value: &Value) -> Vec<usize> {
         .collect()
 }
 
-/// What a free wrench has along a direction of components, relative to both, if that is more than
-/// rounding.
+/// The component of a free wrench along a direction of components, relative to both, if it is
+/// larger than rounding.
 pub(super) fn along_free(
     truth: &Truth,
     link: usize,
@@ -135,7 +136,7 @@ pub(super) fn along_free(
             size => product.abs() / size,
         }
     });
-    // Directions are printed with all digits, sentences have four.
+    // Directions are printed with all digits, sentences with four.
     shares.fold(None, |worst: Option<f64>, share| {
         if share <= rounding(truth.posed) {
             worst

@@ -1,5 +1,5 @@
-//! Reactions of a drawing at rest under gravity, by the equations of motion in doubles with the
-//! rank that exact arithmetic tells: bodies of one kilogram and one kg·m².
+//! Reactions of a drawing at rest under gravity, from the equations of motion in double precision
+//! with the rank from exact arithmetic: bodies of one kilogram and one kg·m².
 
 use pfaff::linalg::{Matrix, small_svd};
 
@@ -11,18 +11,19 @@ use super::rows;
 #[derive(Clone)]
 pub struct Reactions {
     /// Fx, Fy and the torque about its place (N·m) on the first body of each joint or drive, for
-    /// the multipliers of the least norm; no torque where the drawing does not tell the place.
+    /// the multipliers of minimum norm; the torque is `None` if the drawing does not define the
+    /// place.
     pub each: Vec<([f64; 2], Option<f64>)>,
     /// The largest applied or inertial force (N; torques divided by the size).
     pub load: f64,
 }
 
 impl Doubles {
-    /// Reactions where it stands.
+    /// Reactions at rest.
     #[must_use]
     pub fn reactions(&self, posed: &Posed, rank: usize, gravity: [f64; 2]) -> Reactions {
         let n = self.q.len();
-        // Rotations are lengths: an inertia counts by the square of the size.
+        // Rotations are lengths, so an inertia is divided by the square of the size.
         let mass = |j: usize| match j % 3 {
             2 => 1.0 / (self.size * self.size),
             _ => 1.0,
@@ -32,7 +33,7 @@ impl Doubles {
             axis => gravity[axis],
         };
         let c = self.c(&self.q, &self.data);
-        // Aᵀ·λ = M^(−1/2)·Q, of which what the rows cannot carry accelerates.
+        // Aᵀ·λ = M^(−1/2)·Q; the part of Q that the rows cannot carry causes accelerations.
         let a = Matrix::from_fn(c.nrows(), n, |i, j| c[(i, j)] / mass(j).sqrt());
         let svd = small_svd(&a);
         let mut lambda = vec![0.0; c.nrows()];
@@ -83,7 +84,7 @@ impl Doubles {
         match tie.sides[0] {
             Some(body) => moving(body),
             None => {
-                // What the others do not get back.
+                // The part that is not balanced on the other bodies.
                 let mut others: Vec<usize> = tie.sides[1..].iter().copied().flatten().collect();
                 others.sort_unstable();
                 others.dedup();

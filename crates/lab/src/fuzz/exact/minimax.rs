@@ -1,40 +1,41 @@
-//! The smallest change of data that satisfies linear equations, between bounds that are proved:
-//! every set of multipliers gives one from below by duality, every solution one from above.
+//! The smallest change of data that satisfies linear equations, between proved bounds: every set of
+//! multipliers gives a lower bound by duality, every solution an upper bound.
 //!
 //! `min max_P |x_P|` under `target + Σ_P a_P·x_P = 0` has the dual `max targetᵀ·y` under
 //! `Σ_P |Aᵀ_P·y| ≤ 1`.
 
-/// Reweighted least squares end after so many, or when the bounds are this close.
+/// Reweighted least squares stop after this number of iterations, or when the bounds are this
+/// close.
 const ITERATIONS: usize = 80;
 const CLOSE: f64 = 1.1;
 
-/// No weight falls below this share of the largest.
+/// Smallest weight, as a fraction of the largest.
 const LEAST_WEIGHT: f64 = 1e-8;
 
-/// Equations whose left sides depend on each other contradict each other by more than this share of
-/// the right ones.
+/// Equations with dependent left sides contradict each other if their right sides differ by more
+/// than this fraction.
 const CONTRADICTS: f64 = 1e-6;
 
 /// One equation.
 #[derive(Clone, Debug)]
 pub struct Equation {
-    /// What has to vanish.
+    /// The value that must become zero.
     pub target: f64,
     /// Coefficients of each point, direction or number.
     pub parts: Vec<[f64; 2]>,
 }
 
-/// From below and above.
+/// Lower and upper bound.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// No smaller change satisfies the equations.
     pub low: f64,
-    /// One of this size does.
+    /// A change of this size satisfies them.
     pub high: f64,
 }
 
-/// The smallest largest change. Apart from the data each equation has a change of its own with the
-/// coefficient `slack`.
+/// The smallest possible largest change. In addition to the data, each equation has its own change
+/// with the coefficient `slack`.
 #[must_use]
 pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
     let e = equations.len();
@@ -63,7 +64,7 @@ pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
             break;
         };
         if left > CONTRADICTS * largest {
-            // No data do; only the slack of the equations that contradict each other.
+            // No change of data satisfies them; only the slack of the contradicting equations does.
             bounds.low = bounds.low.max(left / (slack * e as f64));
             bounds.high = f64::INFINITY;
             break;
@@ -103,14 +104,14 @@ pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
     bounds
 }
 
-/// A solution, and what it leaves of the largest equation that was left out.
+/// A solution, and its residual in the largest equation that was omitted.
 struct Solved {
     y: Vec<f64>,
     left: f64,
 }
 
-/// Gauss with complete pivoting of a symmetric matrix; what is rounding relative to the first pivot
-/// is left out. `None` if there is nothing else.
+/// Gaussian elimination with complete pivoting of a symmetric matrix; pivots that are rounding
+/// relative to the first one are omitted. `None` if there are no others.
 fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Solved> {
     const ROUNDING: f64 = 1e-13;
     let n = b.len();

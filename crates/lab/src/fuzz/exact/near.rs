@@ -1,9 +1,9 @@
-//! How far the data of a drawing are from a lower rank: τ* of data that are known to a length,
-//! which no smaller change makes redundant and a larger one may. Also, whether a redundancy belongs
-//! to the mechanism or to its pose.
+//! The distance of the data of a drawing from a lower rank: τ*, the tolerance in metres up to which
+//! no change of the data makes a row redundant, while a larger change may. Also, whether a
+//! redundancy belongs to the mechanism or only to its pose.
 //!
-//! For one rank less r' rows are kept; with `U = [−C_D·C_K⁺, I]` and V the null space of C_K the
-//! entries of `Uᵀ·C·V` must vanish at all poses of a walk on the kept rows, by one change of the
+//! For a lower rank r' rows are kept; with `U = [−C_D·C_K⁺, I]` and V the null space of C_K, the
+//! entries of `Uᵀ·C·V` must vanish at all poses of a path on the kept rows, for one change of the
 //! data that the poses follow, and so must `Uᵀ·Φ`. Gradients are finite differences.
 
 use crate::numbers::Numbers;
@@ -12,46 +12,49 @@ use pfaff::linalg::{Matrix, small_svd};
 use super::doubles::Doubles;
 use super::minimax::{Bounds, Equation, least_change};
 
-/// Poses to each side, the way from one to the next as a share of the size, and in how many steps.
+/// Number of poses on each side, the distance between two poses as a fraction of the size, and the
+/// number of steps between them.
 const POSES: usize = 3;
 const REACH: f64 = 0.05;
 const STEPS: usize = 20;
 
-/// A walk ends where a step is corrected by more than this share of it, turns by more than this
-/// cosine tells, or comes near a singular pose, by this share of the least singular value of the
-/// kept rows at its start: there it may go on in another branch.
+/// A path ends if a step needs a correction of more than this fraction of the step, if its
+/// direction turns by more than this cosine allows, or near a singular pose, where the least
+/// singular value of the kept rows is below this fraction of its value at the start: there the path
+/// may continue on another branch.
 const CORRECTED: f64 = 0.3;
 const TURNED: f64 = 0.9;
 const REGULAR: f64 = 0.3;
 
-/// Residuals after which positions are met, as a share of the size.
+/// Residuals at which positions satisfy their constraints, as a fraction of the size.
 const MET: f64 = 1e-12;
 
-/// A misfit or singular value below this share of the size, after a walk, is rounding.
+/// After a path, a misfit or singular value below this fraction of the size is rounding.
 const STAYS: f64 = 1e-8;
 
-/// Differences (share of the size).
+/// Step of finite differences (fraction of the size).
 const STEP: f64 = 1e-5;
 
-/// Left and right directions whose entries must vanish: fewer equations only lower the bound.
+/// Number of left and right directions whose entries must vanish: fewer equations only lower the
+/// bound.
 const LEFT: usize = 1;
 const RIGHT: usize = 3;
 
-/// Second derivatives of entries by data, for lengths in units of the size: links may be a tenth of
-/// it, and all data take part.
+/// Bound of the second derivatives of entries with respect to data, for lengths in units of the
+/// size: links may be as short as a tenth of it, and all data contribute.
 const CURVED: f64 = 100.0;
 
-/// Refinements of the lower bound.
+/// Number of refinements of the lower bound.
 const REFINED: usize = 12;
 
-/// A nonholonomic row of less weight takes no part in a misfit.
+/// A left direction is one of positions only if the weight of its nonholonomic rows is below this.
 const HOLONOMIC: f64 = 1e-6;
 
-/// Walks in random directions by which a redundancy is tried.
+/// Number of paths in random directions by which a redundancy is tested.
 const WALKS: usize = 3;
 
 impl Doubles {
-    /// τ* (m; angles times the size) for a rank one lower than `rank`, of the drawing itself.
+    /// τ* (m; angles times the size) for a rank one lower than `rank`, for the drawing as it is.
     #[must_use]
     pub fn lower_rank_from(&self, rank: usize) -> Bounds {
         let never = Bounds {
@@ -70,10 +73,10 @@ impl Doubles {
             let there = Candidate::new(&self.c(&q, &self.data), &kept);
             equations.extend(self.equations(&q, &kept, &there));
         }
-        // No bound above which the first order means nothing.
+        // No upper limit is set, although the first order is not valid for large changes.
         let Bounds { low, high } = least_change(&equations, MET);
-        // A change of s leaves the second order of s open: the larger s, the lower the bound, so
-        // that the bound for any s above it holds.
+        // For changes up to s the second-order terms are bounded by s: the larger s, the lower the
+        // bound, so a bound that reaches s is proved.
         let (mut s, mut proved) = (low.min(0.3 * self.size), 0.0_f64);
         for _ in 0..REFINED {
             let bound = least_change(&equations, CURVED * s / self.size).low;
@@ -86,7 +89,7 @@ impl Doubles {
         Bounds { low: proved, high }
     }
 
-    /// Whether the mechanism keeps this rank wherever the kept rows let it move.
+    /// Whether the mechanism keeps this rank at all poses that the kept rows allow.
     #[must_use]
     pub fn is_permanent(&self, rank: usize, seed: u64) -> bool {
         let c = self.c(&self.q, &self.data);
@@ -110,8 +113,8 @@ impl Doubles {
         })
     }
 
-    /// The size of some rows in the left null space of C (of an orthonormal basis), and by how much
-    /// data within a tolerance (m) change it together, to first order with the rank held.
+    /// The size of some rows in the left null space of C (for an orthonormal basis), and the amount
+    /// by which data within a tolerance (m) change it together, to first order at constant rank.
     #[must_use]
     pub fn margin(&self, rank: usize, rows: &[usize], tolerance: f64) -> [f64; 2] {
         let holonomic: Vec<usize> = independent_rows(&self.c(&self.q, &self.data), rank);
@@ -120,7 +123,7 @@ impl Doubles {
             .filter(|&i| i < self.holonomic)
             .collect();
         let answer = pseudo_inverse(&self.c(&self.q, &self.data).select_rows(&holonomic));
-        // Rows of the projector on the null space: they do not depend on a basis.
+        // Rows of the projector on the null space, which do not depend on the basis.
         let projector = |q: &[f64], d: &[f64]| {
             let svd = small_svd(&self.c(q, d));
             let m = self.rows();
@@ -160,7 +163,7 @@ impl Doubles {
         phi.iter().all(|x| x.abs() <= STAYS * self.size) && next <= STAYS
     }
 
-    /// Poses on both sides, on the kept rows of Φ.
+    /// Poses on both sides of the start that satisfy the kept rows of Φ.
     fn walk(&self, kept: &[usize], heading: &[f64]) -> Vec<Vec<f64>> {
         let mut poses = Vec::new();
         let weakest = |q: &[f64]| {
@@ -186,8 +189,9 @@ impl Doubles {
         poses
     }
 
-    /// One step along velocities that the kept rows allow, by the classical method of fourth order:
-    /// nonholonomic rows hold no position, so that nothing mends a step that leaves its way.
+    /// One step along velocities that the kept rows allow, by the classical fourth-order method:
+    /// nonholonomic rows do not constrain positions, so an error of the step cannot be corrected
+    /// for them.
     fn advance(&self, kept: &[usize], q: &mut [f64], heading: &mut Vec<f64>) -> Option<()> {
         let allowed = |q: &[f64]| project_out(&self.c(q, &self.data).select_rows(kept), heading);
         let along = allowed(q);
@@ -229,7 +233,7 @@ impl Doubles {
         None
     }
 
-    /// What has to vanish at one pose.
+    /// The equations for a lower rank at one pose.
     fn equations(&self, q: &[f64], kept: &[usize], at: &Candidate) -> Vec<Equation> {
         let holonomic: Vec<usize> = kept
             .iter()
@@ -310,15 +314,16 @@ impl Doubles {
     }
 }
 
-/// A pose with rows that are kept for a lower rank.
+/// A pose with the rows that are kept for a lower rank.
 struct Candidate {
-    /// Combinations of rows, each a dropped one less what the kept ones say; the weakest last.
+    /// Combinations of rows, each a dropped row minus the combination of kept rows that
+    /// approximates it; the weakest last.
     left: Vec<Vec<f64>>,
-    /// Motions that the kept rows leave, as the dropped ones resist them.
+    /// Motions that the kept rows allow, in the order of the resistance of the dropped rows.
     right: Vec<Vec<f64>>,
     /// `left·C·right`
     sigma: Vec<f64>,
-    /// All motions that the kept rows leave.
+    /// All motions that the kept rows allow.
     free: Vec<Vec<f64>>,
 }
 
@@ -375,7 +380,7 @@ fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// As many rows as that, the most independent ones.
+/// The indices of this number of rows, chosen as the most independent ones.
 fn independent_rows(c: &Matrix, rank: usize) -> Vec<usize> {
     let mut rest: Vec<Vec<f64>> = (0..c.nrows()).map(|i| c.row(i).to_vec()).collect();
     let mut kept = Vec::new();
@@ -411,7 +416,7 @@ fn complement(rows: &Matrix, count: usize) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for k in chosen {
         let mut v = units[k].clone();
-        // Twice is enough.
+        // Two passes of orthogonalisation are enough.
         for _ in 0..2 {
             for b in &basis {
                 let share = dot(&v, b);
@@ -424,7 +429,7 @@ fn complement(rows: &Matrix, count: usize) -> Vec<Vec<f64>> {
     basis
 }
 
-/// What of a vector is perpendicular to rows.
+/// The component of a vector that is perpendicular to the rows.
 fn project_out(rows: &Matrix, v: &[f64]) -> Vec<f64> {
     if rows.nrows() == 0 {
         return v.to_vec();
@@ -440,7 +445,7 @@ fn project_out(rows: &Matrix, v: &[f64]) -> Vec<f64> {
     v
 }
 
-/// C⁺ of rows that are independent; what is rounding is left out.
+/// C⁺ for independent rows; singular values that are rounding are omitted.
 fn pseudo_inverse(rows: &Matrix) -> Matrix {
     const ROUNDING: f64 = 1e-13;
     let (m, n) = (rows.nrows(), rows.ncols());

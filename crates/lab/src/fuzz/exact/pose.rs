@@ -1,22 +1,22 @@
-//! Where and how a drawing is written down: moved as a whole, each body with a frame of its own,
-//! bodies and joints in another order, first and second body exchanged, places in the world or in
-//! the frames of bodies. None of this changes what is true.
+//! How a drawing is written: moved as a whole, each body with its own frame, bodies and joints in
+//! another order, first and second body exchanged, positions in the world or in the frames of
+//! bodies. None of these changes the correct answer.
 
 use crate::numbers::Numbers;
 
 use super::drawing::{Drawing, Link, Side, Tie, Vector};
 use super::ratio::{Ratio, Surd};
 
-/// A way to write down a drawing.
+/// A way to write a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Writing {
-    /// As it is drawn.
+    /// As drawn.
     AsDrawn,
-    /// In another order, in quarter turns, with other frames of the bodies.
+    /// In another order, turned by multiples of 90°, with other frames of the bodies.
     Reordered,
-    /// The same, turned by any angle and moved by its size.
+    /// As reordered, also turned by any angle and moved by a distance of its size.
     Moved,
-    /// The same, moved by 1e3 m to 1e6 m.
+    /// As reordered, also turned and moved by 1e3 m to 1e6 m.
     Far,
 }
 
@@ -61,14 +61,14 @@ pub struct Frame {
     pub turn: Turn,
 }
 
-/// A joint or drive as it is written.
+/// A joint or drive, and how it is written.
 #[derive(Clone, Debug)]
 pub struct Placed {
     /// The joint.
     pub link: Link,
     /// Whether its points are written in the frames of its bodies.
     pub is_local: bool,
-    /// A direction is written times this; divided by its length where there is no factor.
+    /// The factor by which a direction is multiplied; `None` if it is divided by its length.
     pub factor: Option<Ratio>,
 }
 
@@ -77,9 +77,9 @@ pub struct Placed {
 pub struct Posed {
     /// The stretch of the drawing, before it is turned.
     pub stretch: u32,
-    /// How it is turned.
+    /// The rotation of the drawing.
     pub turn: Turn,
-    /// How it is moved then.
+    /// The translation after the rotation.
     pub shift: Vector,
     /// Frames of the bodies.
     pub frames: Vec<Frame>,
@@ -87,19 +87,18 @@ pub struct Posed {
     pub order: Vec<usize>,
     /// Joints and drives in the order of the file.
     pub links: Vec<Placed>,
-    /// As in the drawing.
+    /// As in [`Drawing`](super::drawing::Drawing).
     pub redundancy: Option<usize>,
-    /// As in the drawing.
+    /// As in [`Drawing`](super::drawing::Drawing).
     pub has_constant_rank: bool,
-    /// As in the drawing, with the seed of the errors.
+    /// The seed of the errors, if positions have errors as in [`Drawing`](super::drawing::Drawing).
     pub careless: Option<u64>,
-    /// To what share numbers that depend on the drawing are known, where it is written with few
-    /// digits.
+    /// Relative accuracy of numbers that depend on the drawing, if it is written with few digits.
     pub known_to: f64,
 }
 
 impl Posed {
-    /// Writes down a drawing.
+    /// Chooses how a drawing is written.
     #[must_use]
     pub fn new(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Self {
         let n = drawing.origins.len();
@@ -152,7 +151,7 @@ impl Posed {
     #[must_use]
     pub fn vector(&self, [x, y]: Vector) -> [Surd; 2] {
         let [c, s] = self.turn;
-        // Turned after the stretch; √1 is rational.
+        // The rotation follows the stretch; √1 is rational.
         let surd = |x: Ratio, y: Ratio| match self.stretch {
             1 => Surd {
                 a: x + y,
@@ -187,15 +186,15 @@ impl Posed {
         self.vector_in(side, [p[0] - o[0], p[1] - o[1]])
     }
 
-    /// The origin of a side, in the drawing. `None` for the ground of a drawing that was moved: it
-    /// lies nowhere in it.
+    /// The origin of a side, in the drawing. `None` for the ground of a drawing that was moved,
+    /// because it has no rational coordinates in the drawing.
     #[must_use]
     pub fn origin(&self, side: Side) -> Option<Vector> {
         side.map(|k| self.frames[k].origin)
     }
 
-    /// The radius of a wheel on which a unit of `along` has this torque: the unit of force is that
-    /// of `along`, so that it is the torque divided by its length.
+    /// The radius of a wheel for which a unit force along `along` has this torque: the torque
+    /// divided by the length of `along`.
     #[must_use]
     pub fn lever(&self, along: Vector, radius: Ratio) -> f64 {
         let ([x, y], k) = (along, Ratio::whole(i64::from(self.stretch)));
@@ -203,14 +202,14 @@ impl Posed {
         square.rounded().sqrt().copysign(radius.rounded())
     }
 
-    /// How far it was moved (m).
+    /// The distance by which it was moved (m).
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.shift[0].rounded().hypot(self.shift[1].rounded())
     }
 }
 
-/// At one of its own points, where levers vanish, or anywhere.
+/// One of the body's own points, where arms vanish, or any point.
 fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Numbers) -> Vector {
     let links = drawing
         .links
@@ -224,7 +223,7 @@ fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Nu
     }
 }
 
-/// Joints and drives in an order, each written in some way.
+/// The joints and drives in a random order, each with a way to write it.
 fn placed(
     drawing: &Drawing,
     order: &[usize],

@@ -2,8 +2,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A fraction in lowest terms, with a positive denominator. Numbers of drawings are small: what
-/// does not fit is a fault of the drawing.
+/// A fraction in lowest terms, with a positive denominator. The numbers of drawings are small; an
+/// overflow is a bug of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ratio {
     numerator: i128,
@@ -76,8 +76,8 @@ impl Ratio {
         if n.unsigned_abs() <= EXACT && d.unsigned_abs() <= EXACT {
             return n as f64 / d as f64;
         }
-        // As many bits of the quotient as fit, and one for all that follow: the conversion of whole
-        // numbers rounds to nearest.
+        // As many bits of the quotient as fit, and one for all that follow: the conversion of
+        // integers rounds to nearest.
         let shift = n.unsigned_abs().leading_zeros() - 1;
         let scaled = n.unsigned_abs() << shift;
         let (quotient, rest) = (scaled / d.unsigned_abs(), scaled % d.unsigned_abs());
@@ -85,7 +85,7 @@ impl Ratio {
         size.copysign(n.signum() as f64)
     }
 
-    /// What rounding leaves, rounded: `self − rounded`.
+    /// The rounding error, rounded: `self − rounded`.
     fn rest(self) -> f64 {
         let (n, d) = (self.numerator as f64, self.denominator as f64);
         if n as i128 == self.numerator && d as i128 == self.denominator {
@@ -150,7 +150,7 @@ impl Mul for Ratio {
     }
 }
 
-/// `a + b·√k`; what k is belongs to the drawing.
+/// `a + b·√k`; k is given by the drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Surd {
     /// The rational part.
@@ -160,7 +160,7 @@ pub struct Surd {
 }
 
 impl Surd {
-    /// A multiple.
+    /// The product with a fraction.
     #[must_use]
     pub fn times(self, factor: Ratio) -> Self {
         Self {
@@ -169,7 +169,7 @@ impl Surd {
         }
     }
 
-    /// The nearest `f64`, but for rounding errors of second order.
+    /// The nearest `f64`, except for rounding errors of second order.
     #[must_use]
     pub fn rounded(self, k: u32) -> f64 {
         if self.b.is_zero() {
@@ -207,7 +207,7 @@ mod tests {
     fn fractions_are_rounded_once() {
         assert_eq!(Ratio::new(3, 10).rounded(), 0.3);
         assert_eq!(Ratio::new(-2, -6), Ratio::new(1, 3));
-        // 2⁶⁰ + 1 lies above the middle of two neighbours when a third bit follows far behind.
+        // 2⁶⁰ + 1 is just above the middle of two neighbours if a third bit follows far behind.
         let middle = (1_i128 << 60) + (1 << 7);
         assert_eq!(Ratio::new(middle, 1).rounded(), 2_f64.powi(60));
         let above = Ratio::new(middle, 1) + Ratio::new(1, 1 << 20);

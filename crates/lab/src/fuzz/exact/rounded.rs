@@ -1,4 +1,4 @@
-//! Suites of scenes with a tolerance: degenerate drawings whose numbers are rounded to 3 … 16
+//! Sets of scenes with a tolerance: degenerate drawings whose numbers are rounded to 3 … 16
 //! significant digits, and drawings of full rank that are near a lower one.
 
 use std::collections::BTreeMap;
@@ -19,25 +19,25 @@ use super::text::{Precision, text_within};
 use super::truth::Truth;
 use super::within::{BEYOND_DOUBT, Judged, Meant};
 
-/// Significant digits. With the last ones no tolerance is stated.
+/// Numbers of significant digits. With the last one no tolerance is stated.
 pub const DIGITS: [usize; 14] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16];
 
-/// Tolerances of near drawings, as parts of a third of τ*.
+/// Tolerances for drawings near a lower rank, as fractions of τ*/3.
 pub const PARTS: [f64; 6] = [0.99, 0.5, 0.1, 1e-2, 1e-4, 1e-7];
 
-/// Gravity (m/s²), along no axis.
+/// Gravity (m/s²), not parallel to an axis.
 const GRAVITY: [f64; 2] = [3.0, -9.0];
 
-/// Numbers of scenes that are listed for each kind of finding.
+/// Number of scenes that are listed for each kind of finding.
 const LISTED: usize = 8;
 
-/// Less than one scene in so many may be undecided where a lower rank is far away.
+/// Fewer than one scene out of this number may be undecided if a lower rank is far away.
 const UNDECIDED: usize = 100;
 
 /// The same with sixteen digits and no tolerance.
 const UNDECIDED_WITHOUT: usize = 1000;
 
-/// What is written.
+/// A set of scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Suite {
     /// Degenerate drawings with few digits.
@@ -47,7 +47,7 @@ pub enum Suite {
 }
 
 impl Suite {
-    /// Scenes of one drawing.
+    /// Number of scenes for each drawing.
     #[must_use]
     pub fn ways(self) -> u64 {
         match self {
@@ -79,32 +79,32 @@ impl Suite {
     }
 }
 
-/// What came of one scene.
+/// The result for one scene.
 pub struct Outcome {
     /// Its family.
     pub family: &'static str,
-    /// Its digits, or the place of its tolerance.
+    /// Its number of digits, or the index of its tolerance.
     pub way: usize,
     /// The text.
     pub text: String,
-    /// What holds, in words.
+    /// The correct answer, in words.
     pub truth: String,
-    /// What is not right.
+    /// The findings.
     pub judged: Judged,
-    /// Whether a lower rank is so far away that everything has to be decided.
+    /// Whether a lower rank is so far away that everything must be decided.
     pub is_far: bool,
     /// Whether it is redundant.
     pub is_redundant: bool,
 }
 
 impl Outcome {
-    /// The worst thing that is not right.
+    /// The worst finding.
     #[must_use]
     pub fn worst(&self) -> Option<Kind> {
         self.judged.findings.0.iter().map(|f| f.kind).max()
     }
 
-    /// The scene with what is so and what the program said at its head, as comments.
+    /// The scene with the correct answer and that of the program in comments at its beginning.
     #[must_use]
     pub fn page(&self) -> String {
         let mut page = format!("# {}, {}\n", self.family, self.way);
@@ -124,7 +124,8 @@ impl Outcome {
     }
 }
 
-/// Returns all scenes of one drawing, or `None` if a near drawing happens to be redundant.
+/// Returns the results for all scenes of one drawing, or `None` if a near drawing happens to be
+/// redundant.
 #[must_use]
 pub fn outcomes(suite: Suite, seed: u64, drawn: u64) -> Vec<Outcome> {
     let (family, posed) = suite.posed(seed, drawn);
@@ -209,7 +210,7 @@ fn outcome(
     }
 }
 
-/// The largest coordinate that is written (m).
+/// The largest coordinate in the text (m).
 fn largest_coordinate(posed: &Posed) -> f64 {
     let doubles = Doubles::of(posed);
     let lengths = doubles.blocks.iter().filter(|b| b.count == 2);
@@ -221,21 +222,21 @@ fn largest_coordinate(posed: &Posed) -> f64 {
     largest.fold(0.0, |a: f64, x| a.max(x.abs())).max(1.0)
 }
 
-/// Scenes of one kind.
+/// Counts for one kind of scenes.
 #[derive(Clone, Debug, Default)]
 pub struct Count {
-    /// How many.
+    /// Number of scenes.
     pub scenes: usize,
     /// Redundant ones.
     pub redundant: usize,
-    /// Those that are far from a lower rank.
+    /// Scenes that are far from a lower rank.
     pub far: usize,
-    /// Those of which everything is right.
+    /// Scenes without findings.
     pub right: usize,
-    /// Those of which the rank is another one, rightly, by why.
+    /// Scenes for which another rank is correct, by reason.
     pub other: BTreeMap<&'static str, usize>,
-    /// By the worst thing that is not right, and whether they are far: how many, and the first
-    /// ones.
+    /// Scenes with findings, by the worst one and whether they are far: their number, and the first
+    /// of them.
     pub not: BTreeMap<(Kind, bool), (usize, Vec<u64>)>,
 }
 
@@ -266,12 +267,12 @@ impl Count {
     }
 }
 
-/// What came of many scenes.
+/// The results for many scenes.
 #[derive(Clone, Debug)]
 pub struct Tally {
-    /// Which ones.
+    /// The set of scenes.
     pub suite: Suite,
-    /// By the place of digits or tolerance.
+    /// By the index of digits or tolerance.
     pub by_way: BTreeMap<usize, Count>,
     /// By family.
     pub by_family: BTreeMap<&'static str, Count>,
@@ -286,7 +287,7 @@ impl Tally {
         }
     }
 
-    /// Examines the scenes of some drawings of a seed; `done` is called after each of them.
+    /// Tests the scenes of some drawings of a seed; `done` is called after each of them.
     #[must_use]
     pub fn of(suite: Suite, seed: u64, from: u64, drawings: u64, done: impl Fn() + Sync) -> Self {
         let of_drawing = |drawn: u64| {
@@ -335,14 +336,14 @@ impl Tally {
         self
     }
 
-    /// How many scenes got a wrong answer.
+    /// Number of scenes with a wrong answer.
     #[must_use]
     pub fn wrong(&self) -> usize {
         let counts = self.by_way.values();
         counts.map(|c| c.of(|kind, _| kind.is_wrong())).sum()
     }
 
-    /// Whether nothing is wrong, and little is undecided where it has to be decided.
+    /// Whether no answer is wrong, and few are undecided that should be decided.
     #[must_use]
     pub fn passes(&self) -> bool {
         let is_open = |kind: Kind, far: bool| far && !kind.is_wrong();
@@ -362,7 +363,7 @@ impl Tally {
         self.wrong() == 0 && UNDECIDED * open <= far
     }
 
-    /// The tally in words.
+    /// The results in words.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = String::new();

@@ -1,7 +1,7 @@
-//! Constraint rows as lines of force. A unit multiplier of a row puts a wrench on each of its
-//! bodies: a force along a line of the drawing, or a couple. Written about the origin of the
-//! drawing as (fx, fy, m), these wrenches are the row of C in coordinates of its own: stretching,
-//! moving and framing the bodies only changes the basis. So they have the rank of C and its
+//! Constraint rows as lines of force. A unit multiplier of a row causes a wrench on each of its
+//! bodies: a force along a line of the drawing, or a couple. Expressed about the origin of the
+//! drawing as (fx, fy, m), these wrenches are the row of C in special coordinates: stretching,
+//! moving and other body frames only change the basis. So they have the rank of C and its
 //! dependencies, up to one factor for each row.
 
 use super::drawing::{Link, Side, Tie, Vector};
@@ -14,16 +14,16 @@ pub type Wrench = [Ratio; 3];
 /// One row.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// The place of its joint or drive in the file.
+    /// The index of its joint or drive in the file.
     pub link: usize,
-    /// What a unit multiplier puts on each slot.
+    /// The wrench of a unit multiplier on each slot.
     pub wrenches: Vec<(usize, Wrench)>,
     /// The row of the program is this one times `scale`, in the coordinates of the program.
     pub scale: f64,
 }
 
-/// All rows in the order of the program: holonomic ones of joints, drives, then nonholonomic ones;
-/// each in the order of the file.
+/// All rows in the order of the program: holonomic ones of joints, those of drives, then
+/// nonholonomic ones; each in the order of the file.
 #[must_use]
 pub fn rows(posed: &Posed) -> Vec<Row> {
     let links = || posed.links.iter().enumerate();
@@ -52,8 +52,8 @@ fn minus(w: Wrench) -> Wrench {
     w.map(|x| -x)
 }
 
-/// The place at which the wrench of a joint on its first body is given. `None` if that does
-/// not matter or is not in the drawing: there is nothing but a couple, or the force lies elsewhere.
+/// The point for which the wrench of a joint on its first body is given. `None` if the wrench is
+/// only a couple, or if the force acts at a point that is not in the drawing.
 #[must_use]
 pub fn place(tie: &Tie) -> Option<Vector> {
     match *tie {
@@ -95,7 +95,7 @@ fn rows_of(posed: &Posed, place: usize, link: &Link) -> Vec<Row> {
         row(wrenches, f64::from(k).sqrt().recip())
     };
     let (plus, less) = (Ratio::ONE, -Ratio::ONE);
-    // Axes of the world, seen from the drawing.
+    // The axes of the world, in the coordinates of the drawing.
     let [c, s] = posed.turn;
     let (x, y) = ([c, -s], [s, c]);
     match link.tie {
@@ -136,7 +136,7 @@ fn rows_of(posed: &Posed, place: usize, link: &Link) -> Vec<Row> {
     }
 }
 
-/// The sides of a row's wrenches, where one body may stand in several slots.
+/// The sides with the wrenches of a row; one body may occupy several slots.
 pub fn on_sides<'a>(
     row: &'a Row,
     link: &'a Link,

@@ -1,4 +1,4 @@
-//! Many scenes, on the threads of the pool.
+//! Tests many scenes, on the threads of the pool.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,39 +15,39 @@ use super::pose::Writing;
 use super::truth::Truth;
 use super::{Scene, answer, scene, text};
 
-/// Numbers of scenes that are listed for each kind of finding.
+/// Number of scenes that are listed for each kind of finding.
 const LISTED: usize = 6;
 
-/// Scenes of each family, way and kind that are kept as files.
+/// Number of scenes of each family, way of writing and kind that are stored as files.
 const KEPT: usize = 2;
 
-/// Near the origin less than one scene in so many may be undecided.
+/// Near the origin fewer than one scene out of this number may be undecided.
 const UNDECIDED: usize = 1000;
 
-/// What came of one scene.
+/// The result for one scene.
 pub struct Outcome {
     /// The scene.
     pub scene: Scene,
     /// Its text.
     pub text: String,
-    /// What is not right.
+    /// The findings.
     pub findings: Findings,
     /// The rank that the program gave, if any.
     pub rank: Option<u64>,
-    /// What exact arithmetic says, in words.
+    /// The result of exact arithmetic, in words.
     pub truth: String,
     /// The redundancy by exact arithmetic.
     pub redundancy: usize,
 }
 
 impl Outcome {
-    /// The worst thing that is not right.
+    /// The worst finding.
     #[must_use]
     pub fn worst(&self) -> Option<Kind> {
         self.findings.0.iter().map(|f| f.kind).max()
     }
 
-    /// The scene with what is so and what the program said at its head, as comments.
+    /// The scene with the correct answer and that of the program in comments at its beginning.
     #[must_use]
     pub fn page(&self) -> String {
         let (family, writing) = (self.scene.family.name(), self.scene.writing.name());
@@ -67,7 +67,7 @@ impl Outcome {
     }
 }
 
-/// Examines one scene.
+/// Tests one scene.
 #[must_use]
 pub fn outcome(seed: u64, number: u64) -> Outcome {
     let scene = scene(seed, number);
@@ -94,16 +94,16 @@ pub fn outcome(seed: u64, number: u64) -> Outcome {
     }
 }
 
-/// Scenes of one family, written in one way.
+/// Counts for one family, written in one way.
 #[derive(Clone, Debug, Default)]
 pub struct Count {
-    /// How many.
+    /// Number of scenes.
     pub scenes: usize,
-    /// Those of which exact arithmetic says that they are redundant.
+    /// Scenes that are redundant by exact arithmetic.
     pub redundant: usize,
-    /// Those of which everything is right.
+    /// Scenes without findings.
     pub right: usize,
-    /// By the worst thing that is not: how many, and the first ones.
+    /// Scenes with findings, by the worst one: their number, and the first of them.
     pub not: BTreeMap<Kind, (usize, Vec<u64>)>,
 }
 
@@ -127,17 +127,17 @@ impl Count {
     }
 }
 
-/// What came of many scenes.
+/// The results for many scenes.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// By family and way of writing.
     pub counts: BTreeMap<(Family, Writing), Count>,
-    /// Drawings that got different ranks when written in two ways.
+    /// Drawings with different ranks for two ways of writing.
     pub contradicting: Vec<u64>,
 }
 
 impl Tally {
-    /// Examines scenes `from..from + scenes` of a seed; `done` is called after each of them.
+    /// Tests scenes `from..from + scenes` of a seed; `done` is called after each of them.
     #[must_use]
     pub fn of(seed: u64, from: u64, scenes: u64, done: impl Fn() + Sync) -> Self {
         let ways = Writing::ALL.len() as u64;
@@ -202,7 +202,7 @@ impl Tally {
         sum
     }
 
-    /// How many scenes got a wrong answer.
+    /// Number of scenes with a wrong answer.
     #[must_use]
     pub fn wrong(&self) -> usize {
         [true, false]
@@ -211,13 +211,13 @@ impl Tally {
             .sum()
     }
 
-    /// How many scenes near the origin have no answer, or none to some question.
+    /// Number of scenes near the origin with an undecided answer.
     #[must_use]
     pub fn undecided_near(&self) -> usize {
         self.sum(false).of(|kind| !kind.is_wrong())
     }
 
-    /// Whether nothing is wrong, and fewer than one scene in a thousand near the origin is
+    /// Whether no answer is wrong, and fewer than one scene in a thousand near the origin is
     /// undecided.
     #[must_use]
     pub fn passes(&self) -> bool {
@@ -225,8 +225,8 @@ impl Tally {
         self.wrong() == 0 && UNDECIDED * self.undecided_near() < near.scenes
     }
 
-    /// Writes the listed scenes with their pages into a folder, the shortest ones of each family
-    /// and kind.
+    /// Writes the listed scenes with their answers into a directory, the shortest ones of each
+    /// family and kind.
     ///
     /// # Errors
     /// If they cannot be written.
@@ -251,7 +251,7 @@ impl Tally {
         Ok(())
     }
 
-    /// The tally in words.
+    /// The results in words.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = String::new();

@@ -8,10 +8,10 @@ use super::drawing::{Side, Tie, Vector};
 use super::pose::{Placed, Posed};
 use super::ratio::{Ratio, Surd};
 
-/// How numbers are written, and what is said of them.
+/// The number of digits, and the data that the scene states in addition to the drawing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Precision {
-    /// Significant digits. `None`: all that a double has.
+    /// Significant digits. `None`: all digits of a double.
     pub digits: Option<usize>,
     /// The tolerance that the scene states (m).
     pub tolerance: Option<f64>,
@@ -39,7 +39,7 @@ pub fn text(posed: &Posed) -> String {
     text_within(posed, &Precision::default())
 }
 
-/// The same with numbers of some precision.
+/// The same with numbers of a given precision.
 #[must_use]
 pub fn text_within(posed: &Posed, precision: &Precision) -> String {
     let mut scene = "name = \"exact\", space = \"plane\"".to_owned();
@@ -77,14 +77,14 @@ pub fn name(side: Side) -> String {
 struct Pen<'a> {
     posed: &'a Posed,
     precision: &'a Precision,
-    /// Where positions of bodies are written by a careless script.
+    /// Random errors of the positions of bodies, if the drawing is to have them.
     errors: Option<Numbers>,
     text: String,
 }
 
 impl Pen<'_> {
     fn line(&mut self, key: &str, value: &str) {
-        // A `String` takes everything.
+        // Writing to a `String` cannot fail.
         let _ = writeln!(self.text, "{key} = {value}");
     }
 
@@ -162,7 +162,7 @@ impl Pen<'_> {
             Tie::Angle | Tie::AngleDrive { .. } => {}
             Tie::Gear { ratio } => {
                 self.line("ratio", &format!("{:?}", self.rounded(ratio.rounded())));
-                // The ground may be left out.
+                // The ground may be omitted.
                 if sides[2].is_some() || placed.is_local {
                     self.line("carrier", &format!("\"{}\"", name(sides[2])));
                 }
@@ -202,7 +202,7 @@ impl Pen<'_> {
         self.line("motion", "{ type = \"polynomial\", coefficients = [0.0] }");
     }
 
-    /// The points of some slots.
+    /// Writes the points of some slots.
     fn place(&mut self, placed: &Placed, points: &[(usize, Vector)], is_apart: bool) {
         let sides = &placed.link.sides;
         let is_one = points.windows(2).all(|w| w[0].1 == w[1].1);
@@ -231,8 +231,8 @@ impl Pen<'_> {
         }
     }
 
-    /// What a force along `along` is perpendicular to, in the frame of a side: turned back by a
-    /// quarter.
+    /// The direction that is perpendicular to a force along `along`, in the frame of a side: the
+    /// force turned by −90°.
     fn across(&self, side: Side, along: Vector) -> [Surd; 2] {
         let [x, y] = self.posed.vector_in(side, along);
         [y, x.times(-Ratio::ONE)]
@@ -250,7 +250,7 @@ impl Pen<'_> {
         }
     }
 
-    /// Direction and radius: the unit of force is that of `along`, so that the radius is the torque
+    /// Writes direction and radius: `along` is the unit of force, so the radius is the torque
     /// divided by its length.
     fn rolls(&mut self, placed: &Placed, key: &str, along: Vector, radius: Ratio) {
         let direction = self.posed.vector_in(placed.link.sides[0], along);

@@ -1,4 +1,4 @@
-//! What exact arithmetic says of a drawing.
+//! The results of exact arithmetic for a drawing.
 
 use std::collections::BTreeSet;
 
@@ -10,8 +10,8 @@ use super::pose::Posed;
 use super::ratio::Ratio;
 use super::rows::{self, Row};
 
-/// A wrench on the first body of a joint, along the axes of the drawing and about the place of the
-/// joint, times `common`.
+/// A wrench on the first body of a joint, with components along the axes of the drawing and about
+/// the place of the joint, times `common`.
 #[derive(Clone, Debug)]
 pub struct Reaction {
     force: [BigInt; 2],
@@ -40,7 +40,7 @@ impl Reaction {
         }
     }
 
-    /// Fx, Fy, T in the world, in some unit that is the same for all reactions of a drawing.
+    /// Fx, Fy, T in the world, in a unit that is the same for all reactions of a drawing.
     #[must_use]
     pub fn rounded(&self, posed: &Posed) -> [f64; 3] {
         let number = |x: &BigInt| x.to_f64().unwrap_or(f64::NAN);
@@ -52,21 +52,21 @@ impl Reaction {
     }
 }
 
-/// The rows of a drawing and all that follows from them.
+/// The rows of a drawing and the results for them.
 pub struct Truth<'a> {
     /// The drawing.
     pub posed: &'a Posed,
     /// Its rows, in the order of the program.
     pub rows: Vec<Row>,
-    /// Whole multiples of them, without the ground.
+    /// Integer multiples of them, without the ground.
     whole: Vec<Vec<BigInt>>,
-    /// By what a row of fractions was multiplied.
+    /// The factor of each row.
     factors: Vec<BigInt>,
     exact: Exact,
 }
 
 impl<'a> Truth<'a> {
-    /// Eliminates.
+    /// Eliminates the rows of a drawing.
     #[must_use]
     pub fn of(posed: &'a Posed) -> Self {
         let rows = rows::rows(posed);
@@ -80,7 +80,7 @@ impl<'a> Truth<'a> {
                     *entry = *entry + x;
                 }
             }
-            // A multiple of every denominator that occurs, also of the ground's.
+            // A multiple of all denominators, including those for the ground.
             let denominators = row.wrenches.iter().flat_map(|(_, w)| w);
             let factor = denominators.fold(1, |m, x| least_multiple(m, x.denominator()));
             let times = |x: Ratio| BigInt::from(x.numerator() * (factor / x.denominator()));
@@ -102,13 +102,13 @@ impl<'a> Truth<'a> {
         self.exact.rank()
     }
 
-    /// Rows less rank.
+    /// Number of rows minus rank.
     #[must_use]
     pub fn redundancy(&self) -> usize {
         self.rows.len() - self.rank()
     }
 
-    /// What holds, in words: ranks, and what is not unique.
+    /// The results in words: ranks, and the reactions that are not unique.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = format!(
@@ -172,20 +172,20 @@ impl<'a> Truth<'a> {
         (0..self.rows.len()).filter(is_own).collect()
     }
 
-    /// Whether the reaction of these rows is the same for all solutions: `rank C = rank C_X + rank
-    /// of the others`.
+    /// Whether the reaction of these rows is the same in all solutions:
+    /// `rank C = rank C_X + rank of the others`.
     #[must_use]
     pub fn is_unique(&self, rows: &[usize]) -> bool {
         self.is_unique_without(rows, &[])
     }
 
-    /// Whether the rank is the same without some rows.
+    /// Whether the rank is unchanged without some rows.
     #[must_use]
     pub fn keeps_motion(&self, deleted: &[usize]) -> bool {
         self.rank_of(&self.without(deleted)) == self.rank()
     }
 
-    /// Whether the reaction of these rows is the same for all solutions in which other rows are
+    /// Whether the reaction of these rows is the same in all solutions after other rows are
     /// deleted.
     #[must_use]
     pub fn is_unique_without(&self, rows: &[usize], deleted: &[usize]) -> bool {
@@ -200,14 +200,14 @@ impl<'a> Truth<'a> {
             .collect()
     }
 
-    /// Whether the multiplier of a row is the same for all solutions.
+    /// Whether the multiplier of a row is the same in all solutions.
     #[must_use]
     pub fn row_is_unique(&self, row: usize) -> bool {
         self.exact.row_is_unique(row)
     }
 
-    /// The coefficients of these rows (of [`Truth::rows`], whole multiples of them) if they are
-    /// minimal dependent.
+    /// The coefficients of these rows (of [`Truth::rows`], integer multiples of them) if they are
+    /// minimally dependent.
     #[must_use]
     pub fn circuit(&self, rows: &[usize]) -> Option<Vec<BigInt>> {
         let exact = self.select(rows);
@@ -217,7 +217,7 @@ impl<'a> Truth<'a> {
         }
     }
 
-    /// The same as the program has them: for its own rows, the largest 1 in size.
+    /// The same in the normalisation of the program: for its own rows, the largest of size 1.
     #[must_use]
     pub fn coefficients(&self, rows: &[usize], circuit: &[BigInt]) -> Vec<f64> {
         let sizes = circuit.iter().map(BigInt::bits);
@@ -231,8 +231,8 @@ impl<'a> Truth<'a> {
         own.into_iter().map(|x| x / largest).collect()
     }
 
-    /// Whether `c_j·λ_i − c_i·λ_j` is the same for all solutions, where `(c_i, c_j)` is the circuit
-    /// of two rows.
+    /// Whether `c_j·λ_i − c_i·λ_j` is the same in all solutions; `(c_i, c_j)` is the circuit of two
+    /// rows.
     #[must_use]
     pub fn sum_is_unique(&self, [i, j]: [usize; 2], circuit: &[BigInt]) -> bool {
         let mut l = vec![BigInt::zero(); self.rows.len()];
@@ -240,7 +240,7 @@ impl<'a> Truth<'a> {
         self.exact.determines(&l)
     }
 
-    /// The wrench on the first body of a joint for multipliers of its rows, whole multiples.
+    /// The wrench on the first body of a joint for multipliers of its rows, as integer multiples.
     fn wrench(&self, rows: &[usize], multipliers: &[BigInt]) -> [BigInt; 3] {
         let mut sum = [0; 3].map(|_| BigInt::zero());
         for (&i, z) in rows.iter().zip(multipliers) {
@@ -251,7 +251,7 @@ impl<'a> Truth<'a> {
         sum
     }
 
-    /// What row i puts on the first body of its joint, which may stand in several slots.
+    /// The wrench of row i on the first body of its joint, which may occupy several slots.
     fn whole_wrench(&self, i: usize) -> [BigInt; 3] {
         let row = &self.rows[i];
         let link = &self.posed.links[row.link].link;
@@ -263,8 +263,8 @@ impl<'a> Truth<'a> {
         sum.map(|x| BigInt::from(x.numerator()) * &self.factors[i] / BigInt::from(x.denominator()))
     }
 
-    /// The wrenches on the first body of a joint that no load determines, one for each independent
-    /// solution without loads. `None` where the drawing does not tell the place.
+    /// The wrenches on the first body of a joint without loads, one for each independent solution.
+    /// `None` if the drawing does not define the place.
     #[must_use]
     pub fn free_wrenches(&self, link: usize) -> Option<Vec<Reaction>> {
         let rows = self.rows_of(link);
@@ -276,7 +276,7 @@ impl<'a> Truth<'a> {
         .collect()
     }
 
-    /// The wrench of a joint in a circuit, in the same way.
+    /// The wrench of a joint in a circuit, in the same form.
     #[must_use]
     pub fn carried(&self, link: usize, rows: &[usize], circuit: &[BigInt]) -> Option<Reaction> {
         let own = rows.iter().zip(circuit);
@@ -298,8 +298,8 @@ impl<'a> Truth<'a> {
         })
     }
 
-    /// How many independent directions of the wrench on the first body all solutions share, without
-    /// those along which it is always zero.
+    /// Number of independent directions along which the wrench on the first body is the same in all
+    /// solutions, without those along which it is always zero.
     #[must_use]
     pub fn live_directions(&self, link: usize) -> usize {
         let all = self.rows_of(link).into_iter();
@@ -307,7 +307,7 @@ impl<'a> Truth<'a> {
         Exact::of_whole(all).rank() - self.free_directions(link)
     }
 
-    /// The same with those, of the components that a reaction of this kind has.
+    /// The same including those, for the components that a reaction of this kind has.
     #[must_use]
     pub fn shared_directions(&self, link: usize, components: &[&str]) -> usize {
         components.len() - self.free_directions(link)
@@ -322,7 +322,7 @@ impl<'a> Truth<'a> {
         Exact::of_whole(free.collect()).rank()
     }
 
-    /// The sets of rows that depend on each other, directly or through others: components of the
+    /// The sets of rows that are dependent directly or through others: connected components of the
     /// circuits.
     #[must_use]
     pub fn components(&self) -> Vec<BTreeSet<usize>> {

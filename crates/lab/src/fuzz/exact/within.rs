@@ -1,5 +1,5 @@
-//! What the program says of a drawing whose numbers are known to a tolerance, compared with what
-//! exact arithmetic says of the drawing, and with how far its data are from a lower rank.
+//! The answer of the program for a drawing whose numbers have a tolerance, compared with exact
+//! arithmetic and with the distance of the data from a lower rank.
 
 use std::rc::Rc;
 
@@ -14,56 +14,59 @@ use super::minimax::Bounds;
 use super::truth::Truth;
 use super::words;
 
-/// Below this part of τ* a tolerance changes nothing of the rank; above the inverse it lowers it.
+/// Below τ* divided by this number, a tolerance does not change the rank; above τ* times this
+/// number, it lowers the rank.
 pub const BEYOND_DOUBT: f64 = 3.0;
 
-/// At this distance everything has to be decided.
+/// If τ* exceeds the tolerance by this factor, everything must be decided.
 pub const FAR: f64 = 30.0;
 
-/// A reaction of the first order is one whose change by all data together is below this share.
+/// A reaction depends linearly on the data if the change by all data together is below this
+/// fraction.
 const FIRST_ORDER: f64 = 0.1;
 
-/// Points of a joint that move at once, by their share of what the most sensitive one does.
+/// Factor for the points of a joint that change together, relative to the effect of the most
+/// sensitive one.
 const AT_ONCE: f64 = 3.0;
 
-/// What is said where dependencies are left open.
+/// The sentence for dependencies that are left open.
 const OPEN: &str = "within the tolerance it is open which rows of";
 
-/// Digits of `sensitivity` and of double arithmetic in reactions.
+/// Digits of `sensitivity` and of reactions in double precision.
 const ROUNDING: f64 = 1e-8;
 
-/// What holds of a drawing.
+/// The correct results for a drawing.
 #[derive(Clone)]
 pub struct Meant<'a> {
-    /// By exact arithmetic.
+    /// From exact arithmetic.
     pub truth: &'a Truth<'a>,
     /// The size of the drawing (m).
     pub size: f64,
-    /// How many points, directions and numbers it has.
+    /// Number of its points, directions and numbers.
     pub blocks: usize,
-    /// Whether its redundancy stays wherever it moves.
+    /// Whether its redundancy is the same at all its poses.
     pub is_permanent: bool,
-    /// τ* (m) for a rank one lower still.
+    /// τ* (m) for a rank that is lower by one.
     pub from: Bounds,
-    /// τ* (m) for this rank wherever it moves; zero if it is so already.
+    /// τ* (m) for this rank at all poses; zero if the rank is the same there already.
     pub everywhere_from: Bounds,
     /// Reactions under gravity.
     pub reactions: Reactions,
-    /// The drawing in doubles.
+    /// The drawing in double precision.
     pub doubles: Rc<Doubles>,
 }
 
-/// What came of a comparison.
+/// The result of a comparison.
 #[derive(Debug, Default)]
 pub struct Judged {
-    /// What is not right.
+    /// The findings.
     pub findings: Findings,
-    /// Why verdicts were not compared: the rank given is another one, rightly.
+    /// The reason why verdicts were not compared: another rank is also correct.
     pub other_rank: Option<&'static str>,
 }
 
 impl<'a> Meant<'a> {
-    /// Of a drawing.
+    /// The correct results for a drawing.
     #[must_use]
     pub fn of(truth: &'a Truth<'a>, seed: u64, gravity: [f64; 2]) -> Self {
         let doubles = Doubles::of(truth.posed);
@@ -89,7 +92,7 @@ impl<'a> Meant<'a> {
         }
     }
 
-    /// The same with another account of the exact drawing.
+    /// The same with another result of exact arithmetic for the drawing.
     #[must_use]
     pub fn with<'b>(&'b self, truth: &'b Truth<'b>) -> Meant<'b> {
         Meant {
@@ -98,13 +101,13 @@ impl<'a> Meant<'a> {
         }
     }
 
-    /// Whether a lower rank is so far away that everything has to be decided.
+    /// Whether a lower rank is so far away that everything must be decided.
     #[must_use]
     pub fn is_far(&self, tolerance: f64) -> bool {
         self.from.low >= FAR * tolerance
     }
 
-    /// Compares a document.
+    /// Compares a document with the correct results.
     #[must_use]
     pub fn judge(&self, answer: &Value, tolerance: f64) -> Judged {
         let mut judged = Judged::default();
@@ -163,8 +166,8 @@ impl<'a> Meant<'a> {
         judged
     }
 
-    /// Verdicts are those of the drawing; what is not unique there may be called unique if data
-    /// within the tolerance make it so.
+    /// Verdicts must be those of the drawing; a reaction that is not unique may be called unique if
+    /// data within the tolerance make it so.
     fn verdicts(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
         let mut all = Findings::default();
         reactions(self.truth, answer, &mut all);
@@ -175,7 +178,7 @@ impl<'a> Meant<'a> {
                 let is_named = |f: &Finding| concerns(&f.text, &placed.link.name);
                 let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
                 let rows = self.truth.rows_of(*link);
-                // Only what the data may make unique.
+                // Accept only reactions that the data may make unique.
                 !self.truth.is_unique(&rows) && all.0.iter().any(wrong) && {
                     let [size, change] = self.doubles.margin(rank, &rows, tolerance);
                     size <= change
@@ -188,7 +191,7 @@ impl<'a> Meant<'a> {
         findings.0.extend(kept);
     }
 
-    /// Unique reactions are those of the drawing, to what their sensitivity says.
+    /// Unique reactions must be those of the drawing, up to their sensitivity.
     fn loads(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
         let Some(chosen) = list(&answer["choices"]).first() else {
             return;
@@ -205,14 +208,14 @@ impl<'a> Meant<'a> {
             if reaction["verdict"] != "unique" || !self.truth.is_unique(&self.truth.rows_of(link)) {
                 continue;
             }
-            // Told for the larger of 1e-4 of the size and the tolerance.
+            // The sensitivity applies to the larger of 1e-4 of the size and the tolerance.
             let moved = tolerance.max(1e-4 * self.size);
             let all = AT_ONCE * (self.blocks as f64).sqrt() * change * tolerance / moved;
             if all > FIRST_ORDER {
                 continue;
             }
             let (force, torque) = self.reactions.each[link];
-            // Torque of a wheel about its own place may lie elsewhere.
+            // The torque of a wheel is about its own place, which may be another point.
             let torque = torque.filter(|_| !matches!(placed.link.tie, Tie::Rack { .. }));
             let size = force[0]
                 .hypot(force[1])

@@ -1,6 +1,6 @@
-//! Dependencies and sentences: the sets of rows are minimal and dependent, coefficients and forces
-//! are those of exact arithmetic, and sentences name what takes part, in its ratio, and claim
-//! nothing of a sum that does not hold.
+//! Dependencies and sentences: the sets of rows must be minimal and dependent, coefficients and
+//! forces must be those of exact arithmetic, and sentences must name the rows with their ratios and
+//! state only correct sums.
 
 use num_bigint::BigInt;
 use serde_json::Value;
@@ -12,7 +12,7 @@ use super::truth::Truth;
 /// Numbers in sentences have four digits.
 const FOUR_DIGITS: f64 = 6e-4;
 
-/// Examines all dependencies and sentences of a decided document.
+/// Compares all dependencies and sentences of a decided document.
 pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let redundancy = truth.redundancy();
     let dependencies = list(&answer["dependencies"]);
@@ -56,11 +56,11 @@ pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     }
 }
 
-/// The same for sets of rows alone: that they are minimal and dependent, and as many as the
+/// The same for sets of rows only: they must be minimal and dependent, and as many as the
 /// redundancy.
 pub fn circuits(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let dependencies = list(&answer["dependencies"]);
-    // What the tolerance leaves open is not answer.
+    // Dependencies that the tolerance leaves open are not compared.
     let open = findings.0.iter().any(|f| f.kind == Kind::Undecided);
     if dependencies.len() != truth.redundancy() && !open {
         let text = format!(
@@ -81,7 +81,7 @@ pub fn circuits(truth: &Truth, answer: &Value, findings: &mut Findings) {
     }
 }
 
-/// A dependency that is one.
+/// A correct dependency.
 struct Dependency<'a> {
     truth: &'a Truth<'a>,
     place: usize,
@@ -114,7 +114,7 @@ impl Dependency<'_> {
         }
     }
 
-    /// The places of its joints in the file, each once.
+    /// The indices of its joints in the file, each once.
     fn links(&self) -> Vec<usize> {
         let mut links: Vec<usize> = self.rows.iter().map(|&i| self.truth.rows[i].link).collect();
         links.sort_unstable();
@@ -122,7 +122,7 @@ impl Dependency<'_> {
         links
     }
 
-    /// What its joints carry, which may be drawn.
+    /// Compares the forces of its joints, which may be drawn in a picture.
     fn forces(&self, document: &Value, findings: &mut Findings) {
         let (mut answer, mut right) = (Vec::new(), Vec::new());
         for link in self.links() {
@@ -153,7 +153,7 @@ impl Dependency<'_> {
             answer.extend(numbers);
             right.extend(carried.rounded(self.truth.posed));
         }
-        // Moments are rounded relative to the forces at the arms of the scene.
+        // Moments are rounded relative to the forces times the arms of the scene.
         if !are_proportional(&answer, &right, 1e2 * rounding(self.truth.posed)) {
             self.load(
                 findings,
@@ -237,7 +237,7 @@ impl Dependency<'_> {
     }
 }
 
-/// Whether one list is the other times some factor, zeros where the other has zeros.
+/// Whether one list is a multiple of the other, with the same zeros.
 fn are_proportional(answer: &[f64], right: &[f64], rounding: f64) -> bool {
     let Some(at) = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()))
     else {
@@ -265,7 +265,7 @@ fn ratio(text: &str) -> Vec<f64> {
     numbers
 }
 
-/// Groups of joints that share loads: unions of components, all of them once, with their
+/// Compares the groups of joints that share loads: unions of components, each once, with their
 /// redundancy.
 fn mixing(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let mut open = truth.components();
@@ -351,7 +351,7 @@ fn explanation(truth: &Truth, link: usize, answer: &Value, text: &str, findings:
         .split(", ")
         .flat_map(|part| part.split(" and "))
         .collect();
-    // Those along which the reaction is always zero may be said as well.
+    // Directions along which the reaction is always zero may be listed too.
     if all.len() < live || all.len() > truth.shared_directions(link, &components) {
         wrong(&format!("{live} directions are determined"));
     }
@@ -371,7 +371,7 @@ fn explanation(truth: &Truth, link: usize, answer: &Value, text: &str, findings:
     }
 }
 
-/// "0.6·Fx − 0.8·Fy" as coefficients of these components.
+/// Parses "0.6·Fx − 0.8·Fy" as coefficients of these components.
 fn terms(text: &str, components: &[&str]) -> Option<Vec<f64>> {
     let mut direction = vec![0.0; components.len()];
     let signed = text.replace(" − ", " + −");

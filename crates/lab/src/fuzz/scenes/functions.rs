@@ -1,4 +1,4 @@
-//! Functions of time, and numbers in their place.
+//! Functions of time, and numbers instead of them.
 
 use super::Values;
 

@@ -45,7 +45,7 @@ fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static str) {
     draft.joints.push((name, kind));
 }
 
-/// A place between two bodies: mostly a global point, which fits any start.
+/// A place between two bodies: mostly a global point, which is consistent with any start.
 fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
     let line = if values.numbers.once_in(8) {
         format!(
@@ -61,7 +61,7 @@ fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
     draft.line(&line);
 }
 
-/// A place of one body.
+/// A place for one body.
 fn own_place(draft: &mut Draft, values: &mut Values<'_>) {
     let key = values.one(&["at", "point"]);
     draft.line(&format!("{key} = {}", values.point()));
@@ -162,7 +162,7 @@ pub(super) fn drive(draft: &mut Draft, values: &mut Values<'_>, joint: &(String,
         "revolute" => "angle",
         "translational" => "displacement",
         "pin-in-slot" => values.one(&["angle", "displacement"]),
-        // Most joints have no measure, and say so.
+        // Most joints have no measure; a drive of them is refused.
         _ if !values.numbers.once_in(20) => return,
         _ => "angle",
     };
@@ -243,7 +243,7 @@ pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
-/// What is to be done: `[start]`, `[[group]]`, `[simulate]`, `[output]`.
+/// The remaining tables: `[start]`, `[[group]]`, `[simulate]`, `[output]`.
 pub(super) fn wishes(draft: &mut Draft, values: &mut Values<'_>) {
     if values.numbers.once_in(4) {
         draft.line("[start]\nallow_correction = true");

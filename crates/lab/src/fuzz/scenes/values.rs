@@ -4,7 +4,7 @@ use crate::numbers::Numbers;
 
 use crate::fuzz::damage::EXTREMES;
 
-/// Names that some writer could take for something else.
+/// Names that a writer might confuse with another syntax.
 const NAMES: [&str; 12] = [
     "a,b",
     "a b",
@@ -20,10 +20,10 @@ const NAMES: [&str; 12] = [
     "ground ",
 ];
 
-/// A stream of numbers and names, in which extreme ones are as frequent as the scene is wild.
+/// A stream of numbers and names; the parameter `wild` sets how often extreme ones occur.
 pub(crate) struct Values<'n> {
     pub(crate) numbers: &'n mut Numbers,
-    /// One number in so many is extreme; none where it is 0.
+    /// One number out of this many is extreme; none if it is 0.
     wild: usize,
     /// Unit of length (m).
     length: f64,
@@ -57,7 +57,7 @@ impl<'n> Values<'n> {
         }
     }
 
-    /// Mostly simple, of any sign.
+    /// A number: mostly simple, of any sign.
     pub(crate) fn number(&mut self) -> String {
         let value = match self.numbers.below(4) {
             0 => f64::from(self.numbers.between(-2, 2)),
@@ -67,7 +67,7 @@ impl<'n> Values<'n> {
         self.or_extreme(value)
     }
 
-    /// Mostly > 0; once in 12 times 0.
+    /// A number: mostly > 0, once in 12 times 0.
     pub(crate) fn positive(&mut self) -> String {
         let value = match self.numbers.below(12) {
             0 => 0.0,
@@ -77,7 +77,7 @@ impl<'n> Values<'n> {
         self.or_extreme(value)
     }
 
-    /// Of a point (m).
+    /// A coordinate of a point (m).
     pub(crate) fn length(&mut self) -> String {
         let value = match self.numbers.below(6) {
             0 => self.numbers.unit(),

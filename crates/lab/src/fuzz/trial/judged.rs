@@ -1,4 +1,4 @@
-//! What must hold of a start and of the verdicts there.
+//! Properties that a start and the verdicts there must have.
 
 use pfaff::model::System;
 use pfaff::rank::RankStatus;
@@ -8,7 +8,7 @@ use pfaff::{ConfigurationAnalysis, Study};
 
 use super::reach::named;
 
-/// A consistent start has finite numbers, and as many kept rows as its rank.
+/// A consistent start has finite numbers, and its number of kept rows is its rank.
 pub(super) fn start(study: &Study) {
     let p = &study.prepared;
     assert!(
@@ -21,7 +21,8 @@ pub(super) fn start(study: &Study) {
     assert_eq!(p.decision.rank + p.decision.redundancy, layout.rows());
 }
 
-/// Verdicts fit the rank, the dependencies and each other; the document can be read.
+/// Verdicts must be consistent with the rank, the dependencies and each other; the document must be
+/// readable.
 pub(super) fn check(configuration: &ConfigurationAnalysis<'_>) {
     let analysis = &configuration.analysis;
     let decision = &analysis.decision;
@@ -83,8 +84,8 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
                 r.name
             );
         }
-        // A row in a dependency has a free multiplier; one in none has not. The dependencies are
-        // found by another way.
+        // A row has a free multiplier if and only if it is in a dependency. The dependencies are
+        // computed by another method.
         for row in &r.rows {
             match &row.judgement.verdict {
                 Verdict::Unique => assert!(

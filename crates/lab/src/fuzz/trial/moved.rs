@@ -1,4 +1,4 @@
-//! What must hold of a motion.
+//! Properties that a motion must have.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -11,19 +11,19 @@ use pfaff::report::{ReactionTable, Selection, TrajectoryTable};
 
 use super::reach::{ROWS, Reach, STEPS, named};
 
-/// Residuals of projected rows are at most this share of the terms of their row of Φ or C·v − b.
-/// Next to a singular configuration coordinates are accurate to √ε = 1.5e-8 only, and what the kept
-/// rows leave reaches the others through coefficients, which above 10 lead to an exchange of rows:
-/// 1.5e-7. What is above is another motion, not a matter of accuracy. A run itself allows dropped
-/// rows 1e-11 of the terms that they depend on, by coefficients that are not computed here: this
-/// check shares nothing with it.
+/// Residuals of projected rows are at most this fraction of the terms of their row of Φ or C·v − b.
+/// Near a singular configuration coordinates are accurate only to √ε = 1.5e-8, and the residuals of
+/// the kept rows are multiplied by coefficients of up to 10 in the others (larger coefficients
+/// cause an exchange of rows): 1.5e-7. A larger residual means another motion, not a loss of
+/// accuracy. A run itself allows dropped rows 1e-11 of the terms that they depend on, multiplied by
+/// coefficients that are not computed here: this check is independent of it.
 const RESIDUAL: f64 = 1e-6;
 
-/// Rates of what stands still, in sizes of the mechanism each second.
+/// Rates of a body at rest, in sizes of the mechanism per second.
 const REST: f64 = 1e-14;
 
-/// Moves it, as far as a trial goes, and says how far that was and how many rows were shown. Tables
-/// are written as `simulate` writes them, and must be readable.
+/// Runs the motion within the limits of a trial; returns how far it came and the number of rows.
+/// Tables are written as `simulate` writes them, and must be readable.
 pub(super) fn check(study: &Study) -> (Reach, usize) {
     let plan = match study.plan() {
         Ok(plan) => plan,
@@ -76,7 +76,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
     );
     let written = reactions.finish().expect("a vector takes everything");
     readable(written, with_reactions, "reactions");
-    // A row without reactions is the end of a run.
+    // Only the last row of a run may lack reactions.
     assert!(
         with_reactions == rows || outcome.is_err(),
         "rows without reactions"
@@ -106,7 +106,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
     (reach, rows)
 }
 
-/// Rows of a run, one after the other.
+/// Rows of a run, in sequence.
 struct Rows<'m> {
     mechanism: &'m Mechanism,
     scratch: Scratch,
@@ -137,7 +137,7 @@ impl Rows<'_> {
             ..
         } = self;
         let layout = mechanism.layout();
-        // At a break time rows show the values just before.
+        // At a break time rows show the values just before it.
         let t_before = if t > 0.0 && layout.break_times.contains(&t) {
             t.next_down()
         } else {
@@ -160,8 +160,8 @@ impl Rows<'_> {
                 layout.velocity_residual(s, i, v).abs(),
                 mechanism.scales(s).velocity(i, v),
             );
-            // What stands still is compared with the fastest row, and all of them with what
-            // rounding of accelerations leaves within a second.
+            // Rates of a body at rest are compared with the fastest row, and all rates with the
+            // rounding errors of accelerations over one second.
             let fastest = (0..layout.rows())
                 .map(|k| mechanism.scales(s).velocity(k, v))
                 .fold(scale, f64::max);
@@ -175,7 +175,7 @@ impl Rows<'_> {
     }
 }
 
-/// A table with a header of different names, and rows of as many numbers.
+/// Checks a table: a header of distinct names, and rows with the same number of numbers.
 fn readable(table: Vec<u8>, rows: usize, name: &str) {
     let mut reader = csv::Reader::from_reader(table.as_slice());
     let header = reader.headers().expect("a header").clone();

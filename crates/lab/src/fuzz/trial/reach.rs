@@ -1,33 +1,33 @@
-//! How far a text came, and how far it is let.
+//! The stage that a text reached, and the limits of a trial.
 
 use std::fmt;
 
 use pfaff::StudyError;
 
-/// Runs go no farther than this (s), nor than so many steps or rows.
+/// Limits of a run: last time (s), number of steps and of rows.
 pub(crate) const T_END: f64 = 0.25;
 pub(crate) const STEPS: usize = 60;
 pub(crate) const ROWS: usize = 60;
 
-/// How far a text came.
+/// The last stage that a text reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reach {
-    /// It is no scene.
+    /// It is not a valid scene.
     Refused,
     /// It is a scene without a consistent start.
     NoStart,
-    /// Its reactions were judged, but no motion begins there.
+    /// Its reactions were judged, but no motion can begin there.
     Judged,
-    /// A motion began, and stopped by name.
+    /// A motion began, and stopped with an error message.
     Stopped,
-    /// A motion went as far as it was let.
+    /// A motion reached the limits of a trial.
     Cut,
     /// A motion reached its end.
     Moved,
 }
 
 impl Reach {
-    /// All of them, from near to far.
+    /// All of them, in ascending order.
     pub const ALL: [Self; 6] = [
         Self::Refused,
         Self::NoStart,
@@ -64,7 +64,7 @@ impl fmt::Display for Reach {
     }
 }
 
-/// An error says something.
+/// An error must have a message.
 pub(super) fn named(error: &StudyError) {
     assert!(
         !error.to_string().trim().is_empty(),

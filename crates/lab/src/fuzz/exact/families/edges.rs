@@ -1,5 +1,5 @@
-//! Wheels and blades: normals that meet in a point let the body turn about it, parallel ones let it
-//! slide.
+//! Wheels and blades: if their normals meet in a point, the body can rotate about it; if they are
+//! parallel, it can slide.
 
 use super::super::drawing::{GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
@@ -7,7 +7,7 @@ use super::pen::Pen;
 
 pub(super) fn edges(pen: &mut Pen<'_>) {
     let n = if pen.once_in(3) { 2 } else { 1 };
-    // Edges that turn with one body stay as they are to each other.
+    // Edges on a single body keep their relative positions.
     pen.drawing.has_constant_rank = n == 1;
     let mut before = GROUND;
     for k in 0..n {
@@ -25,8 +25,8 @@ pub(super) fn edges(pen: &mut Pen<'_>) {
     }
 }
 
-/// A condition on the velocity of a point: along the first line, if it is a wheel then across
-/// its way of rolling.
+/// A condition on the velocity of a point: along the first line, or, for a wheel, across its
+/// direction of rolling.
 fn edge(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) {
     match pen.numbers.below(4) {
         0 => pen.link(&[body], Tie::Velocity { at, along: u }),
@@ -34,7 +34,7 @@ fn edge(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) {
     };
 }
 
-/// Three wheels at 120°, or up to six at 60°, whose normals are radial: irrational where the
+/// Three wheels at 120°, or up to six at 60°, with radial normals: irrational coordinates if the
 /// drawing is stretched by √3.
 fn at_angles_of_the_hexagon(pen: &mut Pen<'_>, body: Side) {
     if pen.drawing.links.is_empty() {
@@ -96,7 +96,7 @@ fn parallel_edges(pen: &mut Pen<'_>, body: Side) {
         edge(pen, body, at, u);
     }
     if pen.once_in(3) {
-        // Two wheels on one axle, or on two: both tell how the body rolls.
+        // Two wheels on one axle, or on two: both prescribe how the body rolls.
         let way = pen.drawing.across(u);
         let (first, second) = (pen.point(), pen.point());
         let axle = spinner(pen, body, first, way);
@@ -113,7 +113,7 @@ fn parallel_edges(pen: &mut Pen<'_>, body: Side) {
     }
 }
 
-/// A wheel that rolls as a point of the body moves along u, in a bearing there or in none.
+/// A wheel that rolls as a point of the body moves along u, with or without a bearing there.
 fn spinner(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) -> Side {
     let wheel = pen.drawing.body_at(at);
     if pen.once_in(2) {

@@ -1,11 +1,11 @@
-//! Gears and racks: a closed train carries a load if the ratios around it multiply to one, and is
-//! locked if they do not.
+//! Gears and racks: a closed train can carry a load if the ratios around it multiply to one, and is
+//! locked otherwise.
 
 use super::super::drawing::{GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
 use super::pen::Pen;
 
-/// Ratios whose doubles are not exact, nor their products.
+/// Ratios that are not exact as doubles, nor are their products.
 const RATIOS: [(i128, i128); 10] = [
     (1, 3),
     (-1, 3),
@@ -21,7 +21,7 @@ const RATIOS: [(i128, i128); 10] = [
 
 pub(super) fn gears(pen: &mut Pen<'_>) {
     let kind = pen.numbers.below(7);
-    // Bearings of a tree leave one rotation to each wheel, and ratios do not change.
+    // The bearings leave one rotation to each wheel, and ratios are constant.
     pen.drawing.has_constant_rank = kind < 5;
     match kind {
         0 | 1 => closed_train(pen),
@@ -54,7 +54,7 @@ fn mesh(pen: &mut Pen<'_>, first: Side, second: Side, carrier: Side, ratio: Rati
     pen.link(&[first, second, carrier], Tie::Gear { ratio });
 }
 
-/// A wheel held by two meshes with the ground: any ratios say the same.
+/// A wheel held by two meshes with the ground: they are dependent for any ratios.
 fn held(pen: &mut Pen<'_>) {
     let wheel = geared(pen, GROUND);
     for _ in 0..2 {
@@ -128,12 +128,13 @@ fn planets(pen: &mut Pen<'_>) {
         } else {
             Ratio::ONE
         };
-        // Planets of different sizes: the product of both meshes is that of sun and ring.
+        // Planets of different sizes: the product of the ratios of both meshes is the same.
         let shrink = if k == 0 { Ratio::ONE } else { shrink };
         mesh(pen, sun, planet, carrier, inner * shrink);
         mesh(pen, planet, ring, carrier, outer * shrink.inverse() * spoil);
     }
-    // Each planet says what the first one says of sun and ring; another ratio locks both, once.
+    // Each further planet gives the same condition on sun and ring as the first one; another ratio
+    // locks both, once.
     pen.drawing.redundancy = Some(count - 1 - usize::from(is_locked));
 }
 
@@ -141,8 +142,8 @@ fn planets(pen: &mut Pen<'_>) {
 fn racks(pen: &mut Pen<'_>) {
     let rack = pen.body();
     let way = pen.direction();
-    // What pushes across the way once the plane is stretched: the axis of this slider is the
-    // way.
+    // The line of force that is perpendicular to the direction of the rack after the plane is
+    // stretched: the axis of this slider is the direction of the rack.
     let (k, at) = (Ratio::whole(i64::from(pen.drawing.stretch)), pen.point());
     let normal = [-(k * way[1]), way[0]];
     if !pen.once_in(4) {

@@ -14,7 +14,7 @@ pub(super) fn linkage(pen: &mut Pen<'_>) {
     }
 }
 
-/// Two to five cranks under one coupler, all alike, or one that is not; some are driven.
+/// Two to five cranks under one coupler, all equal or one different; some are driven.
 fn cranks(pen: &mut Pen<'_>) {
     let count = 2 + pen.numbers.below(4);
     let arm = pen.vector(6);
@@ -33,7 +33,7 @@ fn cranks(pen: &mut Pen<'_>) {
     };
     let [x, y] = [0, 1].map(|axis| pivots[1][axis] - pivots[0][axis]);
     if !is_spoilt && !(x * arm[1] - y * arm[0]).is_zero() {
-        // Two cranks carry the coupler, and it moves in one way.
+        // Two cranks hold the coupler, which keeps one freedom.
         pen.drawing.redundancy = Some(count - 2 + drives.saturating_sub(1));
     }
     for (k, pivot) in pivots.into_iter().enumerate() {
@@ -50,7 +50,8 @@ fn cranks(pen: &mut Pen<'_>) {
     }
 }
 
-/// Hinges on a line between two pivots of the ground, or on a line and back; a driven end.
+/// Hinges on a line between two pivots of the ground, on a line that may turn back; one end is
+/// driven.
 fn chain(pen: &mut Pen<'_>) {
     let n = 2 + pen.numbers.below(4);
     let (origin, line) = (pen.point(), pen.direction());
@@ -79,7 +80,7 @@ fn chain(pen: &mut Pen<'_>) {
     }
 }
 
-/// Crank and coupler aligned, or nothing; the rocker or the crank held.
+/// Crank and coupler aligned or not; the rocker or the crank fixed.
 fn four_bar(pen: &mut Pen<'_>) {
     let [a, d] = [pen.point(), pen.point()];
     let arm = pen.vector(4);
@@ -103,7 +104,7 @@ fn four_bar(pen: &mut Pen<'_>) {
     }
 }
 
-/// A slider-crank at a dead centre, or one step off it.
+/// A slider-crank at a dead centre, or one step of the grid off it.
 fn slider_crank(pen: &mut Pen<'_>) {
     let (pivot, way) = (pen.point(), pen.direction());
     let tip = along(pivot, pen.not_zero(3) * pen.step, way);
@@ -120,7 +121,7 @@ fn slider_crank(pen: &mut Pen<'_>) {
     pen.slider([GROUND, slider], end, normal);
     match pen.numbers.below(3) {
         0 => pen.drawing.drive(bearing),
-        // Held at the slider: the crank is where it cannot be turned.
+        // Fixed at the slider: the crank is at a position where the slider cannot turn it.
         1 => {
             let anchor = along(end, Ratio::whole(2), way);
             pen.bar([GROUND, slider], anchor, end);

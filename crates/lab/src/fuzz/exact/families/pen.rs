@@ -1,20 +1,20 @@
-//! What draws on a grid: random points, directions and links of the families.
+//! Draws on a grid: random points, directions and links of the families.
 
 use super::super::drawing::{Drawing, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
 use crate::numbers::Numbers;
 
-/// Steps of the grid.
+/// Step sizes of the grid.
 const STEPS: [(i128, i128); 6] = [(1, 1), (1, 2), (1, 3), (1, 10), (3, 10), (1, 7)];
 
-/// Squares of stretches.
+/// Squares of the stretch factors.
 const STRETCHES: [u32; 3] = [2, 3, 5];
 
-/// What draws on a grid.
+/// Draws random elements on a grid.
 pub(super) struct Pen<'a> {
     pub(super) drawing: Drawing,
     pub(super) numbers: &'a mut Numbers,
-    /// The grid's step.
+    /// The step of the grid.
     pub(super) step: Ratio,
 }
 
@@ -42,7 +42,7 @@ impl<'a> Pen<'a> {
         Ratio::whole(self.numbers.between(low, high).into())
     }
 
-    /// The same without 0.
+    /// A whole number between −most and most, but not 0.
     pub(super) fn not_zero(&mut self, most: i32) -> Ratio {
         loop {
             let x = self.whole(-most, most);
@@ -80,19 +80,19 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// One step off a point, across a direction.
+    /// A point one step off a point, perpendicular to a direction.
     pub(super) fn beside(&mut self, p: Vector, [x, y]: Vector) -> Vector {
         let sign = self.not_zero(1);
         along(p, sign * self.step, [-y, x])
     }
 
-    /// A place on the line through p along d, some steps away.
+    /// A point on the line through p along d, some steps away.
     pub(super) fn on_line(&mut self, p: Vector, d: Vector, most: i32) -> Vector {
         let steps = self.whole(-most, most);
         along(p, steps * self.step, d)
     }
 
-    /// Different places on a line.
+    /// Distinct points on a line.
     pub(super) fn places(&mut self, p: Vector, d: Vector, n: usize) -> Vec<Vector> {
         let mut steps: Vec<i32> = Vec::new();
         while steps.len() < n {
@@ -109,7 +109,7 @@ impl<'a> Pen<'a> {
         self.drawing.body()
     }
 
-    /// Where lines meet.
+    /// The point in which lines meet.
     pub(super) fn centre(&mut self) -> Vector {
         if self.once_in(2) {
             [Ratio::ZERO; 2]
@@ -118,7 +118,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Where lines meet is often the origin of a body: their levers vanish there.
+    /// Often places the origin of a body at the point in which lines meet: their arms vanish there.
     pub(super) fn often_at(&mut self, body: Side, centre: Vector) {
         if let Some(k) = body.filter(|_| self.numbers.once_in(2)) {
             self.drawing.origins[k] = Some(centre);
@@ -133,14 +133,14 @@ impl<'a> Pen<'a> {
         self.link(&pair, Tie::Revolute { at })
     }
 
-    /// A bar, unless its ends meet.
+    /// Adds a bar, unless its ends coincide.
     pub(super) fn bar(&mut self, pair: [Side; 2], from: Vector, at: Vector) {
         if from != at {
             self.link(&pair, Tie::Distance { from, at });
         }
     }
 
-    /// A slider that a force along `u` holds on its line.
+    /// Adds a slider whose line is perpendicular to the force along `u`.
     pub(super) fn slider(&mut self, pair: [Side; 2], at: Vector, u: Vector) -> usize {
         let axis = self.drawing.across(u);
         let from = if self.once_in(2) {

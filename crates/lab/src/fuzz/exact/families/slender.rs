@@ -1,6 +1,6 @@
-//! Drawings of full rank that are near a lower one: pins off their place, dead centres, lines at
-//! small angles, thin loops. Their data may be known to a third of what they are off by and less,
-//! and nothing of them is redundant.
+//! Drawings of full rank that are near a lower one: displaced pins, dead centres, lines at small
+//! angles, thin loops. With a tolerance of at most a third of their distance from the lower rank,
+//! they must not be called redundant.
 
 use crate::numbers::Numbers;
 
@@ -11,13 +11,13 @@ use super::pen::Pen;
 /// A kind of such drawings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slender {
-    /// Parallel cranks, one pin off its place.
+    /// Parallel cranks with one displaced pin.
     OffsetCrank,
     /// Two pins of one door.
     OffsetPin,
-    /// A four-bar near its dead centre, its rocker held.
+    /// A four-bar near its dead centre, with its rocker fixed.
     DeadCentre,
-    /// A slider-crank near its dead centre, its slider held.
+    /// A slider-crank near its dead centre, with its slider fixed.
     SliderCrank,
     /// A bar held by two others that nearly meet on its line.
     ThinTriangle,
@@ -90,7 +90,7 @@ fn quarter([x, y]: Vector) -> Vector {
     [-y, x]
 }
 
-/// 1e-4 to 5e-2, of either sign.
+/// A random number from 1e-4 to 5e-2, with either sign.
 fn little(pen: &mut Pen<'_>) -> Ratio {
     let [n, d] = [
         [1, 2, 5][pen.numbers.below(3)],
@@ -147,7 +147,7 @@ fn offset_pin(pen: &mut Pen<'_>) {
             },
         );
     } else {
-        // Without the row along the line of the pins, which is there already.
+        // Without the row along the line of the pins, which exists already.
         let u = quarter(off);
         let from = beside;
         pen.link(
@@ -160,7 +160,7 @@ fn offset_pin(pen: &mut Pen<'_>) {
         );
     }
     if pen.once_in(2) {
-        // Something beside it that is well held, and makes the whole larger.
+        // Another well-constrained part, which makes the whole drawing larger.
         let (far, end) = (pen.point(), pen.point());
         let other = pen.body();
         pen.hinge([door, other], far);
@@ -272,7 +272,7 @@ fn steep_slot(pen: &mut Pen<'_>) {
     );
 }
 
-/// A rear wheel, and two front wheels that are steered alike: no common centre.
+/// A rear wheel, and two front wheels that are steered equally: no common centre.
 fn steering(pen: &mut Pen<'_>) {
     let (rear, ahead) = (pen.point(), pen.vector(5));
     let side = quarter(ahead);

@@ -1,5 +1,5 @@
-//! Nodes on a line joined by distances: bars along one line have one load too many for each loop,
-//! and a bar off their line changes nothing of that.
+//! Nodes on a line connected by distances: bars along one line have one redundant constraint for
+//! each loop, and a bar off their line does not change that.
 
 use super::super::drawing::{GROUND, Side, Vector};
 use super::pen::Pen;
@@ -9,7 +9,7 @@ pub(super) fn truss(pen: &mut Pen<'_>) {
     let n = 3 + pen.numbers.below(3);
     let mut places = pen.places(origin, line, n);
     if pen.once_in(4) {
-        // A near relative: one node beside the line.
+        // A similar drawing that is not degenerate: one node is off the line.
         places[0] = pen.beside(places[0], line);
     }
     let mut nodes: Vec<Side> = Vec::new();
@@ -50,7 +50,7 @@ fn node(pen: &mut Pen<'_>, place: Vector) -> Side {
     }
 }
 
-/// A bar from a node to the ground, or to a body that nothing else holds.
+/// A bar from a node to the ground, or to a body without other joints.
 fn oblique(pen: &mut Pen<'_>, nodes: &[Side], places: &[Vector]) {
     let (k, end) = (pen.numbers.below(nodes.len()), pen.point());
     let other = if pen.once_in(4) { pen.body() } else { GROUND };

@@ -1,4 +1,4 @@
-//! Wheels pinned at their centres: the lever of the pin is exactly zero, and in doubles often a few
+//! Wheels pinned at their centres: the arm of the pin is exactly zero, and in doubles often a few
 //! 1e-17 m. Castors on forks, pulleys on the ground and on vehicles.
 
 use super::super::drawing::{GROUND, Side, Tie, along};
@@ -48,13 +48,13 @@ fn wheel(pen: &mut Pen<'_>, carrier: Side) -> Side {
             let far = pen.point();
             pen.bar([GROUND, wheel], far, centre);
         }
-        // A near relative: a bar to the rim.
+        // A similar drawing that is not degenerate: a bar to the rim.
         2 => {
             let (far, rim) = (pen.point(), pen.vector(3));
             let rim = along(centre, pen.whole(1, 2), rim);
             pen.bar([GROUND, wheel], far, rim);
         }
-        // It slips in no direction: an edge at its centre.
+        // The wheel slips in no direction: an edge at its centre.
         3 => {
             let u = pen.direction();
             pen.link(
@@ -84,7 +84,7 @@ fn wheel(pen: &mut Pen<'_>, carrier: Side) -> Side {
     wheel
 }
 
-/// A fork that turns about its pivot, and a wheel at its end, with an edge or none.
+/// A fork that rotates about its pivot, and a wheel at its end, with or without an edge.
 fn castor(pen: &mut Pen<'_>, chassis: Side) {
     let (pivot, arm) = (pen.point(), pen.vector(4));
     let fork = pen.drawing.body_at(pivot);
