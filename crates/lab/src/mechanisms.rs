@@ -1,4 +1,4 @@
-//! Mechanisms that cases and tests use, built with the library alone; no file of theirs is read.
+//! Mechanisms that cases and tests use, built with the library only, without scene files.
 
 pub mod cranks;
 pub mod robot;

@@ -1,11 +1,11 @@
-//! A seeded stream of test numbers, the same on every machine.
+//! A seeded sequence of test numbers, the same on every machine.
 
 /// SplitMix64 (Steele, Lea, Flood 2014, doi 10.1145/2714064.2660195).
 #[derive(Clone, Debug)]
 pub struct Numbers(u64);
 
 impl Numbers {
-    /// The stream of a seed.
+    /// The sequence of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
@@ -19,18 +19,18 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
-    /// Between two numbers, the upper one excluded but for rounding.
+    /// A number between two others; the upper one is only reached by rounding.
     pub fn within(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         low + unit * (high - low)
     }
 
-    /// In [−1, 1).
+    /// A number in [−1, 1).
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    /// In 0..n.
+    /// An integer in 0..n.
     ///
     /// # Panics
     /// If n is 0.
@@ -39,7 +39,7 @@ impl Numbers {
         (self.bits() % n as u64) as usize
     }
 
-    /// In low..=high.
+    /// An integer in low..=high.
     ///
     /// # Panics
     /// If low > high.
@@ -48,7 +48,7 @@ impl Numbers {
         low + self.below((high - low + 1) as usize) as i32
     }
 
-    /// True once in n times.
+    /// True with probability 1/n.
     ///
     /// # Panics
     /// If n is 0.

@@ -1,6 +1,6 @@
-//! Stiff and extreme cases, each with its right answer: a bound with its source, or the error that
-//! has to come. What is right comes from closed forms, published values, another derivation or
-//! exact arithmetic, never from the code that is judged.
+//! Stiff and extreme cases, each with its known answer: a bound with its source, or the error that
+//! must occur. The known answers come from closed forms, published values, another derivation or
+//! exact arithmetic, never from the code under test.
 //!
 //! ```
 //! use std::num::NonZeroUsize;
@@ -12,12 +12,12 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`mod@case`] | a case with its right answer; a family of cases |
-//! | [`mod@judge`] | what is to be thought of an outcome |
+//! | [`mod@case`] | a case with its known answer; a family of cases |
+//! | [`mod@judge`] | whether an outcome is correct |
 //! | [`mod@run`] | many cases on some threads, each with a time limit |
-//! | [`motion`] | scenes to the last row of their motion, by every method |
-//! | [`mod@families`] | the list of families, each in a file of its own |
-//! | [`document`], `table`, `figure`, `page` | what came out, for readers and scripts |
+//! | [`motion`] | runs of scenes up to the last row of their motion, by every method |
+//! | [`mod@families`] | the list of families, each in a separate file |
+//! | [`document`], `table`, `figure`, `page` | the outcomes, for readers and scripts |
 
 pub mod case;
 pub mod document;

@@ -1,5 +1,5 @@
-//! Error against run time: the comparators as rivals of the product's methods, and cases of the
-//! suite as scenes whose motion is known.
+//! Error versus run time: the comparators as rivals of the methods of pfaff, and cases of the suite
+//! as scenes with a known motion.
 
 use std::time::Duration;
 
@@ -14,8 +14,8 @@ use suite::{Case, Quantity};
 
 use crate::comparators::{Drift, Fault, Formulation, Method, Way, run_within};
 
-/// The ways that are compared with those of the product: every method on kept rows with
-/// projection, and by one of them every formulation and every treatment of drift.
+/// The combinations that are compared with those of pfaff: every method on kept rows with
+/// projection, and with one of the methods every formulation and every treatment of drift.
 #[must_use]
 pub fn ways() -> Vec<Way> {
     let way = |formulation, method, drift| Way {
@@ -27,12 +27,12 @@ pub fn ways() -> Vec<Way> {
     let own = [Method::Gbs, Method::GeneralizedAlpha].map(|m| way(kept, m, projected));
     let others = Formulation::ALL.map(|f| way(f, Method::Dop853, projected));
     let pulled = way(kept, Method::Dop853, Drift::BAUMGARTE);
-    // Kept rows by the same method are the product's own curve.
+    // Kept rows with the same method are already a curve of pfaff.
     let others = others.into_iter().filter(|w| w.formulation != kept);
     own.into_iter().chain(others).chain([pulled]).collect()
 }
 
-/// A case of the suite, with what is known of its motion.
+/// A case of the suite, with the known values of its motion.
 ///
 /// # Errors
 /// As [`Study::read`].
@@ -60,7 +60,7 @@ pub fn of_case(case: &Case) -> Result<Subject, StudyError> {
     Subject::known(study, case.title, reference)
 }
 
-/// What a quantity of the suite is called in a mechanism.
+/// The name of a quantity of the suite in a mechanism.
 fn named(quantity: Quantity) -> (Kind, &'static str) {
     match quantity {
         Quantity::X => (Kind::Position, "x"),

@@ -71,10 +71,10 @@ pub fn driven_parallelogram(motions: [Function; 2]) -> Description {
     d
 }
 
-/// Three vertical cranks of 1 m under a coupler whose frame is at the tip of the third. That tip
-/// misses by ε on both bodies, so all points coincide but the crank is not parallel to the others.
-/// ε stands in place of a zero in frames with the axes of the ground, so that the constraint matrix
-/// holds it whatever its size.
+/// Three vertical cranks of 1 m under a coupler whose frame is at the tip of the third. Both bodies
+/// have an error ε at that tip, so all points coincide, but the crank is not parallel to the
+/// others. In frames with the axes of the ground, ε replaces a zero, so that the constraint matrix
+/// contains it for any size.
 pub fn misaligned(error: f64) -> Description {
     let body = |name: String, position: [f64; 2]| Body {
         name,

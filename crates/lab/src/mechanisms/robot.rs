@@ -1,5 +1,6 @@
-//! The robot with its trolley, written out by hand: the same mechanism as
-//! `crates/robot-trolley/robot-trolley.toml`, from the same dimensions, but by another way.
+//! The robot with its trolley, written in code: the same mechanism as
+//! `crates/robot-trolley/robot-trolley.toml`, from the same dimensions, but built independently of
+//! the scene reader.
 
 use joints::plane::Direction;
 use joints::{KnifeEdge, Pose, Revolute, Translational, TranslationalDisplacementDrive};
@@ -36,7 +37,7 @@ const EDGES: [(&str, usize, [f64; 2]); 5] = [
     ("W5", 6, [-0.8, 0.0]),
 ];
 
-/// The published drive: right turn, straight, left turn, straight.
+/// The published motion of the drive: right turn, straight, left turn, straight.
 pub fn steering() -> Function {
     steering_of_size(1.0)
 }

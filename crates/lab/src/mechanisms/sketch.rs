@@ -1,7 +1,7 @@
 //! Mechanisms drawn at one configuration: joints are given by global points and directions there,
 //! so that the same drawing gives a mechanism of the `model`, its constraint matrix in exact
-//! arithmetic by another way, and the same mechanism in other units, at another place, turned, or
-//! in another order.
+//! arithmetic by an independent method, and the same mechanism in other units, at another place,
+//! turned, or in another order.
 
 mod change;
 mod rows;
@@ -33,11 +33,11 @@ pub struct Link {
     pub name: String,
     /// One body for each slot.
     pub bodies: Vec<BodyRef>,
-    /// What it is, and where.
+    /// Its kind and position.
     pub tie: Tie,
 }
 
-/// What a joint or drive does, at global points `at` (on the first body `from`), along global
+/// The kind of a joint or drive, with global points `at` (on the first body `from`) and global
 /// directions of any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tie {
@@ -144,7 +144,7 @@ impl Sketch {
         });
     }
 
-    /// The mechanism for the `model`. Drives come after the joints, each in their order.
+    /// The mechanism for the `model`. Drives come after the joints, each group in its order.
     ///
     /// # Panics
     /// If a direction is zero or not finite.
@@ -195,7 +195,7 @@ impl Sketch {
             };
             Direction::new(turned.to_local(v)).expect("a direction")
         };
-        // Initial values are taken by the mechanism.
+        // The mechanism computes the initial values.
         match link.tie {
             Tie::Revolute { at } => Box::new(Revolute {
                 s_i: point(0, at),

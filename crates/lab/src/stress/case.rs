@@ -1,43 +1,43 @@
-//! A case with its right answer. The answer comes from a closed form, exact arithmetic, another
-//! derivation or a published value, never from the code that is judged.
+//! A case with its known answer. The answer comes from a closed form, exact arithmetic, another
+//! derivation or a published value, never from the code under test.
 
 use std::fmt::Display;
 use std::time::Duration;
 
-/// What is right.
+/// The correct outcome of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expected {
-    /// A number for "how far from right" of at most `bound`.
+    /// An answer with an error of at most `bound`.
     Answer {
-        /// The largest error that is right.
+        /// The largest accepted error.
         bound: f64,
-        /// Where the right answer and the bound are from.
+        /// The source of the correct answer and of the bound.
         source: &'static str,
     },
-    /// An error whose text has all these parts.
+    /// An error whose text contains all these parts.
     Refusal {
         /// Names and words.
         parts: Vec<String>,
     },
-    /// Either: a limit that the documentation states.
+    /// An answer or a refusal, because of a documented limit of the program.
     AnswerOrRefusal {
-        /// The largest error that is right.
+        /// The largest accepted error.
         bound: f64,
-        /// Where the right answer and the bound are from.
+        /// The source of the correct answer and of the bound.
         source: &'static str,
-        /// Names and words of the refusal.
+        /// Names and words that the refusal must contain.
         parts: Vec<String>,
     },
 }
 
 impl Expected {
-    /// An answer off by at most `bound`.
+    /// An answer with an error of at most `bound`.
     #[must_use]
     pub fn answer(bound: f64, source: &'static str) -> Self {
         Self::Answer { bound, source }
     }
 
-    /// A refusal that says all this.
+    /// A refusal that contains all these parts.
     #[must_use]
     pub fn refusal(parts: &[&str]) -> Self {
         Self::Refusal {
@@ -45,7 +45,7 @@ impl Expected {
         }
     }
 
-    /// The largest error that is right; NaN where only a refusal is.
+    /// The largest accepted error; NaN if only a refusal is correct.
     #[must_use]
     pub fn bound(&self) -> f64 {
         match self {
@@ -54,7 +54,7 @@ impl Expected {
         }
     }
 
-    /// For people.
+    /// The expectation in words.
     #[must_use]
     pub fn words(&self) -> String {
         let named = |parts: &[String]| match parts {
@@ -73,14 +73,14 @@ impl Expected {
     }
 }
 
-/// What came out.
+/// The outcome of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// An answer.
     Answer {
-        /// How far from right.
+        /// Its error.
         error: f64,
-        /// In words.
+        /// A description.
         detail: String,
     },
     /// An error, with its text.
@@ -91,7 +91,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// An answer off by `error`.
+    /// An answer with this error.
     #[must_use]
     pub fn answer(error: f64, detail: impl Into<String>) -> Self {
         Self::Answer {
@@ -108,36 +108,37 @@ impl Outcome {
         }
     }
 
-    /// An answer that is right or not: error 0, or infinite.
+    /// An answer that is correct or not: its error is 0 or infinite.
     #[must_use]
     pub fn fact(right: bool, detail: impl Into<String>) -> Self {
         Self::answer(if right { 0.0 } else { f64::INFINITY }, detail)
     }
 }
 
-/// What runs a case.
+/// The function that runs a case.
 pub type Run = Box<dyn Fn() -> Outcome + Send + Sync>;
 
 /// One case by one method.
 pub struct Case {
     /// Its name in its family.
     pub name: String,
-    /// The integrator, or the question if nothing moves.
+    /// The integrator, or the question if nothing is integrated.
     pub method: String,
-    /// Treatment of redundancy; `-` where none is involved.
+    /// Treatment of redundancy; `-` if there is none.
     pub formulation: String,
-    /// What is right.
+    /// The correct outcome.
     pub expected: Expected,
-    /// What is varied, with its value here, where cases of a family can be drawn over a number.
+    /// The quantity that is varied, with its value in this case, if the cases of a family can be
+    /// plotted over a number.
     pub varied: Option<(&'static str, f64)>,
-    /// Time after which it counts as hanging.
+    /// Time limit, after which the case counts as hanging.
     pub limit: Duration,
-    /// Makes it.
+    /// Runs the case.
     pub run: Run,
 }
 
 impl Case {
-    /// Time limit where none is given.
+    /// Default time limit.
     pub const LIMIT: Duration = Duration::from_secs(60);
 
     /// A case with the usual time limit.
@@ -159,7 +160,7 @@ impl Case {
         }
     }
 
-    /// The same as a point of a figure: `what` is the name of its axis.
+    /// The same case as a point of a figure: `what` is the name of the axis.
     #[must_use]
     pub fn at(self, what: &'static str, value: f64) -> Self {
         Self {
@@ -175,13 +176,13 @@ impl Case {
     }
 }
 
-/// Cases of one kind: one page of the matrix.
+/// Cases of one kind: one section of the report.
 #[derive(Clone, Copy)]
 pub struct Family {
-    /// As it is asked for on the command line.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// What it asks, in one sentence.
+    /// Its question, in one sentence.
     pub about: &'static str,
-    /// Makes the cases.
+    /// Creates the cases.
     pub cases: fn() -> Vec<Case>,
 }

@@ -1,6 +1,6 @@
-//! Stiff and extreme cases: what is right and what came out, as a document.
+//! Stiff and extreme cases: expected and actual outcomes, as a document.
 //!
-//! Not here: the cases, and the judge.
+//! The cases and the judge are not part of this module.
 
 #[cfg(test)]
 mod tests;
@@ -8,24 +8,24 @@ mod tests;
 use report::Provenance;
 use serde::Serialize;
 
-/// What is to be thought of one outcome.
+/// The judgement of one outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Judgement {
     /// An answer within its bound.
     Right,
-    /// A refusal that is right and says what is wrong.
+    /// A correct refusal that names the error.
     Refused,
-    /// A refusal where an answer exists: a limit of the program.
+    /// A refusal although an answer exists: a limit of the program.
     Limit,
-    /// A refusal that is right but does not say what is wrong.
+    /// A correct refusal that does not name the error.
     Misnamed,
-    /// An answer that is none, a panic, or nothing at all within the time allowed.
+    /// A wrong answer, a panic, or no result within the time limit.
     SilentlyWrong,
 }
 
 impl Judgement {
-    /// For people.
+    /// The judgement in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -37,7 +37,7 @@ impl Judgement {
         }
     }
 
-    /// Whether nothing has to be mended.
+    /// Whether the outcome needs no correction of the program.
     #[must_use]
     pub fn passes(self) -> bool {
         matches!(self, Self::Right | Self::Refused)
@@ -51,23 +51,24 @@ pub struct StressRow {
     pub family: &'static str,
     /// The case.
     pub case: String,
-    /// What was varied, and its value here; nothing where cases differ in kind.
+    /// The quantity that was varied, and its value in this case; `None` if the cases differ in
+    /// kind.
     pub varied: Option<(&'static str, f64)>,
-    /// Integrator, or what was asked where nothing moves.
+    /// Integrator, or the question if nothing is integrated.
     pub method: String,
     /// Treatment of redundancy.
     pub formulation: String,
-    /// What is right, in words.
+    /// The correct outcome, in words.
     pub expected: String,
-    /// The largest error that is right; NaN where only a refusal is.
+    /// The largest accepted error; NaN if only a refusal is correct.
     pub bound: f64,
-    /// How far the answer is from right; NaN where there is none.
+    /// The error of the answer; NaN if there is none.
     pub error: f64,
-    /// What came out, in words; the whole text of a refusal.
+    /// The outcome in words; the whole text of a refusal.
     pub outcome: String,
-    /// What is to be thought of it.
+    /// The judgement.
     pub judgement: Judgement,
-    /// What it took (s).
+    /// The run time (s).
     pub seconds: f64,
 }
 
@@ -76,7 +77,7 @@ pub struct StressRow {
 pub struct StressFamily {
     /// Its name.
     pub name: &'static str,
-    /// What it asks.
+    /// Its question.
     pub about: &'static str,
     /// Its outcomes.
     pub tally: Tally,
@@ -84,12 +85,12 @@ pub struct StressFamily {
     pub rows: Vec<StressRow>,
 }
 
-/// Everything that `lab stress` has found.
+/// All results of `lab stress`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StressDocument {
-    /// How it was made.
+    /// How the results were made.
     pub provenance: Provenance,
-    /// Whether cases are missing, because somebody asked to stop.
+    /// Whether cases are missing because a stop was requested.
     pub partial: bool,
     /// All outcomes.
     pub tally: Tally,
@@ -97,21 +98,21 @@ pub struct StressDocument {
     pub families: Vec<StressFamily>,
 }
 
-/// How many outcomes there are of each kind.
+/// Number of outcomes of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     /// Answers within their bounds.
     pub right: usize,
     /// Refusals of all kinds.
     pub refused: usize,
-    /// The only unforgivable outcome.
+    /// Outcomes that are wrong without an error message.
     pub silently_wrong: usize,
-    /// Those of all that do not pass.
+    /// Number of outcomes that do not pass.
     pub failing: usize,
 }
 
 impl Tally {
-    /// Counts.
+    /// Counts the outcomes.
     ///
     /// ```
     /// use lab::stress::{Judgement, Tally};

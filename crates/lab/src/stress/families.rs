@@ -1,4 +1,4 @@
-//! The list of families: one line each, and a file of its own for each.
+//! The list of families: one line each, with a separate file for each.
 
 mod accelerations;
 mod bad_numbers;
@@ -48,19 +48,19 @@ pub fn families() -> Vec<Family> {
     ]
 }
 
-/// The family of this name.
+/// The family with this name.
 #[must_use]
 pub fn find(name: &str) -> Option<Family> {
     families().into_iter().find(|family| family.name == name)
 }
 
-/// Asserts that everything in a family is right; prints what is not.
+/// Asserts that all outcomes of a family are correct; prints those that are not.
 #[cfg(test)]
 fn assert_passes(family: Family) {
     assert_passes_where(family, |_| true);
 }
 
-/// The same for some of its cases, where all would take too long.
+/// The same for some of its cases, if all would take too long.
 #[cfg(test)]
 fn assert_passes_where(family: Family, wanted: impl Fn(&crate::stress::Case) -> bool) {
     let mut failures = String::new();

@@ -1,11 +1,11 @@
-//! Errors over what is made extreme: one panel for each family and each varied number.
+//! Errors versus the extreme quantity: one panel for each family and each varied number.
 
 use report::figures::{self, Extremes};
 
 use super::document::{StressFamily, StressRow};
 
-/// The figure of all families that vary a number; an empty text if none does. A dashed line is the
-/// bound of all cases of a panel, if they have only one. Refusals have no point.
+/// The figure of all families that vary a number; an empty text if there are none. A dashed line is
+/// the bound of all cases of a panel, if they have a common one. Refusals have no point.
 #[must_use]
 pub fn extremes(families: &[StressFamily]) -> String {
     let panels: Vec<Extremes<'_>> = families.iter().flat_map(panels).collect();
@@ -32,7 +32,7 @@ fn panels(family: &StressFamily) -> Vec<Extremes<'_>> {
         .collect()
 }
 
-/// One curve for each formulation, or for each method where there is one formulation.
+/// One curve for each formulation, or for each method if there is one formulation.
 fn series<'r>(rows: &[&'r StressRow]) -> Vec<(&'r str, Vec<[f64; 2]>)> {
     let alike = rows
         .windows(2)
@@ -55,7 +55,7 @@ fn series<'r>(rows: &[&'r StressRow]) -> Vec<(&'r str, Vec<[f64; 2]>)> {
         .collect()
 }
 
-/// Names in the order of their first appearance.
+/// Names in the order of their first occurrence.
 fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut first: Vec<&str> = Vec::new();
     for name in names {

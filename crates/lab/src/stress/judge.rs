@@ -1,4 +1,4 @@
-//! What is to be thought of an outcome: the only place where that is decided.
+//! The judgement of an outcome, which is made only here.
 
 use crate::stress::Judgement;
 

@@ -1,5 +1,5 @@
-//! A scene from its text, or from what the library describes, to the last row of its motion, by
-//! every method.
+//! Runs a scene, from its text or from a description by the library, up to the last row of its
+//! motion, by every method.
 
 use std::ops::ControlFlow;
 
@@ -24,7 +24,7 @@ pub struct Row {
     pub v: Vec<f64>,
 }
 
-/// The options of every method, otherwise those of `base`.
+/// The options `base` with every method.
 #[must_use]
 pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
     let of = |&method: &Method| MotionOptions {
@@ -35,9 +35,9 @@ pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
     all.filter(|options| options.check().is_ok()).collect()
 }
 
-/// How many steps a method of its order takes for a motion by this phase (rad) at a relative
-/// tolerance, up to a factor: the local error of a step h is h to the power of the order and one
-/// more. What the errors of all steps add up to is judged by it.
+/// Number of steps that a method of its order needs for a motion by this phase (rad) at a relative
+/// tolerance, up to a factor: the local error of a step h is proportional to h to the power of the
+/// order plus one. It is used to bound the sum of the errors of all steps.
 #[must_use]
 pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
     let order = match method {
@@ -59,7 +59,7 @@ pub fn moving(
     Case::new(name, method, FORMULATION, expected, made)
 }
 
-/// A case in which something is asked and nothing moves.
+/// A case with a question for which nothing is integrated.
 pub fn asking(
     name: impl Into<String>,
     question: &str,
@@ -70,7 +70,7 @@ pub fn asking(
     Case::new(name, question, "-", expected, made)
 }
 
-/// What the commands make of a text, up to its start.
+/// Reads and prepares a text as the commands do, up to its start.
 ///
 /// # Errors
 /// The refusal, with all its problems.
@@ -78,7 +78,7 @@ pub fn study(text: &str) -> Result<Study, Outcome> {
     Study::read("scene", text, &Registry::planar(), &Overrides::default()).map_err(|e| refused(&e))
 }
 
-/// A described mechanism.
+/// Builds a described mechanism.
 ///
 /// # Errors
 /// All faults of the description.
@@ -89,12 +89,12 @@ pub fn built(description: &Description) -> Result<Mechanism, Outcome> {
     })
 }
 
-/// A described mechanism with its start, without a scene. One body is described as moving; how fast
-/// the others go is left to the constraints, whose masses may stop it: cases about starts are
-/// texts.
+/// Builds a described mechanism with its start, without a scene. The velocity of one body is given;
+/// those of the others follow from the constraints, and the correction may reduce the given one
+/// according to the masses: cases about starts are therefore texts.
 ///
 /// # Errors
-/// The faults of the description, or why it cannot move.
+/// The faults of the description, or the reason why it cannot move.
 pub fn prepared(description: &Description) -> Result<Prepared, Outcome> {
     let start = StartOptions {
         correction: CorrectionLimit::Any,
@@ -106,17 +106,17 @@ pub fn prepared(description: &Description) -> Result<Prepared, Outcome> {
 /// The verdicts of a described mechanism at its described configuration.
 ///
 /// # Errors
-/// The faults of the description, or why it cannot be judged.
+/// The faults of the description, or the reason why it cannot be judged.
 pub fn analysed(description: &Description) -> Result<Analysis, Outcome> {
     let mechanism = built(description)?;
     let (q, _) = mechanism.described_state();
     analyse(&mechanism, 0.0, &q).map_err(Outcome::refused)
 }
 
-/// Accelerations at the start, as a run with these options has them.
+/// Accelerations at the start, as a run with these options computes them.
 ///
 /// # Errors
-/// Why there are none.
+/// The reason why there are none.
 pub fn acceleration(prepared: &Prepared, options: &MotionOptions) -> Result<Vec<f64>, Outcome> {
     let mut found = Vec::new();
     let run = simulate(prepared, options, |sample| {
@@ -129,10 +129,10 @@ pub fn acceleration(prepared: &Prepared, options: &MotionOptions) -> Result<Vec<
     }
 }
 
-/// The last row of a motion, with the numbers of the run.
+/// The last row of a motion, with the statistics of the run.
 ///
 /// # Errors
-/// Why it stopped.
+/// The reason why it stopped.
 pub fn last_row(prepared: &Prepared, options: &MotionOptions) -> Result<(Row, Summary), Outcome> {
     let mut last = Row::default();
     let summary = simulate(prepared, options, |sample| {
@@ -149,7 +149,7 @@ pub fn last_row(prepared: &Prepared, options: &MotionOptions) -> Result<(Row, Su
     }
 }
 
-/// A case of a scene that moves: `error` says how far the last row is from right.
+/// A case of a moving scene: `error` computes the error of the last row.
 pub fn case(
     name: impl Into<String>,
     text: impl Into<String>,
@@ -163,7 +163,7 @@ pub fn case(
     })
 }
 
-/// What comes out of a scene that moves.
+/// The outcome for a moving scene.
 pub fn outcome(
     text: &str,
     options: &MotionOptions,
@@ -190,7 +190,7 @@ pub fn outcome_of(
     }
 }
 
-/// A refusal with all its problems, not the first alone.
+/// A refusal with all its problems, not only the first.
 #[must_use]
 pub fn refused(error: &StudyError) -> Outcome {
     match error {
@@ -202,7 +202,7 @@ pub fn refused(error: &StudyError) -> Outcome {
     }
 }
 
-/// The larger one of both, NaN where one is.
+/// The largest number; NaN if one is NaN.
 #[must_use]
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };

@@ -1,5 +1,5 @@
-//! `report.html` of the stiff and extreme cases: one file that opens offline. What does not pass
-//! stands first.
+//! `report.html` of the stiff and extreme cases: one file that can be opened offline. The cases
+//! that do not pass come first.
 
 use super::document::{Judgement, StressDocument, StressFamily, StressRow};
 use report::page::{add, close, duration, open, safe, short};
@@ -54,7 +54,7 @@ fn overview(page: &mut String, document: &StressDocument) {
     page.push_str("</table></div>\n");
 }
 
-/// What does not pass, the worst first.
+/// The cases that do not pass, the worst first.
 fn failing(page: &mut String, document: &StressDocument) {
     let all = document.families.iter().flat_map(|f| &f.rows);
     let mut rows: Vec<&StressRow> = all.filter(|row| !row.judgement.passes()).collect();
@@ -158,7 +158,7 @@ fn cell(page: &mut String, row: &StressRow) {
     add(page, format_args!("<span title=\"{title}\">{text}</span> "));
 }
 
-/// The texts of refusals, each once.
+/// The texts of refusals, without duplicates.
 fn refusals(page: &mut String, family: &StressFamily) {
     let mut texts: Vec<&str> = Vec::new();
     for row in family

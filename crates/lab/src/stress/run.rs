@@ -1,8 +1,8 @@
-//! Runs cases on some threads. Each case runs on a thread of its own, so that a panic or a hang
-//! is an outcome of that case and of no other; for the same reason no pool of threads is shared
-//! with what the cases run.
+//! Runs cases on some threads. Each case runs on its own thread, so that a panic or a hang is an
+//! outcome of that case only; for the same reason the cases do not share a thread pool with this
+//! module.
 //!
-//! Not here: what is to be thought of an outcome, and files.
+//! The judgement of outcomes and the files are not part of this module.
 
 use std::any::Any;
 use std::num::NonZeroUsize;
@@ -17,12 +17,12 @@ use crate::stress::{Judgement, StressRow};
 use crate::stress::case::{Case, Family, Outcome};
 use crate::stress::judge::judge;
 
-/// How often somebody is asked whether to stop.
+/// Interval between two checks for a request to stop.
 const ASK: Duration = Duration::from_millis(50);
 
-/// Runs all cases of some families on `threads` threads and shows each row when it is there; all
-/// rows, in the order of the families, come back. Where `interrupted` says to stop, those that are
-/// not there yet are left out.
+/// Runs all cases of some families on `threads` threads and passes each row to `done` when it is
+/// ready; returns all rows, in the order of the families. If `interrupted` requests a stop,
+/// unfinished cases are omitted.
 pub fn run(
     families: &[Family],
     threads: NonZeroUsize,
@@ -49,7 +49,8 @@ pub fn run(
                     let Some((family, case)) = cases.get(k) else {
                         return;
                     };
-                    // Each place is asked once, so that a lock is never contended nor poisoned.
+                    // Each case is taken only once, so that a lock is neither contended nor
+                    // poisoned.
                     let case = case.lock().ok().and_then(|mut place| place.take());
                     let Some(case) = case else { return };
                     let Some(row) = make(family, case, interrupted) else {
@@ -82,7 +83,7 @@ fn make(
     let (sender, receiver) = mpsc::channel();
     let own = Arc::clone(&case);
     let spawned = thread::Builder::new().spawn(move || {
-        // Nobody listens any more where the case took too long.
+        // If the case took too long, the receiver no longer exists.
         let _ = sender.send((own.run)());
     });
     let made = match spawned {
@@ -107,7 +108,7 @@ fn make(
     Some(row(family, &case, made, begin.elapsed()))
 }
 
-/// A row; what is no outcome at all is silently wrong.
+/// The row of a case; a missing outcome counts as silently wrong.
 fn row(
     family: &'static str,
     case: &Case,
@@ -137,7 +138,7 @@ fn row(
     }
 }
 
-/// What a panic says.
+/// The message of a panic.
 fn words(payload: Option<&(dyn Any + Send)>) -> String {
     let payload = payload.unwrap_or(&());
     match (

@@ -1,4 +1,4 @@
-//! `stress.csv`, row by row as the cases end.
+//! `stress.csv`, written row by row as the cases end.
 
 use std::io::Write;
 
@@ -21,7 +21,8 @@ const HEADER: [&str; 12] = [
     "seconds",
 ];
 
-/// One line per case. Each line is handed to the writer at once: an interruption loses nothing.
+/// One line per case. Each line is passed to the writer at once, so that an interruption loses
+/// none.
 pub struct StressTable<W: Write> {
     table: Table<W>,
 }
@@ -37,7 +38,7 @@ impl<W: Write> StressTable<W> {
         Ok(Self { table })
     }
 
-    /// Writes a case. What does not exist is `NaN`, or empty where it is no number.
+    /// Writes a case. Missing numbers are `NaN`, other missing values are empty.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -53,7 +54,7 @@ impl<W: Write> StressTable<W> {
         self.table.flush()
     }
 
-    /// Gives the writer back.
+    /// Returns the writer.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.

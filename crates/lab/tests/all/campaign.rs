@@ -1,4 +1,4 @@
-//! A short campaign with a fixed seed, and all that was ever found.
+//! A short campaign with a fixed seed, and all inputs that failed in the past.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -29,7 +29,7 @@ fn a_short_campaign_finds_nothing() {
     assert!(tally.faults.is_empty(), "{:#?}", tally.faults);
     let count: u64 = tally.reached.values().sum();
     assert_eq!(count, campaign.inputs);
-    // It is worth nothing if all texts are refused at once.
+    // The test would be useless if all texts were refused immediately.
     for reach in Reach::ALL {
         assert!(tally.reached.contains_key(&reach), "no text is {reach}");
     }
@@ -37,7 +37,7 @@ fn a_short_campaign_finds_nothing() {
 
 #[test]
 fn a_fault_is_seen() {
-    // The program writes no answer and ends: as if it had died.
+    // The program writes no answer and ends, as a process that died.
     let limits = Limits {
         program: PathBuf::from("true"),
         ..limits()
@@ -50,7 +50,7 @@ fn a_fault_is_seen() {
         deadline: Duration::from_millis(50),
         ..limits
     };
-    // `cat try -` ends with an error; nothing is taken for an answer.
+    // `cat try -` ends with an error; its output is not accepted as an answer.
     assert!(one(&limits, "").expect("there is such a program").is_err());
 }
 

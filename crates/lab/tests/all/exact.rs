@@ -1,5 +1,5 @@
-//! Degenerate scenes: the program says what exact arithmetic says. `cargo run --release -p
-//! fuzz -- exact` makes 20 000 of them.
+//! Degenerate scenes: the answers of the program are those of exact arithmetic.
+//! `cargo run --release -p lab -- fuzz exact` tests 20 000 of them.
 
 use lab::fuzz::exact::answer::answer;
 use lab::fuzz::exact::doubles::Doubles;
@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 
 const SEED: u64 = 1;
 
-/// Each family in each way of writing a dozen times.
+/// A dozen scenes of each family in each way of writing.
 const SCENES: u64 = 384;
 
 #[test]
@@ -30,7 +30,7 @@ fn no_answer_contradicts_exact_arithmetic() {
     assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
 }
 
-/// A judge that calls everything redundant, or nothing, is wrong in every family.
+/// A program that calls everything redundant, or nothing, is wrong in every family.
 #[test]
 fn every_family_has_members_of_full_rank_and_others() {
     for (place, family) in Family::ALL.into_iter().enumerate() {
@@ -43,12 +43,12 @@ fn every_family_has_members_of_full_rank_and_others() {
     }
 }
 
-/// Tenths.
+/// A point in tenths.
 fn at(x: i128, y: i128) -> Vector {
     [x, y].map(|x| Ratio::new(x, 10))
 }
 
-/// The oracle against closed forms: trains of gears, planets and parallel cranks.
+/// The reference compared with closed forms: trains of gears, planets and parallel cranks.
 #[test]
 fn exact_arithmetic_finds_what_theory_tells() {
     let mut answer = 0;
@@ -62,8 +62,8 @@ fn exact_arithmetic_finds_what_theory_tells() {
     assert!(answer > 80, "{answer}");
 }
 
-/// In all ways of writing: what exact arithmetic says is what was found by hand, and it is what is
-/// answer.
+/// For all ways of writing: the result of exact arithmetic is the one found by hand, and the
+/// program gives the same.
 fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
     for seed in 0..8 * Writing::ALL.len() as u64 {
         let writing = Writing::ALL[seed as usize % Writing::ALL.len()];
@@ -84,14 +84,14 @@ fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
         let text = text::text(&posed);
         let document = answer(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
         let mut findings = examine(&truth, &document).0;
-        // Far away doubles may know too little.
+        // Far from the origin double precision may not be accurate enough for a decision.
         findings.retain(|f| writing != Writing::Far || f.kind.is_wrong());
         assert!(findings.is_empty(), "{writing:?}: {findings:#?}\n{text}");
     }
 }
 
-/// Three distances between three points on a line, and an oblique bar: the line has one load too
-/// many, the bar is unique.
+/// Three distances between three points on a line, and an oblique bar: the line has one redundant
+/// constraint, the reaction of the oblique bar is unique.
 #[test]
 fn three_bars_on_a_line_and_an_oblique_one() {
     let mut drawing = Drawing::new();
@@ -106,7 +106,7 @@ fn three_bars_on_a_line_and_an_oblique_one() {
     assert_answer(&drawing, 3, &["j0", "j1", "j2"]);
 }
 
-/// The normals meet in the body's origin: it turns there.
+/// The normals meet in the body's origin: it can rotate about it.
 #[test]
 fn three_edges_whose_normals_meet() {
     for centre in [at(0, 0), at(10, 0), at(3, -11)] {
@@ -124,8 +124,8 @@ fn three_edges_whose_normals_meet() {
     }
 }
 
-/// Wheels at 120° with radial normals, each with a spinning wheel: rows of the wheels add nothing
-/// to what three normals have, rank 2.
+/// Wheels at 120° with radial normals, each with a rotating wheel: the rows of the wheels add
+/// nothing to those of the three normals, rank 2.
 #[test]
 fn three_wheels_at_120_degrees() {
     for centre in [at(0, 0), at(10, 0)] {
@@ -144,8 +144,8 @@ fn three_wheels_at_120_degrees() {
     }
 }
 
-/// A wheel in a bearing at its centre, which a script has written one unit in the last place away:
-/// it turns freely whatever else is held.
+/// A wheel in a bearing at its centre, whose position has an error of one unit in the last place:
+/// it rotates freely whatever else is held.
 #[test]
 fn a_wheel_pinned_at_its_centre() {
     let mut drawing = Drawing::new();
@@ -161,7 +161,7 @@ fn a_wheel_pinned_at_its_centre() {
     }
 }
 
-/// Ratios of 1/3 and 3: the second mesh says what the first one says.
+/// Ratios of 1/3 and 3: both meshes give the same condition.
 #[test]
 fn two_meshes_of_the_same_wheels() {
     for (closing, rank) in [(Ratio::whole(3), 1), (Ratio::new(301, 100), 2)] {
@@ -176,10 +176,10 @@ fn two_meshes_of_the_same_wheels() {
     }
 }
 
-/// What the examiner finds in a right document that somebody has changed.
+/// The comparison finds errors in a correct document that was changed.
 #[test]
 fn a_changed_document_is_found_out() {
-    // Two bars along one line between the same bodies, and a third that is unique.
+    // Two bars along one line between the same bodies, and a third one whose reaction is unique.
     let mut drawing = Drawing::new();
     let (a, b) = (drawing.body(), drawing.body());
     let (from, end) = (at(2, 3), at(14, 8));
@@ -284,11 +284,11 @@ fn a_changed_document_is_found_out() {
     }
 }
 
-/// Drawings for each of the suites with a tolerance.
+/// Number of drawings for each of the sets with a tolerance.
 const DRAWINGS: u64 = 40;
 
-/// Degenerate drawings with 3 … 16 digits: no answer contradicts exact arithmetic, and
-/// with the last ones, without a tolerance, nothing is undecided.
+/// Degenerate drawings with 3 … 16 digits: no answer contradicts exact arithmetic, and with the
+/// largest number of digits and without a tolerance, nothing is undecided.
 #[test]
 fn with_few_digits_no_answer_is_wrong() {
     let tally = rounded::Tally::of(Suite::Rounded, SEED, 0, DRAWINGS, || ());
@@ -302,9 +302,9 @@ fn with_few_digits_no_answer_is_wrong() {
     );
 }
 
-/// Drawings of which a scene got a wrong answer once: contradicting rows that share what they miss,
-/// starts and polished poses that left the configuration that is meant, singular vectors of
-/// rounding, coefficients of a tenth that were read as zero.
+/// Drawings for which a scene once got a wrong answer: contradicting rows that share their
+/// residual, starts and refined poses that left the intended configuration, singular vectors of
+/// rounding errors, coefficients of a tenth that were taken as zero.
 #[test]
 fn answers_that_were_wrong_once_are_right() {
     for drawn in [7, 62, 71, 127, 182, 231, 237, 278, 317] {
@@ -313,15 +313,15 @@ fn answers_that_were_wrong_once_are_right() {
     }
 }
 
-/// What is of full rank stays so below a third of what its data would have to be wrong by.
+/// Drawings of full rank keep it with tolerances below a third of their distance from a lower rank.
 #[test]
 fn no_tolerance_below_a_third_makes_a_row_redundant() {
     let tally = rounded::Tally::of(Suite::FullRank, SEED, 0, DRAWINGS, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// The oracle of τ* against a closed form: a pin that is off by δ is shared by eight points, of
-/// which each has to move by an eighth.
+/// The reference for τ* compared with a closed form: a pin with an error δ is shared by eight
+/// points, each of which must move by an eighth.
 #[test]
 fn a_third_crank_is_redundant_from_an_eighth_of_its_misfit_on() {
     for (off, right) in [
@@ -350,13 +350,13 @@ fn a_third_crank_is_redundant_from_an_eighth_of_its_misfit_on() {
             found.low <= 1.02 * right && found.high >= 0.98 * right,
             "{found:?}, {right}"
         );
-        // The second order that is left open, and where the iteration ends.
+        // The gap between the bounds: the second-order terms, and the end of the iteration.
         assert!(found.high < 1.25 * found.low, "{found:?}");
     }
 }
 
-/// A changed document is found out within a tolerance, too: a row too many or too few, a reaction
-/// that is none.
+/// The comparison within a tolerance also finds errors in a changed document: a row too many or too
+/// few, a reaction that is zero.
 #[test]
 fn a_changed_document_is_found_out_within_a_tolerance() {
     let mut drawing = Drawing::new();

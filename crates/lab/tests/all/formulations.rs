@@ -1,4 +1,4 @@
-//! What formulations do apart from the motion: reactions, drift, refusals.
+//! Differences between formulations other than the motion: reactions, drift, refusals.
 
 use lab::comparators::{Drift, Formulation, Method, Way, run};
 use lab::mechanisms::cranks::cranks;
@@ -7,7 +7,7 @@ use model::System;
 
 use crate::known::{gap, product, started};
 
-/// Reactions of the robot that the model leaves open.
+/// Reactions of the robot that the model does not determine.
 const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
 fn way(formulation: Formulation, drift: Drift) -> Way {
@@ -50,7 +50,7 @@ fn unique_reactions_are_those_of_every_formulation() {
     }
 }
 
-/// Without projection states drift; Baumgarte's terms pull them back.
+/// Without projection states drift; Baumgarte's terms reduce the drift.
 #[test]
 fn drift_is_pulled_back() {
     let mut d = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);

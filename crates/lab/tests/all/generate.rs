@@ -1,4 +1,5 @@
-//! `lab generate`: scenes that the other commands read, whole files or none, and clear refusals.
+//! `lab generate`: scenes that the other commands can read, complete files or none, and clear
+//! refusals.
 
 use std::fs;
 
@@ -8,7 +9,7 @@ use super::{Folder, lab, pfaff, stderr, stdout};
 
 const KINDS: [&str; 5] = ["n-four-bar", "parallelograms", "lattice", "fleet", "random"];
 
-/// A directory of one test, which exists.
+/// A directory for one test, created empty.
 fn place(name: &str) -> Folder {
     let folder = Folder::new(name);
     fs::create_dir_all(&folder.0).expect("writable");
@@ -125,7 +126,7 @@ fn impossible_orders_are_refused_before_anything_is_written() {
         }
     }
     assert!(names(&folder).is_empty());
-    // The scene has standard output for itself.
+    // The scene has exclusive use of standard output.
     let both = lab(&["generate", "lattice", "--n", "1", "--json"]);
     assert_eq!(both.status.code(), Some(2));
     assert!(stderr(&both).contains("--out"));

@@ -1,5 +1,4 @@
-//! Every way against motions that are known from elsewhere, and against the product where the
-//! mechanism is redundant.
+//! Every comparator compared with known motions, and with pfaff if the mechanism is redundant.
 
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
 use lab::comparators::{Drift, Formulation, Method, Way, run};
@@ -29,7 +28,7 @@ fn case(name: &str) -> (Prepared, Vec<Instant>) {
     (study.expect("starts").prepared, later)
 }
 
-/// The largest difference from the coordinates and velocities that are known.
+/// The largest difference from the known coordinates and velocities.
 fn off(p: &Prepared, row: &lab::comparators::Row, instant: &Instant) -> f64 {
     assert_eq!(row.t, instant.t);
     let mechanism = &p.mechanism;
@@ -57,8 +56,8 @@ fn off(p: &Prepared, row: &lab::comparators::Row, instant: &Instant) -> f64 {
 }
 
 /// Every formulation with projection, by every method; then every treatment of drift by one method.
-/// Not proximal iterations without any: a redundant row that is off by δ accelerates by k·δ²/μ
-/// there, so that drift feeds itself.
+/// Proximal iterations without any treatment are omitted: a redundant row with a residual δ causes
+/// an acceleration of k·δ²/μ, so that drift increases itself.
 fn ways() -> Vec<Way> {
     let mut ways = Vec::new();
     for formulation in Formulation::ALL {
@@ -85,7 +84,8 @@ fn ways() -> Vec<Way> {
     ways
 }
 
-/// Errors of a run at a tolerance: factors of it for the good methods, its power 2/3 for order 2.
+/// Error bound of a run with a tolerance: a multiple of it for the accurate methods, its power 2/3
+/// for order 2.
 fn bound(way: Way, tolerance: f64, factor: f64) -> f64 {
     match way.method {
         Method::GeneralizedAlpha => factor * tolerance.powf(2.0 / 3.0),
@@ -131,7 +131,7 @@ fn the_robot_moves_as_two_derivations_say() {
     check("robot-trolley", 3000.0);
 }
 
-/// The last state of the product's motion.
+/// The last state of the motion computed by pfaff.
 pub(crate) fn product(p: &Prepared, t_end: f64, tolerance: f64) -> (Vec<f64>, Vec<f64>) {
     let options = MotionOptions {
         rtol: tolerance,
@@ -153,8 +153,8 @@ pub(crate) fn gap(a: &[f64], b: &[f64]) -> f64 {
     gaps.fold(0.0, f64::max)
 }
 
-/// Three cranks under gravity and the robot with its drive and break times, both redundant;
-/// reactions that are unique are those of the product.
+/// Three cranks under gravity and the robot with its drive and break times, both redundant; unique
+/// reactions are those of pfaff.
 #[test]
 fn redundant_mechanisms_move_as_the_product_moves_them() {
     let mut swinging = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);

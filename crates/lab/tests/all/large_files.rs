@@ -1,5 +1,5 @@
-//! Large files, and files that are hostile by their size: read in time that grows as the file does,
-//! or refused by a limit with a name.
+//! Large files, and files that are malicious because of their size: read in time proportional to
+//! their size, or refused with an error that names the limit.
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -12,14 +12,14 @@ use pfaff::scene::{Diagnostic, Scene, Severity};
 /// Cells of a chain with a hundred thousand revolutes.
 const CELLS: usize = 18_750;
 
-/// What any of these files may take, on a slow machine, without optimisation. Where everything is
-/// compared with everything it would be hours.
+/// Time limit for any of these files, on a slow machine, without optimisation. An algorithm of
+/// quadratic time would need hours.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Problems that are listed; one more says how many others there are.
+/// Number of problems that are listed; one more states the number of the others.
 const LISTED: usize = 5000;
 
-/// Reads a text with the shipped joints and forces.
+/// Reads a text with the standard joints and forces.
 fn read(text: &str) -> Result<Scene, Vec<Diagnostic>> {
     pfaff::scene::read("x.toml", text, &Registry::planar())
 }
@@ -33,7 +33,7 @@ fn chain(cells: usize) -> String {
     String::from_utf8(out).expect("UTF-8")
 }
 
-/// The problems of a text, found in time.
+/// The problems of a text, found within the time limit.
 fn problems(text: &str) -> Vec<Diagnostic> {
     let begin = Instant::now();
     let problems = read(text).expect_err("something is wrong");
@@ -68,8 +68,8 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("it rests");
     assert!(found.v.iter().all(|v| *v == 0.0));
-    // One body that moves by itself: the others follow. In a chain of parallelograms its neighbours
-    // do.
+    // One body has a given velocity, the others follow; in a chain of parallelograms its neighbours
+    // have the same.
     given[0] = Some(1.0);
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("the chain moves so");
@@ -122,7 +122,7 @@ fn one_fault_in_a_hundred_thousand_joints_is_named() {
     );
 }
 
-/// One mistake made everywhere: the first ones are listed, the others counted.
+/// The same mistake in every joint: the first ones are listed, the others counted.
 #[test]
 fn a_fault_in_every_joint_is_listed_some_thousand_times() {
     let text = chain(4000);
@@ -217,7 +217,7 @@ fn names_that_are_all_alike_and_bodies_with_themselves() {
     );
 }
 
-/// Sliders one on the other, each driven, held by `keep`, in a group, and asked for.
+/// Sliders on one another, each driven, held by `keep`, in a group, and in an expression.
 #[test]
 fn a_thing_of_every_kind_for_each_body() {
     const N: usize = 20_000;
@@ -253,7 +253,7 @@ fn a_thing_of_every_kind_for_each_body() {
         "[simulate]\nt_end = 1.0\ndrop = [{}]\n",
         list(Box::new(|k| format!("{}", k + 1)))
     ));
-    // One sum of everything, in lines: a text may have them.
+    // One sum of all components, in several lines, which a text may have.
     let sum: String = (0..N).map(|k| format!(" + j{k}.Fx\n")).collect();
     add(format_args!(
         "[[group]]\nname = \"all\"\ncombine = \"\"\"{sum}\"\"\"\n"
@@ -267,7 +267,7 @@ fn a_thing_of_every_kind_for_each_body() {
     assert_eq!(Work::of(&mechanism).without_turning.len(), N);
 }
 
-/// Levels of a hostile nest: one byte each would overflow any stack.
+/// Levels of a malicious nesting: with recursion, one byte each would overflow any stack.
 const DEEP: usize = 1_000_000;
 
 #[test]
@@ -373,8 +373,7 @@ fn a_long_line_within_the_limit_is_read() {
     let scene = read(&text).unwrap_or_else(|problems| panic!("{}", problems[0]));
     assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
     assert_eq!(scene.description.forces.len(), 1);
-    // Nothing in it but what is no number: the line is searched for each of those that are listed
-    // only.
+    // A line that contains only invalid numbers: it is searched only for those that are listed.
     let wrong = text.replace("0.", "nan+0.");
     assert!(problems(&wrong).len() <= LISTED + 1);
 }

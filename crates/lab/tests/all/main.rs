@@ -1,5 +1,5 @@
-//! The laboratory: comparators against known motions and against the product, scenes of any size,
-//! and the command `lab`.
+//! The laboratory: comparators compared with known motions and with pfaff, scenes of any size, and
+//! the command `lab`.
 
 mod campaign;
 mod exact;
@@ -29,7 +29,7 @@ fn lab(arguments: &[&str]) -> Output {
         .expect("the command starts")
 }
 
-/// What the product answers to this.
+/// The output of pfaff for these arguments.
 fn pfaff(arguments: &[&str]) -> String {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let arguments = std::iter::once(&"pfaff").chain(arguments);

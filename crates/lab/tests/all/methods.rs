@@ -23,8 +23,8 @@ fn falling_cranks() -> Description {
     three
 }
 
-/// Errors follow tolerances, at the price of an order: a thousandth of the error takes ten times
-/// the steps at order 2, and hardly more at high orders.
+/// Errors are proportional to tolerances, at a cost that depends on the order: a thousandth of the
+/// error needs ten times the steps at order 2, and hardly more at high orders.
 #[test]
 fn work_grows_with_the_order() {
     let p = started(&falling_cranks());
@@ -45,9 +45,9 @@ fn work_grows_with_the_order() {
     }
 }
 
-/// A spring of k = 10¹⁰ N/m holds the cranks against gravity; it swings a hundred thousand times
-/// faster than the steps that generalized-α takes. Were the derivatives of its force wrong,
-/// Newton's method would diverge; Dormand-Prince would need a million steps.
+/// A spring of k = 10¹⁰ N/m holds the cranks against gravity; it oscillates a hundred thousand
+/// times faster than the steps of generalized-α. With wrong derivatives of its force Newton's
+/// method would diverge; Dormand–Prince would need a million steps.
 #[test]
 fn generalized_alpha_steps_over_the_oscillations_of_a_stiff_spring() {
     let mut held = falling_cranks();
@@ -72,7 +72,7 @@ fn generalized_alpha_steps_over_the_oscillations_of_a_stiff_spring() {
     let p = started(&held);
     for (tolerance, steps) in [(1e-3, 50), (1e-5, 500)] {
         let found = moved(&p, Method::GeneralizedAlpha, tolerance, 2.0);
-        // The weight over the stiffness.
+        // The weight divided by the stiffness.
         let sag = gap(&found.rows[0].q, &p.q);
         assert!((1e-9..1e-8).contains(&sag), "{tolerance:e}: {sag:.2e}");
         let speed = gap(&found.rows[0].v, &p.v);

@@ -1,4 +1,4 @@
-//! The families that take no time, through the runner, as the command makes them.
+//! The families that take little time, run in the same way as by the command.
 
 use std::num::NonZeroUsize;
 

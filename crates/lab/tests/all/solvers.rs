@@ -1,5 +1,5 @@
-//! The solvers of the saddle equations with all rows: independent rows as oracle, planted
-//! combinations, hand results.
+//! The solvers of the saddle equations with all rows: compared with independent rows, constructed
+//! combinations, and results found by hand.
 
 use lab::comparators::{Fault, MinimumNorm, NullSpace, Proximal, Saddle, Solver, Tuning};
 use linalg::{KeptRowSaddle, Matrix, singular_values};
@@ -32,16 +32,17 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 proptest! {
-    // The same cases every time: bounds know masses and conditions roughly only.
+    // The same cases every time, because the bounds only depend roughly on masses and condition
+    // numbers.
     #![proptest_config(ProptestConfig {
         rng_seed: RngSeed::Fixed(20130909),
         failure_persistence: None,
         ..ProptestConfig::default()
     })]
 
-    /// r random rows and p combinations of them: all give the accelerations of the r rows, forces
-    /// of the constraints agree, and the shortest λ has nothing of the combinations that were
-    /// planted.
+    /// r random rows and p combinations of them: all solvers give the accelerations of the r rows,
+    /// forces of the constraints agree, and the λ of minimum norm is perpendicular to the
+    /// constructed combinations.
     #[test]
     fn all_rows_agree_with_independent_ones(
         n in 2..12_usize, r in 1..10_usize, p in 0..4_usize,
@@ -90,13 +91,13 @@ proptest! {
     }
 }
 
-/// Three rows on a unit mass, one of them redundant: x = 0 twice as long as x = 0, and z = 0.
+/// Three rows on a unit mass, one of them redundant: x = 0, the same multiplied by two, and z = 0.
 fn twice(delta: f64) -> Matrix {
     Matrix::from_rows(&[[1.0, 0.0, 0.0], [2.0, delta, 0.0], [0.0, 0.0, 1.0]])
 }
 
-/// Off the constraints by δ a redundant row is independent by δ. Solved as such its direction gets
-/// an acceleration of the order one; with the locked rank everything is off by δ.
+/// Off the constraints by δ a redundant row is independent by δ. If it is treated as independent,
+/// its direction gets an acceleration of order one; with the fixed rank all errors are of order δ.
 #[test]
 fn noise_off_the_constraints_stays_noise() {
     let gamma = [1.0, 2.0 + 1e-6, 0.5];
@@ -118,7 +119,7 @@ fn noise_off_the_constraints_stays_noise() {
 
 #[test]
 fn massless_bodies_and_motions() {
-    // Masses (1, 0, 0) at places x, y, z, all tied together.
+    // Masses (1, 0, 0) at positions x, y, z, all rigidly connected.
     let mass = [1.0, 0.0, 0.0];
     let tied = Matrix::from_rows(&[[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [1.0, 0.0, -1.0]]);
     let mut least = MinimumNorm::new(2);
@@ -126,13 +127,13 @@ fn massless_bodies_and_motions() {
     for x in a {
         assert!((x - 2.0).abs() < 1e-14, "{x}");
     }
-    // λ = (l₁ + s, l₂ + s, −s) with l = (−2, −2): the shortest has s = 4/3.
+    // λ = (l₁ + s, l₂ + s, −s) with l = (−2, −2): the minimum norm has s = 4/3.
     for (l, expected) in lambda.iter().zip([-2.0 / 3.0, -2.0 / 3.0, -4.0 / 3.0]) {
         assert!((l - expected).abs() < 1e-14, "{lambda:?}");
     }
     let refused = solve(&mut MinimumNorm::new(3), &tied, &mass, &[0.0; 3], &[0.0; 3]);
     assert_eq!(refused, Err(Fault::RankLost { rank: 3 }));
-    // On x = 0 alone y moves no mass.
+    // With only x = 0, the motion in y moves no mass.
     let loose = Matrix::from_rows(&[[1.0, 0.0]]);
     let refused = solve(
         &mut MinimumNorm::new(1),
@@ -161,9 +162,9 @@ fn the_response_of_one_direction() {
     }
 }
 
-/// A weak direction, σ_r² = 4e-3, and a redundant row that is off by δ, as at a stage of an
-/// integrator. The rule answers with noise of the order δ; a small μ with few iterations, as exact
-/// on the constraints, turns it into accelerations of the order one.
+/// A weak direction, σ_r² = 4e-3, and a redundant row with a residual δ, as at a stage of an
+/// integrator. The chosen μ gives an error of order δ; a small μ with few iterations, which is
+/// equally exact on the constraints, gives accelerations of order one.
 #[test]
 fn off_the_constraints_the_rule_beats_a_small_mu() {
     let weak = 0.09;

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::{Folder, lab, stderr, stdout};
 
-/// The promised columns, in their order; more may follow.
+/// The documented columns, in their order; more may follow.
 const COLUMNS: &str =
     "family,case,varied,value,method,formulation,expected,bound,error,judgement,outcome,seconds";
 

@@ -1,4 +1,4 @@
-//! One table with the product and the comparators.
+//! One table with pfaff and the comparators.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use pfaff::work_precision::{Plan, Rival};
 
 use super::{Folder, lab, stderr, stdout};
 
-/// Cases of the suite by every way: all reach the end, and their errors are those of their
+/// Cases of the suite by every method: all reach the end, and their errors correspond to their
 /// tolerances.
 #[test]
 fn cases_are_compared_by_every_way() {
@@ -35,7 +35,7 @@ fn compare(name: &str) {
     for row in &rows {
         assert_eq!(row.status, "done", "{row:?}");
         if row.curve.stabilisation == "none" {
-            continue; // How far it drifts is its own affair.
+            continue; // Without stabilisation the drift is not tested.
         }
         let error = row.errors[0].max(row.errors[1]);
         let bound = match row.curve.method {
@@ -49,7 +49,7 @@ fn compare(name: &str) {
     assert_eq!(named("minimum-norm"), 2);
 }
 
-/// A budget of no time is over at once.
+/// A time limit of zero is exceeded at once.
 #[test]
 fn what_takes_too_long_is_given_up() {
     let subject = of_case(suite::find("sleigh").expect("a case")).expect("builds");

@@ -1,11 +1,11 @@
-//! The same mechanism otherwise: in other units, elsewhere, turned, in another order.
+//! The same mechanism in other units, at another place, turned, or in another order.
 
 use model::BodyRef;
 
 use super::{Sketch, Tie, Vector};
 
 impl Sketch {
-    /// All lengths multiplied, as by other units of length: m to mm is 1000.
+    /// All lengths multiplied by a factor, as in a change of units: from m to mm it is 1000.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let mut sketch = self.mapped(|p| p.map(|x| factor * x), |v| v);
@@ -20,13 +20,13 @@ impl Sketch {
         sketch
     }
 
-    /// Moved as a whole; the ground with it.
+    /// Moved as a whole, including the ground.
     #[must_use]
     pub fn moved(&self, by: Vector) -> Self {
         self.mapped(|p| [p[0] + by[0], p[1] + by[1]], |v| v)
     }
 
-    /// Turned about the origin as a whole; the ground with it.
+    /// Turned about the origin as a whole, including the ground.
     #[must_use]
     pub fn turned(&self, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
@@ -41,7 +41,7 @@ impl Sketch {
     /// Bodies in another order: body `order[k]` becomes body k.
     ///
     /// # Panics
-    /// If the order is not one of all bodies.
+    /// If `order` is not a permutation of all bodies.
     #[must_use]
     pub fn with_bodies(&self, order: &[usize]) -> Self {
         let place = |k: usize| order.iter().position(|&o| o == k).expect("an order");
@@ -64,7 +64,7 @@ impl Sketch {
         }
     }
 
-    /// Every point and every direction mapped.
+    /// Every point and every direction transformed.
     fn mapped(&self, point: impl Fn(Vector) -> Vector, vector: impl Fn(Vector) -> Vector) -> Self {
         let mut sketch = self.clone();
         for body in &mut sketch.bodies {

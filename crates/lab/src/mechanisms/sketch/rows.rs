@@ -1,6 +1,6 @@
-//! The constraint matrix of a sketch in exact arithmetic, from the velocities of points that
-//! coincide: no coordinates of bodies, no rotations, no derivative of Φ. Rows may differ from those
-//! of the `model` by factors.
+//! The constraint matrix of a sketch in exact arithmetic, from the velocities of coinciding points:
+//! without coordinates of bodies, rotations, or derivatives of Φ. Rows may differ from those of the
+//! `model` by factors.
 
 use model::BodyRef;
 
@@ -32,7 +32,7 @@ impl Sketch {
 
     fn rows(&self, link: &Link) -> Vec<Row> {
         let body = |slot: usize| link.bodies[slot];
-        // Along u the point `at` moves alike on both bodies.
+        // Along u the point `at` has the same velocity on both bodies.
         let together = |at: Vector, u: Vector| {
             let mut row = self.zero();
             self.add_velocity(&mut row, body(1), at, u, 1.0);

@@ -1,4 +1,4 @@
-//! What a reader of table, document and page finds.
+//! The contents of table, document and page.
 
 use super::*;
 use crate::stress::{StressTable, extremes, stress_page};
@@ -75,12 +75,12 @@ fn a_table_has_a_line_for_each_case() {
     );
 }
 
-/// Points beyond the axis stand at its edge; refusals have none.
+/// Points outside the axis are drawn at its edge; refusals have no points.
 #[test]
 fn a_figure_has_a_point_for_each_worst_answer() {
     let mut family = document().families.remove(0);
     let figure = extremes(std::slice::from_ref(&family));
-    // One in the legend, one for both answers at 1e-6, of which the worst is shown.
+    // One in the legend, one for both answers at 1e-6, of which the worse is shown.
     assert_eq!(figure.matches("<polygon").count(), 2);
     family.rows.clear();
     assert_eq!(extremes(&[family]), "");

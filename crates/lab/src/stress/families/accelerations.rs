@@ -1,6 +1,6 @@
-//! Accelerations and reactions where masses and lengths are far apart, against the exact solution
-//! of the same equations: the C, M, Q and Γ that the solver was given. What rounding does to these
-//! numbers themselves is another question and not asked here.
+//! Accelerations and reactions for masses and lengths of very different sizes, compared with the
+//! exact solution of the same equations: those with the C, M, Q and Γ that the solver was given.
+//! The rounding errors in these numbers themselves are not tested here.
 
 mod scenes;
 mod score;
@@ -24,11 +24,11 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Accelerations on kept rows, relative to each of them and at least a thousandth of the largest of
-/// its body and kind.
+/// Error bound of accelerations on kept rows, relative to each of them, or to a thousandth of the
+/// largest of its body and kind.
 const ACCELERATION: f64 = 1e-13;
 
-/// Multipliers on kept rows, relative to the largest of their joint.
+/// Error bound of multipliers on kept rows, relative to the largest of their joint.
 const REACTION: f64 = 1e-12;
 
 const EXACT: &str = "exact solution of the same equations; bound of the issue";
@@ -37,7 +37,7 @@ fn cases() -> Vec<Case> {
     scenes().into_iter().flat_map(of_scene).collect()
 }
 
-/// Both questions, solved once.
+/// The cases for both questions, with a common solution.
 fn of_scene(scene: Scene) -> Vec<Case> {
     let description = Arc::new(scene.description);
     let found = Arc::new(OnceLock::new());
@@ -64,7 +64,7 @@ fn of_scene(scene: Scene) -> Vec<Case> {
         .into()
 }
 
-/// What is asked of a solution.
+/// The quantity that is compared.
 #[derive(Clone, Copy)]
 enum Question {
     Accelerations,
@@ -95,7 +95,7 @@ impl Question {
     }
 }
 
-/// How far accelerations and reactions at the start are from the exact ones.
+/// The errors of accelerations and reactions at the start, compared with the exact ones.
 fn errors(description: &Description) -> Result<Errors, Outcome> {
     let prepared = prepared(description)?;
     let mut motion = KeptRowMotion::new(&prepared).map_err(Outcome::refused)?;
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::stress::judge;
 
-    /// The outermost of each kind; the whole family is for the matrix.
+    /// Only the most extreme case of each kind; the whole family is run by `lab stress`.
     #[test]
     fn extreme_masses_and_lengths_are_solved_or_refused() {
         let is_outermost = |case: &Case| {
@@ -142,7 +142,7 @@ mod tests {
             judge(&right, &found),
             crate::stress::Judgement::SilentlyWrong
         );
-        // Ten grams in a ton more than the reference knows of.
+        // Ten grams in a ton more than in the reference.
         let scene = scenes().remove(0);
         let mut heavier = scene.description.clone();
         heavier.bodies[1].mass *= 1.0 + 1e-11;

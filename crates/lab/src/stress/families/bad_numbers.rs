@@ -1,5 +1,5 @@
-//! Numbers that are none, in every place of a scene that has a number; and numbers at the edge of
-//! the format, which may be refused but must not become NaN on the way.
+//! NaN and infinity in every place of a scene that has a number; and numbers at the limits of the
+//! format, which may be refused but must not lead to NaN.
 
 use std::ops::ControlFlow;
 
@@ -16,7 +16,7 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// A scene in which every section, most keys and every kind of function appear.
+/// A scene that contains every section, most keys and every kind of function.
 const SCENE: &str = r#"
 [scene]
 name = "all"
@@ -119,11 +119,11 @@ atol = 1e-8
 
 /// A number of the text.
 struct Place {
-    /// Where.
+    /// The range in the text.
     span: std::ops::Range<usize>,
     /// The key before it.
     key: String,
-    /// For people: its table, key and place after the key.
+    /// A readable name: its table, key and index after the key.
     name: String,
 }
 
@@ -153,7 +153,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Numbers of a description that no scene was read for.
+/// Numbers of a description that was not read from a scene.
 fn fields() -> Vec<Case> {
     type Set = fn(&mut Description, f64);
     let fields: [(&str, Set); 6] = [
@@ -214,7 +214,7 @@ fn with(place: &Place, number: &str) -> String {
     text
 }
 
-/// All numbers of a text, outside of quotes.
+/// All numbers of a text, except those in quotes.
 fn places(text: &str) -> Vec<Place> {
     let (mut places, mut from, mut table) = (Vec::new(), 0, String::new());
     for line in text.split_inclusive('\n') {
@@ -278,7 +278,7 @@ mod tests {
         super::super::assert_passes(FAMILY);
     }
 
-    /// The scene itself is none of the refusals.
+    /// The original scene is not refused.
     #[test]
     fn an_answer_where_a_refusal_is_right_is_silently_wrong() {
         let found = first_row(SCENE).expect("the scene moves");

@@ -1,5 +1,5 @@
-//! More drives than freedoms. Where they agree there is a motion; where they do not there is none,
-//! and both are named.
+//! More drives than freedoms. If they agree there is a motion; if they do not there is none, and
+//! the error names both.
 
 use dynamics::MotionOptions;
 use joints::{Direction, Velocity};
@@ -16,15 +16,15 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// What a run may say where prescribed velocities part: at the end of a step, or where the kept
-/// rows pull the others off.
+/// The possible texts of a run if prescribed velocities begin to differ: at the end of a step, or
+/// when the kept rows violate the others.
 const PARTED: &[&str] = &["at t = ", "dropped row"];
 
-/// What it says where laws of drives part.
+/// The text of a run if the laws of drives begin to differ.
 const DRIVES_PARTED: &[&str] = &["at t = ", "`one`", "`other`", "contradict each other"];
 
-/// Share of the largest row by which runs let a dropped row miss, as `dynamics` documents it; rows
-/// are of size 3 at most here.
+/// The error of a dropped row that runs allow, relative to the largest row, as documented in
+/// `dynamics`; rows are at most of size 3 here.
 const MONITORED: f64 = 3e-11;
 
 fn cases() -> Vec<Case> {
@@ -41,7 +41,8 @@ fn cases() -> Vec<Case> {
     for (level, order) in [("velocities", 1), ("accelerations", 2)] {
         for k in 0..=15 {
             let size = 10_f64.powi(-k);
-            // A law that differs at the start differs by twice as much in position after 2 s.
+            // After 2 s, the positions differ by twice the difference of the derivatives at the
+            // start.
             let right = if size >= 1e-9 {
                 Expected::refusal(&["`one`", "`other`", "delete or correct one"])
             } else {
@@ -82,11 +83,11 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Laws that differ by no more than some hundred roundings of an angle are the same.
+/// Laws that differ by at most some hundred rounding errors of an angle count as equal.
 const SAME: f64 = 1e-13;
 
-/// A refusal where positions come to differ by more than is accepted; either where they hardly do;
-/// a motion where they are the same.
+/// A refusal if the difference of positions exceeds what is accepted; a refusal or a motion if it
+/// is close to that; a motion if they are equal.
 fn differing(size: f64, parts: &[&str]) -> Expected {
     let parts = parts.iter().map(|&part| part.to_owned()).collect();
     match size {
@@ -104,7 +105,7 @@ fn polynomial(coefficients: &[f64]) -> Result<Function, Outcome> {
     Function::polynomial(coefficients).map_err(Outcome::refused)
 }
 
-/// Both cranks turn by `c[1]·t + c[2]·t²`, one of them from another origin of the law.
+/// Both cranks rotate by `c[1]·t + c[2]·t²`, one of them with another constant `c[0]` of the law.
 fn followed(c: [f64; 3], options: &MotionOptions) -> Result<Outcome, Outcome> {
     let law = [polynomial(&c)?, polynomial(&[5.0, c[1], c[2]])?];
     let (row, _) = last_row(&prepared(&driven_parallelogram(law))?, options)?;
@@ -144,7 +145,7 @@ fn part(size: f64, options: &MotionOptions) -> Result<Outcome, Outcome> {
     ))
 }
 
-/// A cart whose front and rear points are pulled along it at these rates.
+/// A cart whose front and rear points are moved along it at these rates.
 fn towed([front, rear]: [Function; 2]) -> Description {
     let pull = |name: &str, x: f64, rate: Function| Joint {
         name: name.into(),
@@ -195,7 +196,7 @@ mod tests {
         });
     }
 
-    /// The law of another motion is seen.
+    /// The law of another motion is detected as an error.
     #[test]
     fn another_law_is_silently_wrong() {
         let found = followed([0.0, 1.0, 2.0], &MotionOptions::to(0.5)).expect("it moves");

@@ -1,6 +1,6 @@
-//! Drives and torques that jump: a jump of the position is refused, one of the rate is an impulse,
-//! one of the force is a boundary of steps. And two drives that agree first and contradict each
-//! other later.
+//! Drives and torques that jump: a jump of the position is refused, a jump of the rate is an
+//! impulse, a jump of the force is a boundary of steps. Also two drives that first agree and later
+//! contradict each other.
 
 use dynamics::{MotionOptions, Summary};
 
@@ -108,7 +108,7 @@ drive = [{{ name = "motor", joint = "pin", type = "angle", motion = {motion} }}]
     )
 }
 
-/// The angle is 2·t until t = 1 and 3 − t then.
+/// The angle is 2·t until t = 1 and 3 − t after that.
 fn after_the_kink(row: &Row, summary: &Summary) -> f64 {
     let lost = format!("{:.6e} J", 0.5 * INERTIA * (1.0 - 4.0));
     let is_reported = summary.events.iter().any(|e| e.text.contains(&lost));
@@ -118,7 +118,8 @@ fn after_the_kink(row: &Row, summary: &Summary) -> f64 {
     worst([row.q[2] - (3.0 - row.t), row.v[2] + 1.0])
 }
 
-/// The same wheel, free, with a torque of 1 N·m that turns to −2 N·m at an odd time.
+/// The same wheel without drive, with a torque of 1 N·m that changes to −2 N·m at a time that is
+/// not a round number.
 fn pushed() -> String {
     format!(
         r#"
@@ -134,7 +135,7 @@ torque = {{ type = "linear-table", times = [0.0, {JUMP}, {JUMP}, 3.0], values = 
     )
 }
 
-/// When the torque jumps (s).
+/// Time of the jump of the torque (s).
 const JUMP: f64 = 0.7371;
 
 fn after_the_push(row: &Row, _: &Summary) -> f64 {
@@ -170,9 +171,9 @@ fn after_the_swing(row: &Row, _: &Summary) -> f64 {
 /// Two parallel cranks, each with a motor of 0.4 rad/s; the rate of the second one grows from t = 1
 /// s on.
 fn disagreeing(by: f64) -> String {
-    // A spline through (t − 1)²₊ times half of it would only approach it: lines in small pieces
-    // jump in their rates instead, so that the motors disagree by 0.05·by rad/s from the first one
-    // on.
+    // A spline through (t − 1)²₊ times half of `by` would only approximate it: instead the law
+    // consists of short lines whose rates jump, so that the motors differ by 0.05·by rad/s from the
+    // first of them on.
     let pieces: Vec<f64> = (0..=10).map(|k| 1.0 + 0.1 * f64::from(k)).collect();
     let values: Vec<f64> = pieces
         .iter()

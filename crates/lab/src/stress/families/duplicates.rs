@@ -6,15 +6,15 @@ use crate::mechanisms::sketch::{Sketch, Tie};
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{analysed, asking, study};
 
-/// Each kind of joint twice; joints of the ground with itself; keys that would make the motion
-/// depend on a choice.
+/// Each kind of joint twice; joints between the ground and itself; keys for which the motion would
+/// depend on an arbitrary choice.
 pub(super) const FAMILY: Family = Family {
     name: "duplicates",
     about: "each kind of joint twice: its rows are redundant, in pairs; joints that constrain nothing and friction are refused by name",
     cases,
 };
 
-/// Each kind with its number of rows; points and directions are no round numbers.
+/// Each kind with its number of rows; points and directions are not round numbers.
 const TIES: [(&str, usize, Tie); 10] = [
     ("revolute", 2, Tie::Revolute { at: [0.3, 0.7] }),
     (
@@ -101,7 +101,7 @@ scene = { name = "nothing", space = "plane" }
 body = [{ name = "stone", mass = 1.0, inertia = 1.0 }]
 "#;
 
-/// What a scene has apart from the body, and the right answer.
+/// The parts of a scene in addition to the body, and the correct outcome.
 const REFUSED: [(&str, &str, &[&str]); 8] = [
     (
         "ground to ground",
@@ -145,7 +145,7 @@ const REFUSED: [(&str, &str, &[&str]); 8] = [
     ),
 ];
 
-/// A tie between two bodies, with copies, compared with what theory says of two.
+/// Several copies of a joint between two bodies, compared with the theoretical ranks and verdicts.
 fn twice(tie: Tie, rows: usize, copies: usize) -> Result<Outcome, Outcome> {
     let mut sketch = Sketch::default();
     let (one, other) = (

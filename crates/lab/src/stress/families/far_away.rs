@@ -1,5 +1,5 @@
-//! Motions far from the origin: coordinates are accurate to their last digit only, and nothing else
-//! may be lost.
+//! Motions far from the origin: coordinates are accurate to their last digit only, and no further
+//! accuracy may be lost.
 
 use dynamics::{MotionOptions, Summary};
 
@@ -13,7 +13,7 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Tolerance of the runs, and their time.
+/// Tolerance and duration of the runs.
 const RTOL: f64 = 1e-10;
 const T_END: f64 = 2.0;
 
@@ -25,7 +25,7 @@ fn cases() -> Vec<Case> {
         } else {
             10.0_f64.powi(exponent)
         };
-        // The relative tolerance of a coordinate is one of its distance from the origin.
+        // The relative tolerance of a coordinate refers to its distance from the origin.
         let known = RTOL.max(100.0 * f64::EPSILON * x.max(1.0));
         let base = MotionOptions {
             rtol: RTOL / x.max(1.0),
@@ -62,7 +62,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// A skate at (x, −x) that turns with 0.5 rad/s on a slope of 30° along x: the cycloid of the knife
+/// A skate at (x, −x) that rotates at 0.5 rad/s on a slope of 30° along x: the cycloid of the knife
 /// edge in `suite`.
 fn skate(x: f64) -> String {
     format!(
@@ -93,7 +93,7 @@ fn off_cycloid(row: &Row, x: f64) -> f64 {
     ])
 }
 
-/// Three cranks under a coupler at (x, x) without gravity: they turn uniformly, from 57° to 172°.
+/// Three cranks under a coupler at (x, x) without gravity: they rotate uniformly, from 57° to 172°.
 fn turning(x: f64) -> String {
     let (sin, cos) = 1.0_f64.sin_cos();
     let mut bodies = String::new();

@@ -1,5 +1,5 @@
-//! Mechanisms without freedom, driven by as many drives as they have or by more: nothing is
-//! integrated, and reactions are those of inverse dynamics.
+//! Mechanisms with as many or more drives than freedoms: nothing is integrated, and reactions are
+//! those of inverse dynamics.
 
 use std::ops::ControlFlow;
 
@@ -65,7 +65,7 @@ motion = {{ type = "harmonic", amplitude = {SWING}, omega = {RATE:?}, phase = 0.
     text
 }
 
-/// How far angles, rates and the sum of the torques of the motors are from right, at all rows.
+/// The errors of angles, rates and the sum of the motors' torques, for all rows.
 fn torque(prepared: &Prepared, options: &MotionOptions) -> Outcome {
     let mut errors = Vec::new();
     let result = simulate(prepared, options, |row| {

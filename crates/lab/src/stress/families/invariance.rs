@@ -1,5 +1,5 @@
-//! The same mechanism written down otherwise: elsewhere, turned, in other units, in another order.
-//! Verdicts are the same, and what moves is the same when it is taken back.
+//! The same mechanism described in another way: at another place, turned, in other units, in
+//! another order. Verdicts must be equal, and the motion must be the same after conversion.
 
 use dynamics::MotionOptions;
 use model::{BodyRef, Description};
@@ -21,10 +21,11 @@ pub(super) const FAMILY: Family = Family {
 
 /// Acceleration of free fall (m/s²).
 const G: f64 = 9.81;
-/// Tolerances of the runs: error control must not hide what is compared.
+/// Tolerances of the runs: the errors of the integration must be smaller than the compared
+/// differences.
 const TIGHT: f64 = 1e-12;
 
-/// How a mechanism is written down: lengths times `size`, turned by `angle`, then moved; bodies and
+/// A description of a mechanism: lengths times `size`, turned by `angle`, then moved; bodies and
 /// joints in reverse order or not.
 #[derive(Clone, Copy)]
 struct Change {
@@ -104,15 +105,15 @@ impl Change {
         [cos * x - sin * y, sin * x + cos * y]
     }
 
-    /// What accuracy is left: coordinates of 1e6 m are accurate to 1e-10 m, and rounding grows a
-    /// hundredfold on the way.
+    /// The remaining accuracy: coordinates of 1e6 m are accurate to 1e-10 m, and rounding errors
+    /// grow by a factor of a hundred during the computation.
     fn bound(&self) -> f64 {
         let far = self.by[0].abs().max(self.by[1].abs());
         1e-10 + 1e2 * f64::EPSILON * far
     }
 }
 
-/// A mechanism in all ways to write it down.
+/// A mechanism in any description.
 type Written = fn(&Change) -> Description;
 
 fn cases() -> Vec<Case> {
@@ -146,7 +147,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// The robot touches no ground, so that it can be placed body by body.
+/// The robot has no joint with the ground, so that its bodies can be placed one by one.
 fn robot(change: &Change) -> Description {
     let mut d = robot_of_size(change.size, steering_of_size(change.size));
     for body in &mut d.bodies {
@@ -209,7 +210,7 @@ fn three_cranks(change: &Change) -> Description {
     }
 }
 
-/// What is said of a mechanism, by name: ranks, then the verdict and the number of unique
+/// The results for a mechanism, by name: ranks, then the verdict and the number of unique
 /// directions of each reaction.
 fn said(a: &Analysis) -> (Vec<usize>, Vec<(String, &'static str, usize)>) {
     let mut reactions: Vec<_> = a
@@ -247,7 +248,7 @@ fn verdicts(written: Written, change: &Change) -> Result<Outcome, Outcome> {
     Ok(Outcome::fact(found == expected, detail))
 }
 
-/// Accelerations at the start, and the last row, compared.
+/// Compares accelerations at the start, and the last row.
 fn motion(written: Written, change: &Change, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let made = |change: &Change| -> Result<(Row, Vec<f64>), Outcome> {
         let found = prepared(&written(change))?;
@@ -274,7 +275,8 @@ fn motion(written: Written, change: &Change, options: &MotionOptions) -> Result<
     ))
 }
 
-/// The largest difference from what was, written down anew, in the size of the mechanism.
+/// The largest difference from the original values after conversion, relative to the size of the
+/// mechanism.
 fn off(was: &[f64], is: &[f64], change: &Change, by: [f64; 2], angle: f64) -> f64 {
     let mut bodies: Vec<&[f64]> = is.chunks(3).collect();
     if change.reversed {
@@ -305,7 +307,7 @@ mod tests {
         super::super::assert_passes(FAMILY);
     }
 
-    /// Taken back by another angle.
+    /// A conversion by another angle is detected as an error.
     #[test]
     fn another_frame_is_silently_wrong() {
         let written: Written = |change| {

@@ -1,4 +1,5 @@
-//! Very long runs: a pendulum for a thousand seconds in steps of a millisecond, and what drifts.
+//! Very long runs: a pendulum for a thousand seconds in steps of a millisecond, and the drift of
+//! its values.
 
 use std::time::Duration;
 
@@ -46,7 +47,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// What has drifted in a run, in units of what is allowed.
+/// The drift in a run, relative to the allowed one.
 fn drifted(prepared: &Prepared, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let (row, s) = last_row(prepared, options)?;
     let [angle, omega] = swing(row.t);
@@ -60,13 +61,13 @@ fn drifted(prepared: &Prepared, options: &MotionOptions) -> Result<Outcome, Outc
     Ok(Outcome::answer(error, detail))
 }
 
-/// A point mass on a massless rod of 1 m, released level.
+/// A point mass on a massless rod of 1 m, released from the horizontal.
 fn pendulum() -> String {
     suite::find("a01-pendulum").map_or_else(String::new, |case| case.scene.to_owned())
 }
 
-/// Angle and rate of the bob against its start at t: released level to the left of the pivot, it
-/// falls with `φ̈ = (g/L)·cos φ`, φ from 0 to π and back. With `ψ = φ − π/2`:
+/// Angle of the bob relative to its start, and its rate, at t: released horizontally to the left of
+/// the pivot, it falls with `φ̈ = (g/L)·cos φ`, φ from 0 to π and back. With `ψ = φ − π/2`:
 /// `sin(ψ/2) = −k·cd(ω₀t)`, `k = sin(45°)`.
 fn swing(t: f64) -> [f64; 2] {
     let omega_0 = 9.81_f64.sqrt();
@@ -93,7 +94,7 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
         c[n + 1] = 0.5 * (a[n] - b);
         b = (a[n] * b).sqrt();
     }
-    // Whole periods first: the amplitude of many of them would lose digits to the doublings.
+    // Whole periods are removed first: the doublings would lose digits for a large amplitude.
     let period = 2.0 * std::f64::consts::PI / a[LEVELS];
     let u = u - period * (u / period).round();
     let mut phi = 2.0_f64.powi(LEVELS as i32) * a[LEVELS] * u;
@@ -118,8 +119,8 @@ mod tests {
     use crate::stress::judge;
     use crate::stress::motion::outcome;
 
-    /// The solution of the differential equation, by what it says of itself and by a quarter of its
-    /// period: K(1/2) = 1.85407467730137192.
+    /// The solution satisfies the differential equation, and its quarter period is correct: K(1/2)
+    /// = 1.85407467730137192.
     #[test]
     fn the_closed_form_swings() {
         let quarter = 1.854_074_677_301_371_9 / 9.81_f64.sqrt();

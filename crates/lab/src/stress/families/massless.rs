@@ -1,5 +1,5 @@
-//! Bodies without mass or inertia: accepted exactly where no motion is without both; the massless
-//! motion is named where there is one.
+//! Bodies without mass or inertia: accepted exactly if every motion has a mass or an inertia; if
+//! one has not, the error names it.
 
 use dynamics::MotionOptions;
 use joints::Fixed;
@@ -10,7 +10,7 @@ use crate::mechanisms::revolute;
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{acceleration, moving, prepared, worst};
 
-/// All combinations of mass and inertia that vanish.
+/// All combinations of vanishing mass and inertia.
 pub(super) const FAMILY: Family = Family {
     name: "massless",
     about: "m = 0 and J = 0 in every combination: accelerations where M is definite on the motions of C, else the massless motion by name",
@@ -20,7 +20,7 @@ pub(super) const FAMILY: Family = Family {
 /// Acceleration of free fall (m/s²).
 const G: f64 = 9.81;
 
-/// Relative error of accelerations that all extreme masses have to reach.
+/// Error bound of accelerations, relative, for all extreme masses.
 const BOUND: f64 = 1e-13;
 
 fn cases() -> Vec<Case> {
@@ -85,7 +85,7 @@ fn stone(mass: f64, inertia: f64) -> Description {
 }
 
 /// Two links, horizontal and at rest: the first with its centre 1 m from the ground's pin, the
-/// second pinned 2 m from it, with its centre 1 m further or at the pin.
+/// second pinned 2 m from that pin, with its centre 1 m further or at its own pin.
 #[derive(Clone, Copy)]
 struct Chain {
     /// Mass and inertia of both links, 0 or 1.
@@ -121,7 +121,7 @@ impl Chain {
         (a, [-G * (m1 + 2.0 * m2), -G * c * m2])
     }
 
-    /// The determinant of whole numbers is exact.
+    /// The determinant; exact for whole numbers.
     fn determinant(&self) -> f64 {
         let ([[a, b], [_, d]], _) = self.reduced();
         a * d - b * b
@@ -131,7 +131,7 @@ impl Chain {
         let ([[a, _], [_, d]], _) = self.reduced();
         match (self.determinant() == 0.0, a, d) {
             (false, ..) => Expected::answer(BOUND, "closed form: two equations in the angles"),
-            // The second link alone turns for nothing.
+            // The rotation of the second link alone moves no mass.
             (true, 1.0.., 0.0) => Expected::refusal(&["without mass or inertia", "`second`"]),
             (true, ..) => Expected::refusal(&["without mass or inertia"]),
         }
@@ -178,7 +178,7 @@ impl Chain {
     }
 }
 
-/// Cranks under a coupler, some of them massless: all turn by one angle.
+/// Cranks under a coupler, some of them massless: all have the same angle.
 fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOptions) -> Case {
     let (length, theta) = (0.5, 1.0_f64);
     let mut d = cranks(pivots, length, theta);
@@ -222,7 +222,7 @@ fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOpt
     )
 }
 
-/// Error of the accelerations at the start, relative to the largest of the right ones.
+/// Error of the accelerations at the start, relative to the largest exact one.
 fn falling(d: &Description, right: &[f64], options: &MotionOptions) -> Result<Outcome, Outcome> {
     let found = acceleration(&prepared(d)?, options)?;
     let scale = worst(right.iter().copied());

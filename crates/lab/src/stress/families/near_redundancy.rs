@@ -1,5 +1,5 @@
-//! Rows that are parallel but for ε, from 1e-2 to 1e-20: of full rank as they are written, and
-//! redundant only within what the data are known to.
+//! Rows that are parallel except for ε, from 1e-2 to 1e-20: of full rank for the given numbers, and
+//! redundant only within the accuracy of the data.
 
 use dynamics::MotionOptions;
 use joints::{Direction, KnifeEdge};
@@ -20,17 +20,17 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Above this a rank in double precision has to be decided: singular values are answer apart down
-/// to 1e-7.
+/// Above this ε a rank in double precision must be decided: singular values can be distinguished
+/// from zero down to 1e-7.
 const DECIDED: f64 = 1e-6;
-/// Some thousand roundings of numbers of size 1: no larger ε may be taken for rounding.
+/// Some thousand rounding errors of numbers of size 1: a larger ε must not be taken as rounding.
 const ROUNDING: f64 = 1e-12;
-/// Data of size 1 are accurate to some 1e-15: an angle between this and the next may be one or
-/// none.
+/// Data of size 1 are accurate to about 1e-15: between this and the next constant ε may be a real
+/// angle or zero.
 const READ_BOTH_WAYS: f64 = 5e-15;
 /// See [`READ_BOTH_WAYS`].
 const ROUNDED_AWAY: f64 = 5e-14;
-/// Below this reactions are a thousand times the loads, and that is said.
+/// Below this ε reactions are a thousand times the loads, and a warning is expected.
 const WARNED: f64 = 1e-3;
 /// Half the distance of the wheels (m).
 const HALF: f64 = 0.5;
@@ -54,8 +54,8 @@ fn cases() -> Vec<Case> {
         {
             let source = "closed form: turns about the contact of the right wheel; a hundred times the tolerance, and the rounding of the start over ε up to 1e-3";
             let bound = (1e-6 + 10.0 * f64::EPSILON / e).min(1e-3);
-            // Where velocities are not known any more, a refusal must name the edge; where the data
-            // may as well mean parallel edges, it must say so.
+            // If velocities cannot be determined, a refusal must name the edge; if the data may
+            // also mean parallel edges, it must say so.
             let named = if (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) {
                 "their rounding"
             } else {
@@ -84,7 +84,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// What may be said of the rank.
+/// The accepted answers for the rank.
 pub(super) fn verdict(e: f64) -> Expected {
     let source = "rank in exact arithmetic; the grounds of a certificate";
     if e < DECIDED {
@@ -99,7 +99,7 @@ pub(super) fn verdict(e: f64) -> Expected {
 }
 
 /// A cart of unit mass and inertia on two knife edges under its centre, the right one turned by ε.
-/// It goes round the contact of the right wheel.
+/// It rotates about the contact point of the right wheel.
 fn axle(e: f64) -> Description {
     let edge = |name: &str, y: f64, normal: [f64; 2]| {
         let normal = Direction::new(normal).unwrap_or(Direction::Y);
@@ -130,7 +130,7 @@ fn axle(e: f64) -> Description {
     }
 }
 
-/// Compares what is said of the rank with the rank of C as it is stored.
+/// Compares the reported rank with the rank of C as it is stored.
 pub(super) fn said(d: &Description, e: f64) -> Result<Outcome, Outcome> {
     let mechanism = built(d)?;
     let (q, _) = mechanism.described_state();
@@ -162,8 +162,8 @@ fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
         "{detail}, {:.0e}",
         warned.map_or(f64::NAN, |near| near.sigma)
     );
-    // As written is right with a warning of the size of ε; otherwise the data must be in doubt, and
-    // the answer must say so.
+    // The rank for the given numbers is correct with a warning of the size of ε; otherwise the data
+    // must be uncertain, and the answer must say so.
     let right = if rank == exact {
         let answer = e >= WARNED || warned.is_some_and(|near| near.sigma <= 2.0 * e);
         answer && unique == a.reactions.len()
@@ -174,7 +174,7 @@ fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
     Ok(Outcome::fact(right, detail))
 }
 
-/// Without applied forces the speed stays, and so does the centre of the turn.
+/// Without applied forces the speed is constant, and so is the centre of the rotation.
 fn about_the_wheel(d: &Description, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let (row, summary) = last_row(&prepared(d)?, options)?;
     let angle = -row.t / HALF;

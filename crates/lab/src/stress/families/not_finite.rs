@@ -1,5 +1,5 @@
-//! Forces of a user that have no value any more: the run stops at the last good state and says when
-//! and where; it neither panics nor halves its steps for ever.
+//! User forces that become undefined: the run stops at the last valid state and reports the time
+//! and the place; it neither panics nor halves its steps for ever.
 
 use dynamics::{MotionOptions, RowChoice, prepare, simulate};
 use joints::spec::Spec;
@@ -11,14 +11,14 @@ use model::{Body, BodyRef, Description, Force, Mechanism, StartOptions};
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{combinations, moving};
 
-/// A body that a force pulls to where it is not defined.
+/// A body that is pulled to a place where the force is not defined.
 pub(super) const FAMILY: Family = Family {
     name: "not-finite",
     about: "a body pulled by √(1 − x) N, which is NaN beyond x = 1 m: stopped there, with all rows before kept and the quantity named",
     cases,
 };
 
-/// The body passes x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` from rest at 0; before,
+/// The body passes x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` from rest at 0; the time until then is
 /// `t = ∫₀¹ dx/√(4/3·(1 − (1 − x)^(3/2)))`.
 const T_END: f64 = 10.0;
 
@@ -93,7 +93,7 @@ impl<T: Real> ForceElement<T> for Root {
     fn dq_dv(&self, _: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], _: &mut [T]) {}
 }
 
-/// A run that cannot get beyond x = 1: what it says, if its rows are finite and end there.
+/// A run that cannot continue beyond x = 1: its error, if its rows are finite and end there.
 fn pulled(options: &MotionOptions) -> Outcome {
     let description = Description {
         name: "pulled".into(),
@@ -127,7 +127,7 @@ fn pulled(options: &MotionOptions) -> Outcome {
     });
     let detail = format!("rows to x = {last}");
     match run {
-        // What was shown before has to be there, and sound.
+        // The rows before the stop must exist and be finite.
         Err(failure) if is_finite && (0.97..=1.0).contains(&last) => {
             Outcome::refused(&failure.error)
         }

@@ -1,5 +1,5 @@
-//! Flat loops passed while a step has to end near the flat pose: where the rank drops, branches
-//! of the motion meet, and accelerations are a quotient of two numbers that both vanish.
+//! Passages through flat poses where a step must end near the flat pose: there the rank drops,
+//! branches of the motion meet, and accelerations are a quotient of two numbers that both vanish.
 
 use dynamics::{Method, MotionOptions};
 use joints::RevoluteAngleDrive;
@@ -16,14 +16,14 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// The first crank turns from here with 1 rad/s.
+/// Initial angle of the first crank, which rotates at 1 rad/s.
 const START: f64 = -0.5;
 const END: f64 = 0.5;
 
-/// Offsets of the break time on each side (s, which is rad here).
+/// Number of offsets of the break time on each side (s, which equals rad here).
 const OFFSETS: u32 = 32;
 
-/// Nearer to the flat pose a run may refuse to go on.
+/// Closer to the flat pose than this a run may stop.
 const NEAR: f64 = 1e-2;
 
 /// Tolerance of the runs.
@@ -78,12 +78,12 @@ fn passed(pivots: &'static [f64], offset: f64, options: &MotionOptions) -> Case 
     case.at("offset of the break time", offset.abs().max(1e-17))
 }
 
-/// Methods whose few stages can keep away from an instant.
+/// Methods with few stages, which can avoid an instant.
 fn is_explicit(method: Method) -> bool {
     matches!(method, Method::Dop853 | Method::Dopri5 | Method::Tsit5)
 }
 
-/// Cranks with a drive in two pieces of one slope that meet near the flat pose.
+/// Cranks with a drive of two pieces with the same slope that meet near the flat pose.
 fn driven(pivots: &[f64], offset: f64) -> Description {
     let mut d = cranks(pivots, 0.5, START);
     let times = [0.0, offset - START, END - START];
@@ -102,8 +102,8 @@ fn driven(pivots: &[f64], offset: f64) -> Description {
     d
 }
 
-/// How far cranks are from parallel ones at an angle, turning with 1 rad/s, and the coupler from
-/// level.
+/// The deviation of the cranks from parallel ones at an angle, rotating at 1 rad/s, and of the
+/// coupler from the horizontal.
 fn off(row: &Row, angle: f64) -> f64 {
     let last = row.q.len() / 3 - 1;
     let of_crank = |k: usize| [row.q[3 * k + 2] - angle, row.v[3 * k + 2] - 1.0];

@@ -1,4 +1,4 @@
-//! Fast rotation: a body on a pin that turns a million times a second or slower, for many turns.
+//! Fast rotation: a body on a pin that rotates up to a million times per second, for many turns.
 
 use std::f64::consts::TAU;
 
@@ -37,8 +37,8 @@ fn cases() -> Vec<Case> {
             output_step: t_end,
             ..MotionOptions::to(t_end)
         };
-        // An error of the speed made in step k of N moves the phase by all steps after it: N²/2
-        // tolerances, some tens of steps a turn.
+        // An error of the speed in step k of N changes the phase in all later steps: N²/2
+        // tolerances, with some tens of steps per turn.
         let drift = 0.05 * (50.0 * turns).powi(2);
         for options in combinations(&base) {
             if options.method != Method::Auto && turns > 100.0 {
@@ -56,8 +56,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Methods of low order need more steps for this tolerance than are allowed, or shorter ones than
-/// velocities of this size are accurate to.
+/// Methods of low order need more steps for this tolerance than are allowed, or steps shorter than
+/// the accuracy of such velocities permits.
 fn limit(bound: f64) -> Expected {
     Expected::AnswerOrRefusal {
         bound,
@@ -78,7 +78,8 @@ joint = [{{ name = "pin", type = "revolute", bodies = ["ground", "rotor"], at = 
     )
 }
 
-/// How far the rotor is from uniform rotation: phase, and velocities as share of theirs.
+/// The deviation of the rotor from uniform rotation: phase, and velocities relative to the exact
+/// ones.
 fn off(row: &Row, omega: f64, t: f64) -> f64 {
     let phase = omega * t;
     let (sin, cos) = phase.sin_cos();

@@ -1,5 +1,5 @@
-//! Configurations in which the rank is less than elsewhere: the verdict there, the verdict
-//! everywhere else, and both reported.
+//! Configurations with a lower rank than others: the verdict there, the verdict elsewhere, and both
+//! in the report.
 
 use joints::KnifeEdge;
 use joints::plane::Direction;
@@ -102,8 +102,8 @@ fn cases() -> Vec<Case> {
         right,
         stopped,
     ));
-    // From the lengths of the linkage: the pin of the link turns by 90° about B, the slider follows
-    // at the distance of the link.
+    // From the lengths of the linkage: the pin of the link rotates by 90° about B, the slider
+    // follows at the distance of the link.
     for (name, displacement) in [
         ("front edge at +90°", 0.11 - 0.0601_f64.sqrt()),
         ("front edge at −90°", 0.29 - 0.0401_f64.sqrt()),
@@ -122,7 +122,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Redundancy here and at other configurations.
+/// Compares the redundancy here and at other configurations.
 fn compared(d: &Description, here: usize, usual: usize) -> Result<Outcome, Outcome> {
     let found = analysed(d)?.decision.redundancy;
     let mechanism = built(d)?;
@@ -208,13 +208,13 @@ fn edges(steering: f64, sizes: [usize; 3]) -> Result<Outcome, Outcome> {
         .iter()
         .map(|r| r.wrench.verdict.is_unique())
         .collect();
-    // Locked, the steered pair has a force of its own each.
+    // If the wheels are locked, each of the steered pair has its own force.
     let shared = [steering != 0.0, steering != 0.0, false, false];
     let detail = format!("rank, redundancy, freedoms {found:?}; unique {unique:?}");
     Ok(Outcome::fact(found == sizes && unique == shared, detail))
 }
 
-/// A cart whose front wheels stand across it, moving ahead all the same.
+/// A cart whose front wheels are perpendicular to it, with a forward velocity.
 const LOCKED: &str = r#"
 scene = { name = "locked", space = "plane" }
 body = [{ name = "cart", mass = 1.0, inertia = 1.0, velocity = [1.0, 0.0] }]
@@ -237,13 +237,13 @@ fn stopped() -> Result<Outcome, Outcome> {
     Ok(Outcome::answer(error, format!("v = {:?}", found.v)))
 }
 
-/// The robot with its slider moved, on its constraints.
+/// The robot with its slider displaced, on its constraints.
 fn steered(displacement: f64) -> Result<Outcome, Outcome> {
     const STEPS: u32 = 64;
     let ramp = Function::polynomial(&[0.0, displacement]).map_err(Outcome::refused)?;
     let mut mechanism = built(&robot(ramp))?;
     let assembly = assemble(&mut mechanism, &StartOptions::default()).map_err(Outcome::refused)?;
-    // Φq of the robot has full rank: all its rows hold.
+    // Φq of the robot has full rank: all its rows are satisfied.
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
     let mut q = assembly.q;
     for k in 1..=STEPS {
@@ -251,8 +251,8 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
         q = nearest_configuration(&mechanism, t, &rows, &q, Metric::Mass)
             .map_err(Outcome::refused)?;
     }
-    // The robot touches no ground: with the platform along the x-axis its edges are along the
-    // y-axis.
+    // The robot has no joint with the ground: its platform is turned along the x-axis, so its edges
+    // are along the y-axis.
     let (sin, cos) = q[2].sin_cos();
     let heading = q[2];
     for body in q.chunks_mut(3) {
@@ -260,7 +260,7 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
         (body[0], body[1]) = (cos * x + sin * y, cos * y - sin * x);
         body[2] -= heading;
     }
-    // Some thousand roundings on the way.
+    // Some thousand rounding errors in the computation.
     let a = analyse_known(&mechanism, 1.0, &q, Known::To(1e-12)).map_err(Outcome::refused)?;
     if let rank::RankStatus::Undecided(doubt) = &a.decision.status {
         return Err(Outcome::refused(doubt));

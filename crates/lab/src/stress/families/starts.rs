@@ -1,5 +1,5 @@
 //! Starts that do not satisfy their constraints: the smallest correction in the mass metric, or a
-//! refusal that says how far they are off.
+//! refusal that states the error.
 
 use model::start::scene_size;
 
@@ -13,7 +13,7 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// A bob whose pivot is 1 m to its left; its centre is described `off` further to the right.
+/// A bob whose pivot is 1 m to its left; its described centre is displaced by `off` to the right.
 fn bob(off: f64, mass: f64, inertia: f64, velocity: [f64; 2], start: &str) -> String {
     let [vx, vy] = velocity;
     format!(
@@ -27,7 +27,7 @@ joint = [{{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], point
     )
 }
 
-/// At rest, `off` further to the right than its pivot allows.
+/// At rest, displaced by `off` to the right of the position that its pivot allows.
 fn off_by(off: f64, start: &str) -> String {
     bob(off, 2.0, 0.3, [0.0; 2], start)
 }
@@ -42,7 +42,7 @@ fn cases() -> Vec<Case> {
                 "`bob`",
                 "allow_correction",
             ]),
-            // 1e-3 of the size is the limit itself.
+            // 1e-3 of the size is exactly the limit.
             3 => continue,
             _ => Expected::answer(
                 1e-14,
@@ -107,13 +107,13 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// The correction goes along the arm, where it neither turns the bob nor moves it sideways.
+/// The correction is along the arm, where it neither rotates the bob nor moves it sideways.
 fn corrected(text: &str, off: f64) -> Result<Outcome, Outcome> {
     let found = study(text)?.prepared;
     let [x, y, angle] = found.q[..] else {
         return Ok(Outcome::fact(false, "not three coordinates"));
     };
-    // A described number of size 1 is off by its rounding.
+    // A described number of size 1 has a rounding error.
     let answer = found
         .assembly
         .correction
@@ -127,7 +127,8 @@ fn corrected(text: &str, off: f64) -> Result<Outcome, Outcome> {
     ))
 }
 
-/// The bob is described with (0, 1) m/s and no rotation: the nearest motion turns about the pivot.
+/// The bob is described with (0, 1) m/s and without rotation: the nearest possible motion is a
+/// rotation about the pivot.
 fn turned(ratio: f64) -> Result<Outcome, Outcome> {
     let allowed = "start = { allow_correction = true }";
     let given = bob(0.0, 1.0, ratio, [0.7, 1.0], allowed)

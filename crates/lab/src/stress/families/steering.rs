@@ -1,5 +1,5 @@
-//! A steered wheel turned through ±90°, where forward speed is no velocity coordinate any more; and
-//! two wheels that are steered alike, which lock.
+//! A steered wheel turned through ±90°, where the forward speed is zero whatever the speed of the
+//! wheel; and two wheels that are steered equally, which lock.
 
 use dynamics::MotionOptions;
 
@@ -13,19 +13,19 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Mass, inertia about the middle of the rear axle, where the centre of mass is, and wheel base.
+/// Mass, inertia about the middle of the rear axle (the centre of mass), and wheel base.
 const MASS: f64 = 20.0;
 const INERTIA: f64 = 1.7;
 const BASE: f64 = 0.6;
 
-/// Angle of steering: δ = 2·sin(t), which is 90° at 0.904 s and again at 2.238 s.
+/// Amplitude of the steering angle: δ = 2·sin(t), which is 90° at 0.904 s and again at 2.238 s.
 const AMPLITUDE: f64 = 2.0;
 const T_END: f64 = 5.0;
 
 /// Tolerance of the runs.
 const RTOL: f64 = 1e-10;
 
-/// Where the right answer is from.
+/// The source of the exact solution.
 const SOURCE: &str = "energy: the front edge, the fork without inertia and the rear edges do no work; heading and place by quadrature. Ten \
                       tolerances a step, and 1e4 in all where steps are few";
 
@@ -108,7 +108,7 @@ normal = [0.0, 1.0]
     text
 }
 
-/// Speeds of the middle of the rear axle along the frame, and of turning, at an angle of steering:
+/// Speed of the middle of the rear axle along the frame, and rate of rotation, at a steering angle:
 /// with the speed u of the front wheel `v = u·cos δ`, `ω = u·sin δ/L`, and
 /// `u²·(m·cos²δ + J·sin²δ/L²)` keeps its value at δ = 0, v = 1 m/s.
 fn speeds(delta: f64) -> [f64; 2] {
@@ -117,8 +117,8 @@ fn speeds(delta: f64) -> [f64; 2] {
     [u * cos, u * sin / BASE]
 }
 
-/// Place, heading, forward speed and rate of turning at the end. The integrals by Gauss–Legendre
-/// with four nodes on pieces of 1 ms.
+/// Place, heading, forward speed and rate of rotation at the end. The integrals are computed by
+/// Gauss–Legendre quadrature with four nodes on intervals of 1 ms.
 fn closed_form() -> [f64; 5] {
     const NODES: [f64; 2] = [0.339_981_043_584_856_3, 0.861_136_311_594_052_6];
     const WEIGHTS: [f64; 2] = [0.652_145_154_862_546_1, 0.347_854_845_137_453_9];
@@ -142,7 +142,7 @@ fn closed_form() -> [f64; 5] {
     [place[0], place[1], heading, v, omega]
 }
 
-/// How far the frame is from that.
+/// The deviation of the frame from the exact solution.
 fn off(row: &Row, right: &[f64; 5]) -> f64 {
     let [x, y, heading, v, omega] = right;
     let (sin, cos) = heading.sin_cos();
@@ -159,7 +159,7 @@ mod tests {
     use crate::stress::judge;
     use crate::stress::motion::outcome;
 
-    /// On the spot at 90°: all energy turns the frame.
+    /// At 90° the frame rotates on the spot: it has all the energy.
     #[test]
     fn at_a_right_angle_the_frame_turns_on_the_spot() {
         let [v, omega] = speeds(std::f64::consts::FRAC_PI_2);

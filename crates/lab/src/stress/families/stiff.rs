@@ -1,5 +1,5 @@
-//! Springs and dampers up to the end of what can be integrated: a rotor behind a spring and a
-//! damper on a base that swings, and a block on a bushing without damping.
+//! Springs and dampers up to the limit of what can be integrated: a rotor behind a spring and a
+//! damper on a moving base, and a block on a bushing without damping.
 
 use dynamics::{Method, MotionOptions};
 
@@ -14,20 +14,22 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Inertia of the rotor, amplitude of the foot, which swings with 1 rad/s, and time of the run.
+/// Inertia of the rotor, amplitude of the foot, which oscillates at 1 rad/s, and duration of the
+/// run.
 const INERTIA: f64 = 2.0;
 const SWING: f64 = 0.3;
 const T_END: f64 = 2.0;
 
-/// Steps allowed: methods that cannot do with them say so. The choice of a method allows an
-/// explicit one about as many as the second.
+/// Allowed steps: methods that need more report it. With the automatic choice of a method, an
+/// explicit method may need about as many as the second number.
 const MAX_STEPS: u64 = 5_000;
 const MAX_STEPS_OF_CHOICE: u64 = 40_000;
 
 /// Tolerance of the runs.
 const RTOL: f64 = 1e-8;
 
-/// Errors at the end in tolerances, at least: a few of the steps may be less smooth than the rest.
+/// Smallest error bound at the end, in tolerances: a few of the steps may be less accurate than the
+/// rest.
 const LEAST: f64 = 1e3;
 
 fn cases() -> Vec<Case> {
@@ -49,8 +51,8 @@ fn cases() -> Vec<Case> {
                 let oscillator = Oscillator {
                     stiffness,
                     damping,
-                    // With a damper the rotor begins with the foot, without one at rest and off
-                    // equilibrium.
+                    // With a damper the rotor begins with the motion of the foot, without one at
+                    // rest and displaced from equilibrium.
                     start: if damping > 0.0 {
                         [0.0, SWING]
                     } else {
@@ -99,8 +101,8 @@ impl Oscillator {
             fastest * T_END
         };
         let tolerances = LEAST.max(10.0 * steps(options.method, phase, RTOL));
-        // A rotor behind a stiff spring has an angle to 1e-16 and so a force to k·1e-16, which
-        // moves it by c/k or 1/ω of that.
+        // The angle of a rotor behind a stiff spring is accurate to 1e-16 and so the force to
+        // k·1e-16, which causes a change of velocity by c/k or 1/ω of that.
         let bound = tolerances * RTOL;
         let right = Expected::AnswerOrRefusal {
             bound,
@@ -108,7 +110,7 @@ impl Oscillator {
                      tolerances in each step",
             parts: vec!["step".into(), "at t = ".into()],
         };
-        // What suits the scene has to do it.
+        // The methods that suit the scene must succeed.
         let is_implicit = matches!(options.method, Method::Auto | Method::Radau5);
         let right = if is_implicit && self.damping > 0.0 {
             match right {
@@ -203,7 +205,7 @@ free_angle = 0.0
         [forced[0] + free[0], forced[1] + free[1]]
     }
 
-    /// How far a row is from that.
+    /// The deviation of a row from the exact solution.
     fn off(self, row: &Row) -> f64 {
         let [angle, omega] = self.at(row.t);
         let rate = (self.start[0] * (self.stiffness / INERTIA).sqrt()).max(SWING);
@@ -211,15 +213,15 @@ free_angle = 0.0
     }
 }
 
-/// `m·ẍ = −k·x`, `m·ÿ = −k·y/4` of a block on a bushing, which is at rest at the start: the block
-/// moves off.
+/// `m·ẍ = −k·x`, `m·ÿ = −k·y/4` of a block on a bushing, which is undeformed at the start, where
+/// the block has a velocity.
 #[derive(Clone, Copy)]
 struct Block {
     stiffness: f64,
 }
 
 impl Block {
-    /// Mass (kg) and first velocity (m/s).
+    /// Mass (kg) and initial velocity (m/s).
     const MASS: f64 = 3.0;
     const VELOCITY: [f64; 2] = [0.3, -0.2];
 
@@ -291,7 +293,7 @@ mod tests {
         start: [0.0, SWING],
     };
 
-    /// The closed form solves its equation, both in the oscillating and in the creeping case.
+    /// The closed form satisfies its equation, in the oscillating and in the overdamped case.
     #[test]
     fn the_closed_form_solves_its_equation() {
         for oscillator in [

@@ -1,4 +1,4 @@
-//! Scenes in which there is nothing, or nothing to decide.
+//! Empty scenes, and scenes without anything to decide.
 
 use dynamics::MotionOptions;
 

@@ -1,4 +1,4 @@
-//! Mechanisms in ordinary configurations, with masses and lengths that are not.
+//! Mechanisms in ordinary configurations, with extraordinary masses and lengths.
 
 use model::{Body, BodyRef, Description, Function};
 
@@ -11,7 +11,7 @@ const GRAVITY: [f64; 2] = [0.0, -9.81];
 /// Powers of ten by which masses differ.
 const MASSES: [i32; 8] = [6, -6, 9, -9, 12, -12, 24, -24];
 
-/// Powers of ten by which lengths do.
+/// Powers of ten by which lengths differ.
 const LENGTHS: [i32; 6] = [6, -6, 9, -9, 12, -12];
 
 const LINKS: usize = 6;
@@ -19,11 +19,11 @@ const LINKS: usize = 6;
 /// A mechanism at its start.
 pub(super) struct Scene {
     pub(super) name: String,
-    /// What differs from ordinary ones, and by how many powers of ten.
+    /// The quantity that is extraordinary, and its power of ten.
     pub(super) varied: &'static str,
     pub(super) value: f64,
     pub(super) description: Description,
-    /// The words of the refusal, where data of 53 bits do not say what it is.
+    /// The words of the refusal, if the data in 53 bits do not define the mechanism.
     pub(super) limit: Option<&'static str>,
 }
 
@@ -54,7 +54,8 @@ pub(super) fn scenes() -> Vec<Scene> {
             |what: &str, d: Description| Scene::new(what, "power of ten of lengths", power, d);
         scenes.extend(chains_of_lengths(power).map(|(what, d)| scene(what, d)));
     }
-    // Places 1e12 m away are known to a tenth of a millimetre: too little for pins one metre apart.
+    // Positions 1e12 m away are accurate to a tenth of a millimetre, which is not enough for pins
+    // one metre apart.
     let is_blurred = |scene: &&mut Scene| {
         [
             "chain of alternating lengths, 1e12",
@@ -82,7 +83,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     scenes
 }
 
-/// A chain of rods, hanging from the origin at angles and with rates that nothing singles out.
+/// A chain of rods, hanging from the origin at general angles and rates.
 fn chain(mass: impl Fn(usize) -> f64, length: impl Fn(usize) -> f64) -> Description {
     let mut bodies: Vec<Body> = Vec::new();
     let mut joints = Vec::new();
@@ -120,7 +121,7 @@ fn power_of_ten(power: f64) -> f64 {
     10_f64.powf(power)
 }
 
-/// From 1 to 10^power along the chain.
+/// A mass or length that grows from 1 to 10^power along the chain.
 fn growing(power: i32) -> impl Fn(usize) -> f64 {
     move |k| power_of_ten(f64::from(power) * k as f64 / (LINKS - 1) as f64)
 }
@@ -250,8 +251,8 @@ fn robots(power: i32) -> [(&'static str, Description); 3] {
     ]
 }
 
-/// The robot, turned against the axes of the ground, with its trolley at an angle and its steering
-/// on the way; masses multiplied.
+/// The robot, turned relative to the axes of the ground, with its trolley at an angle and its
+/// steering in motion; masses multiplied.
 fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
     let steering = Function::constant_rate(0.05).expect("a finite rate");
     let mut d = robot(steering);
@@ -265,7 +266,7 @@ fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
         body.velocity = body.velocity.map(turn);
         body.angle += 0.4;
     }
-    // The trolley stands across, and so turns while it is pulled.
+    // The trolley is perpendicular to the robot, and so rotates while it is pulled.
     let hitch = turn([-0.4, 0.0]);
     let arm = 0.35_f64;
     let angle = 0.4 + 0.3;

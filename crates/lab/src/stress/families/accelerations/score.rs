@@ -1,4 +1,4 @@
-//! How far a solution is from the exact one.
+//! The error of a solution relative to the exact one.
 
 use dynamics::{KeptRowMotion, Prepared};
 use model::System;
@@ -6,20 +6,22 @@ use model::System;
 use crate::stress::motion::worst;
 use exact::Solution;
 
-/// Relative to the largest of its body and kind, smaller accelerations count as this share of it.
+/// Accelerations below this fraction of the largest of their body and kind are compared with that
+/// fraction.
 const LEAST: f64 = 1e-3;
 
 /// Errors of one solution.
 pub(super) struct Errors {
-    /// Accelerations, each relative to itself, or to a share of the largest of its body and kind.
+    /// Error of accelerations, each relative to itself, or to a fraction of the largest of its body
+    /// and kind.
     pub(super) acceleration: f64,
-    /// Multipliers of kept rows, relative to the largest of their joint.
+    /// Error of the multipliers of kept rows, relative to the largest of their joint.
     pub(super) multipliers: f64,
     /// The heaviest mass or moment of inertia divided by the lightest.
     pub(super) spread: f64,
 }
 
-/// All of them.
+/// Computes all errors.
 pub(super) fn errors(
     prepared: &Prepared,
     motion: &KeptRowMotion<'_>,
@@ -33,7 +35,7 @@ pub(super) fn errors(
     }
 }
 
-/// `x − y` relative to a size; where the size is zero, nothing may be missed.
+/// `x − y` relative to a size; if the size is zero, any difference is infinite.
 fn relative(x: f64, y: f64, size: f64) -> f64 {
     match x - y {
         0.0 => 0.0,
@@ -41,7 +43,8 @@ fn relative(x: f64, y: f64, size: f64) -> f64 {
     }
 }
 
-/// What accelerations are made of, in units of the mechanism: Q/m, v²/L, or what they are.
+/// The size of the terms of accelerations, in units of the mechanism: Q/m, v²/L, or the
+/// accelerations themselves.
 fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
     let unit = |j: usize| model::space::unit(j, prepared.assembly.size);
@@ -56,7 +59,8 @@ fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
     worst(terms)
 }
 
-/// The measure of the issue.
+/// The largest error of accelerations, each relative to its own size or to a fraction of the
+/// largest of its body and kind.
 pub(super) fn of_accelerations(prepared: &Prepared, a: &[f64], exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
     let kind = |j: usize| {
