@@ -1,5 +1,5 @@
-//! The Rust blocks of the book as doc tests. `tests/all/book.rs` sees to it that no chapter is
-//! missing here.
+//! The Rust blocks of the book as doc tests. `tests/all/book.rs` checks that no chapter is missing
+//! here.
 
 #[doc = include_str!("../docs/book/introduction.md")]
 mod introduction {}

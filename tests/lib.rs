@@ -1,5 +1,5 @@
-//! What several tests use: numbers, and the mechanisms of `lab`. Test data live next to this
-//! crate; the tests are in `all/`.
+//! Helpers of several tests: numbers, and the mechanisms of `lab`. Test data are in this package;
+//! the tests are in `all/`.
 
 pub use lab::mechanisms::{cranks, revolute, robot, rod, sketch};
 pub use lab::numbers;

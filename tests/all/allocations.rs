@@ -1,4 +1,4 @@
-//! An evaluation of the right-hand side allocates nothing.
+//! An evaluation of the right-hand side allocates no memory.
 
 use dynamics::{KeptRowMotion, Method, MotionOptions, RowChoice, prepare};
 use model::{Mechanism, StartOptions};
@@ -13,7 +13,7 @@ fn evaluations_and_projections_allocate_nothing() {
     let mut a = vec![0.0; v.len()];
     let mut lambda = vec![0.0; 22];
     motion.acceleration(0.0, &q, &v, &mut a).expect("regular");
-    // A little off the constraints, so that the projection has work to do.
+    // Slightly off the constraints, so that the projection is not trivial.
     q[4] += 1e-6;
     v[7] += 1e-6;
     let counted = allocation_counter::measure(|| {

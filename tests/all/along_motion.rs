@@ -1,5 +1,6 @@
-//! Verdicts along a motion: one generic verdict, and what differs when. Parallel cranks in closed
-//! form: every crank stands at θ(t), the coupler translates; θ = 0 is flat.
+//! Verdicts along a motion: one generic verdict, and the instants and intervals with other
+//! verdicts. Parallel cranks in closed form: every crank has the angle θ(t), the coupler
+//! translates; θ = 0 is flat.
 
 use std::cell::RefCell;
 use std::f64::consts::FRAC_PI_2;
@@ -67,8 +68,8 @@ fn driven(pivots: &[f64], start: f64, motion: Function) -> Mechanism {
     p.expect("starts").mechanism
 }
 
-/// The one passage of a motion, where the rank drops: time, redundancy there, how it goes on,
-/// words.
+/// The only passage of a motion at which the rank drops: time, redundancy there, how the motion
+/// continues, and the text.
 fn one_drop(along: &Along) -> (f64, usize, Continuation, String) {
     let [passage] = along.passages.as_slice() else {
         panic!("one passage: {:?}", along.passages);
@@ -179,7 +180,7 @@ fn two_cranks_bifurcate_also_where_a_sample_hits() {
     }
 }
 
-/// θ = (t − 0.4)² touches the flat pose and turns back: no sign changes.
+/// θ = (t − 0.4)² touches the flat pose and turns back: no quantity changes its sign.
 #[test]
 fn a_flat_pose_that_is_only_touched_is_found() {
     let law = |t: f64| (t - 0.4) * (t - 0.4);
@@ -193,8 +194,8 @@ fn a_flat_pose_that_is_only_touched_is_found() {
     }
 }
 
-/// Turning back before the flat pose: nearly singular, at 1e-9 rad so nearly that the rank cannot
-/// be told.
+/// The motion turns back before the flat pose: nearly singular, and at 1e-9 rad so nearly that the
+/// rank is undecided.
 #[test]
 fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
     let nearest = |offset: f64| {
@@ -216,7 +217,7 @@ fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
     assert!(matches!(nearest(1e-9), PassageKind::Undecided { .. }));
 }
 
-/// Turning three times round, the cranks are flat six times, and upright six times: there all
+/// In three full turns the cranks are flat six times, and upright six times: when upright, all
 /// forces along them are vertical.
 #[test]
 fn every_flat_pose_and_every_upright_one_of_several_turns() {
@@ -238,12 +239,12 @@ fn every_flat_pose_and_every_upright_one_of_several_turns() {
             assert_eq!(difference.here, Verdict::Unique);
         }
     }
-    // Samples more than a quarter turn apart hide upright poses, but no change of the rank.
+    // Samples more than a quarter turn apart miss upright poses, but no change of the rank.
     let along = along_motion(&free(&THREE), motion, &times(0.0, 19.0, 11)).expect("judged");
     assert_eq!(along.passages.iter().filter(|p| drops(p)).count(), 6);
 }
 
-/// Freedoms that have nothing to do with the cranks do not change how these go on.
+/// Freedoms that are independent of the cranks do not affect how these continue.
 #[test]
 fn a_pendulum_beside_the_cranks() {
     for (pivots, drive) in [
@@ -259,7 +260,7 @@ fn a_pendulum_beside_the_cranks() {
         d.joints
             .push(tests::revolute("hinge", &d.bodies, pair, [5.0, 0.0]));
         if let Some(rate) = drive {
-            // The pendulum is driven, the cranks turn freely.
+            // The pendulum is driven, the cranks rotate freely.
             let motion = Function::constant_rate(rate).expect("finite");
             d.drives.push(motor(pair, motion));
         }
@@ -304,7 +305,7 @@ fn a_pendulum_beside_the_cranks() {
     }
 }
 
-/// A drive that rests in the flat pose: singular on a stretch, which ends at its break time.
+/// A drive that rests in the flat pose: singular on an interval, which ends at its break time.
 #[test]
 fn a_rest_in_a_singular_pose_is_a_stretch() {
     let law = Function::steps(0.0, &[[1.0, 2.0, 0.5]]).expect("ordered");
@@ -323,8 +324,8 @@ fn a_rest_in_a_singular_pose_is_a_stretch() {
 }
 
 /// The robot: rank 20 throughout. While it drives straight along the x-axis, the x-rows of B and C
-/// are unique; when an edge becomes parallel to the global y-axis, the y-row of its joint is, for
-/// an instant.
+/// are unique; when an edge becomes parallel to the global y-axis, the y-row of its joint is unique
+/// for an instant.
 #[test]
 fn the_robot_has_one_verdict_and_one_stretch_with_another() {
     let mechanism = Mechanism::build(&robot(steering())).expect("builds");
@@ -388,8 +389,8 @@ fn the_robot_has_one_verdict_and_one_stretch_with_another() {
             .iter()
             .all(|p| p.kind == PassageKind::Verdicts)
     );
-    // Twice within a tenth of a second row 6 of C has no part in any dependency: margins of
-    // neighbouring samples have one minimum for both.
+    // Twice within a tenth of a second row 6 of C is in no dependency: the margins of neighbouring
+    // samples have one minimum for both.
     for expected in [6.485457, 6.566298] {
         let near = |p: &solvability::Passage| (p.time - expected).abs() < 1e-4;
         let times: Vec<f64> = along.passages.iter().map(|p| p.time).collect();

@@ -1,4 +1,4 @@
-//! Input that a user can give by mistake: named errors or right answers, never a panic.
+//! Wrong input that a user may give: named errors or correct answers, never a panic.
 
 use exact::Exact;
 use linalg::Matrix;
@@ -10,7 +10,7 @@ use crate::plain::Plain;
 
 const SEED: u64 = 5;
 
-/// Every way to ask for verdicts: of data with a residual, and of data that mean what they say.
+/// Both ways to compute verdicts: for data with an uncertainty, and for exact data.
 fn both(c: &Matrix) -> [Result<(), RankError>; 2] {
     [
         Solvability::of(c, 0.0).map(|_| ()),
@@ -43,8 +43,8 @@ fn residuals_that_are_none_are_named() {
     }
 }
 
-/// Rows of zeros carry no force: their multipliers are not unique, their reaction is. Without
-/// columns all rows are such rows.
+/// Rows of zeros carry no force: their multipliers are not unique, but their reaction is. In a
+/// matrix without columns all rows are like that.
 #[test]
 fn empty_rows_and_columns() {
     for (m, n) in [(0, 0), (0, 4), (4, 0), (1, 1), (3, 2), (2, 5)] {
@@ -56,14 +56,14 @@ fn empty_rows_and_columns() {
         }
         assert_eq!(s.combination(&vec![0.0; m]).verdict, Verdict::Unique);
     }
-    // One row among empty ones, one column among empty ones.
+    // One nonzero row among empty ones, one nonzero column among empty ones.
     let s = Plain::of_rows(&[vec![0.0; 3], vec![0.0, 5.0, 0.0], vec![0.0; 3]]);
     assert_eq!(s.decision().rank, 1);
     let found = [0, 1, 2].map(|i| s.row(i).verdict.is_unique());
     assert_eq!(found, [false, true, false]);
 }
 
-/// A hundred rows of two columns: any three depend on each other.
+/// A hundred rows with two columns: any three are dependent.
 #[test]
 fn many_more_rows_than_columns() {
     let rows: Vec<Vec<f64>> = (0..100).map(|i| vec![1.0, f64::from(i)]).collect();
@@ -77,8 +77,8 @@ fn many_more_rows_than_columns() {
     assert_eq!(s.combination(&[1.0; 100]).verdict, Verdict::Unique);
 }
 
-/// A group without rows has no reaction that could be free; groups may overlap, each is judged by
-/// itself; a row counts once.
+/// A group without rows has no reaction that could be free; groups may overlap, each is judged
+/// separately; a repeated row counts once.
 #[test]
 fn empty_and_overlapping_groups() {
     let rows = [[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|r| r.to_vec());
@@ -137,7 +137,7 @@ fn questions_that_cannot_be_answered_are_named() {
     }
 }
 
-/// Any bits: an error, or the rank of exact arithmetic.
+/// Arbitrary bits: an error, or the rank of exact arithmetic.
 #[test]
 fn arbitrary_bits() {
     let mut numbers = Numbers::new(SEED);

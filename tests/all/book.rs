@@ -1,5 +1,5 @@
-//! The book holds together: contents, links, figures, doc tests. What its examples show is compared
-//! by the contract of the command.
+//! The consistency of the book: contents, links, figures, doc tests. The output in its examples is
+//! compared by the contract tests of the command.
 
 #[path = "../examples/book_figures/figures.rs"]
 mod figures;
@@ -22,7 +22,7 @@ fn book() -> PathBuf {
     root().join("docs/book")
 }
 
-/// Names of the files in a folder of the book that end so.
+/// Names of the files in a folder of the book with this ending.
 fn files(folder: &str, end: &str) -> BTreeSet<String> {
     let entries = fs::read_dir(book().join(folder)).expect("a folder");
     entries
@@ -36,7 +36,7 @@ fn read(name: &str) -> String {
     fs::read_to_string(book().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// Lines outside of blocks of code, without code within lines.
+/// Lines outside of code blocks, without inline code.
 fn prose(text: &str) -> Vec<String> {
     let mut inside = false;
     let mut lines = Vec::new();
@@ -61,7 +61,7 @@ fn links(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// What a heading is called in an address: letters, digits, `-` and `_`, blanks as `-`.
+/// The anchor of a heading: letters, digits, `-` and `_`, blanks as `-`.
 fn anchor(heading: &str) -> String {
     let text = heading.trim_start_matches('#').trim().to_lowercase();
     text.chars()
@@ -75,7 +75,7 @@ fn anchors(name: &str) -> BTreeSet<String> {
     lines.iter().map(|line| anchor(line)).collect()
 }
 
-/// Headings, with the code in them.
+/// Headings, including inline code.
 fn headings(text: &str) -> Vec<String> {
     let mut inside = false;
     let mut found = Vec::new();
@@ -188,7 +188,7 @@ fn the_reference_of_scenes_is_complete() {
 
 #[test]
 fn every_library_has_an_example_of_its_own() {
-    // Programs, and what only the laboratory and tests use.
+    // Programs, and crates that only the laboratory and tests use.
     let others = ["bench", "exact", "pfaff-cli", "robot-trolley"];
     let headings = headings(&read("crates.md"));
     for entry in fs::read_dir(root().join("crates"))

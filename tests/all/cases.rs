@@ -1,24 +1,24 @@
-//! Every case of the suite with the best method there is, against its reference: how many digits
-//! come out, and how many are known.
+//! Every case of the suite with the best method, compared with its reference: the accuracy that is
+//! reached, and that of the reference.
 
 use dynamics::{Method, Stabilisation};
 use lab::work_precision::of_case;
 use pfaff::StudyError;
 use pfaff::work_precision::{Curve, Errors};
 
-/// Tolerance of the runs; past singular configurations no tighter one has a meaning.
+/// Tolerance of the runs; beyond singular configurations a tighter one has no effect.
 const TIGHT: f64 = 1e-14;
 const TIGHT_PAST_SINGULAR: f64 = 1e-13;
 
-/// Case, tolerance, and the errors that double precision leaves: of position, velocity,
-/// acceleration and reactions, scaled as [`Errors::scaled`]; infinite where the reference says
-/// nothing. Twice what was measured when this was written.
+/// Case, tolerance, and the errors at the limit of double precision: of position, velocity,
+/// acceleration and reactions, scaled as [`Errors::scaled`]; infinite if the reference has no such
+/// values. Twice the errors that were measured when this was written.
 const REACHED: [(&str, f64, [f64; 4]); 14] = [
-    // The reference is trusted to 1e-11 and 1e-9 only.
+    // The reference is only accurate to 1e-11 and 1e-9.
     ("robot-trolley", TIGHT, [1e-12, 1e-12, 1e-12, 1e-12]),
     ("three-cranks", TIGHT, [1e-14, 3e-14, 5e-14, UNKNOWN]),
-    // Thirty-one passages. Accelerations at the share σ of the reference pivots carry the rounding
-    // eps/σ²: 1e-10 at instants up to σ = 1e-3, where they fall by chance.
+    // Thirty-one passages. Accelerations at the fraction σ of the reference pivots contain the
+    // rounding error eps/σ²: 1e-10 at instants down to σ = 1e-3, which occur by chance.
     (
         "turning-cranks",
         TIGHT_PAST_SINGULAR,
@@ -31,7 +31,7 @@ const REACHED: [(&str, f64, [f64; 4]); 14] = [
     ),
     ("andrews", TIGHT, [2e-15, 1.2e-14, 5e-14, 2e-14]),
     ("a01-pendulum", TIGHT, [6e-14, 1.5e-13, 2.5e-13, 1.5e-13]),
-    // 1000 turns: the phase drifts, and with it everything else.
+    // 1000 turns: the error of the phase grows, and affects all values.
     ("a01-pendulum-2000s", TIGHT, [4e-10, 9e-10, 1.5e-9, 9e-10]),
     ("sundials-pendulum", TIGHT, [1.5e-13, 4e-13, 5e-13, 4e-13]),
     ("cash-pendulum", TIGHT, [3e-15, 3e-15, 3e-15, 4e-15]),
@@ -48,7 +48,7 @@ const REACHED: [(&str, f64, [f64; 4]); 14] = [
     ("stiff-cranks", 1e-10, [1e-10, 1.5e-7, UNKNOWN, UNKNOWN]),
 ];
 
-/// Nothing is known of this kind.
+/// The reference has no values of this kind.
 const UNKNOWN: f64 = f64::INFINITY;
 
 fn run(name: &str, tolerance: f64) -> Result<Errors, StudyError> {
@@ -72,7 +72,7 @@ fn every_case_is_reproduced_to_the_digits_of_double_precision() {
                 continue;
             }
         };
-        // What is not known is NaN; what is known has a bound.
+        // Unknown values are NaN; known values have a bound.
         let pairs = errors.into_iter().zip(bounds);
         if pairs
             .into_iter()
@@ -85,8 +85,8 @@ fn every_case_is_reproduced_to_the_digits_of_double_precision() {
     assert!(misses.is_empty(), "\n{misses}");
 }
 
-/// Ten passages of horizontal positions where the rank drops by two: never the other branch, at
-/// whatever tolerance.
+/// Ten passages of horizontal positions where the rank drops by two: the run never changes to the
+/// other branch, for any tolerance.
 #[test]
 fn the_four_bars_keep_their_branch_at_sixty_four_tolerances() {
     let subject = of_case(suite::find("n-four-bar").expect("exists")).expect("builds");
@@ -113,7 +113,7 @@ fn the_four_bars_keep_their_branch_at_sixty_four_tolerances() {
 fn a_loose_run_is_found_to_be_loose() {
     for (name, _, bounds) in REACHED {
         if name.ends_with("2000s") {
-            continue; // Half a turn off: as good as any.
+            continue; // The phase is wrong by half a turn at this tolerance.
         }
         let found = run(name, 1e-5).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert!(

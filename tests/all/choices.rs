@@ -1,5 +1,5 @@
-//! Choices among the reactions that a model leaves open: closed forms, published numbers, and runs
-//! on other kept rows.
+//! Choices of the reactions that a model does not determine: closed forms, published numbers, and
+//! runs with other kept rows.
 
 use std::ops::ControlFlow;
 
@@ -66,7 +66,7 @@ fn started(d: &Description, rows: &RowChoice) -> Prepared {
     prepare(mechanism, &StartOptions::default(), rows).expect("starts")
 }
 
-/// The number, and whether it is a choice.
+/// The number, and whether it depends on the choice.
 fn number(value: &Value) -> (f64, bool) {
     match value {
         Value::Unique(x) => (*x, false),
@@ -91,7 +91,7 @@ fn assert_close(found: f64, expected: f64, tolerance: f64, what: &str) {
     );
 }
 
-/// A force on the body with number 0.
+/// A force on body 0.
 fn load(force: [f64; 2], s: [f64; 2]) -> Force {
     Force {
         name: "load".into(),
@@ -118,15 +118,15 @@ fn bar(joints: Vec<Joint>, loads: Vec<Force>) -> Description {
     }
 }
 
-/// A support that holds a point of the bar in height.
+/// A support that fixes the height of a point of the bar.
 fn roller(name: &str, x: f64) -> Joint {
     let line = Line::new([x, 0.0], [x + 1.0, 0.0]).expect("two points");
     Joint::new(name, &[BodyRef::Body(0)], PointOnLine { s: [x, 0.0], line })
 }
 
-/// A bar of 1 m clamped at the left, pinned at the right, unit load at a quarter. With R on the
-/// right the rest is `1 − R` and the moment `1/4 − R`, so in units of length u (per metre) the
-/// least norm has `R = (1 + u²/4)/(2 + u²)`.
+/// A bar of 1 m clamped at the left, pinned at the right, with a unit load at a quarter. With R on
+/// the right the other force is `1 − R` and the moment `1/4 − R`, so with lengths in units of u
+/// (per metre) the minimum norm has `R = (1 + u²/4)/(2 + u²)`.
 #[test]
 fn clamped_and_pinned_bar() {
     let pair = [BodyRef::Ground, BodyRef::Body(0)];
@@ -149,7 +149,7 @@ fn clamped_and_pinned_bar() {
             .expect("a norm");
         let (force, chosen) = component(&d, "pin", "Fy");
         assert!(chosen);
-        // The ground carries the load downwards.
+        // The load acts on the ground downwards.
         -force
     };
     assert_close(
@@ -170,7 +170,7 @@ fn clamped_and_pinned_bar() {
         format!("{:.4}", right(NormWeights::NEWTON_MILLIMETRE)),
         "0.2500"
     );
-    // A pin that gives way by 1/k, a clamp that turns by c: R·(1/k + c) = c/4.
+    // A pin with the compliance 1/k, a clamp with the rotational compliance c: R·(1/k + c) = c/4.
     let compliance = |joint, y, rotation| Compliance {
         reaction: ConstraintId(joint),
         x: 1e-9,
@@ -223,7 +223,7 @@ fn beam_on_three_springs() {
         forces(&elastic([1e-6, 2e-6, 1e-6]).expect("determined")),
         [share - arm, 0.5 * share, share + arm],
     );
-    // Between rigid supports a soft one carries nothing.
+    // Between rigid supports an elastic one carries no load.
     expect(
         forces(&elastic([0.0, 1e-6, 0.0]).expect("determined")),
         [0.5 * load_size - arm, 0.0, 0.5 * load_size + arm],
@@ -248,7 +248,7 @@ fn beam_on_three_springs() {
     ));
 }
 
-/// Numbers of `reference/redundant_three_cranks.json` (worked out there in closed form): 13 digits.
+/// Numbers of `reference/redundant_three_cranks.json` (computed there in closed form): 13 digits.
 #[test]
 fn three_cranks_with_least_norm() {
     let case: Json = serde_json::from_str(THREE_CRANKS).expect("the case is JSON");
@@ -277,7 +277,7 @@ fn three_cranks_with_least_norm() {
                     .expect("exists");
                 number(&d.value(&configuration, &form).expect("fits"))
             };
-            // Reported on the first body, the reference has the second.
+            // Reported on the first body; the reference gives the reaction on the second.
             let (force, chosen) = along(radial);
             assert!(chosen);
             assert_close(-force, norm[k], 1e-12, "radial");
@@ -315,8 +315,8 @@ fn three_cranks(theta: f64, rate: f64) -> Description {
     d
 }
 
-/// The robot at t = 0, pushed sideways and turned at the platform so that there is something to
-/// share.
+/// The robot at t = 0, with a lateral force and a torque on the platform, so that there are nonzero
+/// reactions.
 fn pushed_robot() -> Description {
     let mut d = robot(steering());
     d.forces.push(Force {
@@ -330,7 +330,7 @@ fn pushed_robot() -> Description {
     d
 }
 
-/// Reactions of a run on other kept rows, at its start or at t > 0.
+/// Reactions of a run with other kept rows, at its start or at t > 0.
 fn run_without(d: &Description, rows: &[usize], t: f64) -> (State, Vec<Reaction>) {
     let rows = RowChoice::Drop(rows.to_vec());
     let p = started(d, &rows);
@@ -356,7 +356,8 @@ fn run_without(d: &Description, rows: &[usize], t: f64) -> (State, Vec<Reaction>
     (state, reactions)
 }
 
-/// Eliminations against the dynamics on just those kept rows, and what all choices have in common.
+/// Eliminations compared with runs that keep exactly these rows, and with the components that all
+/// choices have in common.
 #[test]
 fn eliminations_of_the_robot_are_runs_without_these_rows() {
     for (t, rows) in [
@@ -387,7 +388,8 @@ fn eliminations_of_the_robot_are_runs_without_these_rows() {
                 assert_close(number(value).0, wrench[k], 1e-10 * size, &found.name);
             }
         }
-        // Unique numbers are those of any other choice; here from rows that the run did not keep.
+        // Unique components are those of any other choice; here from rows that the run did not
+        // keep.
         let norm = state
             .distribute(&Choice::MinimumNorm(NormWeights::NEWTON_METRE))
             .expect("a norm");
@@ -445,7 +447,8 @@ fn inadmissible_eliminations_are_refused_by_name() {
     assert!(refused(&[21, 99]).contains("does not exist"));
 }
 
-/// Two drives of one velocity: the same speed is shared, another acceleration is none.
+/// Two drives of one velocity: an equal speed is shared, with different accelerations there are no
+/// reactions.
 #[test]
 fn contradicting_drives_have_no_reactions() {
     let drive = |name: &str, rate: [f64; 2]| {
@@ -462,7 +465,7 @@ fn contradicting_drives_have_no_reactions() {
         let joints = vec![drive("first", rates[0]), drive("second", rates[1])];
         let mut d = bar(joints, vec![load([10.0, 0.0], [0.0, 0.0])]);
         d.bodies[0].velocity = Some([2.0, 0.0]);
-        // Not by `prepare`, which refuses such drives itself.
+        // Without `prepare`, which refuses such drives itself.
         let mechanism = Mechanism::build(&d).expect("builds");
         let (q, v) = mechanism.described_state();
         State {
@@ -475,7 +478,7 @@ fn contradicting_drives_have_no_reactions() {
     let d = with([[2.0, 1.0]; 2])
         .distribute(&Choice::MinimumNorm(NormWeights::NEWTON_METRE))
         .expect("they agree");
-    // 1 kg at 1 m/s² takes 1 N of 10 N; the drives take 4.5 N each, on the bar −4.5 N.
+    // 1 kg at 1 m/s² needs 1 N of 10 N; the drives carry 4.5 N each, on the bar −4.5 N.
     assert_close(component(&d, "first", "Fx").0, -4.5, 1e-15, "half");
     assert_close(component(&d, "second", "Fx").0, -4.5, 1e-15, "half");
     let error = with([[2.0, 1.0], [2.0, 1.1]])
@@ -484,16 +487,16 @@ fn contradicting_drives_have_no_reactions() {
     assert!(matches!(error, ChoiceError::Contradiction { by, .. } if (by - 0.1).abs() < 1e-12));
 }
 
-/// A change of units shows exactly what the verdicts say.
+/// A change of units changes exactly the components that depend on the choice.
 #[test]
 fn facts_do_not_depend_on_units() {
     let robot_turning = run_without(&pushed_robot(), &[20, 19], 1.5).0;
     let robot_straight = State::at_start(&robot(steering()));
     let cranks = State::at_start(&three_cranks(0.5, 1.5));
-    // Of the robot 14 reactions have 3 + 2 components, 7 of them 2 more along and across their
-    // edge. B and C are open in both frames, W1 to W4 across their edges, which is all of their
-    // global components while they turn. Of the cranks' 6 bearings only those at the tips are
-    // reported in the frame of a crank, where the force across it is a fact.
+    // The 14 reactions of the robot have 3 + 2 components, 7 of them two more along and across
+    // their edge. B and C are not unique in either frame, W1 to W4 across their edges, which
+    // affects both of their global components while they turn. Of the cranks' 6 bearings only those
+    // at the tips are reported in the frame of a crank, where the force across it is unique.
     for (name, state, facts, choices) in [
         ("turning", robot_turning, 60, 24),
         ("straight, without load", robot_straight, 68, 16),

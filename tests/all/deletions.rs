@@ -1,5 +1,5 @@
-//! Deletions, structure and explanation of the robot and of small mechanisms, against facts that
-//! were worked out by hand.
+//! Deletions, structure and explanation of the robot and of small mechanisms, compared with results
+//! derived by hand.
 
 use model::{Description, Function, Mechanism, Scratch, StartOptions, System};
 use rank::{Limits, Settled};
@@ -9,7 +9,7 @@ use solvability::{
 use tests::cranks::cranks;
 use tests::robot::robot;
 
-/// A mechanism at a configuration, judged.
+/// A mechanism at a configuration, with its verdicts.
 struct Case {
     mechanism: Mechanism,
     q: Vec<f64>,
@@ -24,7 +24,7 @@ fn case(mechanism: Mechanism, t: f64, q: Vec<f64>) -> Case {
     mechanism.c(&mut s);
     let decision = decide(&mechanism, &s, &q).expect("C is finite");
     let c = mechanism.layout().dense(&s);
-    // Metres and radians compare within a factor of two here.
+    // Here metres and radians differ by less than a factor of two.
     let solvability = Solvability::from_decision(&c, decision);
     Case {
         mechanism,
@@ -40,7 +40,7 @@ fn described(d: &Description) -> Case {
     case(mechanism, 0.0, q)
 }
 
-/// The robot at rest with its slider moved and both knuckles turned with it.
+/// The robot at rest with its slider displaced and both knuckles turned accordingly.
 fn steered(displacement: f64) -> Case {
     let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
     let mut d = robot(ramp);
@@ -205,7 +205,7 @@ fn the_robot_is_explained() {
         "`W3` and `W4` both stop `platform` from slipping sideways along the same line; how the load is shared between them is not \
          determined; forces 1 : −1 on them cancel, and their sum depends on other reactions that are not determined"
     );
-    // Picture-ready: opposite unit forces on one line.
+    // As required for a picture: opposite unit forces on one line.
     let [a, b] = &e.stresses[0].directions[..] else {
         panic!("two edges")
     };
@@ -218,7 +218,7 @@ fn the_robot_is_explained() {
         (2, &names[..])
     );
     assert_eq!(e.reactions.iter().map(|r| r.id).collect::<Vec<_>>(), names);
-    // Every self-stress is in balance on every body: forces and torques about the origin.
+    // Every self-stress is in equilibrium on every body: forces and torques about the origin.
     for stress in &e.stresses {
         for body in 0..c.mechanism.bodies().len() {
             let mut sum = [0.0_f64; 3];

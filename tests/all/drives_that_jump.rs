@@ -1,5 +1,5 @@
 //! Drives with kinks and jumps: a jump of the rate is an impulse with a known energy, a jump of the
-//! position is refused by name. And rows at a break time show what was just before.
+//! position is refused with an error. Rows at a break time show the values just before it.
 
 use std::ops::ControlFlow;
 
@@ -124,7 +124,7 @@ fn a_jump_of_the_position_is_refused_with_the_drive_and_the_time() {
     }
 }
 
-/// A slide that is at rest and moves with 1 m/s from t = 1 on.
+/// A slide that is at rest and moves at 1 m/s from t = 1 on.
 #[test]
 fn a_start_at_once_takes_half_m_v_squared() {
     let motion = Function::lines(&[0.0, 1.0, 2.0], &[0.0, 0.0, 1.0]).expect("a kink");
@@ -180,7 +180,7 @@ fn a_start_at_once_takes_half_m_v_squared() {
     );
 }
 
-/// Smooth steps from rest: rates of 1e-32 behind the break times are no jumps.
+/// Smooth steps from rest: rates of 1e-32 after the break times are not jumps.
 #[test]
 fn smooth_steps_are_no_jumps() {
     let steps = Function::steps(0.0, &[[1.0, 2.0, 0.5], [2.0, 2.5, 1.0]]).expect("two steps");

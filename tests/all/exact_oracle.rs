@@ -1,11 +1,13 @@
-//! The judge judged: matrices worked out by hand, and every verdict by two derivations.
+//! Tests of the exact reference: matrices with results derived by hand, and every verdict by two
+//! derivations.
 
 use exact::Exact;
 use tests::numbers::Numbers;
 
 #[test]
 fn by_hand() {
-    // Rows 0 to 2: two forces along x and their sum; rows 3 and 4 are alone; row 5 is empty.
+    // Rows 0 to 2: two forces along x and their sum; rows 3 and 4 are independent of all others;
+    // row 5 is empty.
     let exact = Exact::of(&[
         [1.0, 0.0, 0.0],
         [0.25, 0.0, 0.0],
@@ -24,8 +26,8 @@ fn by_hand() {
     assert!(!exact.combination_is_unique(&[4.0, 1.0, 5.0, 7.0, 0.0, 1.0]));
 }
 
-/// One tenth, two tenths and three tenths as `f64` are no sum of each other; twice one tenth is two
-/// tenths.
+/// The `f64` nearest to 0.1 and 0.2 do not sum to the one nearest to 0.3; twice that of 0.1 is
+/// exactly that of 0.2.
 #[test]
 fn data_as_read() {
     let thirds = Exact::of(&[[0.1, 1.0, 0.0], [0.2, 1.0, 1.0], [0.3, 2.0, 1.0]]);
@@ -34,8 +36,9 @@ fn data_as_read() {
     assert_eq!(half.rank(), 2);
 }
 
-/// The reaction of X is unique iff `rank C = rank C_X + rank C_rest`; a row is unique iff the rank
-/// falls without it; `ℓᵀ·λ` is unique iff ℓ as another column leaves the rank.
+/// The reaction of X is unique if and only if `rank C = rank C_X + rank C_rest`; a row is unique if
+/// and only if the rank decreases without it; `ℓᵀ·λ` is unique if and only if ℓ as an additional
+/// column does not change the rank.
 #[test]
 fn two_derivations_agree() {
     let mut numbers = Numbers::new(7);

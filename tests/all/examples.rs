@@ -1,5 +1,5 @@
-//! The gallery in `examples/`: each scene, its page, and the table in front of them. What is
-//! expected was worked out by hand.
+//! The gallery in `examples/`: each scene, its page, and the table of all. The expected values were
+//! derived by hand.
 
 mod answers;
 mod fixed;
@@ -20,8 +20,8 @@ use pfaff::{Overrides, Study};
 /// Tolerance of the runs.
 const TIGHT: f64 = 1e-12;
 
-/// How far a run with [`TIGHT`] may be from a closed form, in units of the largest number around:
-/// the run's error, not rounding.
+/// Largest difference of a run with [`TIGHT`] from a closed form, relative to the largest number
+/// involved: the error of the run, not rounding.
 const CLOSE: f64 = 1e-9;
 
 fn root() -> &'static Path {
@@ -30,7 +30,7 @@ fn root() -> &'static Path {
         .expect("tests/ lies in the root")
 }
 
-/// Where the scene of an example is. That of the published robot lies in its own crate.
+/// The path of the scene of an example. That of the published robot is in its own crate.
 pub(super) fn scene(name: &str) -> PathBuf {
     match name {
         "robot-trolley" => root().join("crates/robot-trolley/robot-trolley.toml"),
@@ -131,13 +131,13 @@ impl Run {
         [row.q[k], row.q[k + 1], row.q[k + 2]]
     }
 
-    /// Their rates.
+    /// Rates of x, y and angle.
     fn rate(&self, row: &Row, body: &str) -> [f64; 3] {
         let k = self.start(body);
         [row.v[k], row.v[k + 1], row.v[k + 2]]
     }
 
-    /// Where a point of a body is; `s` in its frame.
+    /// The position of a point of a body; `s` is given in its frame.
     fn point(&self, row: &Row, body: &str, s: [f64; 2]) -> [f64; 2] {
         let [x, y, angle] = self.pose(row, body);
         let (sin, cos) = angle.sin_cos();
@@ -150,7 +150,7 @@ impl Run {
         [r.force[0], r.force[1], r.torque]
     }
 
-    /// The named component: N of a knife edge, the drive's own.
+    /// The named component: N of a knife edge, or the component of a drive.
     fn component(&self, row: &Row, joint: &str) -> f64 {
         let component = row.reactions[self.joint(joint)].component;
         component.unwrap_or_else(|| panic!("`{joint}` has no named component"))
@@ -162,7 +162,7 @@ impl Run {
     }
 }
 
-/// Compares with a closed form; `scale` is the largest number around.
+/// Compares with a closed form; `scale` is the largest number involved.
 #[track_caller]
 fn close(found: f64, expected: f64, scale: f64) {
     assert!(
@@ -171,7 +171,7 @@ fn close(found: f64, expected: f64, scale: f64) {
     );
 }
 
-/// The page of an example says this number, with so many decimals.
+/// Asserts that the page of an example contains this number, with this number of decimals.
 #[track_caller]
 fn says(name: &str, number: f64, decimals: usize) {
     let text = format!("{number:.decimals$}");
@@ -181,7 +181,7 @@ fn says(name: &str, number: f64, decimals: usize) {
     );
 }
 
-/// Two files of the same mechanism are one.
+/// Both files of this mechanism must be equal.
 #[test]
 fn andrews_is_the_file_of_the_suite() {
     let suite = read(&root().join("crates/suite/scenes/andrews.toml"));

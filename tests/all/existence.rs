@@ -1,5 +1,5 @@
-//! Redundant drives that agree, and ones that do not: at the level of velocities, of accelerations,
-//! and later.
+//! Redundant drives that agree, and ones that contradict each other: in velocities, in
+//! accelerations, and at a later time.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -27,7 +27,7 @@ fn refused(motions: [Function; 2]) -> Option<Contradiction> {
 #[test]
 fn drives_that_follow_the_same_law_agree() {
     let sin = Function::harmonic(0.3, 2.0, 0.0, 0.0).expect("finite");
-    // The same velocity and acceleration at t = 0 from another law; 0.3·2.0 is rounded.
+    // Another law with the same velocity and acceleration at t = 0; 0.3·2.0 is rounded.
     let law = polynomial(&[0.0, 0.6]);
     for motions in [
         [polynomial(&[0.0, 1.0, 2.0]), polynomial(&[5.0, 1.0, 2.0])],
@@ -61,8 +61,8 @@ fn drives_that_differ_are_named_with_the_difference() {
     }
 }
 
-/// Near the flat pose kept rows express the dropped ones with coefficients that are wrong by 1/σ
-/// roundings: no false alarm, and a real difference is still seen.
+/// Near the flat pose the coefficients by which dropped rows depend on kept ones have errors of 1/σ
+/// roundings: no false alarm, and a real difference is still detected.
 #[test]
 fn nearly_singular_rows_give_no_false_alarm() {
     for theta in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
@@ -83,7 +83,8 @@ fn nearly_singular_rows_give_no_false_alarm() {
     }
 }
 
-/// A check that measured rates by the largest function of the model would be blind next to it.
+/// A check that compared rates with the largest function of the model would not detect this
+/// contradiction.
 #[test]
 fn a_large_function_of_another_drive_hides_nothing() {
     let mut d = driven_parallelogram([polynomial(&[0.0, 1.0]), polynomial(&[0.0, 1.0, 1e-3])]);
@@ -103,8 +104,8 @@ fn a_large_function_of_another_drive_hides_nothing() {
     );
 }
 
-/// Laws that agree in all derivatives at t = 0 and part later: positions contradict each other
-/// then.
+/// Laws that agree in all derivatives at t = 0 and differ later: then positions contradict each
+/// other.
 #[test]
 fn positions_contradict_later() {
     let late = Function::steps(0.0, &[[1.0, 2.0, 1e-5]]).expect("ordered");
@@ -120,7 +121,7 @@ fn positions_contradict_later() {
         m.pose(t, &q, &mut s);
         m.phi(&mut s);
         m.c(&mut s);
-        // The rank is that of C; the dropped row's residual does not blur it.
+        // The rank is that of C; the dropped row's residual does not affect it.
         s.phi.fill(0.0);
         let all = decide(m, &s, &q).expect("finite");
         let holonomic = decide_holonomic(m, &s, &q).expect("finite");
@@ -140,8 +141,8 @@ fn positions_contradict_later() {
     assert!((one.size - 1e-5).abs() < 1e-9 && one.unit == "rad", "{one}");
 }
 
-/// Two flat cranks turn the same way or opposite ways at equal speed; no other velocities can go
-/// on.
+/// Two flat cranks rotate in the same or in opposite directions at equal speed; for other
+/// velocities no motion exists.
 #[test]
 fn velocities_that_cannot_leave_a_flat_pose() {
     let (length, pitch) = (0.5, 1.0);

@@ -1,5 +1,5 @@
 //! Reactions on the first body of a joint by Newton and Euler: free-body diagrams on paper, and M·a
-//! − Q of bodies on which a joint is alone. Gears in every order of bodies and carriers, racks in
+//! − Q of bodies with only one joint. Gears with every order of bodies and carriers, racks with
 //! both orders, and a joint of three bodies with forces.
 
 use std::ops::ControlFlow;
@@ -8,11 +8,11 @@ use joints::{Gear, RackAndPinion};
 use model::{BuildError, Mechanism, Reaction, System};
 use pfaff::prelude::*;
 
-/// Numbers below are of size 1 to 30 and pass through one factorisation of a few rows.
+/// The numbers below are of size 1 to 30 and result from one factorisation of a few rows.
 const ROUNDING: f64 = 1e-11;
 
-/// Moved states are accurate to the tolerance of the run, accelerations at them to all digits: both
-/// sides take the same state.
+/// States of the motion are accurate to the tolerance of the run, the accelerations at them to all
+/// digits: both sides use the same state.
 const T_END: f64 = 0.3;
 
 fn close(found: f64, expected: f64, what: &str) {
@@ -69,8 +69,8 @@ fn at_rest(scene: &str, joint: &str) -> [f64; 3] {
     run(&study)[0].reactions[k]
 }
 
-/// Wheels a (2 kg·m²) and b (0.5 kg·m²) and an arm c (3 kg·m²) in bearings of the ground, with
-/// torques on them.
+/// Wheels a (2 kg·m²) and b (0.5 kg·m²) and an arm c (3 kg·m²) in bearings of the ground, with a
+/// torque on each.
 fn wheels(gear: &str, torques: [f64; 3]) -> String {
     let [a, b, c] = torques;
     format!(
@@ -96,9 +96,9 @@ force = [
     )
 }
 
-/// S is the couple of the joint on its second body. Where it does no work in all, T·δφ_i + S·δφ_j +
-/// T_c·δφ_c = 0 for δφ_j = n·δφ_i + (1 − n)·δφ_c: T = −n·S on the first body, T_c = −(1 − n)·S on
-/// the carrier; the three add up to zero.
+/// S is the couple of the joint on its second body. Its virtual work vanishes: T·δφ_i + S·δφ_j +
+/// T_c·δφ_c = 0 for δφ_j = n·δφ_i + (1 − n)·δφ_c, hence T = −n·S on the first body and T_c = −(1 −
+/// n)·S on the carrier; the three sum to zero.
 #[test]
 fn gears_at_rest_by_hand() {
     let cases: [(&str, [f64; 3], f64, &str); 9] = [
@@ -165,8 +165,8 @@ fn gears_at_rest_by_hand() {
     }
 }
 
-/// A moving body is not taken twice: a wheel that carries its own mesh would only be fixed to the
-/// other one.
+/// A moving body may occur only once: a wheel that carries its own mesh would simply be fixed to
+/// the other one.
 #[test]
 fn a_body_is_not_its_own_carrier() {
     for gear in [
@@ -206,8 +206,8 @@ force = [
     )
 }
 
-/// The teeth give the rack the force R along x, the pinion −R, both through the pitch point, which
-/// is below P by the radius. Rolling: a = r·α.
+/// The teeth exert the force R along x on the rack, −R on the pinion, both at the pitch point,
+/// which is below P by the radius. Rolling: a = r·α.
 #[test]
 fn racks_at_rest_by_hand() {
     let cases = [
@@ -244,10 +244,10 @@ fn racks_at_rest_by_hand() {
     }
 }
 
-/// A pinion (2 kg, 0.25 kg·m², r = 0.5 m) rolls along a rack of the ground, its centre held at y =
-/// 2 by a slot and pulled by 7 N, turned by 0.5 N·m: 2·a = 7 − R, 0.25·α = 0.5 − 0.5·R, α = −2·a,
-/// so a = 2 and R = 3. On the rack 3 N along y = 1.5, about (1, 2) 1.5 N·m, also when the pinion
-/// has left that point.
+/// A pinion (2 kg, 0.25 kg·m², r = 0.5 m) rolls along a rack of the ground, with its centre held at
+/// y = 2 by a slot, a force of 7 N and a torque of 0.5 N·m: 2·a = 7 − R, 0.25·α = 0.5 − 0.5·R, α =
+/// −2·a, so a = 2 and R = 3. On the rack the force is 3 N along y = 1.5, and the torque about (1,
+/// 2) is 1.5 N·m, also after the pinion has left that point.
 #[test]
 fn the_place_of_a_rack_stays_in_the_rack() {
     let scene = r#"
@@ -278,7 +278,7 @@ force = [
     }
 }
 
-/// Three free bodies, turned and moving, with a torque on each.
+/// Three free bodies, rotated and moving, with a torque on each.
 fn free_bodies() -> (Description, [BodyRef; 3]) {
     let mut d = Description {
         gravity: [1.0, -3.0],
@@ -306,8 +306,8 @@ fn free_bodies() -> (Description, [BodyRef; 3]) {
 /// Torques on the free bodies (N·m).
 const LOADS: [f64; 3] = [5.0, -2.0, 3.5];
 
-/// What acts on a body apart from its weight and its torque, `[Fx, Fy, T]` about a point: M·a − Q,
-/// moved there.
+/// The forces on a body apart from its weight and its torque, `[Fx, Fy, T]` about a point: M·a − Q,
+/// transferred to it.
 fn missing(d: &Description, row: &Row, body: usize, about: [f64; 2]) -> [f64; 3] {
     let b = &d.bodies[body];
     let (q, a) = (&row.q[3 * body..], &row.a[3 * body..]);
@@ -317,8 +317,8 @@ fn missing(d: &Description, row: &Row, body: usize, about: [f64; 2]) -> [f64; 3]
     [force[0], force[1], torque]
 }
 
-/// Compares the only reaction with M·a − Q: of its first body, or, for the ground, of all others,
-/// turned round.
+/// Compares the only reaction with M·a − Q: of its first body, or, if that is the ground, of all
+/// others with the opposite sign.
 fn compare(study: &Study, d: &Description, first: BodyRef, place: impl Fn(&Row) -> [f64; 2]) {
     for row in run(study) {
         let about = place(&row);
@@ -380,7 +380,7 @@ fn racks_in_every_order_are_what_their_first_body_misses() {
             };
             d.joint("mesh", &bodies, joint);
             let study = Study::build(d.clone()).unwrap_or_else(|e| panic!("{e}"));
-            // The pinion's centre at the start, carried along by the rack.
+            // The pinion's centre at the start, as a point fixed to the rack.
             let turn = |[x, y]: [f64; 2], angle: f64| {
                 let (sin, cos) = angle.sin_cos();
                 [cos * x - sin * y, sin * x + cos * y]
@@ -423,7 +423,7 @@ pfaff::joint! { plane MiddleDistance(i, j, k) {
     place: point(i, s_i);
 } }
 
-/// Forces, too, add up over the slots that the ground takes.
+/// Forces, too, are summed over the slots that the ground occupies.
 #[test]
 fn a_joint_of_three_bodies_is_what_its_first_body_misses() {
     let (_, [a, b, _]) = free_bodies();
@@ -471,7 +471,7 @@ pfaff::joint! { plane NamedDistance(i, j, k) {
     place: origin(i);
 } }
 
-/// A named component is that of one slot; which of two the reader would mean, nobody knows.
+/// A named component belongs to one slot; if the first body occupies two, it would be ambiguous.
 #[test]
 fn a_named_component_needs_a_first_body_of_one_slot() {
     let build = |bodies: fn([BodyRef; 3]) -> [BodyRef; 3]| {

@@ -1,5 +1,5 @@
-//! One motion by every elimination of redundant rows, and what is seen of drift if nothing is
-//! projected. Other formulations are compared in `crates/lab`.
+//! The same motion with every elimination of redundant rows, and the drift without projection.
+//! Other formulations are compared in `crates/lab`.
 
 use std::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ use tests::robot::{robot, steering};
 
 const REFERENCE: &str = include_str!("../reference/robot_trolley.json");
 
-/// Reactions of the robot that the model leaves open.
+/// Reactions of the robot that the model does not determine.
 const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
 /// Pairs of rows (from 1) that can be dropped at every configuration of the robot's motion.
@@ -42,7 +42,7 @@ struct ReferenceRow {
     qd: Vec<f64>,
 }
 
-/// What a run wrote: times, states, and force, torque of every joint and drive.
+/// The output of a run: times, states, and force and torque of every joint and drive.
 struct Run {
     t: Vec<f64>,
     q: Vec<Vec<f64>>,
@@ -79,8 +79,8 @@ impl Run {
         (0..self.t.len()).filter(whole).collect()
     }
 
-    /// Largest difference of coordinates and velocities at the times of the reference: all but one
-    /// are break times, where steps end.
+    /// Largest difference of coordinates and velocities at the times of the reference: all except
+    /// one are break times, at which steps end.
     fn distance_at_steps(&self, other: &Self) -> f64 {
         let of = |a: &[f64], b: &[f64]| largest(a.iter().zip(b).map(|(a, b)| a - b));
         let at = |k: usize| of(&self.q[k], &other.q[k]).max(of(&self.v[k], &other.v[k]));
@@ -188,7 +188,7 @@ fn what_cannot_be_dropped_is_refused_with_the_time() {
     }
 }
 
-/// Φ of a written state, evaluated here.
+/// Φ of an output state, evaluated here.
 fn opening(p: &Prepared, t: f64, q: &[f64]) -> f64 {
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(t, q, &mut s);
@@ -216,7 +216,7 @@ fn without_projection_the_drift_is_told() {
     assert!(projected < 1e-14, "{projected:e}");
     assert!(drifted > 1e-9 && drifted < 1e-3, "{drifted:e}");
     for (written, run) in [(projected, &run_projected), (drifted, &run_drifted)] {
-        // Steps are in the summary, too.
+        // The summary includes the steps between rows.
         let told = run.summary.max_position_residual;
         assert!(
             told >= written && told <= 10.0 * written.max(1e-15),
@@ -227,7 +227,7 @@ fn without_projection_the_drift_is_told() {
     }
 }
 
-/// Drives and knife edges, with break times: drift is no jump of a drive.
+/// Drives and knife edges, with break times: drift must not be taken as a jump of a drive.
 #[test]
 fn the_robot_drifts_without_impulses() {
     let p = started(&robot(steering()), &RowChoice::Automatic);

@@ -1,5 +1,5 @@
-//! Free motions of the gallery: as many as the mobility, independent, on the constraints by
-//! differences of Φ, and in words that were derived by hand.
+//! Free motions of the gallery: their number is the mobility, they are independent, they satisfy
+//! the constraints by differences of Φ, and their texts were derived by hand.
 
 use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Registry, System};
@@ -8,14 +8,14 @@ use pfaff::{Overrides, Study};
 
 use super::examples::{files, read, scene};
 
-/// Half the step of a difference: its error is a few times its square, rounding of Φ divided by it
-/// is smaller.
+/// Half the step of a difference: its error is a few times its square; the rounding error of Φ
+/// divided by it is smaller.
 const STEP: f64 = 1e-5;
 
-/// What a difference may miss by for velocities and lengths of a few units.
+/// Error bound of a difference for velocities and lengths of a few units.
 const DIFFERENCE: f64 = 1e-7;
 
-/// What a row of Ψ may miss by.
+/// Error bound of a row of Ψ.
 const ROUNDING: f64 = 1e-11;
 
 /// Directions that differ by more than this are independent.
@@ -49,8 +49,8 @@ fn velocities(mechanism: &Mechanism, motions: &FreeMotions) -> Vec<Vec<f64>> {
     .collect()
 }
 
-/// The rows of Φ do not change along a motion, those of Ψ vanish on it. Drives stand still, or are
-/// left out.
+/// Asserts that the rows of Φ do not change along a motion, and those of Ψ vanish on it. Drives are
+/// at rest, or are omitted.
 fn stays_on(mechanism: &Mechanism, q: &[f64], v: &[f64], drives: bool, name: &str) {
     let layout = mechanism.layout();
     let left_out = if drives {
@@ -115,8 +115,8 @@ fn motions_of_the_gallery_are_a_basis_of_what_the_rows_allow() {
     assert!(seen > 25, "{seen} motions");
 }
 
-/// The slider moves the links, which turn the knuckles of both axles; all else stands. With the
-/// drive the cart rolls straight ahead.
+/// The slider moves the links, which turn the knuckles of both axles; all other bodies are at rest.
+/// With the drive fixed the cart rolls straight ahead.
 #[test]
 fn the_robot_rolls_and_steers() {
     let found = freedoms(&study("robot-trolley"));
@@ -131,8 +131,8 @@ fn the_robot_rolls_and_steers() {
     assert_eq!(all, [rolls, steers]);
 }
 
-/// Rotor and axles turn by themselves, each about its pivot; the board with all of them rolls along
-/// its wheels.
+/// Rotor and axles rotate independently, each about its pivot; the board with all of them rolls
+/// along its wheels.
 #[test]
 fn the_snakeboard_has_a_motion_for_each_drive() {
     let found = freedoms(&study("snakeboard"));
@@ -151,8 +151,8 @@ fn the_snakeboard_has_a_motion_for_each_drive() {
     assert_eq!(all, expected);
 }
 
-/// ω of sun, carrier and planets are 3 : 1 : −3, and the centres of the planets move with the
-/// carrier.
+/// ω of sun, carrier and planets are in the ratio 3 : 1 : −3, and the centres of the planets move
+/// with the carrier.
 #[test]
 fn the_planetary_gear_turns_as_one() {
     let study = study("planetary-gear");
@@ -171,8 +171,8 @@ fn the_planetary_gear_turns_as_one() {
     }
 }
 
-/// Two motors drive two cranks, and a third law is one too many; without them crank and link move,
-/// one at a time where the other stands.
+/// Two motors drive two cranks, and a third law is redundant; without the drives crank and link
+/// move, one at a time with the other at rest.
 #[test]
 fn redundancy_of_drives_goes_with_them() {
     let found = freedoms(&study("five-bar"));
@@ -180,7 +180,7 @@ fn redundancy_of_drives_goes_with_them() {
     assert_eq!((without.ranks.redundancy, without.mobility), (0, 2));
 }
 
-/// What cannot move is called so, and what moves by its drive alone is not.
+/// A mechanism that cannot move is reported as such, one that is moved only by its drive is not.
 #[test]
 fn a_truss_and_a_door_cannot_move() {
     for (name, cannot) in [("truss", true), ("door", true), ("four-bar", false)] {

@@ -1,5 +1,4 @@
-//! The same mechanism as a scene and as a program: everything that comes out is the same to the
-//! last bit.
+//! The same mechanism as a scene and as a program: all results are bitwise equal.
 
 use pfaff::dynamics::MotionError;
 use pfaff::joints::{SpringDamper, Torque, Velocity};
@@ -9,9 +8,9 @@ use pfaff::report::OutputDirectory;
 use pfaff::report::documents::MotionDocument;
 use serde_json::Value;
 
-/// A coupler on three parallel cranks, one of them too many, pulled by a spring and pushed by a
-/// torque that changes. On the coupler a slide with a drive, and next to it a cart on two wheels of
-/// one axle whose speed is prescribed.
+/// A coupler on three parallel cranks, one of them redundant, with a spring and a varying torque.
+/// On the coupler a slide with a drive, and separately a cart on two wheels of one axle whose speed
+/// is prescribed.
 const SCENE: &str = r#"
 scene = { name = "three cranks and a cart", space = "plane", gravity = [0.0, -9.81] }
 
@@ -151,7 +150,7 @@ fn from_code() -> Study {
     Study::build(description()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// As JSON, where numbers are written so that they can be read back to the last bit.
+/// As JSON, in which numbers are written such that the same bits are read back.
 fn json(value: &impl serde::Serialize) -> String {
     serde_json::to_string(value).expect("plain data")
 }
@@ -165,7 +164,7 @@ fn verdicts_are_the_same_to_the_last_bit() {
     };
     let (text, code) = (document(&from_text()), document(&from_code()));
     assert_eq!(json(&text), json(&code));
-    // One crank and one wheel are too many.
+    // One crank and one wheel are redundant.
     assert_eq!((code.rows, code.redundancy), (18, 2));
     assert_eq!(code.groups[0].verdict.verdict, "unique");
     assert!(
@@ -190,7 +189,7 @@ fn motions_are_the_same_to_the_last_bit() {
     assert_eq!(timeless(text), timeless(code));
 }
 
-/// What a scene asks for apart from its mechanism is asked for in the same words.
+/// The requests of a scene in addition to its mechanism have the same names in the library.
 #[test]
 fn files_are_the_same() {
     let wants = Some(MotionOptions::to(0.5));
@@ -237,13 +236,13 @@ fn rows_are_those_of_the_tables() {
         keys(&value["reactions"]["motor"]),
         ["Fx", "Fy", "T", "drive"]
     );
-    // Half a metre a second and a radian a second: a circle of half a metre about (0, −2.5).
+    // Half a metre per second and a radian per second: a circle of half a metre about (0, −2.5).
     let cart = &last.bodies["cart"];
     assert!((cart.x - 0.5 * 0.1_f64.sin()).abs() < 1e-9, "{cart:?}");
     assert!((cart.vx - 0.5 * 0.1_f64.cos()).abs() < 1e-9, "{cart:?}");
 }
 
-/// Without a text there are no places, but names and numbers all the same.
+/// Without a text errors have no places, but they have names and numbers.
 #[test]
 fn errors_have_names() {
     let build = |change: &dyn Fn(&mut Description)| {

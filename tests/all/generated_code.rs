@@ -1,6 +1,6 @@
-//! Runs on generated code. The code here is no generated one but solves the same equations its own
+//! Runs on generated code. The code here is not generated but solves the same equations in its own
 //! way, so that faults can be put into it: whatever it does, the motion is that of the interpreter,
-//! and the run says who evaluated.
+//! and the run reports which of them evaluated.
 
 mod elimination;
 
@@ -55,7 +55,7 @@ fn apart(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
     pairs.fold(0.0, |largest, (a, b)| f64::max(largest, (a - b).abs()))
 }
 
-/// (kind, time) of what happened to the code.
+/// (kind, time) of the events that concern the code.
 fn told(summary: &Summary) -> Vec<(EventKind, f64)> {
     let of_code = [EventKind::CodeLeft, EventKind::CodeUsed];
     let events = summary.events.iter();
@@ -99,8 +99,8 @@ fn a_run_on_healthy_code_is_that_of_the_interpreter() {
     }
 }
 
-/// From the last accepted state before the fault on the equations are interpreted, and from some
-/// time behind it on no more.
+/// From the last accepted state before the fault the equations are interpreted, and after some time
+/// the code is used again.
 #[test]
 fn code_that_is_not_sure_is_left_and_comes_back() {
     let p = trolley();
@@ -129,7 +129,8 @@ fn code_that_is_not_sure_is_left_and_comes_back() {
         let [(left, t_left), (used, t_used)] = [told[0], told[1]];
         assert_eq!([left, used], [EventKind::CodeLeft, EventKind::CodeUsed]);
         assert!((3.0..=4.1).contains(&t_left), "{reason}: {t_left}");
-        // Hysteresis: not before it is healthy again, for which some steps have to be interpreted.
+        // Hysteresis: the code is used again only after it is healthy, for which some steps must be
+        // interpreted.
         assert!(t_used > 4.1 && t_used < 10.0, "{reason}: {t_used}");
         let event = summary
             .events
@@ -157,7 +158,7 @@ fn driven(pivots: &[f64], start: f64, motion: Function) -> Prepared {
     started(&d)
 }
 
-/// Rates jump just before the code is left, and while it is.
+/// Rates jump just before the run leaves the code, and during interpretation.
 #[test]
 fn impulses_are_those_of_the_interpreter() {
     let times = [0.0, 4.0, 4.2, 6.0];
@@ -190,7 +191,7 @@ fn impulses_are_those_of_the_interpreter() {
     }
 }
 
-/// A parallelogram driven through its flat pose, where two branches meet: code has no way over it.
+/// A parallelogram driven through its flat pose, where two branches meet: the code cannot pass it.
 #[test]
 fn singular_configurations_are_passed_by_the_interpreter() {
     let rate = Function::constant_rate(1.0).expect("finite");
@@ -228,8 +229,8 @@ fn singular_configurations_are_passed_by_the_interpreter() {
     );
 }
 
-/// The mechanism is exchanged for another one behind the back of the run: whoever asked the
-/// interpreter would notice.
+/// The mechanism of the run is secretly replaced by another one: a call of the interpreter would be
+/// noticed.
 #[test]
 fn a_healthy_run_asks_the_interpreter_nothing() {
     let d = |length: f64| {
@@ -258,13 +259,13 @@ fn a_healthy_run_asks_the_interpreter_nothing() {
     code.evaluations.store(0, Ordering::Relaxed);
     let (found, summary) = last(&coded);
     assert_eq!(found, expected);
-    // Two at the start, twelve a step, eleven a rejected one; six more for rows between.
+    // Two at the start, twelve per step, eleven per rejected step; six more for rows between steps.
     let counted = code.evaluations.load(Ordering::Relaxed) as u64;
     assert_eq!(counted, summary.evaluations);
     assert_eq!(counted, 2 + 12 * summary.steps + 11 * summary.rejected);
 }
 
-/// Bodies that fall: nothing to solve.
+/// Falling bodies: no equations to solve.
 struct Falling(Facts);
 
 impl SceneCode for Falling {

@@ -1,5 +1,5 @@
 //! Generated scenes of small sizes, read and judged: counts, ranks, and every verdict with its
-//! directions are those that the generator states.
+//! directions equal those that the generator states.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ pub(crate) fn read(text: &str) -> Scene {
         .unwrap_or_else(|problems| panic!("{}", problems[0]))
 }
 
-/// Compares everything that is known at the start with what an analysis finds.
+/// Compares all known results at the start with an analysis.
 fn check(order: &Order) {
     let scene = read(&text(order));
     let mechanism = Mechanism::build(&scene.description).expect("what is read can be built");
@@ -62,7 +62,7 @@ fn compare(reaction: &ReactionVerdict, free: Option<&Free>, order: &Order) {
         return;
     };
     assert_eq!(verdict, "not_unique", "{}", context());
-    // Along any determined direction there is nothing of what is free.
+    // Along any determined direction the free part has no component.
     let across = |[x, y]: [f64; 2]| {
         assert_eq!(unique.len(), 1, "{}", context());
         let along = unique[0][0] * x + unique[0][1] * y;
@@ -116,7 +116,7 @@ fn shares_and_seeds() {
     }
 }
 
-/// The case of the suite and the generator describe one mechanism.
+/// The case of the suite and the generator describe the same mechanism.
 #[test]
 fn two_loops_are_the_case_of_the_suite() {
     let case = suite::find("n-four-bar").expect("the case exists");
@@ -133,8 +133,8 @@ fn two_loops_are_the_case_of_the_suite() {
     assert_eq!(joints(&case), joints(&generated));
 }
 
-/// θ of one angle's equation after a time, by the classical Runge–Kutta method with steps of 0.1
-/// ms: its error is below 1e-13.
+/// θ from the equation for one angle after a time, by the classical Runge–Kutta method with steps
+/// of 0.1 ms: its error is below 1e-13.
 pub(crate) fn angle(n: usize, t: f64) -> f64 {
     let steps = (t / 1e-4).round() as usize;
     let h = t / steps as f64;
@@ -194,7 +194,7 @@ fn loops_move_as_one_angle_does() {
     }
 }
 
-/// The robots of a fleet move as the one robot: the springs between them stay slack.
+/// The robots of a fleet move as the single robot: the springs between them stay unstressed.
 #[test]
 fn a_fleet_moves_as_its_robot() {
     let last = |scene: &str| {

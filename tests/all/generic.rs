@@ -1,4 +1,4 @@
-//! Permanent or only here: what is compared with other configurations, and what they say.
+//! Permanent or singular: the comparison with other configurations, and its results.
 
 use joints::{Revolute, RevoluteAngleDrive, Velocity, plane::Direction};
 use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Registry};
@@ -35,8 +35,8 @@ fn driven(mut d: Description) -> Description {
     d
 }
 
-/// n cranks: n − 2 redundant rows, and one more where they are flat, with a drive (no freedom left)
-/// or without.
+/// n cranks: n − 2 redundant rows, and one more if they are flat, with a drive (no freedom left) or
+/// without.
 #[test]
 fn cranks_are_compared_with_themselves_elsewhere() {
     for (pivots, usual) in [
@@ -66,7 +66,7 @@ fn cranks_are_compared_with_themselves_elsewhere() {
     }
 }
 
-/// The robot with straight wheels: rank 20 there and elsewhere.
+/// The robot with straight wheels: rank 20 there and at other configurations.
 #[test]
 fn the_robot_is_redundant_everywhere() {
     let (here, found) = at_start(&robot(steering()));
@@ -75,7 +75,7 @@ fn the_robot_is_redundant_everywhere() {
     assert!(found.points.iter().all(|p| p.rank == 20));
 }
 
-/// A structure has no other configuration, so nothing can be said.
+/// A structure has no other configuration, so the result is undecided.
 #[test]
 fn a_structure_cannot_be_compared() {
     let hinge = |name: &str, x: f64| {
@@ -102,7 +102,8 @@ fn beam() -> Body {
     }
 }
 
-/// A constraint that prescribes a velocity stays, and time moves with the mechanism.
+/// If a joint prescribes a velocity as a function of time, other configurations are compared at
+/// other times.
 #[test]
 fn time_moves_where_a_joint_depends_on_it() {
     let pull = |name: &str| Joint {
@@ -126,7 +127,7 @@ fn time_moves_where_a_joint_depends_on_it() {
     assert!(found.points.iter().all(|p| p.time > 0.0));
 }
 
-/// Whether other configurations of a scene were found, and what they say.
+/// Whether other configurations of a scene were found, and their results.
 fn elsewhere(scene: &str) -> Option<Generic> {
     let study = Study::read("scene", scene, &Registry::planar(), &Overrides::default());
     let study = study.unwrap_or_else(|e| panic!("{scene}\n{e}"));
@@ -134,8 +135,8 @@ fn elsewhere(scene: &str) -> Option<Generic> {
     start.generic()
 }
 
-/// Two wheels, each held at its centre, and two gears between them: no body has an arm. Neither
-/// place nor size nor mass has a say.
+/// Two wheels, each held at its centre, and two gears between them: no body has an arm. The result
+/// must not depend on position, size or mass.
 #[test]
 fn wheels_are_compared_wherever_they_are_and_whatever_they_weigh() {
     for mass in [0.9, 1.0, 2.0, 3.0] {
@@ -164,8 +165,8 @@ joint = [
     }
 }
 
-/// The crank of a Scotch yoke turns about the origin, and its pin moves along the slot: no row
-/// feels its arm at this instant, however the slot is turned.
+/// The crank of a Scotch yoke rotates about the origin, and its pin moves along the slot: at this
+/// instant no row depends on its arm, for any direction of the slot.
 #[test]
 fn a_pin_that_moves_along_its_slot_has_an_arm() {
     for turn in [0.0, 0.3, 0.7, 1.0, 2.5] {

@@ -1,5 +1,5 @@
-//! Verdicts at every granularity: frames, sums of wrenches, groups, resultants; with drives, affine
-//! and rheonomic rows.
+//! Verdicts of all kinds of components: frames, sums of wrenches, groups, resultants; with drives,
+//! affine and rheonomic rows.
 
 use joints::plane::{Direction, Line};
 use joints::{
@@ -45,7 +45,7 @@ fn described(bodies: Vec<Body>, joints: Vec<Joint>) -> Mechanism {
 }
 
 fn groups(m: &Mechanism, q: &[f64], groups: &[Group]) -> Result<Vec<GroupVerdict>, RequestError> {
-    // The robot is steered at t = 1; other mechanisms here stand where they are at any time.
+    // The robot is steered at t = 1; the other mechanisms here are at rest at any time.
     let decision = analyse_known(m, 1.0, q, Known::To(1e-12))
         .expect("C is finite")
         .whole()
@@ -67,7 +67,7 @@ fn id(m: &Mechanism, name: &str) -> ConstraintId {
     ConstraintId(groups.iter().position(|g| g.name == name).expect("exists"))
 }
 
-/// The robot at t = 1 with its slider moved, on its constraints.
+/// The robot at t = 1 with its slider displaced, on its constraints.
 fn robot_steered(displacement: f64) -> (Mechanism, Vec<f64>) {
     let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
     let mut m = Mechanism::build(&robot(ramp)).expect("builds");
@@ -101,7 +101,7 @@ fn frames_of_the_robot() {
     for (found, expected) in w1[2].axes[0].iter().zip([-knuckle.sin(), knuckle.cos()]) {
         assert!((found - expected).abs() < 1e-15);
     }
-    // B is reported in no edge frame; along the edge of W1 it is unique all the same.
+    // B is not reported in an edge frame, but along the edge of W1 it is unique.
     let b = frames("B");
     assert_eq!(b.len(), 2);
     let configuration = Configuration::new(&m, 1.0, &q, &decision).expect("fits");
@@ -117,7 +117,7 @@ fn frames_of_the_robot() {
     assert_eq!(judged(&along).verdict.word(), "unique");
     assert!(judged(&along).margin < ROUNDING);
     assert_eq!(judged(&across).verdict.word(), "not_unique");
-    // The drive pushes along the axis of the slider.
+    // The force of the drive is along the axis of the slider.
     let drive = frames("steering");
     assert!(
         drive
@@ -146,7 +146,7 @@ fn sums_of_wrenches_of_the_robot() {
         ["not_unique", "unique", "not_unique", "unique", "unique"]
     );
     let parts = &groups(&m, &q, &asked[..1]).expect("judged")[0].components;
-    // W3 and W4 lie on one line across the platform, which stands askew: the torque about W3
+    // W3 and W4 are on one line across the platform, which is rotated: the torque about W3
     // vanishes.
     let parts: Vec<_> = parts
         .iter()
@@ -156,7 +156,7 @@ fn sums_of_wrenches_of_the_robot() {
         parts,
         [("Fx", "not_unique"), ("Fy", "not_unique"), ("T", "unique")]
     );
-    // With the edges at ±90° the circuits split, and W3 and W4 only mix with each other.
+    // With the edges at ±90° the circuits separate, and W3 and W4 only mix with each other.
     let (m, q) = robot_steered(-0.135_153_013_442_6);
     let pair = Group::WrenchSum(vec![(1.0, id(&m, "W3")), (1.0, id(&m, "W4"))]);
     let each = Group::Members(vec![id(&m, "W3"), id(&m, "W4")]);
@@ -185,7 +185,7 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
     let norm = c
         .distribute(&lambda, &Choice::MinimumNorm(NormWeights::NEWTON_METRE))
         .expect("a norm");
-    // Straight ahead the edges hold the robot sideways; along x it falls with 3 m/s².
+    // Straight ahead the edges hold the robot sideways; along x it accelerates at 3 m/s².
     let masses: Vec<f64> = d.bodies.iter().map(|b| b.mass).collect();
     for set in [
         vec![0],
@@ -216,8 +216,8 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
         );
     }
     assert!(largest(lambda) > 10.0);
-    // Two pieces that only hold each other, twice: nothing acts on both together, to the last digit
-    // or not.
+    // Two bodies that only hold each other, twice: no constraint acts on both together, up to
+    // rounding or not.
     let hinge = |name: &str| {
         let element = Revolute {
             s_i: [0.1, 0.2],
@@ -249,7 +249,7 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
     );
 }
 
-/// The direction in which each definition pushes, from its wrench map alone.
+/// The direction of the force of each definition, computed only from its wrench map.
 #[test]
 fn edge_frames_come_from_the_definitions() {
     let (angle, axis) = (0.4_f64, Direction::new([3.0, 4.0]).expect("a direction"));
@@ -375,7 +375,7 @@ fn edge_frames_come_from_the_definitions() {
         let found = m.reactions(&s).axes(ConstraintId(0), Frame::Edge);
         match (found, expected) {
             (None, None) => {}
-            // Up to the sign: that of the multiplier.
+            // Up to the sign, which is that of the multiplier.
             (Some([[x, y], across]), Some([ex, ey])) => {
                 assert!((x * ey - y * ex).abs() < 1e-15, "{name}: {x} {y}");
                 assert_eq!(across, [-y, x]);
@@ -385,7 +385,7 @@ fn edge_frames_come_from_the_definitions() {
     }
 }
 
-/// Affine ψ and rheonomic Φ: rows that prescribe a motion are judged like any others.
+/// Affine ψ and rheonomic Φ: rows that prescribe a motion are judged like all others.
 #[test]
 fn affine_and_rheonomic_rows() {
     let speed = |name: &str, s: [f64; 2]| Joint {
@@ -399,7 +399,7 @@ fn affine_and_rheonomic_rows() {
             },
         )
     };
-    // Both push the same body forward along one line; a third one beside it is alone.
+    // Both push the same body forward along one line; a third one, parallel to it, is independent.
     let joints = vec![
         speed("a", [0.0, 0.5]),
         speed("b", [2.0, 0.5]),
@@ -419,8 +419,8 @@ fn affine_and_rheonomic_rows() {
         Group::Combination(vec![term(0, "Fx", 1.0), term(1, "Fx", 1.0)]),
         Group::Combination(vec![term(0, "Fx", 1e-200), term(1, "Fx", -1e-200)]),
         Group::Combination(vec![term(0, "Fx", 1e200), term(1, "Fx", 1e200)]),
-        // Identically zero: across the row, about the place, with a coefficient of zero, in and out
-        // again.
+        // Identically zero: perpendicular to the row, about the place, with a coefficient of zero,
+        // added and subtracted.
         Group::Combination(vec![
             term(0, "Fy", 1.0),
             term(1, "T", 3.0),
@@ -619,7 +619,7 @@ fn groups_of_a_study() {
             ("2*A - steering", "unique"),
         ]
     );
-    // A name that the mechanism does not have is an error, not left out.
+    // A name that the mechanism does not have is an error and is not ignored.
     study.scene.groups[0].content = pfaff::scene::GroupContent::Members(vec!["W9".into()]);
     let configuration = study.analyse(0.0, None).expect("judged");
     let error = configuration.groups(&[]).expect_err("unknown");

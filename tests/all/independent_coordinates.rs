@@ -1,5 +1,5 @@
-//! The motion on independent coordinates: completed states, and the Jacobian against differences of
-//! the motion itself.
+//! The motion in independent coordinates: completed states, and the Jacobian compared with
+//! differences of the motion.
 
 use std::ops::ControlFlow;
 
@@ -73,7 +73,7 @@ fn sprung_cranks() -> Description {
     d
 }
 
-/// The mechanisms, at times when everything moves: the robot is steered at 1.5 s.
+/// The mechanisms, at times when all bodies move: the robot is steered at 1.5 s.
 fn cases() -> [(&'static str, Prepared, f64); 2] {
     [
         ("cranks", prepared(&sprung_cranks()), 0.4),
@@ -81,7 +81,7 @@ fn cases() -> [(&'static str, Prepared, f64); 2] {
     ]
 }
 
-/// Places of the independent coordinates and velocities in y.
+/// Indices of the independent coordinates and velocities in y.
 fn places_of_w(motion: &KeptRowMotion<'_>, n_q: usize) -> Vec<usize> {
     let (z, u) = motion.independent().expect("independent coordinates");
     z.iter().copied().chain(u.iter().map(|u| n_q + u)).collect()
@@ -177,8 +177,8 @@ fn shifted_systems_are_solved() {
     assert!(of_w(&real) < 1e-10, "{:e}", of_w(&real));
     assert!(of_w(&imaginary) < 1e-10, "{:e}", of_w(&imaginary));
 
-    // The dependent entries move the state along the constraints: velocities, which q̇ shows once
-    // completed, miss by H² only.
+    // The dependent entries move the state along the constraints; after completion, the velocities
+    // contained in q̇ have an error of order H².
     const H: f64 = 1e-4;
     for x in [&x, &re, &im] {
         let size = largest(x.iter().copied());
@@ -193,9 +193,9 @@ fn shifted_systems_are_solved() {
     }
 }
 
-/// Three cranks whose first one is held by a spring of 1e12 N·m/rad and a damper of 1e6 N·m·s/rad
-/// to a hand that is driven by s(t) = −0.7 + 0.3·sin t: the fast motion decays with 3e5/s, and the
-/// crank follows the hand.
+/// Three cranks whose first one is connected by a spring of 1e12 N·m/rad and a damper of 1e6
+/// N·m·s/rad to a hand that is driven by s(t) = −0.7 + 0.3·sin t: the fast motion decays at a rate
+/// of 3e5/s, and the crank follows the hand.
 mod held {
     use super::*;
     use joints::RevoluteAngleDrive;
@@ -206,7 +206,7 @@ mod held {
     const G: f64 = 9.81;
     /// Inertia of all bodies about the one angle θ, cranks 1 m long: 3·(0.1 + 1·0.5²) + 0.5·1².
     const INERTIA: f64 = 1.55;
-    /// Moment of the weight at θ = 0, by g: 3·1·0.5 + 0.5·1.
+    /// Moment of the weight at θ = 0, divided by g: 3·1·0.5 + 0.5·1.
     const LEVER: f64 = 2.0;
 
     /// θ and θ̇ of the slow motion, `I·θ̈ = −G·cos θ − k·(θ − s) − c·(θ̇ − ṡ)`, by two terms of its
@@ -265,7 +265,7 @@ mod held {
     }
 }
 
-/// Steps and the errors of angle and angular velocity of the held crank after 2 s.
+/// Number of steps and the errors of angle and angular velocity of the held crank after 2 s.
 fn held_crank(p: &Prepared, rtol: f64) -> (u64, f64, f64) {
     let options = MotionOptions {
         method: Method::Radau5,
@@ -286,10 +286,10 @@ fn held_crank(p: &Prepared, rtol: f64) -> (u64, f64, f64) {
     (summary.steps, position, velocity)
 }
 
-/// A stiffness of 1e12 is no reason for short steps: an explicit method would need 3e5 of them. The
-/// angle follows the hand to far below the tolerance. The velocity at the end of a step is the
-/// slope of a cubic through s at its Radau nodes, which misses that of s by `s⁗·h³/80`: after 2 s
-/// it depends on how long the last step happens to be.
+/// A stiffness of 1e12 does not require short steps, although an explicit method would need 3e5 of
+/// them. The error of the angle is far below the tolerance. The velocity at the end of a step is
+/// the slope of a cubic through s at its Radau nodes, which differs from that of s by `s⁗·h³/80`:
+/// after 2 s it depends on the length of the last step.
 #[test]
 fn a_grip_of_1e12_takes_few_steps() {
     let p = prepared(&held::description());
@@ -308,8 +308,8 @@ fn a_grip_of_1e12_takes_few_steps() {
     assert!(smallest <= 1e-7, "{smallest:e}");
 }
 
-/// A blade through the centre of mass runs in circles: `x = v/ω·sin ωt`. The velocity that depends
-/// on the others is that across the blade, which is another one every quarter of a turn.
+/// A blade through the centre of mass moves on circles: `x = v/ω·sin ωt`. The dependent velocity is
+/// that across the blade, which is another coordinate after every quarter of a turn.
 #[test]
 fn partitions_are_renewed_as_a_blade_turns() {
     let (speed, omega) = (1.2, 1.5);
@@ -352,7 +352,7 @@ fn partitions_are_renewed_as_a_blade_turns() {
 }
 
 /// Independent coordinates, inside an implicit method, and all coordinates on kept rows are two
-/// ways to write one motion.
+/// forms of the same motion.
 #[test]
 fn all_ways_lead_along_one_motion() {
     let end = |p: &Prepared, t: f64, method: Method| {

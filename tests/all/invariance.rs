@@ -1,4 +1,4 @@
-//! Verdicts do not depend on how a mechanism is written down: order, scaling and recombination of
+//! Verdicts do not depend on the description of a mechanism: order, scaling and recombination of
 //! rows, order of bodies, units, place, frame, masses, loads, speed.
 
 use linalg::Matrix;
@@ -13,11 +13,11 @@ use crate::planted_mechanisms::generate::{Kind, draw};
 
 const SEED: u64 = 18_112_026;
 
-/// Random mechanisms of each kind.
+/// Number of random mechanisms of each kind.
 const EACH: usize = 50;
 
-/// What is said of a reaction whatever the frame: the words for its wrench and its multipliers, and
-/// the numbers of its unique directions and of those that say something.
+/// The frame-independent results for a reaction: the words for its wrench and its multipliers, and
+/// the numbers of its unique directions and of those that are not always zero.
 type Said = (String, &'static str, &'static str, [Option<usize>; 2]);
 
 /// The verdicts of a configuration, by name: ranks, then every reaction.
@@ -52,7 +52,7 @@ fn analysed(d: &Description) -> Analysis {
     analyse(&mechanism, 0.0, &q).expect("C is finite")
 }
 
-/// Three cranks, and mechanisms of every kind that is not many sizes at once.
+/// Three cranks, and mechanisms of every kind except those with many sizes at once.
 fn sketches(numbers: &mut Numbers) -> Vec<Sketch> {
     let kinds = Kind::ALL.into_iter().filter(|k| *k != Kind::Sizes);
     kinds
@@ -84,7 +84,7 @@ fn order_of_bodies_and_joints() {
     });
 }
 
-/// Metres or millimetres, micrometres, megametres: sizes of mechanisms as well.
+/// Metres or millimetres, micrometres, megametres: equivalent to other sizes of mechanisms.
 #[test]
 fn units_of_length() {
     assert_same("length", |sketch, _| {
@@ -147,7 +147,7 @@ fn rows() {
             .iter()
             .map(|g| g.rows.clone().collect())
             .collect();
-        // Rounding as large as that of recombined rows is noise in both.
+        // Rounding errors as large as those of recombined rows are taken as noise in both.
         let noise = 1e-14;
         let judged = |c: &Matrix, groups: &[Vec<usize>]| -> Vec<&str> {
             let solvability = Solvability::of(c, noise).expect("C is finite");
@@ -172,7 +172,7 @@ fn rows() {
     }
 }
 
-/// Some rows times a matrix with a strong diagonal, scaled over 1e±6.
+/// Some rows times a matrix with a dominant diagonal, scaled over 1e±6.
 fn mixed(c: &Matrix, rows: &[usize], numbers: &mut Numbers) -> Vec<Vec<f64>> {
     let mut out = Vec::new();
     for &i in rows {
@@ -189,8 +189,8 @@ fn mixed(c: &Matrix, rows: &[usize], numbers: &mut Numbers) -> Vec<Vec<f64>> {
     out
 }
 
-/// The robot at any heading and place, in any size: it touches no ground, so it may be moved as a
-/// whole.
+/// The robot at any heading and place, in any size: it has no joint with the ground, so it may be
+/// moved as a whole.
 #[test]
 fn robot_anywhere() {
     let facts = |size: f64, by: [f64; 2], angle: f64| {

@@ -1,6 +1,6 @@
-//! Mechanisms of hundreds of rows: judged by parts, moved on sparse kept rows. References are the
-//! answers that generators state, the one angle of chains of four-bars, and the dense solver with
-//! all rows.
+//! Mechanisms with hundreds of rows: judged by parts, moved on sparse kept rows. References are the
+//! known answers of the generators, the equation for one angle of chains of four-bars, and the
+//! dense solver with all rows.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -26,7 +26,7 @@ fn study(order: &Order) -> Study {
     .expect("starts")
 }
 
-/// Compares verdicts by parts with what the generator states.
+/// Compares verdicts by parts with those that the generator states.
 fn check(order: &Order) {
     let mechanism = Mechanism::build(&read(&text(order)).description).expect("builds");
     let (q, _) = mechanism.described_state();
@@ -71,7 +71,7 @@ fn large_scenes_have_the_answer_that_their_generator_states() {
 
 #[test]
 fn sparse_rows_accelerate_as_dense_ones_do() {
-    // Weights of the lattice hang straight down: some accelerations are what rounding leaves of
+    // Weights of the lattice hang straight down: some accelerations are only the rounding errors of
     // balanced multipliers.
     for (kind, n) in [(Kind::Parallelograms, 12), (Kind::Lattice, 4)] {
         accelerate_alike(&Order::of(kind, n));
@@ -142,7 +142,7 @@ fn forty_four_bars_are_where_one_angle_says() {
     };
     let mut rows = 0;
     simulate(&study.prepared, &options, |sample| {
-        // The first upright; its top is as far from its centre as its foot.
+        // The first upright; its top and its foot have the same distance from its centre.
         let (sin, cos) = sample.q[2].sin_cos();
         let top = [sample.q[0] + 0.5 * cos, sample.q[1] + 0.5 * sin];
         let theta = angle(n, sample.t.max(1e-4));

@@ -1,11 +1,11 @@
-//! Numbers that somebody chose stand in one table for each crate, with their units, what breaks
-//! where they are wrong, and the tests that fail then.
+//! Chosen numbers are in one table for each crate, with their units, the consequence of a wrong
+//! value, and the tests that fail then.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Crates whose constants stand in a table, `limits.rs`, and what the table says.
+/// Crates whose constants are in a table, `limits.rs`, and the required entries of the table.
 const TABLES: [(&str, &str); 4] = [
     ("dynamics", include_str!("../reference/limits-dynamics.txt")),
     ("linalg", include_str!("../reference/limits-linalg.txt")),
@@ -16,8 +16,8 @@ const TABLES: [(&str, &str); 4] = [
     ),
 ];
 
-/// Numbers that nobody chose and that stand where they are used: facts of the plane and of `f64`,
-/// coefficients of algorithms, indices that are none.
+/// Numbers that are not chosen and are defined where they are used: facts of the plane and of
+/// `f64`, coefficients of algorithms, special indices.
 const FACTS: [(&str, &[&str]); 14] = [
     ("linalg/src/double_double.rs", &["FACTOR", "EPSILON"]),
     (
@@ -105,7 +105,7 @@ fn limits(text: &str) -> Vec<Limit> {
     found
 }
 
-/// What a comment says behind a word, up to the end of the sentence.
+/// The text of a comment after a word, up to the end of the sentence.
 fn said<'c>(limit: &'c Limit, word: &str) -> Option<&'c str> {
     let rest = limit.comment.split_once(word)?.1;
     Some(

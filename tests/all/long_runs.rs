@@ -1,4 +1,4 @@
-//! Runs that pass singular configurations again and again: nothing drifts, nothing breaks.
+//! Runs that pass singular configurations many times: no drift, no failure.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
@@ -36,8 +36,8 @@ fn run(theta: f64, options: &MotionOptions) -> (Summary, Vec<f64>) {
 const ABOVE: f64 = 0.5;
 const BELOW: f64 = -0.7;
 
-/// 300 s, from above some 190 swings that pass a flat pose twice: there the drift of energy is
-/// larger, because rounding is.
+/// Runs of 300 s; a start above the flat pose gives some 190 swings that pass a flat pose twice:
+/// there the drift of the energy is larger, because the rounding errors are.
 #[test]
 fn three_cranks_swing_for_300_seconds() {
     for (theta, drift, passages) in [(BELOW, 1e-12, 0), (ABOVE, 1e-10, 300)] {
@@ -85,7 +85,7 @@ fn three_cranks_swing_for_300_seconds() {
     }
 }
 
-/// Whatever the largest step: no NaN, and the cranks stay parallel.
+/// For any largest step: no NaN, and the cranks stay parallel.
 #[test]
 fn sixty_four_step_sizes_over_the_flat_pose() {
     let reference = run(

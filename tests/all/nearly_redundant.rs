@@ -1,6 +1,6 @@
 //! The third of three parallel cranks misaligned by ε, from 1e-3 to 1e-20: full rank in exact
-//! arithmetic for every ε, with reactions of size 1/ε, until ε is less than what the data are known
-//! to. No answer in between may be wrong.
+//! arithmetic for every ε, with reactions of size 1/ε, until ε is less than the uncertainty of the
+//! data. No answer for any ε may be wrong.
 
 use exact::Exact;
 use linalg::Matrix;
@@ -11,12 +11,12 @@ use tests::cranks;
 
 use crate::plain::Plain;
 
-/// Some thousand roundings of numbers of size one: σ₁₂ is about ε/10, and the noise of 12 × 12
-/// entries about 10⁻¹⁴. Above it no misalignment may be taken for rounding.
+/// Some thousand rounding errors of numbers of size one: σ₁₂ is about ε/10, and the noise of 12 ×
+/// 12 entries about 10⁻¹⁴. Above it no misalignment may be taken as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Misalignments that may stay undecided where the rank is certified: between what the data are
-/// known to and four times as much.
+/// Number of misalignments that may be undecided if the rank is certified: between the uncertainty
+/// of the data and four times as much.
 const UNDECIDED: usize = 2;
 
 fn misaligned(error: f64) -> Mechanism {
@@ -49,7 +49,8 @@ fn misalignments() -> impl Iterator<Item = f64> {
     (3..=20).flat_map(|k| [10_f64.powi(-k), 3.0 * 10_f64.powi(-k - 1)])
 }
 
-/// The judge: one part in 10²⁰, or in 10³⁰⁰, is full rank; none is not.
+/// The exact reference: with a misalignment of 10⁻²⁰, or of 10⁻³⁰⁰, the matrix has full rank;
+/// without one it has not.
 #[test]
 fn the_matrix_holds_the_misalignment() {
     for error in misalignments().chain([1e-100, 1e-300]) {
@@ -62,7 +63,7 @@ fn the_matrix_holds_the_misalignment() {
     assert_eq!(exact_rank(&constraint_matrix(&misaligned(0.0))), 11);
 }
 
-/// A plain matrix means what it says.
+/// A plain matrix is taken as exact.
 #[test]
 fn plain_matrices_have_full_rank_for_any_misalignment() {
     for error in misalignments().chain([1e-100, 1e-300]) {
@@ -77,12 +78,12 @@ fn plain_matrices_have_full_rank_for_any_misalignment() {
     }
     let s = Plain::of(&constraint_matrix(&misaligned(0.0)));
     assert_eq!(s.decision().rank, 11);
-    // Vertical cranks: forces along them are free, across them not.
+    // Vertical cranks: forces along them are not unique, forces across them are.
     let found: Vec<bool> = (0..12).map(|i| s.row(i).verdict.is_unique()).collect();
     assert_eq!(found, [true, false].repeat(6));
 }
 
-/// What the tool says of a mechanism: redundant, of full rank, or neither.
+/// The answer of the program for a mechanism: redundant, of full rank, or undecided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Said {
     Redundant,
@@ -98,8 +99,8 @@ fn said(analysis: &Analysis) -> Said {
     }
 }
 
-/// The data of a mechanism are known to their rounding at best: there, and only there, a misaligned
-/// crank may be called redundant.
+/// The data of a mechanism are at best accurate to their rounding: only within this accuracy may a
+/// misaligned crank be called redundant.
 #[test]
 fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
     let (mut before, mut undecided) = (Said::FullRank, 0);
@@ -140,7 +141,7 @@ fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
         if error <= 1e-17 {
             assert_eq!(found, Said::Redundant, "ε = {error:e}");
         }
-        // As ε falls: full rank, undecided, redundant.
+        // For decreasing ε: full rank, undecided, redundant.
         let order = |said: Said| {
             [Said::FullRank, Said::Undecided, Said::Redundant]
                 .iter()
@@ -161,8 +162,8 @@ fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
     }
 }
 
-/// What a certificate must say, where the rank is certified: on which grounds a misaligned crank is
-/// redundant, and how large the reactions are where it is not.
+/// The required content of a certified rank: the reason why a misaligned crank is redundant, and
+/// the size of the reactions if it is not.
 fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
     let decision = analysis.whole().expect("one part");
     let Some(certificate) = &decision.evidence.certificate else {
@@ -172,7 +173,7 @@ fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
         Said::Redundant => assert_eq!(certificate.grounds, Grounds::WithinData, "ε = {error:e}"),
         Said::FullRank => {
             assert_eq!(certificate.grounds, Grounds::FullRank, "ε = {error:e}");
-            // The proof takes ten times more room than the decision.
+            // The proof needs ten times more room than the decision.
             assert!(
                 certificate.rank_at_least == 12 || error < 1e-11,
                 "ε = {error:e}"

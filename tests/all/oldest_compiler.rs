@@ -1,5 +1,5 @@
-//! `rust-version` is stated once, every member has it, no dependency asks for more, and the
-//! compiler at hand is it. See `docs/stability.md`.
+//! `rust-version` is stated once, every member has it, no dependency requires a newer compiler, and
+//! the present compiler has this version. See `docs/stability.md`.
 
 use std::path::Path;
 use std::process::Command;
@@ -12,7 +12,7 @@ fn root() -> &'static Path {
         .expect("tests/ lies in the root")
 }
 
-/// A version, `1.95` and `1.95.0` alike.
+/// A version; `1.95` and `1.95.0` are equal.
 fn version(text: &str) -> [u64; 3] {
     let number = |part: Option<&str>| {
         let digits = part.unwrap_or("0").split(['-', '+']).next();
@@ -23,7 +23,7 @@ fn version(text: &str) -> [u64; 3] {
     std::array::from_fn(|_| number(parts.next()))
 }
 
-/// What the root manifest states.
+/// The version in the root manifest.
 fn stated() -> String {
     let manifest = std::fs::read_to_string(root().join("Cargo.toml")).expect("readable");
     let line = manifest
@@ -34,14 +34,14 @@ fn stated() -> String {
         .to_owned()
 }
 
-/// What the compiler at hand says of itself.
+/// A line of output of the present compiler.
 fn rustc(argument: &str) -> String {
     let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let output = Command::new(rustc).arg(argument).output();
     String::from_utf8(output.expect("it starts").stdout).expect("UTF-8")
 }
 
-/// Packages and members of the workspace on this platform, from the sources that are here.
+/// Packages and members of the workspace on this platform, from the locally available sources.
 fn metadata() -> Value {
     let verbose = rustc("-vV");
     let host = verbose.lines().find_map(|l| l.strip_prefix("host: "));
@@ -94,12 +94,12 @@ fn no_dependency_asks_for_a_newer_compiler() {
         .map(|p| format!("{} {} needs {}", p["name"], p["version"], p["rust_version"]))
         .collect();
     assert!(newer.is_empty(), "{newer:#?}");
-    // Most say what they need; of those that do not, nothing is known.
+    // Most packages state their version; nothing is known of the others.
     let told = packages.iter().filter(|p| p["rust_version"].is_string());
     assert!(2 * told.count() > packages.len());
 }
 
-/// An older compiler is refused by Cargo before this runs.
+/// Cargo refuses an older compiler before this test runs.
 #[test]
 #[expect(
     clippy::print_stderr,
@@ -111,8 +111,7 @@ fn this_compiler_is_the_stated_one() {
     let (here, stated) = (version(here), version(&stated()));
     assert!(here >= stated, "{text}");
     if here[..2] != stated[..2] {
-        // Nothing can be concluded here, and an error would only say that somebody has a newer
-        // compiler.
+        // The test is skipped: an error would only show that a newer compiler is installed.
         eprintln!("{text} is newer than {stated:?}: the oldest compiler was not tried");
     }
 }

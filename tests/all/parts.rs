@@ -1,4 +1,4 @@
-//! Verdicts cycle by cycle are those of the whole: random mechanisms with planted redundancy, and
+//! Verdicts by cycles equal those of the whole: random mechanisms with constructed redundancy, and
 //! ranks by exact arithmetic.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,7 +28,7 @@ fn parts_say_what_the_whole_says() {
         let sketch = &drawn.sketch;
         let mechanism = Mechanism::build(&sketch.description()).expect("the mechanism builds");
         let (q, _) = mechanism.described_state();
-        // Rows of the mechanism, by the names of joints: holonomic ones come first there.
+        // Rows of the mechanism, by the names of joints: there the holonomic ones come first.
         let mut rows_of = BTreeMap::new();
         for block in sketch.exact_rows() {
             rows_of.insert(block.name.clone(), block.rows);
@@ -82,8 +82,8 @@ fn described(found: &Analysis, whole: &Analysis) -> String {
     format!("{}whole: {:?}", parts.collect::<String>(), whole.decision)
 }
 
-/// Sums, choices and deletions, asked of the parts and of the whole: two ways through different
-/// null spaces.
+/// Sums, choices and deletions, computed for the parts and for the whole: two methods with
+/// different null spaces.
 #[test]
 fn questions_are_answered_by_parts_as_by_the_whole() {
     let mut numbers = Numbers::new(SEED + 1);
@@ -123,7 +123,7 @@ fn questions_are_answered_by_parts_as_by_the_whole() {
                 sums += 1;
             }
         }
-        // Any multipliers stand for all that differ from them by the null space.
+        // Any multipliers represent all that differ from them by a vector of the null space.
         let multipliers: Vec<f64> = (0..mechanism.layout().rows())
             .map(|_| numbers.unit())
             .collect();

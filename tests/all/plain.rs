@@ -1,5 +1,5 @@
-//! Verdicts of plain matrices as the suites ask for them: the entries are meant exactly as they
-//! stand, and the questions are about rows that exist.
+//! Verdicts of plain matrices for the tests: the entries are exact, and the arguments are existing
+//! rows.
 
 use linalg::Matrix;
 use rank::RankDecision;
@@ -47,7 +47,7 @@ impl Plain {
             .expect("the component exists")
     }
 
-    /// In how many directions the multipliers of some rows are unique.
+    /// Number of directions in which the multipliers of some rows are unique.
     pub(crate) fn unique_directions(&self, rows: &[usize]) -> usize {
         let map = Matrix::identity(rows.len());
         let directions = self.0.unique_directions(&map, rows.iter().copied());

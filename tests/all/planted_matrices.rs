@@ -1,6 +1,6 @@
-//! Ten thousand matrices with planted redundancy, judged by `solvability` and by exact arithmetic.
-//! What counts are the data as read: a matrix whose rows depend on each other but for one part in
-//! 10¹⁰⁰ has full rank.
+//! Ten thousand matrices with constructed redundancy, judged by `solvability` and by exact
+//! arithmetic. The given entries are exact: a matrix whose rows are dependent except for one part
+//! in 10¹⁰⁰ has full rank.
 //!
 //! `PFAFF_CASES=200000 cargo test -p tests planted_matrices -- --nocapture` makes a longer run.
 
@@ -18,7 +18,7 @@ const SEED: u64 = 20_130_909;
 
 const CASES: usize = 10_000;
 
-/// Combinations of multipliers for each case.
+/// Number of combinations of multipliers for each case.
 const COMBINATIONS: usize = 4;
 
 #[test]
@@ -101,8 +101,8 @@ fn partition(m: usize, numbers: &mut Numbers) -> Vec<Vec<usize>> {
     groups
 }
 
-/// A column of C, the difference of two, or a few random coefficients. The first is unique always,
-/// the second but for rounding.
+/// A column of C, the difference of two, or a few random coefficients. The first is always unique,
+/// the second up to rounding.
 fn combination(rows: &[Vec<f64>], numbers: &mut Numbers) -> Vec<f64> {
     let n = rows[0].len();
     let (j, k) = (numbers.below(n), numbers.below(n));

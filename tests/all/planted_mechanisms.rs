@@ -1,6 +1,6 @@
-//! Mechanisms with planted redundancy at configurations on a grid, judged by `solvability` and by
-//! exact arithmetic. The bodies have arbitrary angles, so the parameters in their frames are
-//! rounded: what counts is the mechanism that was drawn.
+//! Mechanisms with constructed redundancy at configurations on a grid, judged by `solvability` and
+//! by exact arithmetic. The bodies have arbitrary angles, so the parameters in their frames are
+//! rounded: the correct answer is that for the drawn mechanism.
 //!
 //! `PFAFF_CASES=20000 cargo test -p tests planted_mechanisms -- --nocapture` makes a longer run.
 
@@ -91,7 +91,7 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
         }
         let directions = found.components.len() - freedom;
         if directions > 0 && found.unique_directions.is_empty() {
-            // Empty also where their number is in doubt.
+            // Also empty if the number of directions is uncertain.
             tally.undecided(|| format!("unique directions of {name} of {sketch:?}"));
             continue;
         }
@@ -111,8 +111,8 @@ fn ranks_apart(sketch: &Sketch) -> (usize, usize) {
     (rank_where(false), rank_where(true))
 }
 
-/// One body on three parallel edges, at many headings. Where a heading makes the normals those of
-/// an axis but for rounding, a column of C holds nothing but that rounding: it must not count.
+/// One body on three parallel edges, at many headings. If the normals are parallel to an axis up to
+/// rounding, a column of C contains only rounding errors: it must not count.
 #[test]
 fn parallel_edges_at_any_heading() {
     let mut numbers = Numbers::new(SEED);

@@ -1,4 +1,4 @@
-//! Published facts of the robot with its trolley (Wojtyra, Frączek 2013, section 4) at the
+//! Published results for the robot with its trolley (Wojtyra, Frączek 2013, section 4) with the
 //! reconstructed dimensions: ranks, verdicts, motion, reactions, elimination variants.
 
 use std::ops::ControlFlow;
@@ -27,7 +27,7 @@ struct ReferenceRow {
     unique_reactions: std::collections::BTreeMap<String, Vec<f64>>,
 }
 
-/// One written row of a run.
+/// One output row of a run.
 struct Row {
     t: f64,
     q: Vec<f64>,
@@ -161,7 +161,7 @@ fn variants_differ_in_non_unique_reactions_only() {
         for (group, d) in groups.iter().zip(&differences) {
             let differs = ["B", "C", "W1", "W2", "W3", "W4"].contains(&group.name.as_str());
             if group.name == "W4" {
-                // Dropped, and so zero by decree, in all three.
+                // Dropped, and so zero by definition, in all three.
                 assert_eq!(*d, 0.0);
             } else if differs {
                 assert!(*d > 1.0, "{} is the same in {pair:?}", group.name);
@@ -176,7 +176,7 @@ fn variants_differ_in_non_unique_reactions_only() {
     }
 }
 
-/// Facts that hold at every configuration of the motion.
+/// Asserts the results that hold at every configuration of the motion.
 fn assert_facts(analysis: &Analysis) {
     assert_eq!(analysis.rank_holonomic, 17);
     assert_eq!(analysis.rank_nonholonomic, 4);
@@ -289,7 +289,8 @@ fn rows_and_admissible_pairs_depend_on_the_angle_of_the_edges() {
 #[test]
 fn steered_edges_at_a_right_angle_split_the_circuits() {
     for displacement in [-0.135_153_013_442_6, 0.089_750_156_055_0] {
-        // The drive moves the slider at rest: no velocity, so that the platform stays where it is.
+        // The drive moves the slider at rest: no other velocity, so that the platform does not
+        // move.
         let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
         let mut description = robot(ramp);
         for body in &mut description.bodies {
@@ -310,7 +311,7 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
             Ok(ControlFlow::Continue(()))
         })
         .expect("the robot steers at rest");
-        // The displacement is known to 13 digits, and so are the angles of the edges.
+        // The displacement is accurate to 13 digits, and so are the angles of the edges.
         let analysis = analyse_known(&p.mechanism, 1.0, &q, Known::To(1e-12)).expect("C is finite");
         assert_eq!(non_unique_rows(&analysis), [3, 5, 18, 19, 20, 21]);
         assert_eq!(analysis.decision.rank, 20);
@@ -329,7 +330,7 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
     }
 }
 
-/// C at a configuration, and what can be said of its multipliers.
+/// C at a configuration, and the verdicts of its multipliers.
 fn solvability_at(p: &Prepared, t: f64, q: &[f64]) -> (linalg::Matrix, Solvability) {
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(t, q, &mut s);
@@ -408,8 +409,8 @@ fn near_the_axis_the_margin_is_the_sine_of_the_angle() {
     );
 }
 
-/// Rows between steps come from dense output, then projected: they must be as good as the steps
-/// themselves.
+/// Rows between steps come from dense output and are then projected: they must be as accurate as
+/// the steps.
 #[test]
 fn written_rows_are_as_accurate_as_steps() {
     let p = prepared(&RowChoice::Automatic);

@@ -1,6 +1,6 @@
-//! Blocked or bifurcation? The tips of flat parallel cranks, of length L and at pitch d, move
-//! across the line at v_k; two neighbours under one coupler demand
-//! `(v₂ − v₁)·[(v₂ + v₁)/L − (v₂ − v₁)/d] = 0`, worked out by hand.
+//! Blocked, or a bifurcation? The tips of flat parallel cranks, of length L and at distance d, move
+//! across the line at v_k; two neighbours under one coupler require
+//! `(v₂ − v₁)·[(v₂ + v₁)/L − (v₂ − v₁)/d] = 0`, derived by hand.
 
 use joints::RevoluteAngleDrive;
 use linalg::Matrix;
@@ -31,7 +31,7 @@ fn driven(mut d: Description, rate: f64) -> Description {
     d
 }
 
-/// n + 1 flat cranks, neighbours under couplers of their own.
+/// n + 1 flat cranks, each pair of neighbours with its own coupler.
 fn four_bars(n: usize) -> Description {
     let x = |k: usize| PITCH * k as f64;
     let tip = |k: usize| [x(k) + LENGTH, 0.0];
@@ -78,7 +78,7 @@ fn parallel(d: &Description, n_cranks: usize, rate: f64) -> Vec<f64> {
     (0..d.bodies.len()).flat_map(of).collect()
 }
 
-/// The test at the flat pose, for the parallel motion, with the rank there.
+/// The second-order test at the flat pose for the parallel motion, with the rank there.
 fn at_flat(d: &Description, n_cranks: usize, regular: &[Vec<f64>]) -> (usize, Continuation) {
     let mechanism = Mechanism::build(d).expect("builds");
     let (q, _) = mechanism.described_state();
@@ -135,7 +135,7 @@ fn two_cranks_bifurcate() {
     );
 }
 
-/// Each coupler chooses for itself: 2ⁿ branches, one of them parallel.
+/// Each coupler may choose its branch independently: 2ⁿ branches, one of them parallel.
 #[test]
 fn a_row_of_four_bars_bifurcates_at_each_coupler() {
     for n in 1..=3 {
@@ -170,7 +170,7 @@ fn what_is_not_decided_is_said() {
     let d = driven(four_bars(5), 2.0);
     let reason = Undetermined::Kernel { found: 5, most: 4 };
     assert_eq!(at_flat(&d, 6, &[]), (5, Continuation::Undetermined(reason)));
-    // A motion that cannot go on.
+    // A motion that cannot continue.
     let d = cranks(&[0.0, PITCH], LENGTH, 0.0);
     let mut v = parallel(&d, 2, 1.0);
     (v[4], v[5], v[7], v[8]) = (0.5, 2.0, 0.75, 0.5);
@@ -184,7 +184,7 @@ fn what_is_not_decided_is_said() {
     );
 }
 
-/// Rods from pivot to pivot, end to end: their joints are at these places.
+/// Rods from pivot to pivot, end to end, with joints at these positions.
 fn chain(places: &[[f64; 2]]) -> Description {
     let links = places.len() - 1;
     let rods = places.windows(2).enumerate();
@@ -213,8 +213,8 @@ fn chain(places: &[[f64; 2]]) -> Description {
     }
 }
 
-/// A straight chain between two pivots gives way by an infinitesimal amount only, with any number
-/// of pins: it would have to become longer.
+/// A straight chain between two pivots has only an infinitesimal motion, with any number of pins:
+/// in a finite motion it would have to become longer.
 #[test]
 fn what_cannot_go_on_at_second_order_is_locked() {
     let locked = |d: &Description| {
@@ -230,9 +230,9 @@ fn what_cannot_go_on_at_second_order_is_locked() {
     let x = |x: f64| [x, 0.0];
     assert!(locked(&chain(&[x(0.0), x(1.0), x(2.5)])));
     assert!(locked(&chain(&[x(0.0), x(1.0), x(2.5), x(3.0)])));
-    // A rod that comes back: with it the chain may open.
+    // A rod that points back: with it the chain can open.
     assert!(!locked(&chain(&[x(0.0), x(1.0), x(0.4), x(0.9)])));
-    // No freedom at all, and one that is real.
+    // One without any freedom, and one with a finite motion.
     assert!(!locked(&chain(&[x(0.0), [1.0, 1.0], x(2.0)])));
     assert!(!locked(&chain(&[x(0.0), [0.0, 1.0], [1.0, 1.0], x(1.0)])));
     assert!(!locked(&cranks(&[0.0, PITCH], LENGTH, 0.0)));

@@ -1,5 +1,5 @@
-//! Change points of linkages: passed on the smooth branch, and reported. And rows that become
-//! nearly dependent although the rank stays: exchanged, and reported.
+//! Change points of linkages: passed on the smooth branch, and reported. Rows that become nearly
+//! dependent although the rank does not change: exchanged, and reported.
 
 use std::ops::ControlFlow;
 
@@ -10,7 +10,7 @@ use model::{BodyRef, Drive, Function, Mechanism, StartOptions};
 use tests::cranks::cranks;
 use tests::robot::{robot, robot_of_size, steering, steering_of_size};
 
-/// The motor turns crank 1 with ω = 1 from `start`.
+/// The motor rotates crank 1 with ω = 1 from `start`.
 fn driven(pivots: &[f64], start: f64) -> dynamics::Prepared {
     let mut d = cranks(pivots, 0.5, start);
     let element = RevoluteAngleDrive {
@@ -33,8 +33,8 @@ fn driven(pivots: &[f64], start: f64) -> dynamics::Prepared {
     prepare(mechanism, &options, &RowChoice::Automatic).expect("starts")
 }
 
-/// A parallelogram driven through its flat pose at θ = 0 has two ways to go on: it stays a
-/// parallelogram, and the run says that the constraints did not determine that.
+/// A parallelogram driven through its flat pose at θ = 0 can continue in two ways: it stays a
+/// parallelogram, and the run reports that the constraints do not determine this.
 #[test]
 fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
     for (start, rtol) in [
@@ -57,7 +57,7 @@ fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
                 Ok(ControlFlow::Continue(()))
             })
             .unwrap_or_else(|e| panic!("from {start}, rtol {rtol}, {method:?}: {e}"));
-            // Driven: there is nothing to integrate but what the constraints say.
+            // Driven: all values follow from the constraints.
             let theta = start + 1.0;
             for angle in [q[2], q[5]] {
                 assert!(
@@ -76,7 +76,7 @@ fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
     }
 }
 
-/// Runs that have to end, or to write a row, in the flat pose or near it.
+/// Runs that must end, or must write a row, in the flat pose or near it.
 #[test]
 fn a_run_may_end_in_the_flat_pose_or_beside_it() {
     for pivots in [&[0.0, 1.0][..], &[0.0, 1.0, 1.7]] {
@@ -96,9 +96,10 @@ fn a_run_may_end_in_the_flat_pose_or_beside_it() {
             });
             let summary = match outcome {
                 Ok(summary) => summary,
-                // FIXME: two cranks that end so near to the flat pose stop by name or not as the
-                // last digit of their first velocities falls: changed by 1e-17 m/s, 26 of 40 starts
-                // stop at one of these offsets. With the exact velocities of the start they do.
+                // FIXME: two cranks that end so near to the flat pose stop with an error or not
+                // depending on the last digit of their initial velocities: changed by 1e-17 m/s, 26
+                // of 40 starts stop at one of these offsets. With the exact velocities of the start
+                // they stop.
                 Err(e) => {
                     let is_known = pivots.len() == 2 && (0.9e-6..4e-6).contains(&offset.abs());
                     let said = e.to_string();
@@ -118,8 +119,8 @@ fn a_run_may_end_in_the_flat_pose_or_beside_it() {
     }
 }
 
-/// The rear edge becomes parallel to the global y-axis twice between t = 6 and t = 7: row 6 carries
-/// nothing there.
+/// The rear edge becomes parallel to the global y-axis twice between t = 6 and t = 7: there row 6
+/// is zero in every dependency.
 #[test]
 fn rows_that_lose_their_independence_are_exchanged_and_come_back() {
     let run = |choice: &RowChoice| {
@@ -142,7 +143,7 @@ fn rows_that_lose_their_independence_are_exchanged_and_come_back() {
     assert!(run(&RowChoice::Automatic).events.is_empty());
 }
 
-/// Verdicts do not depend on the size of a mechanism or on its place.
+/// Verdicts do not depend on the size of a mechanism or on its position.
 #[test]
 fn size_and_place_do_not_matter() {
     for size in [1e-6, 1.0, 1e4] {

@@ -1,6 +1,6 @@
-//! A second space: planar bodies with coordinates (x, y, cos φ, sin φ), of which n_q = 4 are
-//! coordinates and n_v = 3 velocities, start, are judged and move as bodies with an angle do. What
-//! takes a velocity for a coordinate shows here.
+//! A second space: planar bodies with coordinates (x, y, cos φ, sin φ), with n_q = 4 and n_v = 3,
+//! start, are judged and move as bodies with an angle do. Code that confuses velocities with
+//! coordinates fails here.
 
 use std::ops::ControlFlow;
 
@@ -21,12 +21,12 @@ fn both(d: &Description, start: &StartOptions) -> [Prepared; 2] {
     })
 }
 
-/// Scenes of the suite, and how long they are followed: those that go through many singular
+/// Scenes of the suite, and the duration of their runs: those that pass many singular
 /// configurations stop before the first one that rounding would decide.
 const SCENES: [(&str, f64); 9] = [
     ("robot-trolley", 4.0),
     ("three-cranks", 2.0),
-    // The flat pose comes at 0.714 s.
+    // The flat pose is reached at 0.714 s.
     ("n-four-bar", 0.7),
     ("andrews", 0.03),
     ("a01-pendulum", 10.0),
@@ -41,7 +41,7 @@ fn scene(name: &str) -> scene::Scene {
     scene::read(name, text, &Registry::planar()).expect("a scene")
 }
 
-/// How far poses are apart: lengths as share of the size, angles by sine and cosine.
+/// The difference of poses: lengths relative to the size, angles by sine and cosine.
 fn apart(a: &[Pose], b: &[Pose], size: f64) -> f64 {
     let of_body = |(a, b): (&Pose, &Pose)| {
         let place = (a.x - b.x).hypot(a.y - b.y) / size;
@@ -66,7 +66,7 @@ fn run(p: &Prepared, options: &MotionOptions) -> (Rows, Vec<(f64, EventKind)>) {
     (rows, events.collect())
 }
 
-/// Both runs, compared: the largest gap of poses, and of velocities as share of the largest.
+/// Compares both runs: the largest difference of poses, and of velocities relative to the largest.
 fn gaps(two: &[Prepared; 2], options: &MotionOptions) -> (f64, f64) {
     let [(plain, _), (circle, _)] = [&two[0], &two[1]].map(|p| run(p, options));
     let size = two[0].assembly.size;
@@ -144,7 +144,7 @@ fn the_motion_is_the_same_by_every_way_through_it() {
     }
 }
 
-/// A parallelogram turned through its flat pose tells the passage at the same time, to rounding.
+/// A parallelogram that passes its flat pose reports the passage at the same time, up to rounding.
 #[test]
 fn passages_are_told_at_the_same_time() {
     let mut d = cranks(&[0.0, 1.0], 0.5, -0.5);
@@ -168,8 +168,8 @@ fn passages_are_told_at_the_same_time() {
     }
 }
 
-/// What is assembled from a start off the constraints is the same pose, also where bodies turn
-/// by radians on the way.
+/// A start off the constraints is assembled to the same pose, also if bodies rotate by radians in
+/// the correction.
 #[test]
 fn a_start_far_beside_the_constraints_is_corrected_alike() {
     let mut d = cranks(&[0.0, 1.0, 2.5], 0.5, 0.4);

@@ -1,6 +1,7 @@
-//! Starts with velocities: given ones hold, the others follow with the least kinetic energy, drives
-//! give theirs; what no motion has is named, with advice that works. The truth is computed by
-//! singular values of the dense rows, of which the program has none here.
+//! Starts with velocities: given ones are kept, the others follow with the least kinetic energy,
+//! drives determine theirs; velocities that no motion has are named, with advice that works. The
+//! correct answer is computed by singular values of the dense rows, which the program does not use
+//! here.
 
 mod scenes;
 
@@ -16,16 +17,16 @@ const SEED: u64 = 8;
 /// Scenes of the campaign.
 const SCENES: usize = 1000;
 
-/// Singular values below this share of the largest are zero; the scenes have none between this and
-/// a thousandth.
+/// Singular values below this fraction of the largest are zero; the scenes have none between this
+/// and a thousandth.
 const ZERO: f64 = 1e-8;
 
-/// What velocities of the program may miss by, relative to the fastest: rounding at a hundred sizes
-/// from the origin, times the condition of a linkage.
+/// Largest error of the program's velocities, relative to the fastest: rounding at a hundred sizes
+/// from the origin, times the condition number of a linkage.
 const AGREES: f64 = 1e-9;
 
-/// Rows and right-hand sides of a start, columns in units of points: rotations at the size of the
-/// mechanism.
+/// Rows and right-hand sides of a start, columns in units of points: rotations are multiplied by
+/// the size of the mechanism.
 struct Rows {
     c: DMatrix<f64>,
     b: DVector<f64>,
@@ -57,7 +58,7 @@ fn rows(text: &str) -> Rows {
     let unit: Vec<f64> = (0..layout.n_v)
         .map(|j| if j % 3 == 2 { 1.0 / size } else { 1.0 })
         .collect();
-    // Rows of angles are as long as those of lengths.
+    // Rows of angles are scaled to the size of those of lengths.
     let scale = |i: usize| if m.layout().is_angular(i) { size } else { 1.0 };
     let drives = layout.drive_rows();
     Rows {
@@ -78,7 +79,7 @@ fn range(a: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     if a.ncols() == 0 || n == 0 {
         return (DMatrix::zeros(n, 0), DMatrix::identity(n, n));
     }
-    // All left singular vectors: of a matrix with as many columns as rows at least.
+    // All left singular vectors: for this the matrix needs at least as many columns as rows.
     let wide = a.clone().resize_horizontally(n.max(a.ncols()), 0.0);
     let svd = wide.svd(true, false);
     let u = svd.u.expect("asked for");
@@ -90,7 +91,7 @@ fn range(a: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     (u.select_columns(&live), u.select_columns(&dead))
 }
 
-/// What is left of a vector outside of the range.
+/// The component of a vector outside of the range.
 fn outside(a: &DMatrix<f64>, b: &DVector<f64>) -> f64 {
     let (_, left) = range(a);
     (left.transpose() * b).norm()
@@ -130,7 +131,7 @@ fn give(sketch: &mut Sketch, rows: &Rows, numbers: &mut Numbers, how: Given) {
     }
     let scale = v.amax();
     let digits = |x: f64| match how {
-        // What is left of a locked part is rounding of the generator.
+        // The velocities of a locked part are only rounding errors of the generator.
         _ if x.abs() < 1e-12 * fastest => 0.0,
         Given::Rounded => format!("{x:.4e}").parse().expect("a number"),
         _ => x,
@@ -169,15 +170,15 @@ fn held(sketch: &Sketch, rows: &Rows) -> Vec<Option<f64>> {
         .collect()
 }
 
-/// What is so.
+/// The correct answer.
 enum Truth {
     /// Drives contradict each other or the joints.
     Drives,
-    /// There are velocities: `g` in the given ones.
+    /// Velocities exist: `g` in the given ones.
     Velocities { g: Vec<f64>, is_exact: bool },
-    /// Only others than the given ones.
+    /// The given velocities are impossible, but others exist.
     Given,
-    /// Too near to a limit to be said.
+    /// Too close to a limit for an answer.
     Border,
 }
 
@@ -211,7 +212,7 @@ fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
             is_exact: true,
         };
     }
-    // The shortest correction in the mass metric.
+    // The smallest correction in the mass metric.
     let root = DVector::from_iterator(
         given.len(),
         given.iter().map(|&j| rows.mass[j].sqrt().recip()),
@@ -223,8 +224,7 @@ fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
         let free = solve(&cf, &(&rows.b - &cg * &corrected));
         free.amax().max(g.amax()).max(corrected.amax())
     };
-    // The limit is that of bodies that hang together: between these bounds the pieces of a scene
-    // may differ.
+    // The limit applies to connected bodies: between these bounds the pieces of a scene may differ.
     match delta.amax() / fastest {
         share if share > 2e-2 => Truth::Given,
         share if share < 1e-4 => Truth::Velocities {
@@ -235,7 +235,7 @@ fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
     }
 }
 
-/// Checks C·v = b, what is given, and M·v = Cᵀ·μ in what follows.
+/// Checks C·v = b, the given velocities, and M·v = Cᵀ·μ for the others.
 fn check_accepted(rows: &Rows, held: &[Option<f64>], study: &Study, g: &[f64], is_exact: bool) {
     let v: Vec<f64> = study
         .prepared
@@ -271,7 +271,7 @@ fn check_accepted(rows: &Rows, held: &[Option<f64>], study: &Study, g: &[f64], i
     );
 }
 
-/// The scene without what is to be left out.
+/// The scene without the entries that the advice omits.
 fn without(sketch: &Sketch, leave_out: &[HeldVelocity]) -> Sketch {
     let mut sketch = sketch.clone();
     for held in leave_out {
@@ -312,7 +312,7 @@ fn without(sketch: &Sketch, leave_out: &[HeldVelocity]) -> Sketch {
     sketch
 }
 
-/// Why a start was refused: whether by drives, or by which conflict.
+/// The reason why a start was refused: drives, or one of the conflicts.
 enum Refusal {
     Drives,
     Later,
@@ -335,14 +335,15 @@ fn refusal(sketch: &Sketch, error: &StudyError) -> Refusal {
         Err(dynamics::MotionError::Start(StartError::Velocities(conflict))) => {
             Refusal::Given(conflict)
         }
-        // Accelerations: with these velocities drives ask for what the joints do not go on with.
+        // Accelerations: at these velocities the joints do not allow the accelerations of the
+        // drives.
         Ok((_, Some(_))) => Refusal::Later,
         other => panic!("{:?}: {error}", other.err()),
     }
 }
 
-/// A thousand scenes: accepted exactly if there are such velocities, these are the right ones, and
-/// otherwise what is named is at fault and what is advised works.
+/// A thousand scenes: accepted exactly if such velocities exist, and then they are correct;
+/// otherwise the named entries are at fault and the advice works.
 #[test]
 fn a_thousand_random_starts() {
     let mut numbers = Numbers::new(SEED);
@@ -417,7 +418,7 @@ fn check_conflict(
     conflict: &model::start::VelocityConflict,
     context: &str,
 ) {
-    // The velocity is given, and without it less is wrong.
+    // The velocity is given, and the conflict is smaller without it.
     let body = sketch
         .bodies
         .iter()
@@ -445,7 +446,7 @@ fn check_conflict(
         after < before * (1.0 - 1e-9),
         "{before:e} → {after:e}: {conflict}\n{context}"
     );
-    // A drive is named if joints alone do not forbid the velocity with the others.
+    // A drive is named if the joints alone allow the velocity together with the others.
     let joints = rows.c.select_rows(&rows.is_joint_alone);
     let nothing = DVector::zeros(joints.nrows());
     if miss(held, &joints, &nothing) <= 1e-9 * before {
@@ -454,7 +455,7 @@ fn check_conflict(
     if !rows.is_drive.contains(&true) {
         assert!(conflict.drives.is_empty(), "{conflict}\n{context}");
     }
-    // What is advised works.
+    // The advice works.
     assert!(
         conflict.is_enough && !conflict.leave_out.is_empty(),
         "{conflict}\n{context}"
@@ -480,8 +481,8 @@ fn check_conflict(
     }
 }
 
-/// A locked part with any velocity that is more than rounding is refused by name; at rest to
-/// rounding it rests, wherever and however large.
+/// A locked part with a velocity larger than rounding is refused with an error; with a velocity up
+/// to rounding it is at rest, at any place and of any size.
 #[test]
 fn locked_parts() {
     for size in [1e-6, 1e-3, 1.0, 1e3, 1e6] {

@@ -1,16 +1,17 @@
-//! Counting verdicts: how many cases, how many of them undecided, and every wrong verdict by name.
+//! Counts of verdicts: the number of cases, the number of undecided ones, and every wrong verdict
+//! by name.
 
 use std::collections::BTreeMap;
 
 use solvability::{Judgement, Verdict};
 
-/// Cases with wrong verdicts that are written out.
+/// Number of cases with wrong verdicts that are printed.
 const SHOWN: usize = 5;
 
-/// Of the cases that are to be decided less than one in so many may be undecided.
+/// Of the cases that should be decided fewer than one out of this number may be undecided.
 const UNDECIDED: usize = 1000;
 
-/// The number of cases that the environment variable `PFAFF_CASES` asks for, or the default.
+/// The number of cases that the environment variable `PFAFF_CASES` states, or the default.
 pub(crate) fn cases(default: usize) -> usize {
     std::env::var("PFAFF_CASES")
         .ok()
@@ -48,7 +49,7 @@ impl Tally {
         self.count().cases += 1;
     }
 
-    /// Something of the case is undecided.
+    /// Records that a result of the case is undecided.
     pub(crate) fn undecided(&mut self, what: impl FnOnce() -> String) {
         if std::mem::replace(&mut self.case_is_undecided, true) {
             return;
@@ -109,7 +110,7 @@ impl Tally {
         })
     }
 
-    /// Prints the counts; fails if a verdict is wrong, or if one case in so many of these kinds is
+    /// Prints the counts; fails if a verdict is wrong, or if too many cases of these kinds are
     /// undecided.
     #[expect(
         clippy::print_stdout,

@@ -1,4 +1,4 @@
-//! Three parallel cranks under one coupler: overconstrained by one. Numbers from
+//! Three parallel cranks under one coupler: one redundant constraint. Numbers from
 //! `reference/redundant_three_cranks.json`.
 
 use dynamics::{KeptRowMotion, RowChoice, prepare};
@@ -9,7 +9,7 @@ use tests::{largest, rod};
 
 const REFERENCE: &str = include_str!("../reference/redundant_three_cranks.json");
 
-/// Trusted digits of the reference: 13.
+/// Accuracy of the reference: 13 digits.
 const TOLERANCE: f64 = 1e-12;
 
 fn numbers(case: &Value, key: &str) -> Vec<f64> {
@@ -60,7 +60,7 @@ fn every_number_of_the_case() {
         assert!((a[3 * crank + 2] - alpha).abs() < TOLERANCE * alpha.abs());
     }
 
-    // Minimum norm: without the part of λ in the null space, which is one-dimensional.
+    // Minimum norm: without the component of λ in the null space, which is one-dimensional.
     let decision = solvability::analyse(&p.mechanism, 0.0, &p.q)
         .expect("regular")
         .whole()

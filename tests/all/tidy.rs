@@ -1,4 +1,4 @@
-//! Rules of the house that a compiler does not check; see ARCHITECTURE.md.
+//! Rules of the project that a compiler does not check; see ARCHITECTURE.md.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -44,7 +44,7 @@ fn dependencies(name: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// Rust files of ours that are not generated.
+/// Our Rust files that are not generated.
 fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("readable").flatten() {
         let path = entry.path();
@@ -101,7 +101,7 @@ fn nothing_at_run_time_depends_on_the_generator() {
     }
 }
 
-/// What judges the product is no part of it.
+/// Tests and references of the product are not part of it.
 #[test]
 fn the_product_depends_on_no_crate_of_the_laboratory() {
     const LABORATORY: [&str; 3] = ["exact", "lab", "suite"];
@@ -149,7 +149,7 @@ fn every_module_says_what_it_is_for() {
     }
 }
 
-/// Columns of a line of comment; tables, addresses and code of examples may be wider.
+/// Largest width of a comment line (columns); tables, addresses and example code may be wider.
 const COLUMNS: usize = 100;
 
 #[test]

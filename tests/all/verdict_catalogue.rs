@@ -1,4 +1,4 @@
-//! Small mechanisms whose verdicts can be worked out by hand.
+//! Small mechanisms whose verdicts can be derived by hand.
 
 use joints::plane::Direction;
 use joints::{KnifeEdge, RevoluteAngleDrive};
@@ -72,7 +72,7 @@ fn two_cranks_at_an_angle() {
     assert!(words(&a).iter().all(|(_, word)| *word == "unique"));
 }
 
-/// P1, θ = 0: flat, the four revolutes press along the line.
+/// P1, θ = 0: flat; the four revolutes can have forces along the line.
 #[test]
 fn two_flat_cranks() {
     let a = analysed(&driven_cranks(&[0.0, 1.0], 0.0));
@@ -87,7 +87,8 @@ fn two_flat_cranks() {
     assert_eq!(words(&a).last(), Some(&("motor", "unique")));
 }
 
-/// P2, θ = 1: in every joint the component across the crank is unique, along the crank it is not.
+/// P2, θ = 1: in every joint the component across the crank is unique, the component along it is
+/// not.
 #[test]
 fn three_cranks_at_an_angle() {
     let theta = 1.0_f64;
@@ -156,7 +157,7 @@ fn four_bar_with_one_drive() {
     assert!(words(&a).iter().all(|(_, word)| *word == "unique"));
 }
 
-/// P6, drives at A and at D work against each other through every joint.
+/// P6, drives at A and at D can have opposing torques, which load every joint.
 #[test]
 fn four_bar_with_two_drives() {
     let a = analysed(&four_bar(&[BodyRef::Body(0), BodyRef::Body(2)]));

@@ -1,5 +1,5 @@
 //! `cargo xtask browser`: reports of three scenes in a real browser. Needs Node and Chromium, which
-//! are on no list of dependencies: without them the pages are tested as text only.
+//! are not dependencies of the project: without them the pages are tested only as text.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -14,7 +14,7 @@ const SCENES: [(&str, &str); 3] = [
     ("sleigh", "crates/suite/scenes/sleigh.toml"),
 ];
 
-/// Names under which systems have it.
+/// Names of the program on different systems.
 const CHROMIUM: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 
 const NO_CHROMIUM: &str = "no Chromium found: install it, for instance by `apt-get install chromium`, `dnf install chromium` or \
@@ -24,9 +24,9 @@ const NO_NODE: &str =
 
 /// The command `pfaff` that writes the reports.
 pub(crate) enum Program {
-    /// Built for this, with all optimisations.
+    /// A release build made for this test.
     Release,
-    /// What `cargo test` has built: nothing is compiled again.
+    /// The build of `cargo test`, so that nothing is compiled again.
     OfTests,
 }
 
@@ -65,7 +65,7 @@ pub(crate) fn check(program: Program) -> Result<String, String> {
     Ok(format!("pictures in {}", out.join("pictures").display()))
 }
 
-/// The browser's program, where Node is there, too.
+/// The browser's program, if Node is available, too.
 fn tools() -> Result<String, &'static str> {
     let chromium = chromium().ok_or(NO_CHROMIUM)?;
     if answers("node") {

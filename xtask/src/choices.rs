@@ -1,6 +1,6 @@
-//! What a program pays that uses a part of the house: clean build time, size and dependencies of
+//! The cost of programs that use parts of the project: clean build time, size and dependencies of
 //! the small programs in `xtask/choices` and of the command itself, one at a time in an empty
-//! target folder.
+//! target directory.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,19 +10,19 @@ use std::time::Instant;
 use crate::scene;
 use crate::tree::{cargo, machine, root, run, said_by};
 
-/// A scene and where the program with code of its own has it.
+/// A scene, and the path at which the program with generated code reads its module.
 const ROBOT: &str = "crates/robot-trolley/robot-trolley.toml";
 const GENERATED: &str = "xtask/choices/generated/src/robot.rs";
 
 const REPORT: &str = "docs/reports/choices/table.md";
 
-/// A program and what it uses.
+/// A program and the crates that it uses.
 struct Choice {
     package: &'static str,
     /// Its binary.
     binary: &'static str,
     uses: &'static str,
-    /// The workspace it is in, from the root.
+    /// The workspace that contains it, relative to the root.
     workspace: &'static str,
 }
 
@@ -67,13 +67,13 @@ const CHOICES: [Choice; 9] = [
     },
 ];
 
-/// What one choice costs.
+/// The cost of one choice.
 struct Cost {
     house: usize,
     others: usize,
     debug: Build,
     release: Build,
-    /// Of the stripped binary (bytes).
+    /// Size of the stripped binary (bytes).
     size: u64,
 }
 
@@ -81,17 +81,17 @@ struct Cost {
 struct Build {
     /// From start to end (s).
     wall: f64,
-    /// Of all processors, where the system tells it (s).
+    /// On all processors, if the system reports it (s).
     processor: Option<f64>,
 }
 
-/// What stands below the table.
+/// The text below the table.
 const NOTES: &str = "
 Build times are those of the machine and its neighbours; processor seconds are of all cores together. Crates include procedural macros and what only build
 scripts use. Profiles are cargo's own, `release` stripped; the debug profile of the command is that of the workspace, which optimises.
 ";
 
-/// Builds everything; the table is written after each program, so that an interruption loses only
+/// Builds all programs; the table is written after each of them, so that an interruption loses only
 /// the last one.
 pub(crate) fn report() -> Result<String, String> {
     let target = std::env::temp_dir().join(format!("pfaff-choices-{}", std::process::id()));
@@ -118,7 +118,7 @@ pub(crate) fn report() -> Result<String, String> {
     Ok(format!("written to {REPORT}"))
 }
 
-/// Gives the programs the versions of the workspace; cargo drops what they do not need.
+/// Pins the programs to the versions of the workspace; cargo removes those that they do not need.
 fn same_versions() -> Result<(), String> {
     let lock = |folder: &str| root().join(folder).join("Cargo.lock");
     let (from, to) = (lock("."), lock("xtask/choices"));
@@ -167,7 +167,7 @@ fn measure(choice: &Choice, target: &Path) -> Result<Cost, String> {
     })
 }
 
-/// Crates that are compiled with the program: ours, and others.
+/// Number of crates that are compiled with the program: ours, and others.
 fn dependencies(choice: &Choice, folder: &Path) -> Result<(usize, usize), String> {
     let tree = [
         "tree",
@@ -183,11 +183,11 @@ fn dependencies(choice: &Choice, folder: &Path) -> Result<(usize, usize), String
         .iter()
         .filter(|l| !l.contains("(/") && !l.contains(":\\"))
         .count();
-    // The program is one of ours, but no dependency.
+    // The program is one of our crates, but not a dependency.
     Ok((crates.len() - others - 1, others))
 }
 
-/// A build in an empty folder.
+/// A build in an empty directory.
 fn build(choice: &Choice, folder: &Path, target: &Path, profile: &str) -> Result<Build, String> {
     remove(target)?;
     let (clock, before) = (Instant::now(), processor_seconds());
@@ -219,11 +219,12 @@ fn remove(folder: &Path) -> Result<(), String> {
     }
 }
 
-/// User and system time of all children that have ended (s); Linux counts it in hundredths.
+/// User and system time of all finished child processes (s); Linux counts it in hundredths of a
+/// second.
 fn processor_seconds() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // The name, in parentheses, may contain spaces; children's times are the 14th and 15th value
-    // behind it.
+    // The name, in parentheses, may contain spaces; the times of children are the 14th and 15th
+    // value after it.
     let (_, values) = stat.rsplit_once(')')?;
     let ticks: Vec<f64> = values
         .split_whitespace()

@@ -11,7 +11,7 @@ use crate::tree::root;
 const DEFINITIONS: &str = "crates/joints/definitions";
 const GENERATED: &str = "crates/joints/src/generated";
 
-/// Writes all generated files and removes those whose definition is gone.
+/// Writes all generated files and removes those whose definition no longer exists.
 pub(crate) fn write() -> Result<String, String> {
     let root = root();
     let files = generate(&root)?;
@@ -30,7 +30,7 @@ pub(crate) fn write() -> Result<String, String> {
     Ok(format!("{} files written to {GENERATED}", files.len()))
 }
 
-/// Compares all generated files with what would be written.
+/// Compares all generated files with their expected contents.
 pub(crate) fn check() -> Result<String, String> {
     let root = root();
     let files = generate(&root)?;
@@ -115,7 +115,7 @@ fn print(name: &str, expansion: &Expansion) -> Result<String, String> {
     ))
 }
 
-/// The module that lists all definitions and shows them to visitors.
+/// The module that lists all definitions and passes them to visitors.
 fn print_index(expansions: &[Expansion]) -> Result<String, String> {
     use std::fmt::Write;
     let mut text = format!(

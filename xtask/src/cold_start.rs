@@ -1,5 +1,5 @@
-//! How long the commands take from a cold start, process included: the robot with its trolley,
-//! optimised build.
+//! Run times of the commands from a cold start, including the start of the process: the robot with
+//! its trolley, optimised build.
 
 use std::fmt::Write;
 use std::process::{Command, Stdio};
@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use crate::tree::{cargo, root, run, target};
 
-/// Runs of each command.
+/// Number of runs of each command.
 const RUNS: usize = 50;
 
 const SCENE: &str = "crates/robot-trolley/robot-trolley.toml";

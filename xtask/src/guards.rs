@@ -1,20 +1,21 @@
-//! What the monitors of a run cost: the robot's run with them, and compiled without
-//! (`--cfg pfaff_unguarded`). Both programs take turns, the least time of each counts; beside them
-//! the instructions of one run by callgrind.
+//! The cost of the monitors of a run: the robot's run with them, and compiled without them
+//! (`--cfg pfaff_unguarded`). Both programs take turns, and the least time of each counts; in
+//! addition the instructions of one run by callgrind.
 
 use std::fmt::Write;
 use std::process::Command;
 
 use crate::tree::{cargo, root, run, said_by, target};
 
-/// Turns of the two programs, and runs of each in a turn.
+/// Number of turns of the two programs, and of runs of each in a turn.
 const TURNS: usize = 12;
 const RUNS: &str = "60";
 
-/// Instructions are those of so many runs less one, divided by so many less one.
+/// Number of runs whose instructions are counted; those of a single run are subtracted, and the
+/// difference is divided by the number of runs minus one.
 const COUNTED: u64 = 4;
 
-/// Time and instructions of interpreted and generated runs, with monitors and without.
+/// Times and instructions of interpreted and generated runs, with and without monitors.
 pub(crate) fn tell() -> Result<String, String> {
     let root = root();
     let target = target(&root)?;
@@ -71,7 +72,7 @@ pub(crate) fn tell() -> Result<String, String> {
     Ok(text)
 }
 
-/// Of one run, interpreted or on generated code.
+/// Instructions of one run, interpreted or on generated code.
 fn instructions(program: &str, way: &str) -> Result<u64, String> {
     let collected = |runs: u64| -> Result<u64, String> {
         let output = Command::new("valgrind")

@@ -1,10 +1,11 @@
-//! `cargo xtask house` counts the house: lines of code, large types, circles of modules, numeric
-//! constants, and the limits on them. With `--check` it fails where a limit is exceeded.
+//! `cargo xtask house` measures the project: lines of code, large types, circular dependencies of
+//! modules, numeric constants, and the limits on them. With `--check` it fails if a limit is
+//! exceeded.
 //!
-//! The rules stand where they are applied: [`lines`] says what a line of code is, [`types`] which
-//! types are stateful, [`circles`] which module uses which. Everything is read with the tokenizer
-//! and the parser of Rust; what macros write and what other languages say in `.js` or `.toml` is
-//! not counted.
+//! The rules are documented where they are applied: [`lines`] defines a line of code, [`types`] a
+//! stateful type, [`circles`] the uses between modules. All files are read with the tokenizer and
+//! the parser of Rust; code that macros write and files in other languages, such as `.js` or
+//! `.toml`, are not counted.
 
 mod circles;
 mod constants;
@@ -25,16 +26,16 @@ use self::table::Table;
 use self::types::Type;
 use crate::tree::root;
 
-/// Lines of code of all groups but tests and developers' tools.
+/// Largest number of lines of code of all groups except tests and developers' tools.
 const TOTAL_MOST: usize = 58_000;
-/// Lines of code of the product.
+/// Largest number of lines of code of the product.
 const PRODUCT_MOST: usize = 50_000;
-/// Lines of code of `dynamics`.
+/// Largest number of lines of code of `dynamics`.
 const DYNAMICS_MOST: usize = 5000;
-/// Modules in a circle.
+/// Largest number of modules in a circle.
 const CIRCLE_MOST: usize = 2;
 
-/// What was counted in one crate.
+/// The counts of one crate.
 struct Counted {
     name: String,
     folder: String,
@@ -44,8 +45,7 @@ struct Counted {
     circles: Vec<circles::Circle>,
 }
 
-/// Counts the house of the workspace. `check` tells the limits only, and fails where one is
-/// exceeded.
+/// Measures the workspace. `check` prints only the limits, and fails if one is exceeded.
 pub(crate) fn tell(is_json: bool, check: bool) -> Result<String, String> {
     let crates = source::crates(&root())?;
     let counted: Vec<Counted> = crates.iter().map(count).collect();
@@ -240,7 +240,7 @@ fn constants_table(crates: &[Crate]) -> Table {
     }
 }
 
-/// What exceeds a limit by itself.
+/// Values that exceed a limit.
 fn faults(counted: &[Counted]) -> Table {
     let mut rows = Vec::new();
     for home in counted {

@@ -1,6 +1,6 @@
 //! Commands for developers. `cargo xtask codegen` writes the kernels of all joints and forces from
-//! their definitions; with `--check` it compares and changes nothing; with `--scene` it writes one
-//! mechanism as one module. `house` counts the code. The others measure and write `docs/reports`.
+//! their definitions; with `--check` it only compares them; with `--scene` it writes one mechanism
+//! as one module. `house` measures the code. The others measure run times and write `docs/reports`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod browser;

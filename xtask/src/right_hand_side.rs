@@ -1,17 +1,17 @@
-//! The benchmark of right-hand sides and its report; what is compared is in
+//! The benchmark of right-hand sides and its report; the candidates are in
 //! `crates/bench/benches/right_hand_side`.
 
 use crate::tree::{cargo, root, run};
 
 const REPORT: &str = "docs/reports/right-hand-side";
 
-/// Times and instructions, into the report.
+/// Measures times and instructions and writes the report.
 pub(crate) fn report() -> Result<String, String> {
     bench(&["--out", REPORT])?;
     Ok(format!("written to {REPORT}"))
 }
 
-/// Times and instructions, reported only.
+/// Measures times and instructions and prints them only.
 pub(crate) fn instructions() -> Result<String, String> {
     bench(&["--instructions"])?;
     Ok("instructions by callgrind".to_owned())

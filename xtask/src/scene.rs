@@ -1,5 +1,5 @@
 //! `cargo xtask codegen --scene FILE --out FILE.rs`: starts `scene-codegen` as a program, so that
-//! this one depends on the kernels' generator only and can always be built.
+//! this program depends only on the generator of kernels and can always be built.
 
 use std::process::Command;
 

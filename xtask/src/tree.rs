@@ -1,4 +1,4 @@
-//! Where things are, and programs that are run there.
+//! Paths of the project, and programs that are run in it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ pub(crate) fn root() -> PathBuf {
     xtask.parent().unwrap_or(xtask).to_owned()
 }
 
-/// Cargo in a folder of the tree.
+/// Cargo in a directory of the project.
 pub(crate) fn cargo(folder: &Path) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(folder);
@@ -26,7 +26,7 @@ pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     }
 }
 
-/// What a command says on its standard output.
+/// The standard output of a command.
 pub(crate) fn said_by(command: &mut Command) -> Result<String, String> {
     let output = command.output().map_err(|e| format!("{command:?}: {e}"))?;
     if output.status.success() {
@@ -39,7 +39,7 @@ pub(crate) fn said_by(command: &mut Command) -> Result<String, String> {
     }
 }
 
-/// Where cargo writes what it builds.
+/// The target directory of cargo.
 pub(crate) fn target(root: &Path) -> Result<String, String> {
     let metadata = said_by(cargo(root).args(["metadata", "--format-version=1", "--no-deps"]))?;
     metadata

@@ -1,11 +1,11 @@
-//! Ranks and verdicts of the examples, each counted on paper before the program was asked; pages
-//! and table against them.
+//! Ranks and verdicts of the examples, each derived on paper before the program was run; pages and
+//! table are compared with them.
 
 use std::collections::BTreeSet;
 
 use super::{files, page, read, root, scene, study};
 
-/// What the page of an example derives.
+/// The results that the page of an example derives.
 struct Answer {
     name: &'static str,
     rank: usize,
@@ -125,14 +125,14 @@ fn every_verdict_is_the_one_worked_out_by_hand() {
             })
             .map(|r| r.name.as_str())
             .collect();
-        // Drives stand after the joints, nonholonomic rows at the end; the page may name them in
-        // any order.
+        // Drives follow the joints, nonholonomic rows are at the end; the page may name them in any
+        // order.
         let sets = [not_unique, expected.not_unique.to_vec()].map(BTreeSet::from_iter);
         assert_eq!(sets[0], sets[1], "{name}");
     }
 }
 
-/// Nobody should have to wonder whether a start was bent into shape.
+/// No start of an example needs a correction.
 #[test]
 fn every_start_is_consistent_as_it_is_written() {
     for Answer { name, .. } in &ANSWERS {
@@ -153,8 +153,7 @@ fn every_example_has_a_scene_a_page_and_a_row() {
     assert_eq!(files(".md"), answers, "pages and answers of the test");
 }
 
-/// Rows of the table: link, rank, redundancy, mobility, reactions that are not unique, what it
-/// teaches.
+/// Rows of the table: link, rank, redundancy, mobility, reactions that are not unique, purpose.
 #[test]
 fn the_table_says_what_is_expected() {
     let text = read(&root().join("examples/README.md"));
@@ -179,7 +178,7 @@ fn the_table_says_what_is_expected() {
     }
 }
 
-/// All pages ask and answer in the same order.
+/// All pages have the same sections in the same order.
 #[test]
 fn every_page_has_the_same_parts() {
     for Answer { name, .. } in &ANSWERS {

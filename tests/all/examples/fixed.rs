@@ -1,10 +1,10 @@
-//! Examples in which forces are the point: statics, couples, balances.
+//! Examples that are mainly about forces: statics, couples, balances.
 
 use super::{Run, close, says};
 
 const G: f64 = 9.81;
 
-/// Moments about a hinge: the couple of the two horizontal forces carries the weight at half the
+/// Moments about a hinge: the couple of the two horizontal forces balances the weight at half the
 /// width.
 #[test]
 fn door() {
@@ -20,7 +20,7 @@ fn door() {
     says("door", weight, 1);
 }
 
-/// x = g·sin(α)·t²/2, and the bearings carry m·g·cos(α) together.
+/// x = g·sin(α)·t²/2, and the bearings together carry m·g·cos(α).
 #[test]
 fn carriage() {
     let run = Run::of("carriage");
@@ -37,7 +37,7 @@ fn carriage() {
     says("carriage", weight, 3);
 }
 
-/// What the nodes alone say, and the elastic answer of the force method.
+/// The conditions of equilibrium at the nodes, and the elastic solution of the force method.
 #[test]
 fn truss() {
     let run = Run::of("truss");
@@ -79,7 +79,7 @@ fn scissor_lift() {
     says("scissor-lift", at_rest, 2);
 }
 
-/// Both cranks turn, both links translate: one equation for the sum of the powers.
+/// Both cranks rotate, both links translate: one equation for the sum of the powers.
 #[test]
 fn five_bar() {
     let run = Run::of("five-bar");
@@ -89,7 +89,7 @@ fn five_bar() {
         let [a, b, e] = ["motor-A", "motor-B", "motor-E"].map(|m| run.component(row, m));
         a - b + e
     };
-    // On the ground, and on the crank at B: against the motion.
+    // On the ground, and on the crank at B: opposite to the motion.
     let (start, end) = (0.6, (0.8_f64.atan2(0.6) + 0.5).cos());
     close(sum(run.first()), -holding * start, holding);
     close(sum(run.last()), -holding * end, holding);
@@ -103,7 +103,7 @@ fn five_bar() {
     says("five-bar", holding * end, 4);
 }
 
-/// Newton for the reduced inertia; the output is pushed by both layshafts.
+/// Newton's law for the reduced inertia; both layshafts exert forces on the output.
 #[test]
 fn gear_train() {
     let run = Run::of("gear-train");
@@ -126,7 +126,7 @@ fn gear_train() {
     says("gear-train", 0.9 * alpha / 18.0, 3);
 }
 
-/// Willis: seen from the carrier, sun and ring turn as −60 : 30.
+/// Willis' equation: relative to the carrier, sun and ring rotate in the ratio −60 : 30.
 #[test]
 fn planetary_gear() {
     let run = Run::of("planetary-gear");

@@ -1,13 +1,14 @@
-//! Examples on blades and wheels.
+//! Examples with blades and wheels.
 
 use std::f64::consts::TAU;
 
 use super::{Run, close, says};
 
-/// Weight along the slope of 3 : 4 (m/s²).
+/// Component of gravity along a slope of 3 : 4 (m/s²).
 const SLOPE: f64 = 0.6 * 9.81;
 
-/// A cycloid across the slope; the edge carries twice the component of the weight across it.
+/// A cycloid across the slope; the edge carries twice the component of the weight perpendicular to
+/// it.
 #[test]
 fn knife_edge() {
     let run = Run::of("knife-edge");
@@ -27,8 +28,8 @@ fn knife_edge() {
     says("knife-edge", 2.0 * m * SLOPE, 3);
 }
 
-/// m·v² + J·ω² is kept, with J = m here: v = 2·tanh t, ω = 2/cosh t, and the runners feel m·v·ω +
-/// m·a·dω/dt together.
+/// m·v² + J·ω² is constant, with J = m here: v = 2·tanh t, ω = 2/cosh t, and the runners together
+/// carry m·v·ω + m·a·dω/dt.
 #[test]
 fn sleigh() {
     let run = Run::of("sleigh");
@@ -50,7 +51,7 @@ fn sleigh() {
     says("sleigh", 24.0 * 0.5_f64.tanh() / 0.5_f64.cosh(), 4);
 }
 
-/// The tractrix: the axle lags the hitch by L·tanh τ and is L/cosh τ away from the road, τ = v·t/L.
+/// The tractrix: the axle is L·tanh τ behind the hitch and L/cosh τ away from the road, τ = v·t/L.
 #[test]
 fn towed_cart() {
     let run = Run::of("towed-cart");
@@ -76,7 +77,7 @@ fn sweeper() {
         close(run.rate(row, "cart")[0], speed, 2.0);
         close(run.rate(row, "brush")[2], -40.0 * speed, 80.0);
         for wheel in ["left-rolls", "right-rolls"] {
-            // What slows the cart down is shared evenly, and that is determined.
+            // The force that decelerates the cart is shared equally, and this is determined.
             close(run.reaction(row, wheel)[0], -20.0 * deceleration, 10.0);
         }
     }
@@ -85,7 +86,7 @@ fn sweeper() {
     says("sweeper", 6.25, 2);
 }
 
-/// Once round a circle; the wheels push the car towards the centre together.
+/// One circle; the wheels together push the car towards the centre.
 #[test]
 fn car() {
     let run = Run::of("car");
@@ -109,7 +110,7 @@ fn car() {
     says("car", mass * omega * omega * centre[1], 1);
 }
 
-/// 56 kN stop 28 t; the kingpin holds back 20 t of them.
+/// 56 kN decelerate 28 t; the kingpin holds 20 t of them.
 #[test]
 fn truck() {
     let run = Run::of("truck");
@@ -122,8 +123,8 @@ fn truck() {
     says("truck", 75.0, 0);
 }
 
-/// Angular momentum about the fixed centre of the turn: the board turns back by J_r/(J + m·R²) of
-/// what the rotor turns.
+/// Angular momentum about the fixed centre of the turn: the board rotates back by J_r/(J + m·R²) of
+/// the rotation of the rotor.
 #[test]
 fn snakeboard() {
     let run = Run::of("snakeboard");
@@ -135,7 +136,7 @@ fn snakeboard() {
     close(angle, turn, 1.0);
     close(x, radius * turn.sin(), 1.0);
     close(y, radius * (1.0 - turn.cos()), 1.0);
-    // Nothing moves while only the axles turn.
+    // Only the axles rotate at first.
     let steered = run.rows.iter().filter(|row| row.t <= 1.0);
     for row in steered {
         close(run.pose(row, "board")[2], 0.0, 1.0);

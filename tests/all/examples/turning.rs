@@ -1,4 +1,4 @@
-//! Examples in which geometry is the point: linkages and what they draw.
+//! Examples that are mainly about geometry: linkages and the curves that they draw.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
@@ -7,7 +7,7 @@ use super::{Run, close, read, says, scene, study};
 
 const G: f64 = 9.81;
 
-/// The rocker's angle at a crank angle: C lies on two circles, above the line from D to B.
+/// The rocker's angle for a crank angle: C is on two circles, above the line from D to B.
 fn rocker(crank: f64) -> f64 {
     let b = [0.3 * crank.cos(), 0.3 * crank.sin()];
     let d = [0.8 - b[0], -b[1]];
@@ -64,7 +64,7 @@ fn three_cranks() {
     close(round.pose(round.last(), "crank-1")[2], 0.0, 1.0);
 }
 
-/// x = r·cos ωt; the motor feels m·r²·ω²·sin ωt·cos ωt.
+/// x = r·cos ωt; the torque of the motor is m·r²·ω²·sin ωt·cos ωt.
 #[test]
 fn scotch_yoke() {
     let run = Run::of("scotch-yoke");
@@ -98,17 +98,17 @@ fn pantograph() {
     says("pantograph", 1.8, 1);
 }
 
-/// A scene whose linkage is alone with its line.
+/// The scene of a linkage without the guide of its point.
 fn without_guide(text: &str) -> String {
     let lines = text.lines().filter(|line| !line.contains("\"guide\""));
     lines.flat_map(|line| [line, "\n"]).collect()
 }
 
-/// O, B and D lie on one line, OB·OD = 0.5² − 0.34², and B runs on the circle through O: D.x is
+/// O, B and D are on one line, OB·OD = 0.5² − 0.34², and B moves on the circle through O: D.x is
 /// constant.
 #[test]
 fn peaucellier() {
-    // The straight line must come from the linkage, not from its guide.
+    // The straight line must result from the linkage, not from its guide.
     let text = read(&scene("peaucellier"));
     let alone = without_guide(&text);
     for text in [text, alone] {
@@ -124,7 +124,7 @@ fn peaucellier() {
     says("peaucellier", 0.56 * 0.4_f64.tan(), 5);
 }
 
-/// To the right, on the middle of Chebyshev's coupler.
+/// A force to the right, on the middle of Chebyshev's coupler.
 const PUSH: &str = r#"
 [[force]]
 name = "push"
@@ -142,16 +142,16 @@ fn height(tilt: f64) -> f64 {
 
 #[test]
 fn chebyshev() {
-    // With the guide it stands still.
+    // With the guide it does not move.
     let run = Run::of("chebyshev");
     close(run.pose(run.last(), "coupler")[0], 0.0, 1.0);
-    // Pushed, it cannot even begin.
+    // With a force, no motion can even begin.
     let text = read(&scene("chebyshev"));
     let pushed = study("chebyshev", &format!("{text}{PUSH}"));
     let options = pushed.options.clone().expect("it says how long");
     let stopped = pushed.run(&options, |_| Ok(ControlFlow::Continue(())));
     assert!(stopped.is_err(), "a locked linkage has moved");
-    // Without the guide it moves and is not quite straight.
+    // Without the guide it moves, and the curve is not quite straight.
     let alone = without_guide(&text);
     let run = Run::of_text("chebyshev", &format!("{alone}{PUSH}"));
     let mut highest: f64 = 0.0;
@@ -160,8 +160,8 @@ fn chebyshev() {
         close(y, height(tilt), 1.0);
         highest = highest.max(y);
     }
-    // The largest deviation lies where the derivative of y² vanishes: −1/(5 − u) + 2/(u + 2) −
-    // 4/(5 + 4u) = 0.
+    // The largest deviation is where the derivative of y² vanishes: −1/(5 − u) + 2/(u + 2) − 4/(5 +
+    // 4u) = 0.
     let slope = |u: f64| -1.0 / (5.0 - u) + 2.0 / (u + 2.0) - 4.0 / (5.0 + 4.0 * u);
     let (mut low, mut high) = (0.4, 1.0);
     for _ in 0..60 {
@@ -174,7 +174,7 @@ fn chebyshev() {
     }
     let largest = height(low.acos()) - 0.4;
     says("chebyshev", 1e3 * largest, 2);
-    // Half a percent of it: rows of output do not fall on the instant.
+    // To half a percent, because rows of output do not coincide with the instant.
     assert!(
         (highest - 0.4 - largest).abs() < 5e-3 * largest,
         "{highest}"
@@ -182,7 +182,7 @@ fn chebyshev() {
 }
 
 /// The angle of the crank at t = 0.03 s from the test set of Mazzia and Magherini; its table is
-/// right to nine digits.
+/// accurate to nine digits.
 #[test]
 fn andrews() {
     let run = Run::of("andrews");

@@ -1,18 +1,19 @@
-//! What the pages say of neighbours of their scenes: a hinge more, a guide less, a wheel askew.
+//! Statements of the pages about variants of their scenes: an additional hinge, a guide less, a
+//! misaligned wheel.
 
 use super::{page, read, scene, study};
 
-/// A neighbour of an example.
+/// A variant of an example.
 struct Neighbour {
     name: &'static str,
-    /// Text of the scene, and what stands there instead.
+    /// Text of the scene, and its replacement.
     edits: &'static [(&'static str, &'static str)],
-    /// Joints and drives whose lines are taken out.
+    /// Joints and drives whose lines are removed.
     without: &'static [&'static str],
     /// Rank, redundancy and mobility.
     numbers: [usize; 3],
     not_unique: &'static [&'static str],
-    /// Where its page says so.
+    /// The statement of its page.
     said: &'static str,
 }
 
@@ -69,7 +70,7 @@ const NEIGHBOURS: [Neighbour; 12] = [
         not_unique: &[],
         said: "15 rows and redundancy 0",
     },
-    // Both steered alike, and not by the slope that makes the lines meet.
+    // Both steered equally, instead of by the angles for which the lines meet.
     Neighbour {
         name: "car",
         edits: &[

@@ -1,5 +1,5 @@
-//! Code that is no generated one: dense elimination on the kept rows of a mechanism, with a fault
-//! in it.
+//! Code that is not generated: dense elimination on the kept rows of a mechanism, with a deliberate
+//! fault.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -8,19 +8,19 @@ use dynamics::{Facts, Prepared, SceneCode};
 use linalg::KeptRowSaddle;
 use model::{Mechanism, Scratch, System};
 
-/// What is wrong with code, at times t.
+/// The fault of the code, which depends on the time t.
 #[derive(Clone, Copy)]
 pub(super) enum Fault {
     None,
-    /// Its health is this from 4.1 to 4.8 s.
+    /// Its health has this value from 4.1 to 4.8 s.
     Health(f64),
-    /// Accelerations are NaN from 4.1 to 4.8 s, and it says that all is well.
+    /// Accelerations are NaN from 4.1 to 4.8 s, although it reports good health.
     NotFinite,
-    /// A dropped row misses from 4.1 to 4.8 s.
+    /// A dropped row has a residual from 4.1 to 4.8 s.
     DroppedRow(usize),
-    /// Corrections of the position are so many times too large from 4.1 to 4.8 s.
+    /// Corrections of the position are too large by this factor from 4.1 to 4.8 s.
     Correction(f64),
-    /// Accelerations are wrong by this share, always.
+    /// Accelerations have this relative error, always.
     Acceleration(f64),
     /// The same for multipliers.
     Multipliers(f64),
@@ -38,7 +38,7 @@ pub(super) struct Elimination {
 struct Work {
     s: Scratch,
     rows: Vec<Vec<f64>>,
-    /// A frame of free motions and the pivots at the start: what later ones are compared with.
+    /// A basis of free motions and the pivots at the start, with which later ones are compared.
     frame: Vec<f64>,
     reference: f64,
 }
@@ -102,7 +102,7 @@ impl Elimination {
         saddle
     }
 
-    /// Solves on kept rows; x, λ of these rows, and the health.
+    /// Solves on kept rows; returns x, λ of these rows, and the health.
     fn solve(
         &self,
         work: &mut Work,
@@ -140,7 +140,7 @@ impl Elimination {
     }
 }
 
-/// `orientation` needs storage of the solver, but changes nothing in it.
+/// `orientation` needs mutable storage of the solver, but does not change its results.
 trait OrientationOf {
     fn orientation_of(&self, frame: &[f64]) -> f64;
 }

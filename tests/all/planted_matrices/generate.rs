@@ -1,9 +1,9 @@
-//! Matrices of many kinds: exact redundancy, redundancy that rounding has spoilt, near redundancy,
-//! and all of it together.
+//! Matrices of many kinds: exact redundancy, redundancy spoilt by rounding, near redundancy, and
+//! combinations of these.
 
 use tests::numbers::Numbers;
 
-/// How a matrix is made.
+/// How a matrix is constructed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Product of sparse whole matrices.
@@ -14,12 +14,12 @@ pub(super) enum Kind {
     PowersOfTwo,
     /// The same from 1e-120 to 1e120.
     Extreme,
-    /// Rows and columns multiplied by powers of ten that leave all entries whole.
+    /// Rows and columns multiplied by powers of ten such that all entries remain whole numbers.
     PowersOfTen,
     /// Duplicates and multiples of rows, empty rows and columns, often many more rows than columns.
     Duplicates,
-    /// The matrix of Kahan, whose pivots hide its smallest singular value, with multiples of its
-    /// rows.
+    /// The matrix of Kahan, whose pivots do not show its smallest singular value, with multiples of
+    /// its rows.
     Kahan,
     /// Parallel cranks under one coupler at points that are whole multiples of a power of two.
     Cranks,
@@ -27,13 +27,13 @@ pub(super) enum Kind {
     Decimals,
     /// Products of fractions, rounded.
     Fractions,
-    /// Redundant but for one entry of 1e-6 to 1e-20, or 1e-100, in the place of a zero.
+    /// Redundant except for one entry of 1e-6 to 1e-20, or 1e-100, in place of a zero.
     Near,
     /// Near and exact redundancy.
     NearAndExact,
     /// Parallel cranks, one of them misaligned by 1e-6 to 1e-20, or 1e-100.
     MisalignedCranks,
-    /// No zeros and no redundancy unless there are more rows than columns.
+    /// No zeros, and no redundancy unless there are more rows than columns.
     Dense,
 }
 
@@ -74,7 +74,7 @@ impl Kind {
         }
     }
 
-    /// Whether what is planted survives rounding.
+    /// Whether the constructed redundancy survives rounding.
     pub(super) fn is_exactly_planted(self) -> bool {
         !matches!(
             self,
@@ -137,7 +137,7 @@ fn permuted(rows: &Rows, numbers: &mut Numbers) -> Rows {
     down.iter().map(row).collect()
 }
 
-/// 1e-6 to 1e-20, now and then 1e-100.
+/// 1e-6 to 1e-20, sometimes 1e-100.
 fn small(numbers: &mut Numbers) -> f64 {
     if numbers.once_in(8) {
         return 1e-100;
@@ -157,7 +157,7 @@ fn sparse(m: usize, n: usize, numbers: &mut Numbers) -> Rows {
     (0..m).map(|_| (0..n).map(|_| entry()).collect()).collect()
 }
 
-/// Shape and a rank that leaves redundancy, now and then large.
+/// Shape and a rank that leaves redundancy, sometimes large.
 fn shape(numbers: &mut Numbers) -> (usize, usize, usize) {
     let most = if numbers.once_in(10) { 24 } else { 12 };
     let (m, n) = (2 + numbers.below(most - 1), 1 + numbers.below(most));
@@ -167,7 +167,7 @@ fn shape(numbers: &mut Numbers) -> (usize, usize, usize) {
 fn product(numbers: &mut Numbers) -> Rows {
     let (m, n, r) = shape(numbers);
     let (mut a, mut b) = (sparse(m, r, numbers), sparse(r, n, numbers));
-    // With ones on the diagonals the rank is r, most of the time.
+    // With ones on the diagonals the rank is r in most cases.
     for j in 0..r {
         a[j][j] = 1.0;
         b[j][j] = 1.0;
@@ -276,8 +276,8 @@ fn near(numbers: &mut Numbers) -> Rows {
 }
 
 /// Three or four cranks with the same vector `a` from pivot to tip, under one coupler; the tip of
-/// the last one on the coupler misses by `error` across the line of the tips. Each crank turns
-/// about its pivot: one column. The coupler has three.
+/// the last one on the coupler is displaced by `error` across the line of the tips. Each crank
+/// rotates about its pivot: one column. The coupler has three.
 fn cranks(error: f64, numbers: &mut Numbers) -> Rows {
     let count = 3 + numbers.below(2);
     let size = 2_f64.powi(numbers.between(-27, 27));

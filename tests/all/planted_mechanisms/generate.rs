@@ -1,10 +1,10 @@
-//! Random mechanisms on a grid of points, so that what is parallel or equal is so exactly.
+//! Random mechanisms on a grid of points, so that parallel or equal elements are exactly so.
 
 use model::BodyRef;
 use tests::numbers::Numbers;
 use tests::sketch::{Sketch, Tie, Vector};
 
-/// How a mechanism is made.
+/// How a mechanism is constructed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Three to five parallel cranks under one coupler, some of them driven.
@@ -19,13 +19,13 @@ pub(crate) enum Kind {
     Gears,
     /// A four-bar with one to four drives.
     FourBar,
-    /// Several of them in one scene, joined or not.
+    /// Several of them in one scene, connected or not.
     Several,
     /// Several of them in one scene, sizes from 1e-4 to 1e4.
     Sizes,
 }
 
-/// A mechanism, and its redundancy where it is known without any computation.
+/// A mechanism, and its redundancy if it is known without computation.
 pub(crate) struct Drawn {
     pub(crate) sketch: Sketch,
     pub(crate) redundancy: Option<usize>,
@@ -69,7 +69,7 @@ pub(crate) fn draw(kind: Kind, numbers: &mut Numbers) -> Drawn {
     Drawn { sketch, redundancy }
 }
 
-/// What draws on a grid.
+/// Draws random elements on a grid.
 struct Pen<'a> {
     sketch: Sketch,
     numbers: &'a mut Numbers,
@@ -80,7 +80,7 @@ struct Pen<'a> {
 const GROUND: BodyRef = BodyRef::Ground;
 
 impl Pen<'_> {
-    /// Adds a mechanism of the kind; its redundancy if theory tells.
+    /// Adds a mechanism of the kind; returns its redundancy if it is known from theory.
     fn draw(&mut self, kind: Kind) -> Option<usize> {
         match kind {
             Kind::Cranks => Some(self.cranks()),
@@ -149,7 +149,7 @@ impl Pen<'_> {
         [at[0] + along * axis[0], at[1] + along * axis[1]]
     }
 
-    /// A joint of two bodies somewhere.
+    /// A random joint between two bodies.
     fn tie(&mut self) -> Tie {
         let (at, axis) = (self.point(), self.direction());
         let from = self.on_line(at, axis);
@@ -170,7 +170,7 @@ impl Pen<'_> {
         }
     }
 
-    /// Two to six bodies, each with one joint to the ground or to one before it.
+    /// Two to six bodies, each with one joint to the ground or to an earlier one.
     fn tree(&mut self) -> Vec<BodyRef> {
         let mut bodies = Vec::new();
         for k in 0..2 + self.numbers.below(5) {
@@ -186,8 +186,8 @@ impl Pen<'_> {
         bodies
     }
 
-    /// Cranks `a` from their pivots to their tips: n − 2 are redundant; each drive but the first as
-    /// well.
+    /// Cranks `a` from their pivots to their tips: n − 2 are redundant, and so is each drive except
+    /// the first.
     fn cranks(&mut self) -> usize {
         let count = 3 + self.numbers.below(3);
         let (pivots, a) = loop {
@@ -285,7 +285,7 @@ impl Pen<'_> {
             body
         };
         let (first, last) = (wheel(self), wheel(self));
-        // A ratio −2^e for each mesh; the last one of a train completes the product to 1.
+        // A ratio −2^e for each mesh; the last one of a train makes the product 1.
         for between in [1, 1 + 2 * self.numbers.below(2)] {
             let (mut before, mut product) = (first, 1.0);
             for _ in 0..between {
@@ -302,7 +302,7 @@ impl Pen<'_> {
         1
     }
 
-    /// No three of its points lie on a line. It moves in one way, so all drives but one are
+    /// No three of its points are on a line. It has one freedom, so all drives except one are
     /// redundant.
     fn four_bar(&mut self) -> usize {
         let points = loop {

@@ -1,11 +1,11 @@
-//! Random scenes of several mechanisms side by side, with and without redundant rows, drives,
-//! locked parts and singular poses, at any size and place.
+//! Random scenes of several separate mechanisms, with and without redundant rows, drives, locked
+//! parts and singular poses, at any size and place.
 
 use std::fmt::Write;
 
 use tests::numbers::Numbers;
 
-/// A body of a scene, and what the text gives of its velocities.
+/// A body of a scene, and the velocities that the text states.
 #[derive(Clone, Debug)]
 pub(super) struct BodyText {
     pub(super) name: String,
@@ -17,7 +17,7 @@ pub(super) struct BodyText {
     pub(super) angular_velocity: Option<f64>,
 }
 
-/// A scene as text, with velocities that may be changed.
+/// A scene as text, with variable velocities.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sketch {
     pub(super) bodies: Vec<BodyText>,
@@ -101,7 +101,7 @@ impl Sketch {
         format!("{kind}{}", self.count)
     }
 
-    /// A bar between two points of the piece.
+    /// A bar between two points of the mechanism.
     fn bar(&mut self, numbers: &mut Numbers, from: [f64; 2], to: [f64; 2]) -> String {
         let name = self.name("bar");
         let middle = [0, 1].map(|k| 0.5 * (from[k] + to[k]));

@@ -64,7 +64,7 @@ fn read(text: &str, overrides: &Overrides) -> Fallible<Study> {
     )?)
 }
 
-/// A mechanism at its start, its joints marked by verdict and named with their rows.
+/// A mechanism at its start, its joints marked by verdict and labelled with their rows.
 fn with_rows(text: &str) -> Fallible<String> {
     let study = read(text, &Overrides::default())?;
     let mut described = study.scene.description.clone();
@@ -123,7 +123,7 @@ fn cart(text: &str) -> Fallible<String> {
     };
     study
         .run(&options, |sample| {
-            // A row that cannot be drawn is missed by the test.
+            // If a row cannot be drawn, the test finds the figure changed.
             let drawn = recorder.record(sample.t, sample.q);
             Ok(match drawn {
                 Ok(()) => ControlFlow::Continue(()),
@@ -186,7 +186,7 @@ fn outline(label: &str, corners: &[[f64; 2]]) -> Path {
     }
 }
 
-/// An arrow whose line begins at `from` and ends at its tip.
+/// An arrow whose line begins at `from`, with its tip at the end.
 fn arrow(label: &str, from: [f64; 2], to: [f64; 2], colour: usize) -> Path {
     const BARB: f64 = 0.08;
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
@@ -208,11 +208,11 @@ fn arrow(label: &str, from: [f64; 2], to: [f64; 2], colour: usize) -> Path {
 /// Pairs of rows that are eliminated, from 1.
 const DROPPED: [[usize; 2]; 4] = [[6, 21], [18, 21], [19, 21], [20, 21]];
 
-/// What is shown of a reaction.
+/// The component of a reaction that is shown.
 type Component = fn(&Reaction) -> f64;
 
-/// Reactions of the robot for several choices: not unique ones on the left, unique ones on the
-/// right.
+/// Reactions of the robot for several choices: those that are not unique on the left, unique ones
+/// on the right.
 fn reactions(text: &str) -> Fallible<String> {
     let shown: [(&str, &str, Component); 6] = [
         ("W3.N, not unique", "W3", |r| {
@@ -278,7 +278,7 @@ fn reactions(text: &str) -> Fallible<String> {
     Ok(histories(&panels, 2))
 }
 
-/// The scene that is shown of the report on error against run time.
+/// The scene of the report on error versus run time that is shown.
 const SHOWN: &str = "robot-trolley";
 
 /// The part of the report's figure that belongs to the robot.
@@ -340,7 +340,7 @@ fn work_precision(csv: &str) -> Fallible<String> {
     Ok(figures::work_precision(&[scene]))
 }
 
-/// The names that a row of the report may have: those of the product, and of the comparators of the
+/// The names that may occur in a row of the report: those of pfaff, and of the comparators of the
 /// laboratory.
 fn known(name: &str) -> Fallible<&'static str> {
     use pfaff::dynamics::{Method, Stabilisation};

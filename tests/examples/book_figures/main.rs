@@ -1,5 +1,5 @@
 //! `cargo run --release -p tests --example book_figures` writes the figures of the book into
-//! `docs/book/figures`. That the ones which are there are these is a test.
+//! `docs/book/figures`. A test compares the existing ones with these.
 #![allow(clippy::print_stdout)]
 
 mod figures;

@@ -19,7 +19,7 @@ use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
 use model::System;
 use pfaff::{Overrides, Study};
 
-/// Runs of each solver; the least time counts.
+/// Number of runs of each solver; the least time counts.
 const RUNS: usize = 15;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -84,7 +84,7 @@ impl SaddleSystem {
         })
     }
 
-    /// Largest misfit of both equations, relative to the largest force and acceleration.
+    /// Largest residual of both equations, relative to the largest force and acceleration.
     fn misfit(&self, a: &[f64], lambda: &[f64]) -> f64 {
         let (mut ca, mut ct) = (vec![0.0; self.gamma.len()], vec![0.0; self.mass.len()]);
         self.c.times(a, &mut ca);
@@ -151,7 +151,7 @@ fn ours(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
     saddle.factor(&system.c, &system.mass)?;
     saddle.solve(&system.c, &system.force, &system.gamma, &mut a, &mut lambda)?;
     println!("  same bits again: {}", before == lambda);
-    // A row twice.
+    // One row twice.
     let mut rows: Vec<Vec<(usize, f64)>> = (0..r).map(|i| system.c.entries(i).collect()).collect();
     rows.push(rows[r / 2].clone());
     let doubled = SparseMatrix::from_rows(n, rows)?;
@@ -169,7 +169,7 @@ fn ours(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
 /// `S = C·M⁻¹·Cᵀ` by the products of entries of each column, in a fixed pattern.
 struct Schur {
     matrix: SparseColMat<usize, f64>,
-    /// For each product: where it goes, both entries, and the column.
+    /// For each product: its place in S, both entries, and the column.
     products: Vec<(u32, u32, u32, u32)>,
 }
 
@@ -279,7 +279,7 @@ fn cholesky(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
         "  same bits again: {}",
         again.solve(&rhs) == llt.solve(&rhs)
     );
-    // A row twice.
+    // One row twice.
     let mut rows: Vec<Vec<(usize, f64)>> = (0..r).map(|i| system.c.entries(i).collect()).collect();
     rows.push(rows[r / 2].clone());
     let doubled = SparseMatrix::from_rows(n, rows)?;

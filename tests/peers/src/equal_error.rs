@@ -10,14 +10,14 @@ pub struct Point {
     pub cost: f64,
 }
 
-/// What an error costs.
+/// The cost of an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cost {
-    /// This much, between two tolerances.
+    /// This cost, between two tolerances.
     At(f64),
-    /// At most this much: every run was better than that.
+    /// At most this cost: every run was more accurate.
     AtMost(f64),
-    /// No run was that good, or errors are too wild to tell.
+    /// No run was that accurate, or the errors are too irregular.
     Unknown,
 }
 

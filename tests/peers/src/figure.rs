@@ -1,15 +1,15 @@
-//! Error against evaluations and against time, both logarithmic, one file for each problem.
+//! Error versus evaluations and versus time, both logarithmic, one file for each problem.
 
 use std::fmt::{self, Write};
 
 use crate::measure::{Breaks, Row, Series};
 
-/// Width and height of a panel, and the room around it.
+/// Width and height of a panel, and the margin around it.
 const SIZE: [f64; 2] = [330.0, 300.0];
 const MARGIN: f64 = 55.0;
 const LEGEND: f64 = 270.0;
 
-/// Colours of libraries, and dashes of their methods in the order in which they come.
+/// Colours of libraries, and dashes of their methods in the order of their occurrence.
 const COLOURS: [(&str, &str); 4] = [
     ("dynamics", "#b3001b"),
     ("integrators", "#e08a00"),
@@ -18,7 +18,7 @@ const COLOURS: [(&str, &str); 4] = [
 ];
 const DASHES: [&str; 4] = ["", "7 3", "2 2", "9 2 2 2"];
 
-/// The figure of one problem. Runs that ignore break times are left to the tables.
+/// The figure of one problem. Runs that ignore break times are only in the tables.
 pub fn draw(title: &str, rows: &[&Row]) -> Result<String, fmt::Error> {
     let mut all: Vec<&Series> = Vec::new();
     for row in rows {

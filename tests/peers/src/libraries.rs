@@ -1,5 +1,5 @@
 //! How each library is called: the same right-hand side, the same tolerances, its fast options,
-//! nothing stored on the way.
+//! without stored output.
 
 pub mod with_differential_equations;
 pub mod with_diffsol;

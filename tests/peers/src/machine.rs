@@ -1,4 +1,4 @@
-//! On what was measured, and with which versions.
+//! The machine and the versions of a measurement.
 
 use std::process::Command;
 
@@ -30,7 +30,7 @@ fn said_by(program: &str, arguments: &[&str]) -> String {
     text.unwrap_or_else(|_| format!("{program} unknown"))
 }
 
-/// As the lock file has it.
+/// The version of a package from the lock file.
 fn version(name: &str) -> Option<&'static str> {
     let package = LOCK
         .split("[[package]]")

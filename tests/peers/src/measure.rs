@@ -1,10 +1,10 @@
-//! One row of the comparison: what a run costs and how good it is. Times are those of this thread.
+//! One row of the comparison: cost and error of a run. Times are those of this thread.
 
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
 
-/// Where rows come from, and with which options.
+/// The origin of rows, with their options.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Series {
     /// The problem.
@@ -13,23 +13,23 @@ pub struct Series {
     pub library: &'static str,
     /// Its method.
     pub method: &'static str,
-    /// What is done about times at which the right-hand side is not smooth.
+    /// The treatment of times at which the right-hand side is not smooth.
     pub breaks: Breaks,
 }
 
-/// What is done about times at which the right-hand side is not smooth.
+/// The treatment of times at which the right-hand side is not smooth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Breaks {
-    /// There are none.
+    /// There are no such times.
     None,
-    /// Nothing.
+    /// They are ignored.
     Ignored,
-    /// A step ends there, and the method begins anew.
+    /// A step ends there, and the method restarts.
     Honoured,
 }
 
 impl Breaks {
-    /// As it stands in tables.
+    /// The name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -39,7 +39,7 @@ impl Breaks {
     }
 }
 
-/// What came out of one run.
+/// The result of one run.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome {
     /// Error at the end, as the problem measures it.
@@ -52,40 +52,40 @@ pub struct Outcome {
 
 /// A run that can be repeated.
 pub struct Run<'p> {
-    /// Where it belongs.
+    /// The series that it belongs to.
     pub series: Series,
     /// Relative tolerance.
     pub rtol: f64,
     /// Absolute tolerance.
     pub atol: f64,
-    /// Does it.
+    /// Makes the run.
     pub go: Box<dyn Fn() -> Result<Outcome, String> + 'p>,
 }
 
 /// A run with its time.
 pub struct Row {
-    /// Where it belongs.
+    /// The series that it belongs to.
     pub series: Series,
     /// Relative tolerance.
     pub rtol: f64,
     /// Absolute tolerance.
     pub atol: f64,
-    /// What came out, or what the library said.
+    /// The result, or the error of the library.
     pub result: Result<Outcome, String>,
     /// Time (s), NaN if there is no result.
     pub seconds: f64,
 }
 
-/// From this error on, relative or in metres and radians, an end is wrong.
+/// From this error on, relative or in metres and radians, a result is wrong.
 const WRONG: f64 = 1.0;
 
 impl Row {
-    /// What came out, if it is an answer.
+    /// The result, if it is not wrong.
     pub fn good(&self) -> Option<&Outcome> {
         self.result.as_ref().ok().filter(|r| r.error < WRONG)
     }
 
-    /// Why there is no answer.
+    /// The reason why there is no result.
     pub fn trouble(&self) -> Option<String> {
         match &self.result {
             Err(text) => Some(format!("failed: {text}")),
@@ -98,21 +98,21 @@ impl Row {
     }
 }
 
-/// Rounds over all runs, so that a disturbance of some seconds does not spoil all repetitions of a
-/// run.
+/// Number of rounds over all runs, so that a disturbance of some seconds does not affect all
+/// repetitions of a run.
 const ROUNDS: usize = 9;
 
 /// Each run is repeated in each round until this has passed …
 const ENOUGH: Duration = Duration::from_millis(20);
 
-/// … and at least so often, unless one takes longer than that.
+/// … and at least this number of times, unless one takes longer than that.
 const REPETITIONS: usize = 3;
 
 /// Makes all runs. The first one of each is the warm-up and gives the result.
 ///
 /// The least time of a round is one without interruptions; the median over the rounds is one at the
-/// usual speed of the processor, where the least over all would be that of runs which happened to
-/// meet a fast spell.
+/// usual speed of the processor. The least over all rounds would favour runs that happened at a
+/// moment of higher clock speed.
 pub fn measure(runs: &[Run<'_>]) -> Vec<Row> {
     let mut rows: Vec<Row> = runs.iter().map(first).collect();
     let mut times = vec![Vec::with_capacity(ROUNDS); runs.len()];

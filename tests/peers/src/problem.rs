@@ -1,30 +1,31 @@
-//! The problem that every library gets: one right-hand side, counted in one place, and what is
-//! asked of an integration.
+//! The problem that every library gets: one right-hand side, counted in one place, and the task of
+//! an integration.
 //!
-//! Not here: which problems there are (`problems`), who solves them (`libraries`).
+//! The problems themselves (`problems`) and the libraries (`libraries`) are not part of this
+//! module.
 
 use std::cell::Cell;
 
 /// y' = f(t, y) with N components.
 pub trait Problem<const N: usize> {
-    /// Writes f(t, y) to `dy`; NaN where it cannot be evaluated.
+    /// Writes f(t, y) to `dy`; NaN if it cannot be evaluated.
     fn rhs(&self, t: f64, y: &[f64; N], dy: &mut [f64; N]);
 }
 
-/// A problem whose Jacobian is known.
+/// A problem with a known Jacobian.
 pub trait Differentiated<const N: usize>: Problem<N> {
     /// Writes ∂f/∂y to `j`: `j[i][k]` = ∂f_i/∂y_k.
     fn jacobian(&self, t: f64, y: &[f64; N], j: &mut [[f64; N]; N]);
 }
 
-/// A problem that counts its evaluations, those for Jacobians by differences included.
+/// A problem that counts its evaluations, including those for Jacobians by differences.
 pub struct Counted<'a, P> {
     problem: &'a P,
     evaluations: Cell<u64>,
 }
 
 impl<'a, P> Counted<'a, P> {
-    /// Nothing is counted yet.
+    /// A counter that starts at zero.
     pub fn new(problem: &'a P) -> Self {
         Self {
             problem,
@@ -47,7 +48,7 @@ impl<'a, P> Counted<'a, P> {
         self.problem.rhs(t, y, dy);
     }
 
-    /// The same for libraries that know slices.
+    /// The same for libraries that use slices.
     ///
     /// # Panics
     /// If a slice does not have length N.
@@ -86,20 +87,20 @@ pub fn array_mut<const N: usize>(y: &mut [f64]) -> &mut [f64; N] {
     y.try_into().expect("a state has N components")
 }
 
-/// What is asked of one integration from t = 0.
+/// The task of one integration from t = 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a, const N: usize> {
     /// Initial state.
     pub y0: [f64; N],
     /// Last time.
     pub t_end: f64,
-    /// Times inside at which to end a step and begin anew.
+    /// Times inside the interval at which a step must end and the method must restart.
     pub break_times: &'a [f64],
     /// Relative tolerance.
     pub rtol: f64,
     /// Absolute tolerance, the same for all components.
     pub atol: f64,
-    /// First step, where it is not left to the method.
+    /// First step, if the method does not choose it.
     pub first_step: Option<f64>,
 }
 
@@ -114,7 +115,7 @@ pub struct End<const N: usize> {
     pub steps: u64,
 }
 
-/// The end, or what the library says about its failure.
+/// The end, or the error message of the library.
 pub type Solved<const N: usize> = Result<End<N>, String>;
 
 impl<const N: usize> Asked<'_, N> {

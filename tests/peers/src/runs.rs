@@ -1,5 +1,5 @@
-//! Which methods of which libraries are tried on which problem, and at which tolerances. The first
-//! series of each problem is ours, the default of our runs where there is one.
+//! The combinations of libraries, methods, problems and tolerances. The first series of each
+//! problem is ours, with the default of our runs if there is one.
 
 use dynamics::Method;
 
@@ -15,7 +15,8 @@ use crate::problems::robertson::{self, Robertson};
 /// Relative tolerances 10⁻⁴ … 10⁻¹².
 const EXPONENTS: std::ops::RangeInclusive<i32> = 4..=12;
 
-/// Those of Robertson's reaction, where the absolute tolerance has to stay above zero in effect.
+/// Those of Robertson's reaction, for which the absolute tolerance must not become effectively
+/// zero.
 const EXPONENTS_OF_ROBERTSON: std::ops::RangeInclusive<i32> = 4..=10;
 
 /// A method of a library on a problem P.
@@ -24,7 +25,7 @@ type Solve<P, const N: usize> = fn(&Counted<'_, P>, &Asked<'_, N>) -> Solved<N>;
 /// States of mechanisms of seven planar bodies, [q; v].
 const N: usize = 42;
 
-/// Absolute tolerance in units of the relative one: that of the defaults of `dynamics`.
+/// Absolute tolerance divided by the relative one: that of the defaults of `dynamics`.
 const ATOL: f64 = 1e-2;
 
 /// A mechanism by our runs, and its right-hand side by all libraries.
@@ -129,8 +130,8 @@ pub fn of_arenstorf() -> Vec<Run<'static>> {
     )
 }
 
-/// The reaction with its Jacobian. y₂ is 10⁻¹³ at the end: atol = 10⁻⁸·rtol for all components, as
-/// the libraries take one number.
+/// The reaction with its Jacobian. y₂ is 10⁻¹³ at the end: atol = 10⁻⁸·rtol for all components,
+/// because the libraries take a single number.
 pub fn of_robertson() -> Vec<Run<'static>> {
     let methods: [(&str, &str, Solve<Robertson, 3>); 3] = [
         ("integrators", "radau5", ours::radau5_with_jacobian),
@@ -198,7 +199,7 @@ fn run<'p>(
     }
 }
 
-/// A run judged; an end that is no number is a failure.
+/// The result of a run; an end that is not finite is a failure.
 fn done<const N: usize>(
     end: crate::problem::End<N>,
     error: impl Fn(&[f64; N]) -> f64,

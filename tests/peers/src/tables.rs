@@ -1,4 +1,4 @@
-//! What is written: all rows as `peers.csv`, tables at equal error as `tables.md`.
+//! The output files: all rows as `peers.csv`, tables at equal error as `tables.md`.
 
 use std::fmt::{self, Write};
 
@@ -41,7 +41,7 @@ pub fn csv(rows: &[Row]) -> Result<String, fmt::Error> {
 }
 
 /// One problem: evaluations and time of each series at equal error, with ratios to the first
-/// series, and what failed.
+/// series, and the failures.
 pub fn problem(title: &str, rows: &[&Row]) -> Result<String, fmt::Error> {
     let mut all: Vec<&Series> = Vec::new();
     for row in rows {
@@ -70,7 +70,7 @@ pub fn problem(title: &str, rows: &[&Row]) -> Result<String, fmt::Error> {
     Ok(out)
 }
 
-/// Library, method and what is unusual about break times.
+/// Library, method, and the treatment of break times if it is unusual.
 pub fn name(series: &Series) -> String {
     let Series {
         library,
@@ -138,7 +138,7 @@ fn cell(cost: Cost, ours: Cost) -> String {
     }
 }
 
-/// Time per evaluation, and the best that a series reaches.
+/// Time per evaluation, and the smallest error that a series reaches.
 fn per_evaluation(out: &mut String, all: &[&Series], rows: &[&Row]) -> fmt::Result {
     writeln!(
         out,

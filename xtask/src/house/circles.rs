@@ -1,16 +1,18 @@
-//! Circles of modules.
+//! Circular dependencies of modules.
 //!
-//! A module is a file with the modules written inside it; tests and generated files are left out.
-//! The module A **uses** the module B if code of A names what B defines: in a `use` that is not a
-//! re-export, or by a path anywhere in code, also in the argument of a macro. What counts is where
-//! the thing is defined: a path through re-exports leads to its definition, so `mod b; pub use
-//! b::X;` makes no use of `b`, and `use super::X` of a child is a use of the parent only if the
-//! parent defines `X`. `mod b;` alone is no use, neither is `use super::b`, which gives the module
-//! a name, nor a path that only passes through a module; `use super::b::*` is one. Where the `impl`
-//! blocks of a type are in several files, `self.f()` uses the file that has `f`. Other calls of
-//! methods are not followed: whoever has the value has named its type or got it from one who has.
+//! A module is a file with the modules written inside it; tests and generated files are omitted.
+//! The module A **uses** the module B if code of A names an item that B defines: in a `use` that is
+//! not a re-export, or by a path anywhere in code, also in the argument of a macro. The place of
+//! the definition counts: a path through re-exports leads to the definition, so
+//! `mod b; pub use b::X;` is not a use of `b`, and `use super::X` of a child is a use of the parent
+//! only if the parent defines `X`. Neither `mod b;` alone, nor `use super::b`, which only gives the
+//! module a name, nor a path that only passes through a module is a use; `use super::b::*` is one.
+//! If the `impl` blocks of a type are in several files, `self.f()` uses the file that contains `f`.
+//! Other method calls are not followed, because code that has a value has named its type or
+//! received it from code that has.
 //!
-//! A **circle** is a largest set of modules in which each reaches each by uses.
+//! A **circle** is a maximal set of modules in which each module uses each other one, directly or
+//! through others.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,15 +23,15 @@ use syn::{Expr, ImplItem, Item};
 use super::modules::{Modules, imports};
 use super::source::{Source, is_test};
 
-/// Modules that use each other.
+/// A maximal set of modules that use each other.
 pub(super) struct Circle {
     /// Sorted paths.
     pub(super) modules: Vec<String>,
-    /// Who uses whom, and the names of what is used; `.f` is a method of a shared type.
+    /// Which module uses which, and the names of the used items; `.f` is a method of a shared type.
     pub(super) uses: Vec<(String, String, Vec<String>)>,
 }
 
-/// Module used → what of it.
+/// Used module → names of its used items.
 type Uses = BTreeMap<usize, BTreeSet<String>>;
 
 /// All circles of a crate with more than `most` modules, the largest first.
@@ -62,7 +64,7 @@ pub(super) fn circles(modules: &Modules, most: usize) -> Vec<Circle> {
     circles
 }
 
-/// What can be reached from a module by one use or more.
+/// All modules that can be reached from a module by one or more uses.
 fn reached(uses: &[Uses], from: usize) -> BTreeSet<usize> {
     let (mut seen, mut next) = (BTreeSet::new(), vec![from]);
     while let Some(module) = next.pop() {
@@ -71,7 +73,7 @@ fn reached(uses: &[Uses], from: usize) -> BTreeSet<usize> {
     seen
 }
 
-/// For each module the modules that it uses, by files.
+/// For each module the modules that it uses, by file.
 fn uses(modules: &Modules) -> Vec<Uses> {
     let mut uses = vec![Uses::new(); modules.0.len()];
     for (id, module) in modules.0.iter().enumerate().filter(|(id, m)| m.file == *id) {
@@ -102,7 +104,7 @@ struct Paths<'a> {
 }
 
 impl Paths<'_> {
-    /// Adds what a path leads to, if it is an item or all items of a module.
+    /// Adds the target of a path, if it is an item or all items of a module.
     fn add(&mut self, module: usize, path: &[String], is_glob: bool) {
         if let Some(target) = self.modules.resolve(module, path)
             && (target.is_item || is_glob)
@@ -135,7 +137,7 @@ impl Paths<'_> {
         }
     }
 
-    /// The module that a group of tokens is in: `mod name { … }` or the one around it.
+    /// The module that contains a group of tokens: `mod name { … }` or the one around it.
     fn inside(&self, module: usize, before: &[TokenTree]) -> usize {
         match before {
             [.., TokenTree::Ident(word), TokenTree::Ident(name)] if word == "mod" => {
@@ -146,7 +148,7 @@ impl Paths<'_> {
         }
     }
 
-    /// Reads a `use`; returns the place behind it.
+    /// Reads a `use`; returns the index after it.
     fn import(&mut self, module: usize, tokens: &[TokenTree], at: usize) -> usize {
         let is_reexport = match at.checked_sub(1).map(|i| &tokens[i]) {
             Some(TokenTree::Ident(word)) => word == "pub",
@@ -164,7 +166,7 @@ impl Paths<'_> {
         end
     }
 
-    /// Reads a path, or a single name that can only be an item; returns the place behind it.
+    /// Reads a path, or a single name that can only be an item; returns the index after it.
     fn path(&mut self, module: usize, tokens: &[TokenTree], at: usize) -> usize {
         let (mut path, mut end) = (Vec::new(), at);
         while let Some(TokenTree::Ident(word)) = tokens.get(end) {

@@ -1,4 +1,4 @@
-//! Numeric constants: where limits and thresholds may hide.
+//! Numeric constants, among which there may be limits and thresholds.
 
 use proc_macro2::Span;
 use syn::spanned::Spanned;
@@ -18,11 +18,11 @@ const NUMBERS: [&str; 14] = [
 /// `const NAME: TYPE = VALUE;` with a number, or a range of numbers.
 #[derive(PartialEq, Debug)]
 pub(super) struct Constant {
-    /// From the folder of the crate, with the line.
+    /// Relative to the directory of the crate, with the line.
     pub(super) place: String,
     pub(super) name: String,
     pub(super) value: String,
-    /// What its comment says behind `Unit:` and `Test:`.
+    /// The text of its comment after `Unit:` and `Test:`.
     pub(super) unit: String,
     pub(super) test: String,
 }

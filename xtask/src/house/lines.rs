@@ -1,8 +1,8 @@
 //! Lines and tokens of code.
 //!
-//! A line counts if a token stands on it, as the tokenizer of `proc_macro2` cuts the file: blank
-//! lines and comments have none, a doc comment is a comment, and a string over several lines counts
-//! all of them. The number of tokens stands next to the lines, because long lines do not lower it.
+//! A line counts if it contains a token of the tokenizer of `proc_macro2`: blank lines and comments
+//! contain none, a doc comment is a comment, and all lines of a multi-line string count. The number
+//! of tokens is listed too, because long lines do not reduce it.
 
 use std::collections::BTreeSet;
 use std::ops::AddAssign;
@@ -11,7 +11,7 @@ use proc_macro2::{Span, TokenStream, TokenTree};
 
 use super::source::{Kind, Source};
 
-/// Lines by what they are, and tokens of code.
+/// Lines by kind, and tokens of code.
 #[derive(Clone, Copy, Default, PartialEq, Debug)]
 pub(super) struct Count {
     pub(super) code: usize,
@@ -31,7 +31,7 @@ impl AddAssign for Count {
     }
 }
 
-/// Counts one file. A line with code and a test counts as code.
+/// Counts one file. A line with both code and test code counts as code.
 pub(super) fn count(source: &Source) -> Count {
     let mut seen = Seen::default();
     seen.stream(source, source.tokens.clone());
@@ -85,8 +85,8 @@ impl Seen {
     }
 }
 
-/// A doc comment becomes an attribute whose `#` has the span of the comment; a written `#` has
-/// width one.
+/// Whether an attribute is a doc comment: then its `#` has the span of the comment, while a written
+/// `#` has width one.
 fn is_comment(hash: Span) -> bool {
     let (start, end) = (hash.start(), hash.end());
     (end.line, end.column) != (start.line, start.column + 1)

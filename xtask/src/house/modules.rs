@@ -1,4 +1,4 @@
-//! The modules of a crate and what a path in one of them leads to.
+//! The modules of a crate, and the targets of paths in them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,23 +7,23 @@ use syn::{Item, UseTree};
 
 use super::source::{Crate, Kind, Source, is_test, submodules};
 
-/// Re-exports of re-exports are followed so far.
+/// Largest depth to which re-exports of re-exports are followed.
 const DEPTH_MOST: usize = 16;
 
-/// One module, in a file of its own or inside another.
+/// One module, in its own file or inside another.
 pub(super) struct Module<'a> {
-    /// As `crate::a::b`.
+    /// In the form `crate::a::b`.
     pub(super) path: String,
     pub(super) source: &'a Source,
     pub(super) items: Vec<&'a Item>,
-    /// The module of the file that this one is in: itself but for modules inside others.
+    /// The module of the file that contains this one: itself, except for modules inside others.
     pub(super) file: usize,
     root: usize,
     parent: usize,
     pub(super) children: BTreeMap<String, usize>,
     /// Items that are defined here.
     names: BTreeSet<String>,
-    /// Name → path of what is imported or re-exported here.
+    /// Name → path, for names that are imported or re-exported here.
     aliases: BTreeMap<String, Vec<String>>,
     globs: Vec<Vec<String>>,
 }
@@ -31,7 +31,7 @@ pub(super) struct Module<'a> {
 /// All modules of a crate that are neither tests nor generated.
 pub(super) struct Modules<'a>(pub(super) Vec<Module<'a>>);
 
-/// Where a path leads to: a module, or an item that it defines.
+/// The target of a path: a module, or an item that it defines.
 #[derive(Clone, Copy)]
 pub(super) struct Target {
     pub(super) module: usize,
@@ -59,7 +59,8 @@ impl<'a> Modules<'a> {
         modules
     }
 
-    /// Adds a module below `parent` and those that it declares; `(root, parent, file)`.
+    /// Adds a module below `parent` and the modules that it declares; the arguments are
+    /// `(root, parent, file)`.
     fn add(
         &mut self,
         home: &'a Crate,
@@ -107,8 +108,8 @@ impl<'a> Modules<'a> {
         }
     }
 
-    /// What a path in the module `from` leads to; re-exports are followed. `None` for what is not
-    /// of this crate, and for local names.
+    /// The target of a path in the module `from`; re-exports are followed. `None` if it is not in
+    /// this crate, and for local names.
     pub(super) fn resolve(&self, from: usize, path: &[String]) -> Option<Target> {
         self.resolve_within(from, path, DEPTH_MOST)
     }
@@ -140,7 +141,7 @@ impl<'a> Modules<'a> {
         }
         if let Some(&child) = child {
             let inside = self.resolve_within(child, rest, depth);
-            // Names that a macro defines are not seen.
+            // Names that a macro defines are not visible.
             return inside.or(item_of(child));
         }
         if let Some(alias) = here.aliases.get(name) {
@@ -154,7 +155,7 @@ impl<'a> Modules<'a> {
         })
     }
 
-    /// The module and name of the type that an `impl` in the module `from` is for.
+    /// Module and name of the type that an `impl` in the module `from` belongs to.
     pub(super) fn home_of(
         &self,
         from: usize,
@@ -169,7 +170,7 @@ impl<'a> Modules<'a> {
     }
 }
 
-/// All that `use` brings in, also within functions, but not in modules below.
+/// All imports by `use`, also within functions, but not in modules below.
 struct Imports(Vec<(Option<String>, Vec<String>)>);
 
 impl<'a> Visit<'a> for Imports {
@@ -185,7 +186,7 @@ fn code(home: &Crate) -> impl Iterator<Item = &Source> {
     home.files.iter().filter(|f| f.kind == Kind::Code)
 }
 
-/// The file of a module that another declares.
+/// The file of a module that is declared in another.
 fn file_of<'a>(
     home: &'a Crate,
     source: &Source,
@@ -218,14 +219,14 @@ fn named(item: &Item) -> (&[syn::Attribute], Option<&syn::Ident>) {
     }
 }
 
-/// What a `use` brings in: name and path, without a name for `*`.
+/// The imports of a `use`: name and path, without a name for `*`.
 pub(super) fn imports(tree: &UseTree) -> Vec<(Option<String>, Vec<String>)> {
     let below = |ident: &syn::Ident, tree: &UseTree| {
         let mut found = imports(tree);
         found
             .iter_mut()
             .for_each(|(_, path)| path.insert(0, ident.to_string()));
-        // `a::{self}` brings in `a`.
+        // `a::{self}` imports `a`.
         for (name, path) in &mut found {
             if path.len() == 2 && path[1] == "self" {
                 path.pop();

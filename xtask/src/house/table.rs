@@ -1,4 +1,4 @@
-//! Tables of numbers and words, for people and as JSON.
+//! Tables of numbers and words, as text and as JSON.
 
 use serde_json::{Map, Value};
 
@@ -24,7 +24,7 @@ pub(super) fn json(tables: &[Table]) -> String {
     format!("{:#}", Value::Object(all.collect::<Map<_, _>>()))
 }
 
-/// Tables one below the other; numbers are flush right.
+/// The tables as text, one after the other; numbers are right-aligned.
 pub(super) fn plain(tables: &[Table]) -> String {
     tables.iter().map(plain_one).collect::<Vec<_>>().join("\n")
 }

@@ -1,4 +1,4 @@
-//! Small crates of a few modules, with what must be found in them.
+//! Small crates of a few modules, with the expected results.
 
 use super::circles::circles;
 use super::constants::{Constant, constants};
@@ -130,10 +130,10 @@ fn a_reexport_is_no_use_but_leads_to_the_definition() {
     let with_own = format!("{parent} pub struct P;");
     let of_parent = "pub struct B; fn f(_: super::P) {}";
     assert!(circles_of(&files(&with_own, of_parent)).is_empty());
-    // Siblings that meet through their parent are a circle without it.
+    // Siblings that are connected through their parent form a circle without it.
     let siblings = circles_of(&files(parent, "pub struct B; fn f(_: super::C) {}"));
     assert_eq!(siblings, [["crate::a::b", "crate::a::c"]]);
-    // The parent works with `c`, `c` with `b`, and `b` with what the parent defines.
+    // The parent uses `c`, `c` uses `b`, and `b` uses what the parent defines.
     let working = "mod b; mod c; pub use b::B; struct P(B); fn p(_: c::C) {}";
     let all = circles_of(&files(working, of_parent));
     assert_eq!(all, [["crate::a", "crate::a::b", "crate::a::c"]]);

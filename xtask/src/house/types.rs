@@ -1,10 +1,10 @@
 //! Types with much state or many methods.
 //!
-//! A type is **plain data** if all its fields are `pub`, or as visible as the type itself, and
-//! nothing in its crate has a method of it with `&mut self`: it is a record or a set of options.
-//! All others are **stateful**. The fields of an enum are those of its largest variant. Methods are
-//! the functions of all `impl` blocks of the type without a trait, with `self` or without; tests
-//! are left out, and so is what macros write.
+//! A type is **plain data** if all its fields are `pub`, or as visible as the type itself, and no
+//! method of it in its crate takes `&mut self`: it is a record or a set of options. All others are
+//! **stateful**. The fields of an enum are those of its largest variant. Methods are the functions
+//! of all `impl` blocks of the type without a trait, with or without `self`; tests are omitted, and
+//! so is code that macros write.
 
 use std::collections::BTreeMap;
 
@@ -13,16 +13,16 @@ use syn::{Field, ImplItem, Item, ReceiverKind, Visibility};
 use super::modules::Modules;
 use super::source::is_test;
 
-/// More fields are too many.
+/// Largest number of fields.
 pub(super) const FIELDS_MOST: usize = 12;
-/// More methods are too many.
+/// Largest number of methods.
 pub(super) const METHODS_MOST: usize = 30;
 
-/// A type and what it carries.
+/// A type with its numbers of fields and methods.
 #[derive(Debug)]
 pub(super) struct Type {
     pub(super) name: String,
-    /// From the folder of the crate.
+    /// Relative to the directory of the crate.
     pub(super) file: String,
     pub(super) fields: usize,
     pub(super) methods: usize,
@@ -90,7 +90,7 @@ fn is_open(field: &Visibility, owner: &Visibility) -> bool {
     matches!(field, Visibility::Public(_)) || field == owner
 }
 
-/// Does a method take `&mut self`?
+/// Whether a method takes `&mut self`.
 fn changes(signature: &syn::Signature) -> bool {
     let kind = signature.receiver().map(|r| &r.kind);
     matches!(kind, Some(ReceiverKind::Reference(_, _, Some(_))))

@@ -1,5 +1,5 @@
 //! `differential-equations`: states are arrays, and an observer that stores nothing replaces the
-//! one that keeps all steps.
+//! one that stores all steps.
 
 use differential_equations::control::ControlFlag;
 use differential_equations::interpolate::Interpolation;
@@ -9,10 +9,10 @@ use differential_equations::prelude::{Matrix, Solout, Solution};
 
 use crate::problem::{Asked, Counted, Differentiated, End, Problem, Solved};
 
-// Radau IIA gets its tolerances per component: one number for all is replaced by 0.1·rtol^⅔ once
-// for each component, which for 42 components makes 10⁻³ of any tolerance.
+// Radau IIA needs its tolerances per component: a single number would be replaced by 0.1·rtol^⅔
+// once for each component, which for 42 components makes 10⁻³ of any tolerance.
 
-/// The limit on steps is 10 000 by default; here it is that of our own methods.
+/// The limit of steps is 10 000 by default; here it is that of our own methods.
 const MAX_STEPS: usize = 1_000_000;
 
 /// Dormand–Prince 5(4).
@@ -45,7 +45,7 @@ pub fn dop853<const N: usize>(
     })
 }
 
-/// Radau IIA of order 5, the Jacobian by the library's own differences.
+/// Radau IIA of order 5, with the Jacobian by the library's own differences.
 pub fn radau5<const N: usize>(
     ode: &Counted<'_, impl Problem<N>>,
     asked: &Asked<'_, N>,
@@ -75,7 +75,7 @@ pub fn radau5_with_jacobian<const N: usize>(
     })
 }
 
-/// The problem as the library wants it.
+/// The problem with the interface of the library.
 struct Plain<'c, 'p, P>(&'c Counted<'p, P>);
 
 impl<P: Problem<N>, const N: usize> ODE<f64, [f64; N]> for Plain<'_, '_, P> {
@@ -103,7 +103,7 @@ impl<P: Differentiated<N>, const N: usize> ODE<f64, [f64; N]> for WithJacobian<'
     }
 }
 
-/// An observer that keeps nothing.
+/// An observer that stores nothing.
 struct Nothing;
 
 impl<const N: usize> Solout<f64, [f64; N]> for Nothing {

@@ -1,5 +1,5 @@
 //! Our runs of mechanisms: projection after each step, monitors, energy balance, break times always
-//! honoured. Two rows of output.
+//! respected. Two rows of output.
 
 use std::ops::ControlFlow;
 

@@ -1,5 +1,5 @@
-//! Our integrators on the plain right-hand side: no projection, no monitors, what a user of
-//! `integrators` alone gets.
+//! Our integrators on the plain right-hand side: without projection and monitors, as for a user of
+//! `integrators` alone.
 
 use std::error::Error;
 use std::ops::ControlFlow;

@@ -1,5 +1,5 @@
-//! A case of the suite as y' = [v; a(t, q, v)], a on kept rows: what a user would hand to another
-//! library. Planar bodies.
+//! A case of the suite as y' = [v; a(t, q, v)], a on kept rows, in the form that a user would pass
+//! to another library. Planar bodies.
 
 use std::cell::RefCell;
 
@@ -9,7 +9,7 @@ use suite::{Case, Kind, Quantity};
 
 use crate::problem::Problem;
 
-/// Why a case is no problem for this comparison.
+/// The reason why a case cannot be used for this comparison.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
     /// The suite has no such case.
@@ -18,10 +18,10 @@ pub enum CaseError {
     /// The scene cannot be read or built.
     #[error("the scene has {0} faults")]
     Scene(usize),
-    /// The start or its rows.
+    /// The start or the choice of rows failed.
     #[error("{0}")]
     Motion(#[from] MotionError),
-    /// The motion on kept rows.
+    /// The motion on kept rows failed.
     #[error("{0}")]
     MotionFault(#[from] MotionFault),
     /// The state has another number of components.
@@ -38,18 +38,18 @@ pub struct MovingCase {
     pub prepared: Prepared,
     /// Last time (s).
     pub t_end: f64,
-    /// End of q and v.
+    /// q and v at the end.
     reference: Vec<f64>,
-    /// What errors of velocities are divided by.
+    /// The number by which errors of velocities are divided.
     velocity_scale: f64,
 }
 
-/// How errors of velocities are made comparable with those of positions.
+/// The scale of the errors of velocities, which makes them comparable with those of positions.
 #[derive(Clone, Copy, Debug)]
 pub enum VelocityScale {
-    /// Not at all.
+    /// No scaling.
     One,
-    /// By the largest velocity at the end.
+    /// The largest velocity at the end.
     Largest,
 }
 
@@ -57,7 +57,7 @@ impl MovingCase {
     /// Reads a case of the suite and assembles it.
     ///
     /// # Errors
-    /// If there is none, or something is wrong with it.
+    /// If there is none, or it cannot be assembled.
     pub fn find(name: &'static str, scale: VelocityScale) -> Result<Self, CaseError> {
         let case = suite::find(name).ok_or(CaseError::NoSuchCase(name))?;
         let scene = scene::read(case.name, case.scene, &Registry::planar())
@@ -92,7 +92,7 @@ impl MovingCase {
     /// [q; v] at the start.
     ///
     /// # Errors
-    /// If it has not N entries.
+    /// If it does not have N entries.
     pub fn start<const N: usize>(&self) -> Result<[f64; N], CaseError> {
         let y = [&self.prepared.q[..], &self.prepared.v[..]].concat();
         let found = y.len();
@@ -108,7 +108,7 @@ impl MovingCase {
     }
 }
 
-/// Largest absolute value, NaN if there is one.
+/// Largest absolute value; NaN if one is NaN.
 fn largest(x: &[f64]) -> f64 {
     x.iter()
         .fold(0.0, |m: f64, x| if x.abs() <= m { m } else { x.abs() })

@@ -9,10 +9,10 @@ pub const START: [f64; 3] = [1.0, 0.0, 0.0];
 /// Last time.
 pub const T_END: f64 = 1e11;
 
-/// First step that all methods are given.
+/// First step of all methods.
 pub const FIRST_STEP: f64 = 1e-6;
 
-/// Concentrations at the end, as the Test Set gives them.
+/// Concentrations at the end, from the Test Set.
 const REFERENCE: [f64; 3] = [
     0.208_334_014_970_125_5e-7,
     0.833_336_077_033_471_3e-13,

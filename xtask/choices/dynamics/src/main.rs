@@ -1,4 +1,4 @@
-//! A door on two hinges in the plane swings for a second: built in code, without scenes and
+//! A door on two hinges in the plane swings for a second; built in code, without scenes and
 //! reports.
 
 use std::ops::ControlFlow;

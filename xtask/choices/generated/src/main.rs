@@ -1,4 +1,5 @@
-//! Ten seconds of the robot with its trolley by code generated for it: no scene is read, no mechanism is assembled, nothing is projected.
+//! Ten seconds of the robot with its trolley by code generated for it: no scene is read, no
+//! mechanism is assembled, nothing is projected.
 
 mod robot;
 

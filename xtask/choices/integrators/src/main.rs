@@ -1,4 +1,4 @@
-//! Van der Pol's oscillator to t = 20.
+//! Integrates Van der Pol's oscillator to t = 20.
 
 use std::ops::ControlFlow;
 

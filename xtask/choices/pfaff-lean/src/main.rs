@@ -1,4 +1,4 @@
-//! Reads a scene, tells its verdicts and writes its motion.
+//! Reads a scene, prints its verdicts and writes its motion.
 
 use pfaff::model::Registry;
 use pfaff::report::OutputDirectory;

@@ -1,4 +1,4 @@
-//! Rank and dependent rows of a matrix from the standard input, one row per line.
+//! Prints the rank and the dependent rows of a matrix from the standard input, one row per line.
 
 use linalg::Matrix;
 use rank::{components, decide};

@@ -1,4 +1,4 @@
-//! Which rows of a matrix from the standard input, one per line, have unique multipliers.
+//! Prints the rows with unique multipliers of a matrix from the standard input, one row per line.
 
 use linalg::Matrix;
 use solvability::Solvability;
