@@ -119,8 +119,8 @@ fn a_run_may_end_in_the_flat_pose_or_beside_it() {
     }
 }
 
-/// The rear edge becomes parallel to the global y-axis twice between t = 6 and t = 7: there row 6
-/// is zero in every dependency.
+/// The rear edge becomes parallel to the global y-axis twice between t = 6 and t = 7: at these
+/// instants row 6 is in no dependency.
 #[test]
 fn rows_that_lose_their_independence_are_exchanged_and_come_back() {
     let run = |choice: &RowChoice| {

@@ -7,7 +7,7 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `comparison` | what several choices say of the same reaction |
+//! | `comparison` | the same reaction under several choices |
 //! | `data` | bodies, joints and curves as one JSON document, rounded |
 //! | `document`, `verdicts`, `inputs` | the page around them |
 //! | `report.css`, `script/` | its looks, and what moves |

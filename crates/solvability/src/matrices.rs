@@ -31,7 +31,7 @@ pub use error::QueryError;
 /// ```
 /// use linalg::Matrix;
 /// use solvability::{Solvability, Verdict};
-/// // Rows 0 and 1 say the same; row 2 stands alone.
+/// // Rows 0 and 1 are parallel; row 2 is independent of them.
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 1.0]]);
 /// let s = Solvability::of(&c, 0.0)?;
 /// assert_eq!((s.decision().rank, s.decision().redundancy), (2, 1));
