@@ -276,7 +276,7 @@ pub(crate) fn force(
 /// Arguments of a method in addition to `x`, `f` and `out`.
 #[derive(Clone, Copy)]
 enum Signature {
-    /// Nothing.
+    /// No other arguments.
     Position,
     /// `v`
     Velocity,

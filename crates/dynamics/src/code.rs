@@ -1,5 +1,5 @@
-//! What a run needs from straight-line code that was generated for one mechanism. How such code is
-//! generated is described elsewhere; when a run may use it is decided by
+//! The interface between a run and straight-line code that was generated for one mechanism. How
+//! such code is generated is described elsewhere; when a run may use it is decided by
 //! [`Prepared::code_for`](crate::Prepared::code_for).
 //!
 //! Generated code has fixed kept rows and a fixed order of elimination, so it cannot choose new
@@ -15,7 +15,7 @@ use std::borrow::Cow;
 pub use crate::limits::LEAVE;
 pub use belongs::{CodeMismatch, NoCode};
 
-/// What code was generated for.
+/// The mechanism for which code was generated, and its sizes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// Name of the scene.

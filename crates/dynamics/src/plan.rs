@@ -1,6 +1,6 @@
-//! What a run does and what it omits, decided once from a prepared mechanism, its options and the
-//! requested output. Each decision has its reason and states what it saves; a run follows its plan
-//! ([`crate::simulate`]). The computations themselves are in other modules.
+//! The computations of a run and those that it omits, decided once from a prepared mechanism, its
+//! options and the requested output. Each decision has its reason and states what it saves; a run
+//! follows its plan ([`crate::simulate`]). The computations themselves are in other modules.
 
 mod component;
 mod decided;
@@ -63,10 +63,10 @@ pub enum Rows {
 /// Which reactions are requested.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Reactions {
-    /// Those of all joints and drives.
+    /// The reactions of all joints and drives.
     #[default]
     All,
-    /// Those of these joints and drives.
+    /// The reactions of these joints and drives.
     Of(Vec<String>),
     /// No reactions.
     None,

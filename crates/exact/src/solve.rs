@@ -27,7 +27,7 @@ pub struct Solution {
     pub lambda: Vec<f64>,
 }
 
-/// Why there is no solution, or more than one.
+/// The reason why there is no solution, or more than one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Singular {
     /// The rows are dependent.

@@ -17,7 +17,7 @@ const RATE_ABOVE_NOISE: f64 = 0.1;
 /// ... if their increments are below this fraction of the permitted error.
 const LARGEST_NOISE: f64 = 0.03;
 
-/// What to do after an iteration.
+/// The decision after an iteration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Verdict {
     /// Iterate again.

@@ -178,7 +178,7 @@ fn number<E: Error + 'static>(t: f64, g: f64) -> Result<f64, IntegrationError<E>
 ///
 /// # Errors
 ///
-/// Those of [`integrate`] and of [`Crossings::locate`].
+/// The errors of [`integrate`] and of [`Crossings::locate`].
 ///
 /// # Examples
 ///

@@ -1,4 +1,4 @@
-//! What defines a method, and what it provides for the shared loop.
+//! The definition of a method, and its interface to the shared loop.
 
 use crate::control::StepControl;
 use crate::error::Cause;
@@ -117,8 +117,8 @@ pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     (0.5 * (from + to)).min(AHEAD.max(from))
 }
 
-/// What the shared loop needs from a method: a trial step, its error, the derivative at its end,
-/// and the next step size.
+/// The interface of a method to the shared loop: a trial step, its error, the derivative at its
+/// end, and the next step size.
 pub trait Stepper<O: Ode>: Dense<O> {
     /// Order of the solution that is continued.
     fn order(&self) -> i32;
@@ -184,7 +184,7 @@ pub trait Stepper<O: Ode>: Dense<O> {
     }
 }
 
-/// What dense output needs from a method; object-safe, so that [`Step`] does not depend on the
+/// The interface of a method for dense output; object-safe, so that [`Step`] does not depend on the
 /// method.
 pub trait Dense<O: Ode> {
     /// Without further evaluations.

@@ -7,9 +7,9 @@ use std::fmt;
 /// The tolerances of a scene, valid unless one is stated for a joint or body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {
-    /// Of points and lengths (m).
+    /// Tolerance of points and lengths (m).
     pub length: Option<f64>,
-    /// Of all directions, angles and ratios (rad); see [`Tolerance::angle_at`].
+    /// Tolerance of all directions, angles and ratios (rad); see [`Tolerance::angle_at`].
     pub angle: Option<f64>,
 }
 

@@ -39,7 +39,7 @@ impl<'w> Stream<'w> {
     }
 }
 
-/// What a command needs in addition to its arguments.
+/// The streams and the registry that a command needs in addition to its arguments.
 pub struct Console<'c> {
     /// The joints and forces that scenes can use.
     pub registry: &'c Registry,

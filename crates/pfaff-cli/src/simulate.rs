@@ -159,7 +159,7 @@ fn describe(name: &str, d: &RunDocument) -> String {
     text
 }
 
-/// Where the results are, and which file to open first.
+/// The paths of the results, and the file to open first.
 fn written(out: &str, report: bool) -> String {
     if report {
         format!("written to {out}; report.html there opens in any browser\n")

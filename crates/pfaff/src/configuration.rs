@@ -56,9 +56,9 @@ pub struct ConfigurationAnalysis<'a> {
     questions: Questions<'a>,
 }
 
-/// What is known or requested for the rows of a configuration.
+/// The decision on the rows of a configuration that is known or requested.
 pub(crate) enum AskedRows<'r> {
-    /// Nothing.
+    /// No decision is known or requested.
     Any,
     /// They have already been decided at this configuration.
     Decided(&'r Rows),
@@ -187,7 +187,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.analysis.sensitivities(self.mechanism, q, v)?)
     }
 
-    /// What can move at this configuration, with the drives and without them.
+    /// The possible motions at this configuration, with the drives and without them.
     ///
     /// # Errors
     /// [`StudyError::State`]

@@ -304,7 +304,7 @@ impl Subject {
         Ok((standard, document))
     }
 
-    /// Of the most accurate runs of different methods, the two that agree best.
+    /// The pair of runs that agree best, of the most accurate runs of different methods.
     fn best_pair(
         &self,
         plan: &Plan,

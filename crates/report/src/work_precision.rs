@@ -156,7 +156,7 @@ pub struct WorkPrecisionScene {
     pub rows: Vec<WorkPrecisionRow>,
 }
 
-/// Where and how the runs were made.
+/// The machine, versions, date and command of the runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Provenance {
     /// Processor, cores, operating system.
@@ -172,7 +172,7 @@ pub struct Provenance {
 /// A complete comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorkPrecisionDocument {
-    /// Where and how the runs were made.
+    /// The machine, versions, date and command of the runs.
     pub provenance: Provenance,
     /// Whether it was interrupted before its end.
     pub partial: bool,

@@ -3,7 +3,7 @@
 use dynamics::{MotionError, MotionFault};
 use scene::Diagnostic;
 
-/// Why a module could not be generated.
+/// The reason why a module could not be generated.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodeError {
@@ -57,7 +57,7 @@ pub enum CodeError {
         /// The reason.
         source: std::io::Error,
     },
-    /// Of a vector, only one component is kept, so the equations cannot be turned into the frame of
+    /// Only one component of a vector is kept, so the equations cannot be turned into the frame of
     /// a body.
     #[error("the kept rows have one component of a vector without the other")]
     NoView,

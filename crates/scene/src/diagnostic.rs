@@ -42,7 +42,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// Name of the file.
     pub file: String,
-    /// What was found, and what was expected.
+    /// The error, with the actual and the expected entry.
     pub message: String,
     /// The place at fault.
     pub primary: Label,

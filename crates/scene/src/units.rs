@@ -40,7 +40,8 @@ const OWN: [&str; 18] = [
     "Nm", "N/m", "N·m/rad", "N·s/m", "1/s",
 ];
 
-/// What to write instead of a text that begins with a number and a unit, if it does.
+/// Advice for a text that begins with a number and a unit: the number to write instead. `None` for
+/// other texts.
 pub(crate) fn advice(text: &str) -> Option<String> {
     let (number, between, unit) = split(text)?;
     const RULE: &str = "numbers stand without units, in SI and radians";

@@ -27,7 +27,7 @@ use motions::Decided;
 pub use motions::{FreeMotion, FreeMotions, LeftOut};
 pub use ranks::WithoutDrives;
 
-/// What can move at a configuration, with the drives and without them.
+/// The possible motions at a configuration, with the drives and without them.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Freedoms {
@@ -42,7 +42,7 @@ pub struct Freedoms {
     pub cannot_move: bool,
 }
 
-/// What can move if the drives are removed.
+/// The possible motions if the drives are removed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FreedomsWithoutDrives {

@@ -23,7 +23,7 @@ pub struct ReactionVerdict {
     pub rows: Vec<RowVerdict>,
     /// Verdicts on each component of the reaction that is not identically zero.
     pub components: Vec<ComponentVerdict>,
-    /// Those of them that are zero at this configuration under any load, such as the force along a
+    /// The components that are zero at this configuration under any load, such as the force along a
     /// knife edge: unique, but not informative.
     pub zero_components: Vec<&'static str>,
     /// Basis of the unique directions, in these components.

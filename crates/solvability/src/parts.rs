@@ -26,7 +26,7 @@ use crate::words;
 pub enum Extent {
     /// All of them: the part is the whole mechanism.
     Whole,
-    /// Those at these places.
+    /// The joints, bodies and rows at these places.
     Places(Places),
 }
 

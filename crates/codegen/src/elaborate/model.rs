@@ -17,7 +17,7 @@ pub(crate) struct Model {
     pub(crate) turns: Vec<Turn>,
     /// Sub-expressions that have a name.
     pub(crate) names: Vec<(Expr, String)>,
-    /// What is kept from the assembled start, in order.
+    /// The values kept from the assembled start, in order.
     pub(crate) kept: Vec<KeptValue>,
     pub(crate) requirements: Vec<Condition>,
     pub(crate) body: Body,
@@ -38,7 +38,7 @@ pub(crate) struct KeptValue {
     pub(crate) of_start: bool,
 }
 
-/// What the definition defines.
+/// The content of a definition: a constraint or a force.
 pub(crate) enum Body {
     Constraint(ConstraintBody),
     /// Laws and their coordinates.

@@ -3,7 +3,7 @@
 use syn::parse::ParseStream;
 use syn::{Expr, Ident, LitStr};
 
-/// What a definition defines.
+/// The kind of a definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// `joint!`

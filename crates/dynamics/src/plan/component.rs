@@ -9,7 +9,7 @@ use crate::limits::NAMED;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
-/// What is computed for a component, and what is omitted.
+/// The computations for one component, and those that are omitted.
 pub struct ComponentPlan<'a> {
     /// Its bodies, as text.
     pub name: String,

@@ -5,13 +5,13 @@ use super::saving::{Cost, Saving};
 /// A decision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decided<T> {
-    /// What was decided.
+    /// The value that was chosen.
     pub value: T,
     /// The same in a few words.
     pub taken: String,
     /// Its reason.
     pub reason: String,
-    /// What it saves, if that can be counted.
+    /// The computations that it saves, if they can be counted.
     pub saves: Option<Saving>,
 }
 
@@ -26,7 +26,7 @@ pub struct Line<'p> {
     pub taken: &'p str,
     /// Its reason.
     pub reason: &'p str,
-    /// What it saves.
+    /// The computations that it saves.
     pub saves: Option<Saving>,
 }
 

@@ -1,4 +1,4 @@
-//! What a decision saves, as a count.
+//! The computations that a decision saves, as a count.
 
 use std::fmt;
 

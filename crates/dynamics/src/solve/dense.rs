@@ -43,7 +43,8 @@ impl Dense {
     }
 }
 
-/// Where the entries of kept rows are written, and the units by which they are multiplied.
+/// The places to which the entries of kept rows are written, and the units by which they are
+/// multiplied.
 #[derive(Clone)]
 struct Gather {
     /// Entries that are written first to their place.

@@ -22,7 +22,7 @@ use crate::limits::{PATIENCE, RETURN, SAME_ACCELERATIONS};
 use crate::manifold::{CodeProjection, Correction, Manifold};
 use crate::solve::{Accelerations, Doubt, GeneratedCode, KeptEquations, State};
 
-/// What evaluates the equations at present.
+/// The present evaluator of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
     /// The code.

@@ -152,8 +152,8 @@ impl<'m> Search<'m> {
         })
     }
 
-    /// By how much the rank of all rows drops if that of the kept ones does: kept rows may become
-    /// dependent while others replace them. In case of doubt, by as much.
+    /// Amount by which the rank of all rows drops if that of the kept ones does: kept rows may
+    /// become dependent while others replace them. In case of doubt, the same amount.
     pub(crate) fn rank_lost(
         &mut self,
         Singular { t, dependent }: Singular,

@@ -20,7 +20,7 @@ pub(super) trait Differentiate {
     fn second(curve: &impl Curve) -> Block;
 }
 
-/// By dual numbers: exact up to round-off.
+/// Derivatives by dual numbers: exact up to round-off.
 pub(super) struct DualNumbers;
 
 impl Differentiate for DualNumbers {
@@ -33,9 +33,9 @@ impl Differentiate for DualNumbers {
     }
 }
 
-/// By central differences over halved steps, extrapolated to step zero: the error of a central
-/// difference is a series in h², so each extrapolation removes one power. The result is the value
-/// of the table that is closest to the two values from which it was computed.
+/// Derivatives by central differences over halved steps, extrapolated to step zero: the error of a
+/// central difference is a series in h², so each extrapolation removes one power. The result is the
+/// value of the table that is closest to the two values from which it was computed.
 pub(super) struct Differences;
 
 /// The largest step, as a power of two: about a tenth of the sizes in ordinary cases.

@@ -141,7 +141,7 @@ impl<'a> Equations<'a> {
     /// Computes the accelerations in `a` and the multipliers of all rows in `self.lambda`.
     ///
     /// # Errors
-    /// Those of the solver; [`Fault::TooLong`].
+    /// The errors of the solver; [`Fault::TooLong`].
     pub fn accelerate(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         let (mechanism, s, at) = (self.mechanism, &mut self.s, &mut self.at);
         self.evaluations += 1;

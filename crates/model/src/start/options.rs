@@ -18,11 +18,11 @@ pub struct StartOptions {
 /// Limit of the corrections of a start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CorrectionLimit {
-    /// By a thousandth of the scene's size, and a thousandth of a radian; given velocities by a
-    /// thousandth of the fastest.
+    /// Corrections up to a thousandth of the scene's size, and a thousandth of a radian; given
+    /// velocities up to a thousandth of the fastest.
     #[default]
     Small,
-    /// By any amount.
+    /// Corrections of any size.
     Any,
 }
 

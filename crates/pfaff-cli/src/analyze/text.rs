@@ -60,7 +60,7 @@ pub(super) fn notes(d: &AnalysisDocument) -> String {
         .collect()
 }
 
-/// What was analysed, and its size.
+/// The name and the size of the analysed mechanism.
 fn heading(d: &AnalysisDocument) -> String {
     format!(
         "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",

@@ -1,4 +1,4 @@
-//! Where and when runs were made.
+//! The origin of runs: machine and date.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 

@@ -11,7 +11,7 @@ pub struct Certificate {
     pub sigma_bound: f64,
     /// σ_{r+1} in double-double precision: the residual of the dependencies (0 if there are none).
     pub sigma_next: f64,
-    /// Why the rank is not larger.
+    /// The reason why the rank is not larger.
     pub grounds: Grounds,
     /// Absolute uncertainty of the entries of the equilibrated matrix; 0 for exact entries.
     pub uncertainty: f64,
@@ -23,9 +23,8 @@ pub struct Certificate {
     pub row_noise: Vec<f64>,
     /// The direction in which the kept rows nearly cancel, if they do.
     pub nearly_redundant: Option<NearlyRedundant>,
-    /// By how much (m; angles times the size of the mechanism) the most changed point would have to
-    /// be elsewhere for the rank to be lower at this configuration. Present only if the change is
-    /// small.
+    /// The displacement (m; angles times the size of the mechanism) of the most changed point that
+    /// is necessary for a lower rank at this configuration. Present only if the change is small.
     pub lower_rank_here: Option<f64>,
     /// The same for one change of the data that lowers the rank at all configurations near this
     /// one: from this change on a row is redundant. `None` if no such change exists or it is not
@@ -33,8 +32,8 @@ pub struct Certificate {
     pub lower_rank_from: Option<f64>,
     /// Whether these two changes are of angles only, because a tolerance is stated for angles only.
     pub lower_rank_by_angles: bool,
-    /// By how much each row of the left null space changes within the uncertainty of the data, m
-    /// values; `None` if not requested.
+    /// The change of each row of the left null space within the uncertainty of the data, m values;
+    /// `None` if not requested.
     pub row_data: Option<Vec<f64>>,
     /// Whether the uncertainty is a tolerance that the scene states.
     pub has_tolerance: bool,

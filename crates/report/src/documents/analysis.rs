@@ -62,7 +62,8 @@ pub struct AnalysisDocument {
     pub redundancy: usize,
     /// Mobility n_v − r.
     pub mobility: usize,
-    /// What can move, with the drives and without them; [`AnalysisDocument::new`] leaves it empty.
+    /// The possible motions, with the drives and without them; [`AnalysisDocument::new`] leaves it
+    /// empty.
     #[serde(flatten)]
     pub freedoms: FreedomsDocument,
     /// r independent rows.

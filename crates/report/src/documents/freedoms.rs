@@ -1,4 +1,4 @@
-//! What can move, with the drives and without them.
+//! The possible motions, with the drives and without them.
 
 use model::Mechanism;
 use serde::Serialize;

@@ -62,11 +62,11 @@ pub struct DecisionDocument {
     pub taken: String,
     /// Its reason.
     pub reason: String,
-    /// What it saves, if that can be counted.
+    /// The computations that it saves, if they can be counted.
     pub saves: Option<SavingDocument>,
 }
 
-/// What a decision saves.
+/// The computations that a decision saves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SavingDocument {

@@ -27,7 +27,7 @@ pub struct Run<'a> {
     pub sensitivities: &'a Sensitivities,
     /// Tolerances of the data, and what depends on them.
     pub data: DataDocument,
-    /// What can move at the start.
+    /// The possible motions at the start.
     pub freedoms: &'a Freedoms,
     /// Numbers of the run.
     pub summary: &'a Summary,
@@ -40,7 +40,7 @@ pub struct Run<'a> {
 pub enum Ending<'a> {
     /// The last time was reached.
     Complete,
-    /// It was interrupted; the results up to there are valid.
+    /// The run was interrupted; the results up to there are valid.
     Interrupted,
     /// It stopped with this error; the results up to there are valid.
     Stopped(&'a MotionError),
@@ -85,7 +85,7 @@ pub struct RunDocument {
     pub start_velocity_correction: f64,
     /// Degrees of freedom at the start, n_v − r.
     pub mobility: usize,
-    /// What can move there, with the drives and without them.
+    /// The possible motions there, with the drives and without them.
     #[serde(flatten)]
     pub freedoms: FreedomsDocument,
     /// Tolerances of the data, and what depends on them at the start.

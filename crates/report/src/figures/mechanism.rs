@@ -19,13 +19,13 @@ use crate::recording::Frame;
 /// How joints and drives are marked.
 #[derive(Clone, Copy, Debug)]
 pub enum Marking<'a> {
-    /// All in the same way.
+    /// All joints are marked in the same way.
     Plain,
-    /// By the verdicts of an analysis.
+    /// Joints are marked by the verdicts of an analysis.
     Verdicts(&'a [ReactionVerdict]),
 }
 
-/// What joints and drives are labelled with.
+/// The labels of joints and drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Labels {
     /// Their names.

@@ -10,7 +10,7 @@ use super::label::Rect;
 pub(crate) enum Symbol {
     /// Two points coincide.
     Pin,
-    /// Nothing is free.
+    /// A weld, which leaves no freedom.
     Weld,
     /// A block on a straight guide.
     Block { axis: [f64; 2] },

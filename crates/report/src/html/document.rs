@@ -20,7 +20,8 @@ const SCRIPTS: [&str; 6] = [
     include_str!("script/main.js"),
 ];
 
-/// Nothing is loaded: only data in the page itself are allowed as addresses.
+/// Content security policy: the page loads nothing; only data in the page itself are allowed as
+/// addresses.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 

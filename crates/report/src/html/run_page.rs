@@ -35,7 +35,7 @@ pub struct RunPage<'a> {
 }
 
 impl RunPage<'_> {
-    /// What can move at the start.
+    /// The free motions at the start.
     pub(super) fn freedoms(&self) -> Option<&FreedomsDocument> {
         let of_run = self.run.map(|run| &run.freedoms);
         of_run.or(self.analysis.map(|a| &a.freedoms))
@@ -59,7 +59,7 @@ impl RunPage<'_> {
     }
 }
 
-/// What a drive prescribes.
+/// The prescribed motion of a drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveCurve {
     /// Name of the drive.

@@ -45,11 +45,11 @@ pub enum JournalError {
     Changed {
         /// The journal.
         path: PathBuf,
-        /// What differs.
+        /// The entry that differs.
         what: &'static str,
-        /// What it was.
+        /// Its previous value.
         was: String,
-        /// What it is now.
+        /// Its present value.
         now: String,
     },
     /// Its first line is damaged, or does not describe a sweep.

@@ -10,7 +10,7 @@ use super::{Table, TableError};
 /// The joints and drives that are written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Selection {
-    /// All of them.
+    /// All reactions.
     #[default]
     All,
     /// These, in the order of the rows of C, whatever the order of the names.

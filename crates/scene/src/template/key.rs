@@ -50,7 +50,7 @@ pub enum KeyError {
     NotANumber {
         /// The key.
         key: String,
-        /// What it refers to.
+        /// The kind of value that it refers to.
         found: String,
         /// The names of its parts.
         parts: Vec<String>,

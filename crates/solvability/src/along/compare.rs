@@ -17,7 +17,7 @@ pub(super) struct VerdictOf<'a> {
     pub(super) is_zero: bool,
 }
 
-/// What a verdict belongs to: like [`Part`], with the number of a row.
+/// The part of a reaction that a verdict belongs to: like [`Part`], with the number of a row.
 #[derive(Clone, Copy)]
 pub(super) enum Place {
     Wrench,

@@ -43,7 +43,7 @@ pub struct Stretch {
 pub struct Passage {
     /// Time of the instant (s).
     pub time: f64,
-    /// What happens.
+    /// The kind of the event.
     pub kind: PassageKind,
     /// First and last time at which the smallest non-zero singular value is below 10⁻³; `None` if
     /// it is not.
@@ -54,7 +54,7 @@ pub struct Passage {
     pub text: String,
 }
 
-/// What happens at an instant.
+/// The kind of an event at an instant.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PassageKind {
@@ -85,7 +85,7 @@ pub enum PassageKind {
 pub struct Difference {
     /// Name of the joint or drive.
     pub reaction: String,
-    /// What the verdict belongs to.
+    /// The part of the reaction that the verdict belongs to.
     pub part: Part,
     /// Verdict almost everywhere.
     pub generic: Verdict,
@@ -93,7 +93,7 @@ pub struct Difference {
     pub here: Verdict,
 }
 
-/// What a verdict belongs to.
+/// The part of a reaction that a verdict belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
     /// The whole reaction.

@@ -8,7 +8,7 @@ use crate::limits::{EDGE, FALL, RESOLUTION, SEARCH_ITERATIONS};
 /// modification, bisection if these gain too little, until a value is at most `enough`.
 ///
 /// # Errors
-/// Those of `f`.
+/// The errors of `f`.
 pub fn root<E>(
     [a, b]: [f64; 2],
     [f_a, f_b]: [f64; 2],
@@ -87,7 +87,7 @@ pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
 /// above `limit`.
 ///
 /// # Errors
-/// Those of `f`.
+/// The errors of `f`.
 pub fn minimum<E>(
     [mut a, mut b]: [f64; 2],
     limit: f64,

@@ -1,11 +1,11 @@
-//! What drives prescribe.
+//! The motions that drives prescribe.
 
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use super::ConstraintLevel;
 use crate::words::short;
 
-/// What a drive prescribes at one time.
+/// The motion that a drive prescribes at one time.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Demand {

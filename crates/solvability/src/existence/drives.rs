@@ -197,9 +197,9 @@ impl Way<'_> {
 /// Which contradictions are reported.
 #[derive(Clone, Copy)]
 enum Notice {
-    /// Those above rounding.
+    /// All contradictions above rounding.
     Rounding,
-    /// Those that a run to this time would notice.
+    /// The contradictions that a run to this time would notice.
     RunTo(f64),
 }
 

@@ -59,7 +59,7 @@ pub enum RequestError {
     /// An empty group.
     #[error("a group needs at least one {of}")]
     Empty {
-        /// What the group should contain.
+        /// The kind of elements that the group should contain.
         of: &'static str,
     },
     /// A value is NaN or infinite.

@@ -1,5 +1,5 @@
-//! By how many metres the data would have to be wrong for a lower rank, at one pose and at all
-//! poses of a walk; and the least rank of data within a stated tolerance.
+//! The error of the data (m) that is necessary for a lower rank, at one pose and at all poses of a
+//! walk; and the least rank of data within a stated tolerance.
 //!
 //! Rows that nearly depend on others at a pose are dropped together, so that the mechanism moves
 //! away from the pose on rows that are certainly independent. The poses reached show which of the
@@ -15,12 +15,13 @@ use super::pose::{Candidate, Gradient, Pose, most_independent_of};
 use super::share::{Question, StatedTolerance, equation, pairs, rounding};
 use super::walk::{Walk, walk};
 
-/// By how much the data would have to be wrong (m; angles times the size) for one rank less.
+/// The error of the data that is necessary for a rank that is lower by one (m; angles times the
+/// size).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearness {
     /// At this pose only.
     pub(crate) here: f64,
-    /// By one change of the data for all poses of a walk: from this change on, a row is redundant.
+    /// For one change of the data at all poses of a walk: from this change on, a row is redundant.
     /// Infinite if no change makes it redundant.
     pub(crate) everywhere: f64,
     /// A lower bound on that change if nonholonomic rows are kept: they constrain no position, so

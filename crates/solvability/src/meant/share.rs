@@ -1,5 +1,5 @@
-//! By what fraction of their uncertainty the data would have to be wrong for a lower rank, and how
-//! much dependencies change within the uncertainty.
+//! The error of the data, as a fraction of their uncertainty, that is necessary for a lower rank,
+//! and the change of dependencies within the uncertainty.
 
 use crate::limits::{ENTRY_ROUNDINGS, PAIRS};
 use crate::pose::{COLUMNS, dimensionless};

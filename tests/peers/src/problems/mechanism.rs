@@ -147,7 +147,7 @@ pub struct OnKeptRows<'a> {
 }
 
 impl<'a> OnKeptRows<'a> {
-    /// Of a prepared mechanism.
+    /// The right-hand side of a prepared mechanism.
     ///
     /// # Errors
     /// As [`KeptRowMotion::new`].

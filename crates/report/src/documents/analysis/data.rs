@@ -23,7 +23,7 @@ pub struct DataDocument {
     /// The same for angles (rad) if a tolerance is stated for angles only: if directions may be
     /// rotated by this much. Then `lower_rank_from` is `None`.
     pub lower_rank_from_angle: Option<f64>,
-    /// By how much points would have to be displaced for a lower rank at this configuration (m;
+    /// The displacement of points that is necessary for a lower rank at this configuration (m;
     /// angles times the size of the mechanism). `None` if that is not close.
     pub lower_rank_here: Option<f64>,
 }

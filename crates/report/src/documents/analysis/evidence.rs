@@ -35,7 +35,7 @@ pub struct EvidenceDocument {
     pub sigma_bound: Option<f64>,
     /// σ_{r+1} in double-double precision.
     pub sigma_next_extended: Option<f64>,
-    /// Why the rank is not larger: `full_rank`, `exact`, `vanishes`, `within_data` or
+    /// The reason why the rank is not larger: `full_rank`, `exact`, `vanishes`, `within_data` or
     /// `within_tolerance`.
     pub grounds: Option<&'static str>,
     /// Uncertainty of the entries of the equilibrated matrix; 0 for exact entries.

@@ -49,7 +49,7 @@ fn loaded_beam(links: bool) -> Mechanism {
     Mechanism::build(&d).expect("it builds")
 }
 
-/// What hangs from the beam is its load, whether bars or a force.
+/// The load of the beam is the same whether bars or a force cause it.
 #[test]
 fn a_part_is_asked_under_what_the_rest_does_to_it() {
     let sensitivities = |mechanism: &Mechanism| {
