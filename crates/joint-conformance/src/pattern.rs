@@ -1,14 +1,14 @@
 //! Sparsity patterns: entries in range, once each, and each of them alive in some case.
 
-use super::block::Block;
-use super::failure::{Failure, Property, fact};
+use crate::block::Block;
+use crate::failure::{Failure, Property, fact};
 
 /// An entry is alive where it exceeds this part of its block: round-off of a sum that is
 /// identically zero stays below.
 const ALIVE: f64 = 1e-10;
 
 /// Which entries of a pattern were seen different from zero.
-pub(super) struct Pattern {
+pub(crate) struct Pattern {
     block: &'static str,
     entries: Vec<[usize; 2]>,
     alive: Vec<bool>,
@@ -19,7 +19,7 @@ impl Pattern {
     ///
     /// # Errors
     /// If an entry is outside the block, or occurs twice.
-    pub(super) fn new(
+    pub(crate) fn new(
         definition: &'static str,
         block: &'static str,
         shape: [usize; 2],
@@ -48,7 +48,7 @@ impl Pattern {
     }
 
     /// Takes note of the entries of one block that are not zero.
-    pub(super) fn see(&mut self, block: &Block) {
+    pub(crate) fn see(&mut self, block: &Block) {
         let least = ALIVE * block.largest();
         for (&[row, column], alive) in self.entries.iter().zip(&mut self.alive) {
             *alive |= block.get(row, column).abs() > least;
@@ -56,7 +56,7 @@ impl Pattern {
     }
 
     /// No entry was zero in all cases.
-    pub(super) fn all_alive(&self, definition: &'static str) -> Result<(), Failure> {
+    pub(crate) fn all_alive(&self, definition: &'static str) -> Result<(), Failure> {
         match self.alive.iter().position(|alive| !alive) {
             Some(k) => {
                 let [row, column] = self.entries[k];

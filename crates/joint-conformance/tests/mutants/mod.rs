@@ -1,7 +1,7 @@
 //! Definitions with one wrong entry: the harness has to find each of them, and to name what is
 //! wrong.
 
-use joints::conformance::{Failure, Property, check_constraint, check_force};
+use joint_conformance::{Failure, Property, check_constraint, check_force};
 use joints::generated::{Fixed, PinInSlotDisplacementDrive, SpringDamper, Velocity};
 use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
 use joints::{
