@@ -14,11 +14,8 @@
 //! | [`force`] | the same for forces |
 //! | [`visitor`] | all definitions, one after the other, with their types |
 //! | [`generated`] | one module for each file in `definitions/` |
-//! | `conformance` | property tests of every definition, with the feature `conformance` |
 
 pub mod arguments;
-#[cfg(feature = "conformance")]
-pub mod conformance;
 pub mod constraint;
 pub mod definition;
 pub mod force;

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod dd_matrix;
+mod disjoint_sets;
 mod equilibrate;
 mod jacobi;
 #[cfg(feature = "faer")]
@@ -21,6 +22,7 @@ pub mod kernels;
 pub mod powers;
 
 pub use dd_matrix::DdMatrix;
+pub use disjoint_sets::DisjointSets;
 pub use double_double::Dd;
 pub use equilibrate::{Scaling, equilibrate, equilibrate_blocks, equilibrate_sparse};
 pub use jacobi::{SmallSvd, small_svd};

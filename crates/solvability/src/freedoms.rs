@@ -25,6 +25,7 @@ use connected::Connected;
 use motions::Decided;
 
 pub use motions::{FreeMotion, FreeMotions, LeftOut};
+pub(crate) use ranks::PartialRanks;
 pub use ranks::WithoutDrives;
 
 /// The possible motions at a configuration, with the drives and without them.

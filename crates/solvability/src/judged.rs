@@ -1,8 +1,12 @@
 //! Results for a part: verdicts on its joints and drives, and its dependencies.
 
-use model::{ConstraintId, Mechanism};
+use model::{ConstraintId, Mechanism, System};
+use rank::RankStatus;
 
-use crate::parts::{Extent, PartAnalysis};
+use crate::error::AnalysisError;
+use crate::freedoms::PartialRanks;
+use crate::matrices::QueryError;
+use crate::parts::{Extent, PartAnalysis, PartDecision};
 use crate::verdict::Judgement;
 
 /// The verdict on a joint or drive.
@@ -78,8 +82,44 @@ pub(crate) struct Judged {
 }
 
 impl Judged {
-    /// Converts the results to the numbers of the whole mechanism; each warning then names its
-    /// part.
+    /// A part by itself at time t: its decided rank, the ranks of some of its rows, and what
+    /// `verdict` says of each joint and drive. Dependencies are not told.
+    pub(crate) fn new(
+        mechanism: &Mechanism,
+        t: f64,
+        size: f64,
+        decision: PartDecision,
+        ranks: PartialRanks,
+        verdict: impl Fn(ConstraintId) -> Result<ReactionVerdict, QueryError>,
+    ) -> Result<Self, AnalysisError> {
+        let reactions = mechanism.layout().constraint_ids().map(verdict);
+        let reactions = reactions
+            .collect::<Result<_, _>>()
+            .map_err(|source| AnalysisError::Query { time: t, source })?;
+        let mut warnings = ranks.warnings;
+        if let RankStatus::Undecided(doubt) = decision.status() {
+            warnings.push(format!(
+                "the rank is undecided, and with it every verdict: {doubt}"
+            ));
+        }
+        Ok(Self {
+            part: PartAnalysis {
+                extent: Extent::Whole,
+                size,
+                rank_holonomic: ranks.holonomic,
+                rank_nonholonomic: ranks.nonholonomic,
+                without_drives: ranks.without_drives,
+                nearly_redundant: None,
+                certificate: decision.evidence().certificate.clone(),
+                decision,
+            },
+            reactions,
+            dependencies: Vec::new(),
+            warnings,
+        })
+    }
+
+    /// The same in numbers of the whole; warnings say of which part they are.
     pub(crate) fn placed(mut self, whole: &Mechanism, extent: Extent) -> Self {
         if extent.is_whole() {
             return self;

@@ -6,14 +6,14 @@ use std::ops::Range;
 use linalg::Matrix;
 use model::reaction::COMPONENTS;
 use model::{ConstraintId, Mechanism, Scratch, System};
-use rank::RankDecision;
+use rank::{RankDecision, RankStatus};
 
 use crate::certificate::Rows;
 use crate::error::AnalysisError;
-use crate::freedoms::WithoutDrives;
+use crate::freedoms::PartialRanks;
 use crate::judged::{ComponentVerdict, Dependency, Judged, ReactionVerdict, RowVerdict};
 use crate::matrices::{Basis, QueryError, Solvability};
-use crate::parts::{Extent, PartAnalysis, PartDecision};
+use crate::parts::PartDecision;
 use crate::pose::TRANSLATIONS;
 use crate::verdict::Verdict;
 use crate::words;
@@ -66,59 +66,21 @@ pub(crate) fn judge_reactions(
     told: Told,
 ) -> Result<Judged, AnalysisError> {
     let layout = mechanism.layout();
-    let t = s.t;
     let solvability = Solvability::from_decision(&rows.matrix(), decision);
-    let mut warnings = Vec::new();
-    let mut rank_of = |what: &str, part: std::ops::Range<usize>| {
-        // An empty range, and the range of all rows, need no decision of their own.
-        if part.is_empty() {
-            return Ok(0);
+    let (decision, basis) = (solvability.decision(), solvability.basis());
+    let ranks = PartialRanks::of(layout, decision.rank, |own| match basis.rank_of(own) {
+        Some(rank) => Ok((rank, RankStatus::Decided)),
+        None => {
+            let decision = rows.select(own).decide()?;
+            Ok((decision.rank, decision.status))
         }
-        if part == (0..layout.rows()) {
-            return Ok(solvability.decision().rank);
-        }
-        if let Some(rank) = solvability.basis().rank_of(part.clone()) {
-            return Ok(rank);
-        }
-        let decision = rows.select(&part.collect::<Vec<_>>()).decide()?;
-        if let rank::RankStatus::Undecided(doubt) = &decision.status {
-            warnings.push(format!("the rank of {what} alone is undecided: {doubt}"));
-        }
-        Ok::<_, AnalysisError>(decision.rank)
+    })?;
+    let verdict = |id: ConstraintId| {
+        let own = layout.groups[id.0].rows.clone();
+        reaction(mechanism, id, s, basis, own, told)
     };
-    let rank_holonomic = rank_of("Φq", 0..layout.m)?;
-    let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;
-    let without_drives = WithoutDrives::of(layout, rows, &solvability, &mut warnings)?;
-    let reactions = mechanism
-        .layout()
-        .constraint_ids()
-        .map(|id| {
-            let rows = layout.groups[id.0].rows.clone();
-            reaction(mechanism, id, s, solvability.basis(), rows, told)
-        })
-        .collect::<Result<_, _>>()
-        .map_err(|source| AnalysisError::Query { time: t, source })?;
-    let decision = solvability.decision().clone();
-    if let rank::RankStatus::Undecided(doubt) = &decision.status {
-        warnings.push(format!(
-            "the rank is undecided, and with it every verdict: {doubt}"
-        ));
-    }
-    Ok(Judged {
-        part: PartAnalysis {
-            extent: Extent::Whole,
-            size: rows.size(),
-            rank_holonomic,
-            rank_nonholonomic,
-            without_drives,
-            nearly_redundant: None,
-            certificate: decision.evidence.certificate.clone(),
-            decision: PartDecision::Dense(Box::new(decision)),
-        },
-        reactions,
-        dependencies: Vec::new(),
-        warnings,
-    })
+    let decision = PartDecision::Dense(Box::new(decision.clone()));
+    Judged::new(mechanism, s.t, rows.size(), decision, ranks, verdict)
 }
 
 /// The verdict on a joint or drive with these rows of the basis.

@@ -15,7 +15,7 @@ use crate::certificate::{self, inseparable};
 use crate::existence::{Contradiction, Ranks, contradictions};
 use crate::parts::{Extent, ListedRows, Partition};
 use crate::row_decision::RowDecision;
-use crate::sparse::decide_range;
+use crate::sparse::decide_some;
 use crate::state::{StateError, check, check_configuration};
 
 /// Rows of C, and of Φq alone, decided at one configuration, part by part. The motion, the verdicts
@@ -46,10 +46,10 @@ impl DecidedPart {
         let layout = part.layout();
         if layout.rows() > ROWS_MAX {
             let s = evaluated(part, t, q);
-            let all = decide_range(part, &s, q, 0..layout.rows())?;
+            let all = decide_some(part, &s, q, 0..layout.rows())?;
             let holonomic = match layout.h {
                 0 => (&all).into(),
-                _ => (&decide_range(part, &s, q, 0..layout.m)?).into(),
+                _ => (&decide_some(part, &s, q, 0..layout.m)?).into(),
             };
             return Ok(Self {
                 extent,
@@ -154,7 +154,7 @@ pub fn decide_rows(
 ) -> Result<RowDecision, AnalysisError> {
     of_parts(mechanism, s, q, |part, s, q, _| {
         if part.layout().rows() > SPARSE_FROM {
-            Ok((&decide_range(part, s, q, 0..part.layout().rows())?).into())
+            Ok((&decide_some(part, s, q, 0..part.layout().rows())?).into())
         } else {
             Ok((&decide(part, s, q)?).into())
         }
@@ -172,7 +172,7 @@ pub fn decide_holonomic_rows(
 ) -> Result<RowDecision, AnalysisError> {
     of_parts(mechanism, s, q, |part, s, q, _| {
         if part.layout().rows() > SPARSE_FROM {
-            Ok((&decide_range(part, s, q, 0..part.layout().m)?).into())
+            Ok((&decide_some(part, s, q, 0..part.layout().m)?).into())
         } else {
             Ok((&decide_holonomic(part, s, q)?).into())
         }

@@ -13,23 +13,21 @@ use crate::matrices::{self, Basis};
 
 /// A sparse decision on rows of C, with these rows.
 pub(crate) struct Decided {
-    /// Number of the first row.
-    first: usize,
-    /// The rows of C without dimensions.
+    /// Without dimensions.
     c: SparseMatrix,
     pub(crate) found: SparseRank,
 }
 
-/// Decides rank and kept rows of a range of rows of C, at the pose of the scratch, in which Φ and C
-/// have been evaluated at coordinates q.
+/// Rank and kept rows of some rows of C, ascending, at the pose of the scratch, where Φ and C have
+/// been evaluated at coordinates q.
 ///
 /// # Errors
 /// If C is not finite, or too dense for a sparse decision.
-pub(crate) fn decide_range(
+pub(crate) fn decide_some(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
-    rows: Range<usize>,
+    rows: impl Iterator<Item = usize> + Clone,
 ) -> Result<SparseRank, AnalysisError> {
     Decided::of(mechanism, s, q, rows).map(|decided| decided.found)
 }
@@ -39,7 +37,7 @@ impl Decided {
         mechanism: &Mechanism,
         s: &Scratch,
         q: &[f64],
-        rows: Range<usize>,
+        rows: impl Iterator<Item = usize> + Clone,
     ) -> Result<Self, AnalysisError> {
         let (layout, size) = (mechanism.layout(), scene_size(mechanism, q));
         let dimensions = mechanism.layout().dimension_scaling(size);
@@ -51,10 +49,10 @@ impl Decided {
             .uncertainty_of_entries(size, Known::AsStored);
         let pattern = &layout.pattern;
         let mut largest = 0.0_f64;
-        for i in rows.clone() {
+        for (own, i) in rows.clone().enumerate() {
             for k in pattern.start[i]..pattern.start[i + 1] {
                 let j = pattern.column[k];
-                let exponent = scaling.rows[i - rows.start] + scaling.cols[j];
+                let exponent = scaling.rows[own] + scaling.cols[j];
                 largest = largest.max(known[k] * unit(j) * f64::from(exponent).exp2());
             }
         }
@@ -63,21 +61,16 @@ impl Decided {
                 SparseRankError::Rank(source) => AnalysisError::Rank { time: s.t, source },
                 source => AnalysisError::Large {
                     time: s.t,
-                    rows: rows.len(),
+                    rows: rows.count(),
                     source,
                 },
             },
         )?;
-        Ok(Self {
-            first: rows.start,
-            c,
-            found,
-        })
+        Ok(Self { c, found })
     }
 
-    /// The rows and null space from which verdicts on a group of rows are read.
-    pub(crate) fn basis(&self, rows: Range<usize>) -> Basis {
-        let own = rows.start - self.first..rows.end - self.first;
+    /// What verdicts of a group of the decided rows are read from: the rows alone.
+    pub(crate) fn basis(&self, own: Range<usize>) -> Basis {
         let e = &self.found.evidence;
         let mut columns: Vec<usize> = own.clone().flat_map(|i| self.c.row(i).0).copied().collect();
         let entries = columns.len();

@@ -30,121 +30,25 @@ impl<O: Ode> Stepper<O> for Stages {
         y1: &mut [f64],
         statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>> {
-        let (h, y0, k1) = (trial.h, start.y0, start.f0);
-        let [k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = &mut self.k;
-        let y = &mut self.y[..];
-        let mut stage = |s: usize, y: &[f64], k: &mut [f64]| {
-            let t = trial.stage_time(C[s]);
-            evaluate(ode, t, y, k, &mut statistics.evaluations)
+        let mut step = Step {
+            ode,
+            trial,
+            start,
+            statistics,
         };
-        let a = A[1];
-        combine(y, y0, h, [(a[0], k1)]);
-        stage(1, y, k2)?;
-        let a = A[2];
-        combine(y, y0, h, [(a[0], k1), (a[1], k2)]);
-        stage(2, y, k3)?;
-        let a = A[3];
-        combine(y, y0, h, [(a[0], k1), (a[2], k3)]);
-        stage(3, y, k4)?;
-        let a = A[4];
-        combine(y, y0, h, [(a[0], k1), (a[2], k3), (a[3], k4)]);
-        stage(4, y, k5)?;
-        let a = A[5];
-        combine(y, y0, h, [(a[0], k1), (a[3], k4), (a[4], k5)]);
-        stage(5, y, k6)?;
-        let a = A[6];
-        combine(y, y0, h, [(a[0], k1), (a[3], k4), (a[4], k5), (a[5], k6)]);
-        stage(6, y, k7)?;
-        let a = A[7];
-        combine(
-            y,
-            y0,
-            h,
-            [(a[0], k1), (a[3], k4), (a[4], k5), (a[5], k6), (a[6], k7)],
-        );
-        stage(7, y, k8)?;
-        let a = A[8];
-        combine(
-            y,
-            y0,
-            h,
-            [
-                (a[0], k1),
-                (a[3], k4),
-                (a[4], k5),
-                (a[5], k6),
-                (a[6], k7),
-                (a[7], k8),
-            ],
-        );
-        stage(8, y, k9)?;
-        let a = A[9];
-        combine(
-            y,
-            y0,
-            h,
-            [
-                (a[0], k1),
-                (a[3], k4),
-                (a[4], k5),
-                (a[5], k6),
-                (a[6], k7),
-                (a[7], k8),
-                (a[8], k9),
-            ],
-        );
-        stage(9, y, k10)?;
-        let a = A[10];
-        combine(
-            y,
-            y0,
-            h,
-            [
-                (a[0], k1),
-                (a[3], k4),
-                (a[4], k5),
-                (a[5], k6),
-                (a[6], k7),
-                (a[7], k8),
-                (a[8], k9),
-                (a[9], k10),
-            ],
-        );
-        stage(10, y, k11)?;
-        let a = A[11];
-        combine(
-            y,
-            y0,
-            h,
-            [
-                (a[0], k1),
-                (a[3], k4),
-                (a[4], k5),
-                (a[5], k6),
-                (a[6], k7),
-                (a[7], k8),
-                (a[8], k9),
-                (a[9], k10),
-                (a[10], k11),
-            ],
-        );
-        stage(11, y, k12)?;
-        let a = A[12];
-        combine(
-            y1,
-            y0,
-            h,
-            [
-                (a[0], k1),
-                (a[5], k6),
-                (a[6], k7),
-                (a[7], k8),
-                (a[8], k9),
-                (a[9], k10),
-                (a[10], k11),
-                (a[11], k12),
-            ],
-        );
+        let (k, y) = (&mut self.k, &mut self.y);
+        step.stage(1, [0], k, y)?;
+        step.stage(2, [0, 1], k, y)?;
+        step.stage(3, [0, 2], k, y)?;
+        step.stage(4, [0, 2, 3], k, y)?;
+        step.stage(5, [0, 3, 4], k, y)?;
+        step.stage(6, [0, 3, 4, 5], k, y)?;
+        step.stage(7, [0, 3, 4, 5, 6], k, y)?;
+        step.stage(8, [0, 3, 4, 5, 6, 7], k, y)?;
+        step.stage(9, [0, 3, 4, 5, 6, 7, 8], k, y)?;
+        step.stage(10, [0, 3, 4, 5, 6, 7, 8, 9], k, y)?;
+        step.stage(11, [0, 3, 4, 5, 6, 7, 8, 9, 10], k, y)?;
+        step.argument(12, [0, 5, 6, 7, 8, 9, 10, 11], k, y1);
         Ok(())
     }
 
@@ -198,5 +102,40 @@ impl<O: Ode> Stepper<O> for Stages {
             f1,
             &mut statistics.evaluations,
         )
+    }
+}
+
+/// A step on trial.
+struct Step<'a, O> {
+    ode: &'a mut O,
+    trial: &'a Trial<'a>,
+    start: &'a Start<'a>,
+    statistics: &'a mut Statistics,
+}
+
+impl<O: Ode> Step<'_, O> {
+    /// Writes `y0 + h·Σ a_sj·k_j` to y; `used` are the j with coefficients, `k` begins with stage 1.
+    #[inline]
+    fn argument<const N: usize>(&self, s: usize, used: [usize; N], k: &[Vec<f64>], y: &mut [f64]) {
+        let of = |j: usize| if j == 0 { self.start.f0 } else { &k[j - 1][..] };
+        let terms = used.map(|j| (A[s][j], of(j)));
+        combine(y, self.start.y0, self.trial.h, terms);
+    }
+
+    /// Stage s of those before it.
+    #[inline]
+    fn stage<const N: usize>(
+        &mut self,
+        s: usize,
+        used: [usize; N],
+        k: &mut [Vec<f64>],
+        y: &mut [f64],
+    ) -> Result<(), Cause<O::Error>> {
+        self.argument(s, used, k, y);
+        let (t, evaluations) = (
+            self.trial.stage_time(C[s]),
+            &mut self.statistics.evaluations,
+        );
+        evaluate(self.ode, t, y, &mut k[s - 1], evaluations)
     }
 }

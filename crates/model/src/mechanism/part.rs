@@ -3,6 +3,7 @@
 //! force.
 
 use joints::spec::Level;
+use linalg::DisjointSets;
 
 use super::build::Builder;
 use super::{Mechanism, N_BODY, PlacedForce};
@@ -210,33 +211,15 @@ fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
 /// Sets of bodies, each ascending, ordered by their first bodies; the bodies of each site belong
 /// together.
 fn connected<'a>(bodies: usize, sites: impl Iterator<Item = &'a Site>) -> Vec<Vec<usize>> {
-    let mut leader: Vec<usize> = (0..bodies).collect();
+    let mut sets = DisjointSets::new(bodies);
     for site in sites {
         let mut members = site.moving();
         let Some(first) = members.next() else {
             continue;
         };
-        for member in members {
-            let [a, b] = [first, member].map(|k| find(&mut leader, k));
-            leader[a.max(b)] = a.min(b);
-        }
+        members.for_each(|member| sets.join(first, member));
     }
-    let mut sets: Vec<Vec<usize>> = vec![Vec::new(); bodies];
-    for k in 0..bodies {
-        let first = find(&mut leader, k);
-        sets[first].push(k);
-    }
-    sets.retain(|set| !set.is_empty());
-    sets
-}
-
-/// The first body of a set; shortens the paths to it.
-fn find(leader: &mut [usize], mut k: usize) -> usize {
-    while leader[k] != k {
-        leader[k] = leader[leader[k]];
-        k = leader[k];
-    }
-    k
+    sets.sets()
 }
 
 #[cfg(test)]

@@ -10,7 +10,8 @@
 use std::collections::HashMap;
 
 use linalg::{
-    KeptRowSaddle, Matrix, SchurSaddle, SchurStructure, SparseMatrix, least_squares_step,
+    DisjointSets, KeptRowSaddle, Matrix, SchurSaddle, SchurStructure, SparseMatrix,
+    least_squares_step,
 };
 use rank::{Circuit, circuits, decide};
 
@@ -137,22 +138,15 @@ impl<'m> Equations<'m> {
     /// rows. Only the velocities for which `joins` returns `true` count.
     pub(super) fn sets(&self, rows: &[usize], joins: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let layout = self.mechanism.layout();
-        let mut leader: Vec<usize> = (0..rows.len()).collect();
+        let mut sets = DisjointSets::new(rows.len());
         let mut first: HashMap<usize, usize> = HashMap::new();
         for (k, &i) in rows.iter().enumerate() {
             for (j, _) in layout.row(&self.s, i).filter(|(j, _)| joins(*j)) {
-                let other = *first.entry(j).or_insert(k);
-                let [a, b] = [other, k].map(|k| find(&mut leader, k));
-                leader[a.max(b)] = a.min(b);
+                sets.join(*first.entry(j).or_insert(k), k);
             }
         }
-        let mut sets: Vec<Vec<usize>> = vec![Vec::new(); rows.len()];
-        for (k, &i) in rows.iter().enumerate() {
-            let of = find(&mut leader, k);
-            sets[of].push(i);
-        }
-        sets.retain(|set| !set.is_empty());
-        sets
+        let of_rows = |set: Vec<usize>| set.into_iter().map(|k| rows[k]).collect();
+        sets.sets().into_iter().map(of_rows).collect()
     }
 
     /// These rows and columns of C; allocates.
@@ -198,16 +192,7 @@ pub(super) fn exceeds(size: f64, limit: f64) -> bool {
     size > limit || size.is_nan() || limit.is_nan()
 }
 
-/// The first element of a set.
-fn find(leader: &mut [usize], mut k: usize) -> usize {
-    while leader[k] != k {
-        leader[k] = leader[leader[k]];
-        k = leader[k];
-    }
-    k
-}
-
-/// Rows, and the velocities that follow from them.
+/// Rows, and the velocities that follow in them.
 pub(super) struct Tier {
     parts: Vec<Part>,
     /// The remaining combinations of rows of small sets: no velocity that follows changes these

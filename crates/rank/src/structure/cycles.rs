@@ -1,6 +1,8 @@
 //! The blocks of a graph: groups that share a cycle.
 
-/// Sets of groups that lie on common cycles of the graph in which each group connects its vertices;
+use linalg::DisjointSets;
+
+/// Sets of groups that lie on common cycles of the graph in which each group joins its vertices;
 /// each set ascending, ordered by their first groups. A group on no cycle is a set of its own, and
 /// so is a group on a single vertex.
 ///
@@ -24,7 +26,7 @@
 #[must_use]
 pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let graph = Graph::new(vertices, groups);
-    let mut leader: Vec<usize> = (0..groups.len()).collect();
+    let mut sets = DisjointSets::new(groups.len());
     let mut search = Search {
         order: vec![0; vertices],
         reach: vec![0; vertices],
@@ -35,15 +37,10 @@ pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
     };
     for root in 0..vertices {
         if search.order[root] == 0 {
-            search.from(root, &graph, &mut leader);
+            search.from(root, &graph, &mut sets);
         }
     }
-    let mut sets: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
-    for group in 0..groups.len() {
-        sets[find(&mut leader, group)].push(group);
-    }
-    sets.retain(|set| !set.is_empty());
-    sets
+    sets.sets()
 }
 
 /// Edges in compressed adjacency lists. A group on k vertices is a cycle through them: it keeps
@@ -112,7 +109,7 @@ impl Search {
         self.reach[vertex] = self.visited;
     }
 
-    fn from(&mut self, root: usize, graph: &Graph, leader: &mut [usize]) {
+    fn from(&mut self, root: usize, graph: &Graph, sets: &mut DisjointSets) {
         self.enter(root);
         // The current path, with the number of pending edges before each vertex.
         let mut way = vec![(root, 0)];
@@ -143,19 +140,9 @@ impl Search {
                 // parent: they form a block.
                 let block = self.pending.split_off(before);
                 for pair in block.windows(2) {
-                    let [a, b] = [pair[0], pair[1]].map(|e| find(leader, graph.group[e]));
-                    leader[a.max(b)] = a.min(b);
+                    sets.join(graph.group[pair[0]], graph.group[pair[1]]);
                 }
             }
         }
     }
-}
-
-/// The first group of a set; shortens the paths to it.
-fn find(leader: &mut [usize], mut group: usize) -> usize {
-    while leader[group] != group {
-        leader[group] = leader[leader[group]];
-        group = leader[group];
-    }
-    group
 }

@@ -1,6 +1,8 @@
 //! The graph of blocks, ground and groups: its parts without the ground, and its bridges with the
 //! ground.
 
+use linalg::DisjointSets;
+
 use super::incidence::{Incidence, Part};
 
 /// Parts of the remaining rows without the ground, ordered by their first rows. Rows of one group
@@ -8,48 +10,44 @@ use super::incidence::{Incidence, Part};
 pub(super) fn parts(incidence: &Incidence) -> Vec<Part> {
     let n_blocks = incidence.blocks.len();
     // Vertices: blocks, then groups.
-    let mut label: Vec<usize> = (0..n_blocks + incidence.groups.len()).collect();
+    let mut sets = DisjointSets::new(n_blocks + incidence.groups.len());
     let remaining: Vec<Vec<usize>> = (0..incidence.groups.len())
         .map(|g| incidence.remaining(g))
         .collect();
     for (g, rows) in remaining.iter().enumerate() {
         for &b in rows.iter().flat_map(|&row| &incidence.touches[row]) {
-            let (x, y) = (root(&mut label, b), root(&mut label, n_blocks + g));
-            label[x.max(y)] = x.min(y);
+            sets.join(b, n_blocks + g);
         }
     }
-    let mut parts: Vec<Part> = vec![Part::default(); label.len()];
-    for (g, rows) in remaining
-        .iter()
-        .enumerate()
-        .filter(|(_, rows)| !rows.is_empty())
-    {
-        let part = &mut parts[root(&mut label, n_blocks + g)];
-        part.groups.push(g);
-        part.rows.extend(rows);
-        part.blocks
-            .extend(rows.iter().flat_map(|&row| &incidence.touches[row]));
-    }
-    parts.retain(|part| !part.rows.is_empty());
-    for part in &mut parts {
-        part.rows.sort_unstable();
-        part.blocks.sort_unstable();
-        part.blocks.dedup();
+    let mut parts = Vec::new();
+    for set in sets.sets() {
+        let groups = set
+            .into_iter()
+            .filter_map(|vertex| vertex.checked_sub(n_blocks));
+        let groups: Vec<usize> = groups.filter(|&g| !remaining[g].is_empty()).collect();
+        let mut rows: Vec<usize> = groups
+            .iter()
+            .flat_map(|&g| &remaining[g])
+            .copied()
+            .collect();
+        rows.sort_unstable();
+        let touched = rows.iter().flat_map(|&row| &incidence.touches[row]);
+        let mut blocks: Vec<usize> = touched.copied().collect();
+        blocks.sort_unstable();
+        blocks.dedup();
+        if !rows.is_empty() {
+            parts.push(Part {
+                rows,
+                groups,
+                blocks,
+            });
+        }
     }
     parts.sort_by_key(|part| part.rows[0]);
     parts
 }
 
-/// The root of a vertex; paths are halved on the way.
-fn root(label: &mut [usize], mut vertex: usize) -> usize {
-    while label[vertex] != vertex {
-        label[vertex] = label[label[vertex]];
-        vertex = label[vertex];
-    }
-    vertex
-}
-
-/// One end of an edge.
+/// Half an edge.
 #[derive(Clone, Copy)]
 struct End {
     vertex: usize,

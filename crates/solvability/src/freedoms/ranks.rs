@@ -1,10 +1,9 @@
-//! Ranks of the rows without those of drives.
+//! Ranks of some of the rows alone: Φq, Ψ, and all without those of drives.
 
 use model::Layout;
+use rank::RankStatus;
 
-use crate::certificate::Rows;
 use crate::error::AnalysisError;
-use crate::matrices::Solvability;
 
 /// Rank and redundancy of the rows without those of drives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,34 +14,56 @@ pub struct WithoutDrives {
     pub redundancy: usize,
 }
 
-impl WithoutDrives {
-    /// Computes them from the decision of all rows. Returns `None` if there are no drives.
+/// Ranks of some of the rows alone, whichever way they are decided.
+pub(crate) struct PartialRanks {
+    pub(crate) holonomic: usize,
+    pub(crate) nonholonomic: usize,
+    /// `None` if there are no drives.
+    pub(crate) without_drives: Option<WithoutDrives>,
+    /// What is undecided of them.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl PartialRanks {
+    /// From the rank of all rows, and by `decide` for what is neither nothing nor everything.
     pub(crate) fn of(
         layout: &Layout,
-        rows: &Rows,
-        solvability: &Solvability,
-        warnings: &mut Vec<String>,
-    ) -> Result<Option<Self>, AnalysisError> {
+        rank: usize,
+        decide: impl Fn(&[usize]) -> Result<(usize, RankStatus), AnalysisError>,
+    ) -> Result<Self, AnalysisError> {
+        let mut warnings = Vec::new();
+        let mut rank_of = |what: &str, rows: &[usize]| {
+            if rows.is_empty() {
+                return Ok(0);
+            }
+            if rows.len() == layout.rows() {
+                return Ok(rank);
+            }
+            let (rank, status) = decide(rows)?;
+            if let RankStatus::Undecided(doubt) = status {
+                warnings.push(format!("the rank {what} is undecided: {doubt}"));
+            }
+            Ok::<_, AnalysisError>(rank)
+        };
+        let (of_phi, of_psi): (Vec<usize>, Vec<usize>) =
+            (0..layout.rows()).partition(|&row| row < layout.m);
+        let holonomic = rank_of("of Φq alone", &of_phi)?;
+        let nonholonomic = rank_of("of Ψ alone", &of_psi)?;
         let drives = layout.drive_rows();
-        if drives.is_empty() {
-            return Ok(None);
-        }
         let others = (0..layout.rows()).filter(|row| drives.binary_search(row).is_err());
         let others: Vec<usize> = others.collect();
-        let rank = match (others.as_slice(), solvability.basis().rank_without(&drives)) {
-            ([], _) => 0,
-            (_, Some(rank)) => rank,
-            _ => {
-                let decision = rows.select(&others).decide()?;
-                if let rank::RankStatus::Undecided(doubt) = &decision.status {
-                    warnings.push(format!("the rank without drives is undecided: {doubt}"));
-                }
-                decision.rank
-            }
+        let without_drives = if drives.is_empty() {
+            None
+        } else {
+            let rank = rank_of("without drives", &others)?;
+            let redundancy = others.len() - rank;
+            Some(WithoutDrives { rank, redundancy })
         };
-        Ok(Some(Self {
-            rank,
-            redundancy: others.len() - rank,
-        }))
+        Ok(Self {
+            holonomic,
+            nonholonomic,
+            without_drives,
+            warnings,
+        })
     }
 }

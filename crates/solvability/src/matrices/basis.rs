@@ -4,7 +4,6 @@
 //! This module does not compute the null space.
 
 use crate::limits::ROUNDING_OF_MAP;
-use std::ops::Range;
 
 use linalg::{Matrix, PivotedQr};
 use rank::{CoefficientReading, ExactNullSpace, RankStatus, Readings};
@@ -137,19 +136,15 @@ impl Basis {
         Mapped::new(self, map, self.list(rows)?)
     }
 
-    /// The rank of some of the rows, computed from the dependencies of all rows: the dependencies
-    /// that involve no other row (`z = 0` there) number `p − rank Z_other`. Returns `None` if the
-    /// rank of all rows is undecided, or that of Z_other unclear.
-    pub(crate) fn rank_of(&self, rows: Range<usize>) -> Option<usize> {
-        let other: Vec<usize> = (0..self.z.nrows()).filter(|i| !rows.contains(i)).collect();
-        self.rank_without(&other)
-    }
-
-    /// The rank of all rows except these.
-    pub(crate) fn rank_without(&self, other: &[usize]) -> Option<usize> {
+    /// The rank of some of the rows, ascending, from the dependencies of all: those that need no other row,
+    /// `z = 0` there, are as many as `p − rank Z_other`. `None` if the rank of all is
+    /// undecided, or that of Z_other unclear.
+    pub(crate) fn rank_of(&self, rows: &[usize]) -> Option<usize> {
         if self.known.status != RankStatus::Decided {
             return None;
         }
+        let is_other = |i: &usize| rows.binary_search(i).is_err();
+        let other: Vec<usize> = (0..self.z.nrows()).filter(is_other).collect();
         let tied = match &self.exact {
             Some(z) => {
                 let rows: Vec<_> = other.iter().map(|&i| vec![(i, 1.0)]).collect();
@@ -157,7 +152,7 @@ impl Basis {
             }
             None => {
                 let noise = self.noise(other.iter().map(|&i| (i, 1.0))).known;
-                let qr = PivotedQr::of_rows(self.z.select_rows(other));
+                let qr = PivotedQr::of_rows(self.z.select_rows(&other));
                 self.clear_rank(&qr, noise).ok()?
             }
         };

@@ -1,14 +1,14 @@
 //! Sparsity patterns: entries in range, each once, and each non-zero in some case.
 
-use super::block::Block;
-use super::failure::{Failure, Property, fact};
+use crate::block::Block;
+use crate::failure::{Failure, Property, fact};
 
 /// An entry counts as non-zero if it exceeds this fraction of its block; round-off of a sum that is
 /// identically zero is smaller.
 const ALIVE: f64 = 1e-10;
 
-/// The entries of a pattern that were non-zero in some case.
-pub(super) struct Pattern {
+/// Which entries of a pattern were seen different from zero.
+pub(crate) struct Pattern {
     block: &'static str,
     entries: Vec<[usize; 2]>,
     alive: Vec<bool>,
@@ -19,7 +19,7 @@ impl Pattern {
     ///
     /// # Errors
     /// If an entry is outside the block, or occurs twice.
-    pub(super) fn new(
+    pub(crate) fn new(
         definition: &'static str,
         block: &'static str,
         shape: [usize; 2],
@@ -47,16 +47,16 @@ impl Pattern {
         })
     }
 
-    /// Records the non-zero entries of one block.
-    pub(super) fn see(&mut self, block: &Block) {
+    /// Takes note of the entries of one block that are not zero.
+    pub(crate) fn see(&mut self, block: &Block) {
         let least = ALIVE * block.largest();
         for (&[row, column], alive) in self.entries.iter().zip(&mut self.alive) {
             *alive |= block.get(row, column).abs() > least;
         }
     }
 
-    /// Checks that no entry was zero in all cases.
-    pub(super) fn all_alive(&self, definition: &'static str) -> Result<(), Failure> {
+    /// No entry was zero in all cases.
+    pub(crate) fn all_alive(&self, definition: &'static str) -> Result<(), Failure> {
         match self.alive.iter().position(|alive| !alive) {
             Some(k) => {
                 let [row, column] = self.entries[k];

@@ -1,6 +1,6 @@
 //! Definitions with one wrong entry: the harness has to detect each of them and name the fault.
 
-use joints::conformance::{Failure, Property, check_constraint, check_force};
+use joint_conformance::{Failure, Property, check_constraint, check_force};
 use joints::generated::{Fixed, PinInSlotDisplacementDrive, SpringDamper, Velocity};
 use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
 use joints::{

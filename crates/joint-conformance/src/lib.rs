@@ -1,9 +1,11 @@
-//! Property tests for every definition, both those of the library and user-defined joints.
+#![doc = include_str!("../README.md")]
 //!
-//! A definition is given by its type alone; parameters, poses, motions, multipliers and functions
-//! of time are drawn according to its specification, reproducibly from a seed: [`ORDINARY_CASES`]
-//! ordinary cases, and [`AWKWARD_CASES`] of each awkward [`Kind`]. The largest difference of a
-//! [`Block`] is compared relative to its largest entry.
+//! # What is compared
+//!
+//! A definition is checked by its type alone; parameters, poses, motions, multipliers and functions
+//! of time are drawn from what its spec says, reproducibly from a seed: [`ORDINARY_CASES`] ordinary
+//! cases, and [`AWKWARD_CASES`] of each awkward [`Kind`]. What is compared is the largest
+//! difference of a block of kernel results, relative to its largest entry.
 //!
 //! | block | reference, by dual numbers (1e-12) and, in every fourth ordinary case, by differences (1e-9) |
 //! | --- | --- |
@@ -18,57 +20,36 @@
 //! | start | rows that store an initial value are zero at the start |
 //! | velocity terms of forces | never add energy |
 //!
-//! Balance and norms are tested for definitions that relate bodies to each other: those with two or
-//! more slots and without a line of the ground (for constraints only at position level, because
-//! velocities are relative to the ground). A joint with the ground has the ground in a slot.
-//!
-//! No derivative detects a wrong Φ, velocity row or law: a wrong sign or axis, or a missing row.
-//! For this a definition needs a table of poses computed by hand; this crate has one for each
-//! definition in `tests/golden`.
-//!
-//! ```
-//! use joints::conformance::{check_constraint, check_force};
-//! # fn main() -> Result<(), joints::conformance::Failure> {
-//! check_constraint::<joints::generated::KnifeEdge>(1)?;
-//! check_force::<joints::generated::Torque>(1)?;
-//! # Ok(())
-//! # }
-//! ```
+//! Balance and norms are expected of definitions that relate bodies to each other: those with two
+//! or more slots and without a line of the ground (balance of constraints: on position level, since
+//! velocities are against the ground). A joint against the ground takes the ground as a slot.
 
 mod block;
 mod case;
+mod check;
 mod constraint;
 mod derivative;
 mod failure;
 mod force;
-mod kernels;
 mod number;
-mod oracle;
 mod pattern;
 mod state;
+mod subject;
 
-pub use block::Block;
 pub use case::{AWKWARD_CASES, Case, Kind, ORDINARY_CASES};
-pub use failure::{Failure, Property, Reference};
-pub use oracle::{DIFFERENCE_TOLERANCE, DUAL_TOLERANCE};
+pub use failure::{DIFFERENCE_TOLERANCE, DUAL_TOLERANCE, Failure, Property, Reference};
 
-use crate::constraint::Constraint;
-use crate::force::Force;
-use crate::generated::{plane_constraints, plane_forces};
-use crate::visitor::Visitor;
+use check::check;
+use constraint::OfConstraint;
+use force::OfForce;
+use joints::{Constraint, Force, Visitor, plane_constraints, plane_forces};
 
 /// Checks a constraint definition and the drives of its measures.
 ///
 /// # Errors
 /// The first property that is violated.
 pub fn check_constraint<K: Constraint>(seed: u64) -> Result<(), Failure> {
-    constraint::check::<K>(seed)?;
-    let mut drives = Checks {
-        seed,
-        result: Ok(()),
-    };
-    K::visit_drives(&mut drives);
-    drives.result
+    check_visited(seed, |checks| checks.constraint::<K>())
 }
 
 /// Checks a force definition.
@@ -76,7 +57,7 @@ pub fn check_constraint<K: Constraint>(seed: u64) -> Result<(), Failure> {
 /// # Errors
 /// The first property that is violated.
 pub fn check_force<F: Force>(seed: u64) -> Result<(), Failure> {
-    force::check::<F>(seed)
+    check::<OfForce<F>>(seed)
 }
 
 /// Checks all definitions of the library.
@@ -84,12 +65,18 @@ pub fn check_force<F: Force>(seed: u64) -> Result<(), Failure> {
 /// # Errors
 /// The first violated property of the first definition with one.
 pub fn check_all(seed: u64) -> Result<(), Failure> {
+    check_visited(seed, |checks| {
+        plane_constraints(checks);
+        plane_forces(checks);
+    })
+}
+
+fn check_visited(seed: u64, visit: impl Fn(&mut Checks)) -> Result<(), Failure> {
     let mut checks = Checks {
         seed,
         result: Ok(()),
     };
-    plane_constraints(&mut checks);
-    plane_forces(&mut checks);
+    visit(&mut checks);
     checks.result
 }
 
@@ -101,20 +88,19 @@ struct Checks {
 
 impl Visitor for Checks {
     fn constraint<K: Constraint>(&mut self) {
-        if self.result.is_ok() {
-            self.result = check_constraint::<K>(self.seed);
-        }
+        self.drive::<K>();
+        K::visit_drives(self);
     }
 
     fn drive<K: Constraint>(&mut self) {
         if self.result.is_ok() {
-            self.result = constraint::check::<K>(self.seed);
+            self.result = check::<OfConstraint<K>>(self.seed);
         }
     }
 
     fn force<F: Force>(&mut self) {
         if self.result.is_ok() {
-            self.result = check_force::<F>(self.seed);
+            self.result = check::<OfForce<F>>(self.seed);
         }
     }
 }

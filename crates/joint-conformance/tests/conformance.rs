@@ -2,7 +2,7 @@
 
 mod mutants;
 
-use joints::conformance::check_all;
+use joint_conformance::check_all;
 use joints::generated::{plane_constraints, plane_forces};
 use joints::spec::Spec;
 use joints::visitor::Visitor;

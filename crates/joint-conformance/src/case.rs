@@ -4,18 +4,17 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
-use super::block::Block;
-use crate::arguments::Argument;
-use crate::plane::{N_DOF, Pose, Twist};
-use crate::spec::{Parameter, Shape, Spec, Unit};
+use joints::Argument;
+use joints::plane::{N_DOF, Pose, Twist};
+use joints::spec::{Parameter, Shape, Spec, Unit};
 
 /// Number of ordinary cases of one check.
 pub const ORDINARY_CASES: usize = 1000;
 /// Number of awkward cases of one check, of each kind.
 pub const AWKWARD_CASES: usize = 25;
-/// Number of motions of one case. A right-hand side of one row may vanish by chance for one motion,
-/// so that its relative error is meaningless; several motions together have a size.
-pub(super) const MOTIONS: usize = 4;
+/// Motions of one case. A right-hand side of one row can vanish by chance for one motion, and its
+/// relative error then means nothing; several side by side have a size.
+pub(crate) const MOTIONS: usize = 4;
 
 /// Special property of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,10 +61,10 @@ impl Kind {
 
 /// Velocities, accelerations and multipliers.
 #[derive(Clone, Debug)]
-pub(super) struct Motion {
-    pub(super) v: Vec<Twist>,
-    pub(super) a: Vec<Twist>,
-    pub(super) lambda: Vec<f64>,
+pub(crate) struct Motion {
+    pub(crate) v: Vec<Twist>,
+    pub(crate) a: Vec<Twist>,
+    pub(crate) lambda: Vec<f64>,
 }
 
 /// One case: all arguments of the kernels of a definition.
@@ -83,13 +82,13 @@ pub struct Case {
     pub x: Vec<Pose>,
     /// The functions of time, as values with two derivatives.
     pub f: Vec<[f64; 3]>,
-    pub(super) motions: Vec<Motion>,
-    pub(super) spec: &'static Spec,
+    pub(crate) motions: Vec<Motion>,
+    pub(crate) spec: &'static Spec,
 }
 
 impl Case {
-    /// All cases for a definition with this number of rows.
-    pub(super) fn all(seed: u64, spec: &'static Spec, rows: usize) -> impl Iterator<Item = Self> {
+    /// All cases for a definition with so many rows.
+    pub(crate) fn all(seed: u64, spec: &'static Spec, rows: usize) -> impl Iterator<Item = Self> {
         let kinds = std::iter::repeat_n(Kind::Ordinary, ORDINARY_CASES).chain(
             Kind::AWKWARD
                 .into_iter()
@@ -117,14 +116,14 @@ impl Case {
         })
     }
 
-    /// Whether kernels are also compared with differences: in every fourth ordinary case, because
-    /// it is the most expensive part of a check.
-    pub(super) fn has_differences(&self) -> bool {
+    /// Whether kernels are also compared with differences: in every fourth ordinary case, which is
+    /// the most expensive part of a check.
+    pub(crate) fn has_differences(&self) -> bool {
         self.kind == Kind::Ordinary && self.index.is_multiple_of(4)
     }
 
-    /// The case with another ordinary start.
-    pub(super) fn with_another_start(&self, attempt: u64) -> Self {
+    /// The case with an ordinary start, drawn anew.
+    pub(crate) fn with_another_start(&self, attempt: u64) -> Self {
         let mut random = Random(attempt ^ ((self.index as u64) << 32));
         Self {
             start: poses(self.x.len(), Kind::Ordinary, &mut random),
@@ -133,7 +132,7 @@ impl Case {
     }
 
     /// The case with all bodies moved as one rigid body: poses, start and motions.
-    pub(super) fn moved(&self) -> Self {
+    pub(crate) fn moved(&self) -> Self {
         let turn = Pose::new(0.7, -1.3, 0.9);
         let poses = |x: &[Pose]| x.iter().map(|p| compose(&turn, p)).collect();
         let twists = |v: &[Twist]| -> Vec<Twist> {
@@ -161,14 +160,9 @@ impl Case {
         }
     }
 
-    /// The blocks of all motions, joined side by side.
-    pub(super) fn for_each_motion(&self, block: impl Fn(&Motion) -> Block) -> Block {
-        Block::beside(&self.motions.iter().map(block).collect::<Vec<_>>())
-    }
-
-    /// The largest coordinate of poses, start and parameters, at least 1: its round-off of 1 ε
-    /// changes Φ by this number times ‖C‖·ε.
-    pub(super) fn size(&self) -> f64 {
+    /// The largest coordinate of poses, start and parameters, at least 1: round-off of 1 ε in it
+    /// moves Φ by this number times ‖C‖·ε.
+    pub(crate) fn size(&self) -> f64 {
         let poses = self
             .x
             .iter()
@@ -291,7 +285,7 @@ fn motion(slots: usize, rows: usize, kind: Kind, random: &mut Random) -> Motion 
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014): reproducible on every platform, without a dependency.
-pub(super) struct Random(pub(super) u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
@@ -302,8 +296,8 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A uniformly distributed number within ±reach.
-    pub(super) fn within(&mut self, reach: f64) -> f64 {
+    /// Uniform in ±reach.
+    pub(crate) fn within(&mut self, reach: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1u64 << 53) as f64;
         reach * (2.0 * unit - 1.0)
     }

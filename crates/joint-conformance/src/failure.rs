@@ -3,8 +3,8 @@
 
 use std::fmt;
 
-use super::block::Block;
-use super::case::Case;
+use crate::block::Block;
+use crate::case::Case;
 
 /// A property of all definitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,68 +174,96 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Compares blocks for one case of one definition.
-pub(super) struct Judge<'a> {
-    pub(super) definition: &'static str,
-    pub(super) case: &'a Case,
+/// Against dual numbers and identities: both sides carry the round-off of some ten operations,
+/// about 1e-15, times up to 1e3 where coordinates or angles are that large.
+pub const DUAL_TOLERANCE: f64 = 1e-12;
+
+/// Against differences: the best step loses about a third of the digits of a first derivative, and
+/// extrapolation gives most of them back; second derivatives are the measure.
+pub const DIFFERENCE_TOLERANCE: f64 = 1e-9;
+
+/// A way to a reference, and how far it is trusted.
+#[derive(Clone, Copy)]
+pub(crate) struct Oracle {
+    pub(crate) reference: Reference,
+    pub(crate) tolerance: f64,
+    /// What a difference is compared with where the largest entry is smaller: the size that the
+    /// terms had before they cancelled.
+    pub(crate) floor: f64,
 }
 
-/// An assertion: two blocks are equal up to the tolerance, relative to their largest entry.
-pub(super) struct Claim<'a> {
-    pub(super) property: Property,
-    pub(super) reference: Reference,
-    pub(super) found: &'a Block,
-    pub(super) expected: &'a Block,
-    pub(super) tolerance: f64,
-    /// Size to be used if the largest entry is smaller: that of the terms before they cancelled.
-    pub(super) floor: f64,
-}
+impl Oracle {
+    /// A block that vanishes does so in every dual part, too.
+    pub(crate) const DUAL_NUMBERS: Self = Self {
+        reference: Reference::DualNumbers,
+        tolerance: DUAL_TOLERANCE,
+        floor: 0.0,
+    };
 
-impl Judge<'_> {
-    /// Returns the worst entry if the assertion is violated, described by `entry`.
-    pub(super) fn decide(
-        &self,
-        claim: &Claim<'_>,
-        entry: impl Fn(usize, usize) -> String,
-    ) -> Result<(), Failure> {
-        let equal = approx::relative_eq!(
-            claim.found,
-            claim.expected,
-            epsilon = claim.tolerance * claim.floor,
-            max_relative = claim.tolerance
-        );
-        if equal {
-            Ok(())
-        } else {
-            Err(self.failure(claim, entry))
+    /// Ordinary cases have coordinates, speeds and parameters of about 1.
+    pub(crate) const DIFFERENCES: Self = Self {
+        reference: Reference::Differences,
+        tolerance: DIFFERENCE_TOLERANCE,
+        floor: 1.0,
+    };
+
+    /// An identity between terms of the size `floor`.
+    pub(crate) fn identity(floor: f64) -> Self {
+        Self {
+            reference: Reference::Identity,
+            tolerance: DUAL_TOLERANCE,
+            floor,
         }
     }
+}
 
-    fn failure(&self, claim: &Claim<'_>, entry: impl Fn(usize, usize) -> String) -> Failure {
-        let scale = claim
-            .found
-            .largest()
-            .max(claim.expected.largest())
-            .max(claim.floor);
-        let (row, column) = claim.found.worst(claim.expected).unwrap_or((0, 0));
-        Failure {
-            definition: self.definition,
-            property: claim.property,
-            reference: claim.reference,
+/// A claim: two blocks are equal up to the tolerance, relative to their largest entry or to the
+/// floor of the oracle.
+pub(crate) struct Claim<'a> {
+    pub(crate) property: Property,
+    pub(crate) oracle: Oracle,
+    pub(crate) found: &'a Block,
+    pub(crate) expected: &'a Block,
+}
+
+impl Claim<'_> {
+    /// Returns the worst entry if the claim does not hold, named by `entry`.
+    pub(crate) fn decide(
+        &self,
+        definition: &'static str,
+        case: &Case,
+        entry: impl Fn(usize, usize) -> String,
+    ) -> Result<(), Failure> {
+        let (found, expected) = (self.found, self.expected);
+        let Oracle {
+            reference,
+            tolerance,
+            floor,
+        } = self.oracle;
+        let scale = found.largest().max(expected.largest()).max(floor);
+        if found.difference(expected) <= tolerance * scale {
+            return Ok(());
+        }
+        let (row, column) = found.worst(expected).unwrap_or((0, 0));
+        Err(Failure {
+            definition,
+            property: self.property,
+            reference,
             entry: entry(row, column),
             row,
             column,
-            found: claim.found.get(row, column),
-            expected: claim.expected.get(row, column),
+            found: found.get(row, column),
+            expected: expected.get(row, column),
             scale,
-            tolerance: claim.tolerance,
-            case: Some(Box::new(self.case.clone())),
-        }
+            tolerance,
+            case: Some(Box::new(case.clone())),
+        })
     }
 }
 
-/// A failure that is not a comparison of blocks: `found` instead of `expected`.
-pub(super) fn fact(
+/// A failure of a fact that is no comparison of blocks: `found` of something where `expected` was
+/// due.
+pub(crate) fn fact(
     definition: &'static str,
     property: Property,
     entry: String,

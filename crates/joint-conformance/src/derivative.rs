@@ -3,40 +3,41 @@
 
 use num_dual::{Dual2_64, Dual64};
 
-use super::block::Block;
-use super::number::Number;
+use crate::block::Block;
+use crate::number::{Dual, Number};
 
-/// A block that depends on one number τ, to be differentiated at τ = 0.
-pub(super) trait Curve {
+/// A block that depends on one number τ; its derivatives are wanted at τ = 0.
+pub(crate) trait Curve {
     /// The block at τ.
     fn at<D: Number>(&self, tau: D) -> Block<D>;
 }
 
-/// A method of differentiation.
-pub(super) trait Differentiate {
+/// A way to differentiate.
+pub(crate) trait Differentiate {
     /// `d/dτ` at 0.
     fn first(curve: &impl Curve) -> Block;
     /// `d²/dτ²` at 0.
     fn second(curve: &impl Curve) -> Block;
 }
 
-/// Derivatives by dual numbers: exact up to round-off.
-pub(super) struct DualNumbers;
+/// By dual numbers: exact up to round-off.
+pub(crate) struct DualNumbers;
 
 impl Differentiate for DualNumbers {
     fn first(curve: &impl Curve) -> Block {
-        curve.at(Dual64::new(0.0, 1.0)).map(|e| e.eps)
+        curve.at(Dual(Dual64::new(0.0, 1.0))).map(|e| e.0.eps)
     }
 
     fn second(curve: &impl Curve) -> Block {
-        curve.at(Dual2_64::new(0.0, 1.0, 0.0)).map(|e| e.v2)
+        let tau = Dual(Dual2_64::new(0.0, 1.0, 0.0));
+        curve.at(tau).map(|e| e.0.v2)
     }
 }
 
-/// Derivatives by central differences over halved steps, extrapolated to step zero: the error of a
-/// central difference is a series in h², so each extrapolation removes one power. The result is the
-/// value of the table that is closest to the two values from which it was computed.
-pub(super) struct Differences;
+/// By central differences over halved steps, extrapolated to step zero: the error of a central
+/// difference is a series in h², so each extrapolation removes one power. Of the whole table the
+/// value counts that is closest to both values it was made of.
+pub(crate) struct Differences;
 
 /// The largest step, as a power of two: about a tenth of the sizes in ordinary cases.
 const LARGEST: i32 = -3;
@@ -64,7 +65,7 @@ impl Differentiate for Differences {
 }
 
 /// The first derivative at 0 of a block of one plain number.
-pub(super) fn by_differences(block: impl Fn(f64) -> Block) -> Block {
+pub(crate) fn by_differences(block: impl Fn(f64) -> Block) -> Block {
     extrapolate(FIRST_STEPS, |h| {
         let difference = block(h).zip(&block(-h), |a, b| a - b);
         difference.map(|d| d / (2.0 * h))

@@ -1,14 +1,15 @@
-//! The variation along which a derivative is taken: one degree of freedom of one body, time, or the
-//! whole motion.
+//! What a kernel takes, and what of it moves while a derivative is taken: one degree of freedom of
+//! one body, time, or everything along the motion.
 
-use super::case::{Case, Motion};
-use super::number::Number;
-use crate::plane::{N_DOF, Pose, Twist};
+use joints::plane::{N_DOF, Pose, Twist};
+
+use crate::case::{Case, Motion};
+use crate::number::Number;
 
 /// The curve through a state.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Along {
-    /// The pose along one column of the block, everything else fixed.
+pub(crate) enum Along {
+    /// The pose along one column of the block, all else fixed.
     Pose(usize),
     /// The twist along one column of the block, everything else fixed.
     Twist(usize),
@@ -18,16 +19,18 @@ pub(super) enum Along {
     Motion,
 }
 
-/// Poses, twists and functions of time at one point of a curve.
-pub(super) struct State<D> {
-    pub(super) x: Vec<Pose<D>>,
-    pub(super) v: Vec<Twist<D>>,
-    pub(super) f: Vec<[D; 3]>,
+/// What kernels take, at one point of a curve.
+pub(crate) struct State<D> {
+    pub(crate) x: Vec<Pose<D>>,
+    pub(crate) v: Vec<Twist<D>>,
+    pub(crate) a: Vec<Twist<D>>,
+    pub(crate) f: Vec<[D; 3]>,
+    pub(crate) lambda: Vec<D>,
 }
 
 impl Along {
     /// The state at τ.
-    pub(super) fn state<D: Number>(self, case: &Case, motion: &Motion, tau: D) -> State<D> {
+    pub(crate) fn state<D: Number>(self, case: &Case, motion: &Motion, tau: D) -> State<D> {
         let line = |start: f64, rate: f64| D::from(start) + D::from(rate) * tau;
         let unit = |column: usize, k: usize| if column == k { 1.0 } else { 0.0 };
         let x = case
@@ -62,6 +65,11 @@ impl Along {
                 omega: line(v.omega, rate(2)),
             }
         });
+        let a = motion.a.iter().map(|a| Twist {
+            x: D::from(a.x),
+            y: D::from(a.y),
+            omega: D::from(a.omega),
+        });
         let f = case.f.iter().map(|&[f, f_t, f_tt]| match self {
             Self::Time | Self::Motion => [
                 line(f, f_t) + D::from(0.5 * f_tt) * tau * tau,
@@ -73,7 +81,14 @@ impl Along {
         State {
             x: x.collect(),
             v: v.collect(),
+            a: a.collect(),
             f: f.collect(),
+            lambda: motion.lambda.iter().map(|&l| D::from(l)).collect(),
         }
     }
+}
+
+/// Twists as one vector, degree of freedom by degree of freedom.
+pub(crate) fn stacked<D: Copy>(twists: &[Twist<D>]) -> Vec<D> {
+    twists.iter().flat_map(|t| [t.x, t.y, t.omega]).collect()
 }

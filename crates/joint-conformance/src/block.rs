@@ -1,0 +1,220 @@
+//! The currency of comparison: a dense matrix of kernel results. Not a matrix for computing.
+
+use joints::Ring;
+
+/// A dense matrix, row by row, of what a kernel computed or should have.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Block<T = f64> {
+    rows: usize,
+    columns: usize,
+    entries: Vec<T>,
+}
+
+impl<T: Copy> Block<T> {
+    /// A block with the same value everywhere.
+    #[must_use]
+    pub(crate) fn filled(rows: usize, columns: usize, value: T) -> Self {
+        Self {
+            rows,
+            columns,
+            entries: vec![value; rows * columns],
+        }
+    }
+
+    /// One column.
+    #[must_use]
+    pub(crate) fn column(entries: Vec<T>) -> Self {
+        Self {
+            rows: entries.len(),
+            columns: 1,
+            entries,
+        }
+    }
+
+    /// These blocks, all with the same number of rows, side by side.
+    ///
+    /// # Panics
+    /// If the numbers of rows differ.
+    #[must_use]
+    pub(crate) fn beside(blocks: &[Self]) -> Self {
+        let rows = blocks.first().map_or(0, |b| b.rows);
+        assert!(
+            blocks.iter().all(|b| b.rows == rows),
+            "blocks side by side need equal heights"
+        );
+        let columns = blocks.iter().map(|b| b.columns).sum();
+        let entries = (0..rows)
+            .flat_map(|r| blocks.iter().flat_map(move |b| b.row(r).iter().copied()))
+            .collect();
+        Self {
+            rows,
+            columns,
+            entries,
+        }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// All entries, row by row.
+    #[must_use]
+    pub(crate) fn entries(&self) -> &[T] {
+        &self.entries
+    }
+
+    /// One row.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    #[must_use]
+    pub(crate) fn row(&self, row: usize) -> &[T] {
+        &self.entries[row * self.columns..][..self.columns]
+    }
+
+    /// One entry.
+    ///
+    /// # Panics
+    /// If there is no such entry.
+    #[must_use]
+    pub(crate) fn get(&self, row: usize, column: usize) -> T {
+        self.row(row)[column]
+    }
+
+    /// Changes one entry.
+    ///
+    /// # Panics
+    /// If there is no such entry.
+    pub(crate) fn set(&mut self, row: usize, column: usize, value: T) {
+        assert!(column < self.columns, "column {column} of {}", self.columns);
+        self.entries[row * self.columns + column] = value;
+    }
+
+    /// The block with a function applied to each entry.
+    #[must_use]
+    pub(crate) fn map<U>(&self, f: impl Fn(T) -> U) -> Block<U> {
+        Block {
+            rows: self.rows,
+            columns: self.columns,
+            entries: self.entries.iter().map(|&e| f(e)).collect(),
+        }
+    }
+
+    /// Combines two blocks of the same shape entry by entry.
+    ///
+    /// # Panics
+    /// If the shapes differ.
+    #[must_use]
+    pub(crate) fn zip(&self, other: &Self, f: impl Fn(T, T) -> T) -> Self {
+        assert_eq!(
+            (self.rows, self.columns),
+            (other.rows, other.columns),
+            "blocks entry by entry need equal shapes"
+        );
+        let entries = self
+            .entries
+            .iter()
+            .zip(&other.entries)
+            .map(|(&a, &b)| f(a, b))
+            .collect();
+        Self {
+            rows: self.rows,
+            columns: self.columns,
+            entries,
+        }
+    }
+}
+
+impl<T: Ring> Block<T> {
+    /// The product with a vector.
+    #[must_use]
+    pub(crate) fn times(&self, v: &[T]) -> Self {
+        Self::column((0..self.rows).map(|r| dot(self.row(r), v)).collect())
+    }
+
+    /// The product of the transpose with a vector.
+    #[must_use]
+    pub(crate) fn transpose_times(&self, v: &[T]) -> Self {
+        let column = |k| (0..self.rows).map(|r| self.get(r, k)).collect::<Vec<_>>();
+        Self::column((0..self.columns).map(|k| dot(&column(k), v)).collect())
+    }
+}
+
+/// The sum of the products of two vectors, entry by entry.
+pub(crate) fn dot<T: Ring>(a: &[T], b: &[T]) -> T {
+    let products = a.iter().zip(b).map(|(&a, &b)| a * b);
+    products.fold(T::from(0.0), |sum, product| sum + product)
+}
+
+impl Block {
+    /// The largest magnitude of an entry; NaN if there is one.
+    #[must_use]
+    pub(crate) fn largest(&self) -> f64 {
+        self.entries.iter().fold(0.0, |m: f64, e| {
+            if m.is_nan() || e.is_nan() {
+                f64::NAN
+            } else {
+                m.max(e.abs())
+            }
+        })
+    }
+
+    /// The Frobenius norm.
+    #[must_use]
+    pub(crate) fn norm(&self) -> f64 {
+        self.entries.iter().map(|e| e * e).sum::<f64>().sqrt()
+    }
+
+    /// Row and column of the entry that differs most from the same entry of `other`; a NaN counts
+    /// as the largest difference. Returns `None` for empty blocks.
+    #[must_use]
+    pub(crate) fn worst(&self, other: &Self) -> Option<(usize, usize)> {
+        let difference = self.zip(other, |a, b| (a - b).abs());
+        let rank = |e: f64| if e.is_nan() { f64::INFINITY } else { e };
+        let (at, _) = difference
+            .entries
+            .iter()
+            .enumerate()
+            .max_by(|(_, a), (_, b)| rank(**a).total_cmp(&rank(**b)))?;
+        Some((at / self.columns, at % self.columns))
+    }
+
+    /// The largest difference of two entries; NaN if there is one, or if the shapes differ.
+    #[must_use]
+    pub(crate) fn difference(&self, other: &Self) -> f64 {
+        if (self.rows, self.columns) == (other.rows, other.columns) {
+            self.zip(other, |a, b| a - b).largest()
+        } else {
+            f64::NAN
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nan_and_another_shape_equal_nothing() {
+        let a = Block::column(vec![f64::NAN, 0.0]);
+        assert!(a.difference(&a).is_nan());
+        let short = Block::column(vec![0.0]);
+        assert!(short.difference(&Block::column(vec![0.0, 0.0])).is_nan());
+        assert_eq!(a.worst(&Block::column(vec![0.0, 9.0])), Some((0, 0)));
+    }
+
+    #[test]
+    fn blocks_side_by_side_keep_their_rows() {
+        let column = |a, b| Block::column(vec![a, b]);
+        let c = Block::beside(&[column(1.0, 2.0), column(3.0, 5.0), column(4.0, 6.0)]);
+        assert_eq!(
+            (c.row(0), c.row(1)),
+            (&[1.0, 3.0, 4.0][..], &[2.0, 5.0, 6.0][..])
+        );
+        let products = (c.times(&[1.0, 1.0, 2.0]), c.transpose_times(&[1.0, 1.0]));
+        assert_eq!(products.0.entries(), [12.0, 19.0]);
+        assert_eq!(products.1.entries(), [3.0, 8.0, 10.0]);
+    }
+}

@@ -1,0 +1,268 @@
+//! One check for constraints and forces: all cases of a definition, and what holds in each.
+
+use joints::plane::{N_DOF, Pose};
+use joints::spec::Shape;
+
+use crate::block::Block;
+use crate::case::{Case, Kind, Motion};
+use crate::derivative::{Curve, Differences, Differentiate, DualNumbers};
+use crate::failure::{Claim, Failure, Oracle, Property, fact};
+use crate::number::Number;
+use crate::state::Along;
+use crate::subject::{By, Derivative, Subject};
+
+/// Checks all cases of one definition.
+pub(crate) fn check<S: Subject>(seed: u64) -> Result<(), Failure> {
+    let mut patterns = S::patterns()?;
+    let mut seen = S::Seen::default();
+    for case in Case::all(seed, &S::COMMON, S::ROWS.len()) {
+        let (subject, case) = assembled::<S>(&case)?;
+        let check = Check {
+            subject: &subject,
+            case: &case,
+        };
+        S::before(&check)?;
+        check.derivatives::<DualNumbers>(Oracle::DUAL_NUMBERS)?;
+        if case.has_differences() {
+            check.derivatives::<Differences>(Oracle::DIFFERENCES)?;
+        }
+        S::properties(&check)?;
+        check.rigid_motion()?;
+        for (kernel, pattern) in &mut patterns {
+            pattern.see(&check.at(*kernel, &case.motions[0]));
+        }
+        S::see(&check, &mut seen);
+    }
+    for (_, pattern) in &patterns {
+        pattern.all_alive(S::COMMON.name)?;
+    }
+    S::facts(&seen)
+}
+
+/// Starts tried for one case before its requirements count as never met.
+const STARTS: u64 = 20;
+
+/// The subject of a case, with a start where its requirements hold.
+fn assembled<S: Subject>(case: &Case) -> Result<(S, Case), Failure> {
+    let spec = &S::COMMON;
+    let fail = |property, entry| fact(spec.name, property, entry, [0.0, 1.0], Some(case));
+    let mut subject =
+        S::from_arguments(&case.arguments).map_err(|e| fail(Property::Arguments, e.to_string()))?;
+    let mut case = case.clone();
+    for attempt in 0..STARTS {
+        let definition = subject.definition();
+        definition.initialise(&case.start);
+        // One number beyond the requirements: it must hold too.
+        let mut all = 0..=spec.requirements.len();
+        if all.all(|k| definition.requirement(k, &case.start)) {
+            return Ok((subject, case));
+        }
+        case = case.with_another_start(attempt);
+    }
+    let entry = format!("none of {STARTS} starts meets {:?}", spec.requirements);
+    Err(fail(Property::Requirements, entry))
+}
+
+/// One case of one definition.
+pub(crate) struct Check<'a, S> {
+    pub(crate) subject: &'a S,
+    pub(crate) case: &'a Case,
+}
+
+/// A kernel along a curve.
+struct Path<'a, S: Subject> {
+    check: &'a Check<'a, S>,
+    motion: &'a Motion,
+    along: Along,
+    kernel: S::Kernel,
+}
+
+impl<S: Subject> Curve for Path<'_, S> {
+    fn at<D: Number>(&self, tau: D) -> Block<D> {
+        let state = self.along.state(self.check.case, self.motion, tau);
+        self.check.subject.kernel(self.kernel, &state)
+    }
+}
+
+impl<S: Subject> Check<'_, S> {
+    /// A kernel at the state itself.
+    pub(crate) fn at(&self, kernel: S::Kernel, motion: &Motion) -> Block {
+        self.curve(kernel, Along::Time, motion).at(0.0)
+    }
+
+    /// The blocks of all motions, side by side.
+    pub(crate) fn each(&self, block: impl Fn(&Motion) -> Block) -> Block {
+        Block::beside(&self.case.motions.iter().map(block).collect::<Vec<_>>())
+    }
+
+    fn curve<'s>(&'s self, kernel: S::Kernel, along: Along, motion: &'s Motion) -> Path<'s, S> {
+        Path {
+            check: self,
+            motion,
+            along,
+            kernel,
+        }
+    }
+
+    fn derivatives<O: Differentiate>(&self, oracle: Oracle) -> Result<(), Failure> {
+        S::derivatives().try_for_each(|derivative| {
+            let Derivative {
+                property,
+                kernel,
+                sign,
+                of,
+                by,
+            } = *derivative;
+            let found = self.each(|m| self.at(kernel, m));
+            let expected = self.each(|m| self.derivative::<O>(of, by, m).map(|e| sign * e));
+            self.claim(property, oracle, &found, &expected)
+        })
+    }
+
+    /// A derivative of a kernel.
+    pub(crate) fn derivative<O: Differentiate>(
+        &self,
+        of: S::Kernel,
+        by: By,
+        motion: &Motion,
+    ) -> Block {
+        let along_each = |along: fn(usize) -> Along| {
+            let column = |c| O::first(&self.curve(of, along(c), motion));
+            Block::beside(&(0..S::columns()).map(column).collect::<Vec<_>>())
+        };
+        match by {
+            By::Poses => along_each(Along::Pose),
+            By::Twists => along_each(Along::Twist),
+            By::Time => O::first(&self.curve(of, Along::Time, motion)),
+            By::Motion => O::first(&self.curve(of, Along::Motion, motion)),
+            By::MotionTwice => O::second(&self.curve(of, Along::Motion, motion)),
+        }
+    }
+
+    /// Norms are the same with all bodies moved as one.
+    fn rigid_motion(&self) -> Result<(), Failure> {
+        if self.case.kind != Kind::Ordinary || !is_internal::<S>() {
+            return Ok(());
+        }
+        let (subject, case) = assembled::<S>(&self.case.moved())?;
+        let moved = Check {
+            subject: &subject,
+            case: &case,
+        };
+        let oracle = Oracle::identity(self.scale());
+        S::INVARIANTS.iter().try_for_each(|&(kernel, name)| {
+            let norm = |check: &Check<'_, S>| {
+                Block::column(vec![check.each(|m| check.at(kernel, m)).norm()])
+            };
+            let claim = Claim {
+                property: Property::RigidMotion,
+                oracle,
+                found: &norm(&moved),
+                expected: &norm(self),
+            };
+            self.decide(&claim, |_, _| format!("norm of {name}"))
+        })
+    }
+
+    /// Generalised forces on all slots add up to no force and no moment, each.
+    pub(crate) fn balance(&self, loads: &[&[f64]], floor: f64) -> Result<(), Failure> {
+        let sums = loads.iter().map(|load| resultant(&self.case.x, load));
+        let sums = Block::beside(&sums.collect::<Vec<_>>());
+        let none = Block::filled(N_DOF, loads.len(), 0.0);
+        self.claim(Property::Balance, Oracle::identity(floor), &sums, &none)
+    }
+
+    /// What a relative error of 1 in the coordinates does to Φ or Q and, the rows of C having a
+    /// size of about one length, to C.
+    pub(crate) fn scale(&self) -> f64 {
+        let slope = self.at(S::SLOPE, &self.case.motions[0]);
+        slope.largest().max(1.0) * self.case.size()
+    }
+
+    /// Equality up to what an error of the coordinates can do.
+    pub(crate) fn identity(
+        &self,
+        property: Property,
+        found: &Block,
+        expected: &Block,
+    ) -> Result<(), Failure> {
+        self.claim(property, Oracle::identity(self.scale()), found, expected)
+    }
+
+    /// Decides a claim whose entries are named by the property.
+    pub(crate) fn claim(
+        &self,
+        property: Property,
+        oracle: Oracle,
+        found: &Block,
+        expected: &Block,
+    ) -> Result<(), Failure> {
+        let claim = Claim {
+            property,
+            oracle,
+            found,
+            expected,
+        };
+        self.decide(&claim, |row, column| entry::<S>(property, row, column))
+    }
+
+    /// Returns the worst entry if the claim does not hold, named by `entry`.
+    pub(crate) fn decide(
+        &self,
+        claim: &Claim<'_>,
+        entry: impl Fn(usize, usize) -> String,
+    ) -> Result<(), Failure> {
+        claim.decide(S::COMMON.name, self.case, entry)
+    }
+
+    /// A failure of a fact of this case.
+    pub(crate) fn fact(&self, property: Property, entry: String, facts: [f64; 2]) -> Failure {
+        fact(S::COMMON.name, property, entry, facts, Some(self.case))
+    }
+}
+
+/// Whether a definition relates bodies to each other, by what its spec says.
+pub(crate) fn is_internal<S: Subject>() -> bool {
+    let on_ground = |p: &joints::spec::Parameter| p.shape == Shape::GroundLine;
+    S::COMMON.slots.len() > 1 && !S::COMMON.parameters.iter().any(on_ground)
+}
+
+/// Force and moment about the global origin of a generalised force on all slots.
+fn resultant(x: &[Pose], q: &[f64]) -> Block {
+    let mut sum = [0.0; N_DOF];
+    for (x, q) in x.iter().zip(q.chunks(N_DOF)) {
+        sum[0] += q[0];
+        sum[1] += q[1];
+        sum[2] += q[2] + x.x * q[1] - x.y * q[0];
+    }
+    Block::column(sum.to_vec())
+}
+
+/// An entry of a property in words; blocks of several motions stand side by side.
+pub(crate) fn entry<S: Subject>(property: Property, row: usize, column: usize) -> String {
+    let n = S::columns();
+    let row_name = |row: usize| match S::ROWS.get(row) {
+        Some(r) => format!("row `{}`", r.name),
+        None => format!("motion {row}"),
+    };
+    let dof = |column: usize| {
+        let slot = S::COMMON.slots[column / N_DOF % S::COMMON.slots.len()];
+        format!("{slot}.{}", ["x", "y", "rotation"][column % N_DOF])
+    };
+    let of_dof = || format!("column {}, motion {}", dof(column), column / n);
+    match property {
+        Property::DForceDx | Property::DqDx | Property::DqDv => {
+            format!("row {}, {}", dof(row), of_dof())
+        }
+        Property::C | Property::DResidualDx | Property::DGammaDv | Property::DVelocityDx => {
+            format!("{}, {}", row_name(row), of_dof())
+        }
+        Property::B | Property::Velocity | Property::Gamma | Property::GammaFromPhi => {
+            format!("{}, motion {column}", row_name(row))
+        }
+        Property::Wrench => format!("{}, {}", ["Fx", "Fy", "T"][row], row_name(column)),
+        Property::Balance => format!("sum of {}, {}", ["Fx", "Fy", "T"][row], row_name(column)),
+        Property::Place => format!("{}, column {}", ["x", "y"][row], dof(column)),
+        _ => row_name(row),
+    }
+}

@@ -1,0 +1,167 @@
+//! The numbers that a constraint stores: read and put back, and the derivatives by them. Fields are
+//! plain numbers, so that no dual number goes through them: the references are differences through
+//! `set_data`, and, for the second kernel, dual numbers through the poses of the first.
+
+use joints::Constraint;
+use joints::spec::{DatumShape, Level};
+
+use super::{Kernel, OfConstraint};
+use crate::block::{Block, dot};
+use crate::case::Motion;
+use crate::check::Check;
+use crate::derivative::{DualNumbers, by_differences};
+use crate::failure::{Claim, Failure, Oracle, Property};
+use crate::state::stacked;
+use crate::subject::By;
+
+/// Added to each number in turn: nothing that a case draws.
+const ANOTHER: f64 = 0.0625;
+
+/// Components of unit vectors carry the round-off of a quotient each.
+const UNIT: f64 = 4.0 * f64::EPSILON;
+
+/// Everything that depends on the numbers.
+const ALL: [Kernel; 6] = [
+    Kernel::Phi,
+    Kernel::C,
+    Kernel::B,
+    Kernel::Gamma,
+    Kernel::Wrench,
+    Kernel::Place,
+];
+
+impl<K: Constraint> Check<'_, OfConstraint<K>> {
+    /// All that concerns the numbers that the constraint stores.
+    pub(super) fn data(&self) -> Result<(), Failure> {
+        let numbers = self.numbers();
+        self.data_facts(&numbers)?;
+        self.data_put_back(&numbers)?;
+        if self.case.has_differences() {
+            let by_numbers = |kernel| self.each(|m| self.by_data(kernel, &numbers, m));
+            let (phi, residual) = (by_numbers(Kernel::Phi), by_numbers(Kernel::Residual));
+            self.data_claim(Property::DPhiDp, Oracle::DIFFERENCES, &phi)?;
+            self.data_claim(Property::DResidualDp, Oracle::DIFFERENCES, &residual)?;
+        }
+        if K::SPEC.level == Level::Holonomic {
+            let residual = self.each(|m| self.residual_by_data(m));
+            self.data_claim(Property::DResidualDp, Oracle::DUAL_NUMBERS, &residual)?;
+        }
+        Ok(())
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        let mut out = vec![f64::NAN; K::SPEC.n_data()];
+        self.subject.0.data(&mut out);
+        out
+    }
+
+    /// The answer of `ask` for the constraint with these numbers.
+    fn with_data<T>(&self, numbers: &[f64], ask: impl Fn(&Check<'_, OfConstraint<K>>) -> T) -> T {
+        let mut subject = OfConstraint(self.subject.0.clone());
+        subject.0.set_data(numbers);
+        ask(&Check {
+            subject: &subject,
+            case: self.case,
+        })
+    }
+
+    /// Each number belongs to one datum, all of them are listed, and directions are unit vectors.
+    fn data_facts(&self, numbers: &[f64]) -> Result<(), Failure> {
+        let mut next = 0;
+        for datum in K::SPEC.data {
+            let name = datum.name;
+            self.data_fact(&format!("place of `{name}`"), datum.first != next)?;
+            next += datum.shape.count();
+            let values = &numbers[datum.numbers()];
+            let untold = values.iter().any(|x| !x.is_finite());
+            self.data_fact(&format!("numbers of `{name}`"), untold)?;
+            let unit = match datum.shape {
+                DatumShape::Direction { .. } => values,
+                DatumShape::Line => &values[2..],
+                _ => continue,
+            };
+            let off = (unit[0].hypot(unit[1]) - 1.0).abs() > UNIT;
+            self.data_fact(&format!("length of the unit vector of `{name}`"), off)?;
+        }
+        Ok(())
+    }
+
+    fn data_fact(&self, entry: &str, wrong: bool) -> Result<(), Failure> {
+        if wrong {
+            Err(self.fact(Property::Data, entry.to_owned(), [0.0, 1.0]))
+        } else {
+            Ok(())
+        }
+    }
+
+    /// What `data` returns is what `set_data` puts back, and nothing else changes.
+    fn data_put_back(&self, numbers: &[f64]) -> Result<(), Failure> {
+        let same = self.with_data(numbers, bits);
+        let changed = bits(self) != same;
+        self.data_fact("kernels after `set_data` of the same numbers", changed)?;
+        for k in 0..numbers.len() {
+            let mut other = numbers.to_vec();
+            other[k] += ANOTHER;
+            let (told, back) = self.with_data(&other, |check| {
+                (check.numbers(), check.with_data(numbers, bits))
+            });
+            self.data_fact(&format!("number {k}, set and told"), told != other)?;
+            self.data_fact(&format!("number {k}, changed and put back"), back != same)?;
+        }
+        Ok(())
+    }
+
+    /// The derivatives of `λᵀ·kernel` by all numbers, by differences.
+    fn by_data(&self, kernel: Kernel, numbers: &[f64], motion: &Motion) -> Block {
+        let slope = |number: usize| {
+            let differences = by_differences(|step| {
+                let mut numbers = numbers.to_vec();
+                numbers[number] += step;
+                let rows = self.with_data(&numbers, |check| check.at(kernel, motion));
+                Block::column(vec![dot(rows.entries(), &motion.lambda)])
+            });
+            differences.get(0, 0)
+        };
+        Block::column((0..numbers.len()).map(slope).collect())
+    }
+
+    /// `∂(λᵀ·(C·a − Γ))/∂p` of holonomic constraints from `g = ∂(λᵀ·Φ)/∂p`: `C·a − Γ` is the change
+    /// of Φ along a, bodies only, and its second derivative along `x + τv` and `t + τ`, so the same
+    /// holds for g.
+    fn residual_by_data(&self, m: &Motion) -> Block {
+        let by_pose = self.derivative::<DualNumbers>(Kernel::DPhiDp, By::Poses, m);
+        let along_v = self.derivative::<DualNumbers>(Kernel::DPhiDp, By::MotionTwice, m);
+        let along_a = by_pose.times(&stacked(&m.a));
+        along_a.zip(&along_v, |a, v| a + v)
+    }
+
+    fn data_claim(
+        &self,
+        property: Property,
+        oracle: Oracle,
+        expected: &Block,
+    ) -> Result<(), Failure> {
+        let kernel = match property {
+            Property::DPhiDp => Kernel::DPhiDp,
+            _ => Kernel::DResidualDp,
+        };
+        let claim = Claim {
+            property,
+            oracle,
+            found: &self.each(|m| self.at(kernel, m)),
+            expected,
+        };
+        self.decide(&claim, |row, column| {
+            let datum = K::SPEC.data.iter().find(|d| d.numbers().contains(&row));
+            let name = datum.map_or("", |d| d.name);
+            let number = datum.map_or(row, |d| row - d.first);
+            format!("number {number} of `{name}`, motion {column}")
+        })
+    }
+}
+
+fn bits<K: Constraint>(check: &Check<'_, OfConstraint<K>>) -> Vec<u64> {
+    let m = &check.case.motions[0];
+    let block = |kernel| check.at(kernel, m).map(f64::to_bits).entries().to_vec();
+    ALL.into_iter().flat_map(block).collect()
+}

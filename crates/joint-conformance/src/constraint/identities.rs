@@ -1,0 +1,143 @@
+//! What holds between the kernels of a constraint without derivatives: wrench, place, balance of
+//! forces, the start.
+
+use joints::Constraint;
+use joints::plane::{N_DOF, Pose};
+use joints::spec::Level;
+
+use super::{Kernel, OfConstraint};
+use crate::block::Block;
+use crate::case::{Case, Kind};
+use crate::check::{Check, is_internal};
+use crate::derivative::DualNumbers;
+use crate::failure::{DUAL_TOLERANCE, Failure, Property};
+use crate::subject::{By, Subject};
+
+impl<K: Constraint> Check<'_, OfConstraint<K>> {
+    fn first(&self, kernel: Kernel) -> Block {
+        self.at(kernel, &self.case.motions[0])
+    }
+
+    /// `F = −C_v`, `T = −C_ω − (place − origin) × F`.
+    pub(super) fn wrench(&self) -> Result<(), Failure> {
+        let x = &self.case.x;
+        let c = self.first(Kernel::C);
+        let place = self.first(Kernel::Place);
+        let lever = [place.get(0, 0) - x[0].x, place.get(1, 0) - x[0].y];
+        let mut expected = Block::filled(N_DOF, c.rows(), 0.0);
+        for row in 0..c.rows() {
+            let force = [-c.get(row, 0), -c.get(row, 1)];
+            expected.set(0, row, force[0]);
+            expected.set(1, row, force[1]);
+            let moment = lever[0] * force[1] - lever[1] * force[0];
+            expected.set(2, row, -c.get(row, 2) - moment);
+        }
+        self.identity(Property::Wrench, &self.first(Kernel::Wrench), &expected)
+    }
+
+    /// At most the force of each multiplier, or its torque where it has no force.
+    pub(super) fn component(&self) -> Result<(), Failure> {
+        let wrench = self.first(Kernel::Wrench);
+        let found = self.first(Kernel::Component);
+        let bound = |row| match wrench.get(0, row).hypot(wrench.get(1, row)) {
+            0.0 => wrench.get(2, row).abs(),
+            force => force,
+        };
+        // Equal where within the bound, else the bound: what exceeds it is the error.
+        let within = |row| {
+            let (value, bound): (f64, f64) = (found.get(row, 0), bound(row));
+            if value.is_nan() {
+                0.0
+            } else {
+                value.clamp(-bound, bound)
+            }
+        };
+        let expected = Block::column((0..found.rows()).map(within).collect());
+        self.identity(Property::Component, &found, &expected)
+    }
+
+    /// The place moves with the first body, and with no other.
+    pub(super) fn place(&self) -> Result<(), Failure> {
+        let (x, motion) = (&self.case.x, &self.case.motions[0]);
+        let found = self.derivative::<DualNumbers>(Kernel::Place, By::Poses, motion);
+        let place = self.first(Kernel::Place);
+        let mut expected = Block::filled(2, OfConstraint::<K>::columns(), 0.0);
+        expected.set(0, 0, 1.0);
+        expected.set(1, 1, 1.0);
+        expected.set(0, 2, -(place.get(1, 0) - x[0].y));
+        expected.set(1, 2, place.get(0, 0) - x[0].x);
+        self.identity(Property::Place, &found, &expected)
+    }
+
+    /// Only where Φ = 0: elsewhere two points that should coincide give the pair of forces a lever.
+    pub(super) fn rows_balance(&self) -> Result<(), Failure> {
+        let holonomic = K::SPEC.level == Level::Holonomic;
+        let ordinary = self.case.kind == Kind::Ordinary;
+        if !(ordinary && holonomic && is_internal::<OfConstraint<K>>()) {
+            return Ok(());
+        }
+        let case = self.closed();
+        let check = self.with(&case);
+        let c = check.first(Kernel::C);
+        let left = check.first(Kernel::Phi).norm();
+        let floor = c.largest().max(1.0) * case.size() + left / DUAL_TOLERANCE;
+        check.balance(
+            &(0..c.rows()).map(|row| c.row(row)).collect::<Vec<_>>(),
+            floor,
+        )
+    }
+
+    fn with<'s>(&'s self, case: &'s Case) -> Check<'s, OfConstraint<K>> {
+        Check {
+            subject: self.subject,
+            case,
+        }
+    }
+
+    /// The case with its poses moved until Φ = 0, or nearly so: corrections along one row of C
+    /// after the other, which need no rank.
+    fn closed(&self) -> Case {
+        const SWEEPS: usize = 100;
+        let mut case = self.case.clone();
+        for _ in 0..SWEEPS {
+            let phi = self.with(&case).first(Kernel::Phi);
+            if phi.largest() <= f64::EPSILON * case.size() {
+                break;
+            }
+            for row in 0..K::SPEC.rows.len() {
+                let phi = self.with(&case).first(Kernel::Phi).get(row, 0);
+                let c = self.with(&case).first(Kernel::C);
+                let square: f64 = c.row(row).iter().map(|e| e * e).sum();
+                if phi == 0.0 || square == 0.0 {
+                    continue;
+                }
+                for (x, c) in case.x.iter_mut().zip(c.row(row).chunks(N_DOF)) {
+                    let [dx, dy, turn] = [0, 1, 2].map(|dof| -c[dof] * phi / square);
+                    *x = Pose::new(x.x + dx, x.y + dy, x.angle + turn);
+                }
+            }
+        }
+        case
+    }
+
+    /// Rows that keep the start are zero there.
+    pub(super) fn start(&self) -> Result<(), Failure> {
+        let phi = phi_at_start(self);
+        let kept = |row: usize| {
+            let restricts = K::SPEC.rows[row].restricts_start;
+            if restricts { phi.get(row, 0) } else { 0.0 }
+        };
+        let expected = Block::column((0..phi.rows()).map(kept).collect());
+        self.identity(Property::Start, &phi, &expected)
+    }
+}
+
+/// Φ at the start, functions of time zero.
+pub(super) fn phi_at_start<K: Constraint>(check: &Check<'_, OfConstraint<K>>) -> Block {
+    let start = Case {
+        x: check.case.start.clone(),
+        f: vec![[0.0; 3]; check.case.f.len()],
+        ..check.case.clone()
+    };
+    check.with(&start).first(Kernel::Phi)
+}

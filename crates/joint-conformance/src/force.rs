@@ -1,0 +1,125 @@
+//! The kernels of a force, and the properties that forces alone have.
+
+use joints::plane::Twist;
+use joints::spec::{Row, Spec};
+use joints::{Argument, ArgumentError, Definition, Force};
+
+use crate::block::{Block, dot};
+use crate::case::Motion;
+use crate::check::{Check, is_internal};
+use crate::failure::{Claim, Failure, Oracle, Property, fact};
+use crate::number::Number;
+use crate::pattern::Pattern;
+use crate::state::{State, stacked};
+use crate::subject::{By, Derivative, Subject, sparse};
+
+/// A force as a subject of the harness.
+pub(crate) struct OfForce<K>(K);
+
+/// Kernels of a force.
+#[derive(Clone, Copy)]
+pub(crate) enum Kernel {
+    Q,
+    DqDx,
+    DqDv,
+}
+
+const DERIVATIVES: [Derivative<Kernel>; 2] = [
+    Derivative::new(Property::DqDx, Kernel::DqDx, 1.0, Kernel::Q, By::Poses),
+    Derivative::new(Property::DqDv, Kernel::DqDv, 1.0, Kernel::Q, By::Twists),
+];
+
+impl<K: Force> Subject for OfForce<K> {
+    type Kernel = Kernel;
+    type Seen = ();
+
+    const COMMON: Spec = K::SPEC.common;
+    const ROWS: &'static [Row] = &[];
+    const SLOPE: Kernel = Kernel::DqDx;
+    const INVARIANTS: &'static [(Kernel, &'static str)] = &[(Kernel::Q, "Q")];
+
+    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
+        K::from_arguments(arguments).map(Self)
+    }
+
+    fn definition(&mut self) -> &mut dyn Definition {
+        &mut self.0
+    }
+
+    fn kernel<D: Number>(&self, kernel: Kernel, at: &State<D>) -> Block<D> {
+        let k = self.0.element::<D>();
+        let State { x, v, f, .. } = at;
+        let n = Self::columns();
+        match kernel {
+            Kernel::Q => sparse([n, 1], &q_pattern::<K>(), |out| k.q(x, v, f, out)),
+            Kernel::DqDx => sparse([n, n], K::SPEC.dq_dx, |out| k.dq_dx(x, v, f, out)),
+            Kernel::DqDv => sparse([n, n], K::SPEC.dq_dv, |out| k.dq_dv(x, v, f, out)),
+        }
+    }
+
+    fn patterns() -> Result<Vec<(Kernel, Pattern)>, Failure> {
+        let (n, name, spec) = (Self::columns(), Self::COMMON.name, &K::SPEC);
+        let q = Pattern::new(name, "Q", [n, 1], q_pattern::<K>())?;
+        let dq_dx = Pattern::new(name, "∂Q/∂x", [n, n], spec.dq_dx.to_vec())?;
+        let dq_dv = Pattern::new(name, "∂Q/∂v", [n, n], spec.dq_dv.to_vec())?;
+        Ok(vec![
+            (Kernel::Q, q),
+            (Kernel::DqDx, dq_dx),
+            (Kernel::DqDv, dq_dv),
+        ])
+    }
+
+    fn derivatives() -> impl Iterator<Item = &'static Derivative<Kernel>> {
+        DERIVATIVES.iter()
+    }
+
+    fn properties(check: &Check<'_, Self>) -> Result<(), Failure> {
+        for m in &check.case.motions {
+            if is_internal::<Self>() {
+                let q = check.at(Kernel::Q, m);
+                check.balance(&[q.entries()], q.largest() * check.case.size())?;
+            }
+            check.dissipation(m)?;
+        }
+        Ok(())
+    }
+
+    fn facts((): &()) -> Result<(), Failure> {
+        let depends_on_velocity = !K::SPEC.dq_dv.is_empty();
+        if K::SPEC.dissipative == depends_on_velocity {
+            return Ok(());
+        }
+        let entry = "`dissipative` of the spec against the pattern of ∂Q/∂v".to_owned();
+        let facts = [K::SPEC.dissipative, depends_on_velocity].map(f64::from);
+        Err(fact(Self::COMMON.name, Property::DqDv, entry, facts, None))
+    }
+}
+
+fn q_pattern<K: Force>() -> Vec<[usize; 2]> {
+    K::SPEC.q.iter().map(|&row| [row, 0]).collect()
+}
+
+impl<K: Force> Check<'_, OfForce<K>> {
+    /// `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0`.
+    fn dissipation(&self, m: &Motion) -> Result<(), Failure> {
+        let rest = Motion {
+            v: vec![Twist::zero(); m.v.len()],
+            ..m.clone()
+        };
+        let (still, q) = (self.at(Kernel::Q, &rest), self.at(Kernel::Q, m));
+        let (v, a) = (stacked(&m.v), stacked(&m.a));
+        let slope = self.at(Kernel::DqDv, m);
+        let power = dot(q.zip(&still, |q, s| q - s).entries(), &v);
+        let curvature = dot(slope.times(&a).entries(), &a);
+        let found = Block::column(vec![power, curvature]);
+        let forces = q.largest() + still.largest() + slope.largest();
+        let claim = Claim {
+            property: Property::Dissipation,
+            oracle: Oracle::identity(forces * (dot(&v, &v) + dot(&a, &a) + 1.0)),
+            found: &found,
+            expected: &found.map(|e| e.min(0.0)),
+        };
+        let names = ["power of the velocity terms", "curvature of the power"];
+        self.decide(&claim, |row, _| names[row].to_owned())
+    }
+}

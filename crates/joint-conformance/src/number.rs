@@ -1,0 +1,124 @@
+//! Number types of the references: plain numbers for differences, dual numbers for exact
+//! derivatives.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use joints::Real;
+use num_dual::DualNum;
+
+/// A number that poses can be made of: cosine and sine come from the number itself.
+pub(crate) trait Number: Real {
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+}
+
+impl Number for f64 {
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+}
+
+/// A dual number of `num-dual` as a number of kernels.
+#[derive(Clone, Copy)]
+pub(crate) struct Dual<D>(pub(crate) D);
+
+impl<D: DualNum<Primitive = f64> + Copy> Number for Dual<D> {
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.0.sin_cos();
+        (Self(sin), Self(cos))
+    }
+}
+
+/// As for plain numbers, root and reciprocal of zero are zero with derivatives zero.
+impl<D: DualNum<Primitive = f64> + Copy> Real for Dual<D> {
+    fn sqrt(self) -> Self {
+        self.unless_zero(DualNum::sqrt)
+    }
+
+    fn recip_or_zero(self) -> Self {
+        self.unless_zero(DualNum::recip)
+    }
+}
+
+impl<D: DualNum<Primitive = f64> + Copy> Dual<D> {
+    fn unless_zero(self, function: impl Fn(&D) -> D) -> Self {
+        if self.0.re() == 0.0 {
+            Self::from(0.0)
+        } else {
+            Self(function(&self.0))
+        }
+    }
+}
+
+impl<D: DualNum<Primitive = f64>> From<f64> for Dual<D> {
+    fn from(x: f64) -> Self {
+        Self(D::from(x))
+    }
+}
+
+impl<D: DualNum> Add for Dual<D> {
+    type Output = Self;
+
+    fn add(self, y: Self) -> Self {
+        Self(self.0 + y.0)
+    }
+}
+
+impl<D: DualNum> Sub for Dual<D> {
+    type Output = Self;
+
+    fn sub(self, y: Self) -> Self {
+        Self(self.0 - y.0)
+    }
+}
+
+impl<D: DualNum> Mul for Dual<D> {
+    type Output = Self;
+
+    fn mul(self, y: Self) -> Self {
+        Self(self.0 * y.0)
+    }
+}
+
+impl<D: DualNum> Div for Dual<D> {
+    type Output = Self;
+
+    fn div(self, y: Self) -> Self {
+        Self(self.0 / y.0)
+    }
+}
+
+impl<D: DualNum> Neg for Dual<D> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_dual::{Dual2_64, Dual64};
+
+    use super::*;
+
+    #[test]
+    fn roots_and_reciprocals_have_their_textbook_derivatives() {
+        // √x at 4: 2, 1/4, −1/32.
+        let root = Real::sqrt(Dual(Dual2_64::new(4.0, 1.0, 0.0))).0;
+        assert_eq!((root.re, root.v1, root.v2), (2.0, 0.25, -0.03125));
+        // 1/x at 2: 1/2, −1/4, 1/4.
+        let inverse = Dual(Dual2_64::new(2.0, 1.0, 0.0)).recip_or_zero().0;
+        assert_eq!((inverse.re, inverse.v1, inverse.v2), (0.5, -0.25, 0.25));
+        let inverse = Dual(Dual64::new(2.0, 1.0)).recip_or_zero().0;
+        assert_eq!((inverse.re, inverse.eps), (0.5, -0.25));
+    }
+
+    #[test]
+    fn at_zero_both_are_zero_with_derivative_zero() {
+        let x = Dual(Dual64::new(0.0, 3.0));
+        let (root, inverse) = (Real::sqrt(x).0, x.recip_or_zero().0);
+        assert_eq!((root.re, root.eps), (0.0, 0.0));
+        assert_eq!((inverse.re, inverse.eps), (0.0, 0.0));
+    }
+}
