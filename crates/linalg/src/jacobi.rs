@@ -107,4 +107,14 @@ mod tests {
         let svd = small_svd(&a);
         assert!((svd.sigma[1] / (1e-12 * 2f64.sqrt()) - 1.0).abs() < 1e-14);
     }
+
+    /// AᵀA = [1 c; c 1 + c²]: σ = √(1 + c²/4) ± c/2. The columns are orthogonal to 256 roundings.
+    #[test]
+    fn nearly_orthogonal_columns_are_turned_too() {
+        let c = 256.0 * f64::EPSILON;
+        let svd = small_svd(&Matrix::from_rows(&[[1.0, c], [0.0, 1.0]]));
+        for (sigma, exact) in svd.sigma.iter().zip([1.0 + c / 2.0, 1.0 - c / 2.0]) {
+            assert!((sigma - exact).abs() <= 4.0 * f64::EPSILON, "{sigma}");
+        }
+    }
 }

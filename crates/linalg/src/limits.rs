@@ -1,32 +1,36 @@
 //! The table of limits: every number of this crate that somebody chose. Each says what it is, in
 //! which unit, what breaks if it is wrong (`Less`: if it were smaller, `More`: if it were larger),
-//! and which test fails then; `none` if there is none yet. `tests/all/limits.rs` reads it.
+//! and which test fails then; `none, work only` if only time or memory change, `none` if there is no
+//! test yet. `tests/all/limits.rs` reads it.
 
 // Singular values and scaling.
 
 /// Sweeps of an equilibration at most. Each one halves the exponents still to be balanced, and the
 /// exponents of `f64` span 2098 < 2¹², so more change nothing unless the pattern fights back.
-/// Unit: sweeps. Less: matrices of extreme entries stay badly scaled. More: time. Test: none.
+/// Unit: sweeps. Less: matrices of extreme entries stay badly scaled. More: time. Test:
+/// `row_and_column_maxima_are_near_one`.
 pub(crate) const EQUILIBRATION_SWEEPS: usize = 12;
 
 /// Sweeps of Jacobi rotations over all pairs of columns or rows at most; convergence is quadratic,
 /// four to six are usual.
 /// Unit: sweeps. Less: singular values are not accurate. More: time, where something is not a
-/// number. Test: none.
+/// number. Test: `zeros_on_the_diagonal_cut_the_matrix`.
 pub(crate) const JACOBI_SWEEPS: usize = 40;
 
 /// Columns are orthogonal if the cosine between them is below this: a few roundings.
-/// Unit: 1. Less: rotations by rounding go on. More: singular values lose digits. Test: none.
+/// Unit: 1. Less: time, for rotations by rounding. More: singular values lose digits. Test:
+/// `nearly_orthogonal_columns_are_turned_too`.
 pub(crate) const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
 
 /// Squared rows below this, relative to a largest entry of one, are zero for every purpose; keeps
 /// the products of two of them clear of underflow.
-/// Unit: 1. Less: products underflow. More: small singular values become zero. Test: none.
+/// Unit: 1. Less: products underflow. More: small singular values become zero. Test:
+/// `rotations_keep_the_digits_of_rows_whose_squares_are_tiny`.
 pub(crate) const ZERO_SQUARED: f64 = 1e-150;
 
 /// Steps of the implicit QR algorithm for each singular value at most; two or three are needed.
-/// Unit: steps. Less: large matrices have no singular values. More: time, where something is not a
-/// number. Test: none.
+/// Unit: steps. Less: Jacobi rotations take over, which take longer. More: time, where something is
+/// not a number. Test: none, work only.
 pub(crate) const QR_STEPS_EACH: usize = 60;
 
 #[cfg(feature = "faer")]
@@ -34,20 +38,19 @@ pub(crate) const QR_STEPS_EACH: usize = 60;
 /// faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by
 /// `cargo run --release -p pfaff-linalg --features faer --example timings`). Our own gives the same
 /// bits on every processor, which faer's run-time choice of instructions does not.
-/// Unit: rows or columns. Less: other bits on other processors. More: time. Test: none.
+/// Unit: rows or columns. Less: the last bits differ between processors. More: time. Test: none,
+/// work only.
 pub(crate) const FAER_FROM: usize = 256;
 
 /// A downdated norm is recomputed once cancellation has eaten half of its digits: √eps.
-/// Unit: share of the norm. Less: the longest column is not found. More: time. Test: none.
+/// Unit: share of the norm. Less: the longest column is not found. More: time. Test:
+/// `graded_columns_downdate_safely`.
 pub(crate) const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
 
 /// Squares of numbers above this do not lose digits in sums.
-/// Unit: 1. Less: norms of small vectors underflow. More: time. Test: none.
+/// Unit: 1. Less: norms of small vectors underflow. More: time. Test:
+/// `norm_survives_the_ends_of_the_range`.
 pub(crate) const SQUARE_MIN: f64 = 1e-140;
-
-/// Squares of numbers below this do not overflow in sums.
-/// Unit: 1. Less: time. More: norms of large vectors overflow. Test: none.
-pub(crate) const SQUARE_MAX: f64 = 1e140;
 
 // Kept rows, solved densely.
 
@@ -87,7 +90,8 @@ pub(crate) const REFINEMENT_ROUNDS: usize = 8;
 
 /// What the next round of refinement would change, as a share: below the rounding of an `f64` there
 /// is nothing to gain.
-/// Unit: share of each unknown. Less: rounds without gain. More: the last bit is wrong. Test: none.
+/// Unit: share of each unknown. Less: rounds without gain. More: the last bit is wrong. Test:
+/// `whole_numbers_come_back_exactly`.
 pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
 
 /// Changes this much smaller than the largest unknown of their kind, twice running, are rounding of
@@ -106,28 +110,32 @@ pub(crate) const SCHUR_NOISE: f64 = 1e-7;
 
 /// Rows that miss by more than this are corrected.
 /// Unit: share of the terms of the row. Less: corrections of rounding. More: digits are lost. Test:
-/// none.
+/// `random_mechanisms_move_as_with_the_dense_solver`.
 pub(crate) const SCHUR_ENOUGH: f64 = 1e-14;
 
 /// Rows that miss by more than this after all corrections are not solved.
 /// Unit: share of the terms of the row. Less: good solutions are refused. More: poor ones are
-/// given. Test: none.
+/// given. Test: `what_corrections_leave_is_refused_from_a_billionth_on`.
 pub(crate) const SCHUR_POOR: f64 = 1e-9;
 
 /// Corrections at most.
-/// Unit: corrections. Less: badly conditioned rows are refused. More: time. Test: none.
+/// Unit: corrections. Less: badly conditioned rows are refused. More: time. Test:
+/// `corrections_go_on_while_they_halve_what_is_left`.
 pub(crate) const SCHUR_CORRECTIONS: usize = 4;
 
 /// A correction has to leave less than this, or it is of no use.
-/// Unit: share of the miss before. Less: slow corrections are given up. More: time. Test: none.
+/// Unit: share of the miss before. Less: slow corrections are given up. More: time. Test:
+/// `corrections_go_on_while_they_halve_what_is_left`.
 pub(crate) const SCHUR_PROGRESS: f64 = 0.5;
 
 /// A front becomes one with its parent if that leaves at most this share of zeros in the columns
 /// of both.
-/// Unit: share of the entries. Less: many small fronts. More: products with zeros. Test: none.
+/// Unit: share of the entries. Less: many small fronts. More: products with zeros. Test:
+/// `a_hanging_chain_of_point_masses_pulls_with_its_weight`.
 pub(crate) const FRONT_ZEROS: f64 = 0.15;
 
 /// A front becomes one with its parent if that adds no more than so many zeros: a front of its own
 /// costs as much as some ten products.
-/// Unit: entries. Less: many small fronts. More: products with zeros. Test: none.
+/// Unit: entries. Less: many small fronts. More: products with zeros. Test:
+/// `a_hanging_chain_of_point_masses_pulls_with_its_weight`.
 pub(crate) const FRONT_FEW_ZEROS: usize = 24;

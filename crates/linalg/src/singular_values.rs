@@ -195,6 +195,17 @@ mod tests {
         }
     }
 
+    /// [1 1; 0 1] has the golden ratio and its inverse. Squares of the small rows are 1e-149, their
+    /// products 1e-298: still numbers of full precision.
+    #[test]
+    fn rotations_keep_the_digits_of_rows_whose_squares_are_tiny() {
+        let (size, golden) = (5e-75, (1.0 + 5f64.sqrt()) / 2.0);
+        let a = Matrix::from_rows(&[[1.0, 0.0, 0.0], [0.0, size, size], [0.0, 0.0, size]]);
+        for (sigma, exact) in by_jacobi(a).iter().zip([1.0, size * golden, size / golden]) {
+            assert!((sigma / exact - 1.0).abs() < 1e-14, "{sigma:e} {exact:e}");
+        }
+    }
+
     #[test]
     fn zeros_on_the_diagonal_cut_the_matrix() {
         // Jordan blocks with eigenvalue 0: singular values 1, and one 0 for each block.

@@ -1,21 +1,24 @@
 //! The table of limits: every number of this crate that somebody chose. Each says what it is, in
 //! which unit, what breaks if it is wrong (`Less`: if it were smaller, `More`: if it were larger),
-//! and which test fails then; `none` if there is none yet. `tests/all/limits.rs` reads it.
+//! and which test fails then; `none, work only` if only time or memory change, `none` if there is no
+//! test yet. `tests/all/limits.rs` reads it.
 
 // Ranks and certificates.
 
 /// Rows up to which a rank is certified: the work grows with their cube.
-/// Unit: rows. Less: ranks of large mechanisms are not certified. More: time. Test: none.
+/// Unit: rows. Less: ranks of large mechanisms are not certified. More: time. Test:
+/// `a_part_is_asked_under_what_the_rest_does_to_it`.
 pub(crate) const ROWS_MAX: usize = 600;
 
 /// Rows up to which coefficients are read to a stated tolerance: the work grows with the number of
 /// rows times that of dependencies, and with the cube of both.
-/// Unit: rows. Less: coefficients are read to rounding only. More: time. Test: none.
+/// Unit: rows. Less: coefficients are read to rounding only. More: time. Test:
+/// `a_component_that_is_none_within_the_tolerance_says_so`.
 pub(crate) const TOLERANCE_ROWS: usize = 200;
 
 /// Coefficients that are larger belong to their dependency beyond doubt.
-/// Unit: coefficient of the equilibrated dependencies. Less: time. More: coefficients that the data
-/// could make zero are believed. Test: none.
+/// Unit: coefficient of the equilibrated dependencies. Less: coefficients that the data could make
+/// zero are believed. More: time. Test: none.
 pub(crate) const COEFFICIENT_LARGE: f64 = 1e-3;
 
 /// Coefficients below this share of their noise are zero beyond doubt.
@@ -85,19 +88,19 @@ pub(crate) const CLEAR_OF_NOISE: f64 = 1e3;
 
 /// Share of a singular value in f64 that double-double has to confirm.
 /// Unit: share of a singular value. Less: rounding of `f64` is believed. More: ranks are not
-/// confirmed. Test: none.
+/// confirmed. Test: `a_door_turns_within_its_tolerance`.
 pub(crate) const CONFIRMED: f64 = 0.1;
 
 /// A lower rank is told where the data are nearer to it than this share of the size.
 /// Unit: share of the size. Less: near redundancy is not told. More: sound mechanisms are told to
-/// be near it. Test: none.
+/// be near it. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const NEAR_TOLD: f64 = 1e-3;
 
 /// Equations of the first order are wrong by the square of the change, as a share of the size,
 /// times this: the change that serves all poses is up to ten times that of one entry, and second
 /// derivatives are of the order of ten where links are short.
 /// Unit: 1. Less: the first order is believed too far. More: near redundancy is not proved. Test:
-/// none.
+/// `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const CURVED: f64 = 100.0;
 
 /// Positions on a walk are met to this share of the size.
@@ -108,7 +111,8 @@ pub(crate) const WALKED: f64 = 1e-12;
 /// A weakest entry above this share of the size of C belongs to no change of data below a
 /// thousandth of the size: an entry changes by its own size, times what the pose answers, which is
 /// below the inverse of the entry.
-/// Unit: share of the size of C. Less: time. More: near redundancy is not asked for. Test: none.
+/// Unit: share of the size of C. Less: near redundancy is not asked for. More: time. Test:
+/// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const CLEAR_ENTRY: f64 = 0.1;
 
 /// A dependency whose nonholonomic rows weigh less than this share of the others is one of
@@ -126,7 +130,8 @@ pub(crate) const RESOLVED: f64 = 1e-13;
 /// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the
 /// weakest first. More would be exact zeros beside the near one; leaving them out can only make the
 /// share smaller.
-/// Unit: pairs. Less: a share is too small. More: time, and exact zeros are asked for. Test: none.
+/// Unit: pairs. Less: a share is too small. More: time, and exact zeros are asked for. Test:
+/// `an_angle_tolerance_counts_alone`.
 pub(crate) const PAIRS: usize = 4;
 
 /// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n).
@@ -135,17 +140,19 @@ pub(crate) const PAIRS: usize = 4;
 pub(crate) const ENTRY_ROUNDINGS: f64 = 16.0;
 
 /// Poses to each side.
-/// Unit: poses. Less: redundancy of one pose is called permanent. More: time. Test: none.
+/// Unit: poses. Less: redundancy of one pose is called permanent. More: time. Test:
+/// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALK_POSES: usize = 3;
 
 /// From one pose to the next: a share of the size, or radians. Short, so that the walk does not
 /// pass a singular pose onto another branch.
 /// Unit: share of the size, or rad. Less: poses are nearly the same. More: walks pass onto other
-/// branches. Test: none.
+/// branches. Test: `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALK_REACH: f64 = 0.05;
 
 /// Steps from one pose to the next.
-/// Unit: steps. Less: walks do not arrive. More: time. Test: none.
+/// Unit: steps. Less: walks do not arrive. More: time. Test:
+/// `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const WALK_STEPS: usize = 5;
 
 /// The same where such steps do not arrive.
@@ -155,7 +162,7 @@ pub(crate) const WALK_SMALL_STEPS: usize = 40;
 /// The largest correction of a step onto the kept rows, as a share of the step: what is corrected
 /// by more may be on another branch.
 /// Unit: share of the step. Less: walks along curved ways end. More: walks change the branch. Test:
-/// none.
+/// `rows_that_are_nearly_redundant_at_a_pose_are_left_out_together`.
 pub(crate) const WALK_CORRECTED: f64 = 0.5;
 
 /// Share of the other directions.
@@ -164,18 +171,20 @@ pub(crate) const WALK_CORRECTED: f64 = 0.5;
 pub(crate) const OTHER_DIRECTIONS: f64 = 0.3;
 
 /// Iterations at most. Each costs a solution of as many equations as there are.
-/// Unit: iterations. Less: bounds of the share are wide. More: time. Test: none.
+/// Unit: iterations. Less: bounds of the share are wide. More: time. Test:
+/// `one_equation_is_shared_by_all`.
 pub(crate) const CONE_ITERATIONS: usize = 60;
 
 /// The bounds are close enough if they differ by this factor.
-/// Unit: 1. Less: time. More: bounds of the share are wide. Test: none.
+/// Unit: 1. Less: time. More: bounds of the share are wide. Test:
+/// `a_point_has_one_change_in_both_directions`.
 pub(crate) const CONE_CLOSE: f64 = 1.05;
 
 /// An equation may miss by this share of its coefficients: near the root of eps the normal
 /// equations do not tell contradicting equations from agreeing ones, and no share is wanted to more
 /// digits.
 /// Unit: share of the coefficients. Less: equations that agree contradict each other. More:
-/// equations that contradict each other agree. Test: none.
+/// equations that contradict each other agree. Test: `what_no_change_satisfies_is_far_away`.
 pub(crate) const CONE_RESOLVED: f64 = 1e-5;
 
 /// No weight falls below this share of the largest: changes that are not needed stay available.
@@ -186,7 +195,7 @@ pub(crate) const LEAST_WEIGHT: f64 = 1e-9;
 /// The difference of two results that agree, as a share of the size: what nonholonomic rows hold is
 /// met by nothing later, and must not be lost by steps that are too long.
 /// Unit: share of the size. Less: steps become too small. More: nonholonomic rows are lost. Test:
-/// none.
+/// `what_edges_lead_stays_on_its_way`.
 pub(crate) const FOLLOWED: f64 = 1e-12;
 
 // Other configurations.
@@ -196,26 +205,31 @@ pub(crate) const FOLLOWED: f64 = 1e-12;
 pub(crate) const POINTS: usize = 4;
 
 /// Walks at most, also those that lead nowhere.
-/// Unit: walks. Less: too few configurations are found. More: time. Test: none.
+/// Unit: walks. Less: too few configurations are found. More: time. Test:
+/// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const WALKS: usize = 12;
 
 /// Steps from one point to the next.
-/// Unit: steps. Less: configurations are near the given one. More: time. Test: none.
+/// Unit: steps. Less: configurations are near the given one. More: time. Test:
+/// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_STEPS: usize = 4;
 
 /// Length of a step: a share of the mechanism's size, or as many radians.
 /// Unit: share of the size, or rad. Less: configurations are near the given one. More:
-/// configurations cannot be assembled. Test: none.
+/// configurations cannot be assembled. Test:
+/// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_STEP: f64 = 0.2;
 
 /// A step is tried at this many halved lengths, because not every displacement can be assembled
 /// again.
-/// Unit: halvings. Less: walks end at once. More: time. Test: none.
+/// Unit: halvings. Less: walks end at once. More: time. Test:
+/// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_HALVINGS: i32 = 5;
 
 /// Points must be this far from each other and from the given one, in the same measure.
 /// Unit: share of the size, or rad. Less: the same configuration is asked twice. More: too few
-/// configurations are found. Test: none.
+/// configurations are found. Test:
+/// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const POINTS_APART: f64 = 0.1;
 
 // Drives that contradict each other.
@@ -226,22 +240,26 @@ pub(crate) const POINTS_APART: f64 = 0.1;
 pub(crate) const REST: f64 = 100.0 * f64::EPSILON;
 
 /// Positions after the start at which drives are compared along a motion.
-/// Unit: positions. Less: contradictions later on are not found. More: time. Test: none.
+/// Unit: positions. Less: contradictions later on are not found. More: time. Test:
+/// `motors_that_part_later_are_named_with_the_time`.
 pub(crate) const DRIVE_POSITIONS: u32 = 12;
 
 /// What drives may change by from one position to the next (rad, or as a share of the size of the
 /// mechanism): a larger step may end on another branch of the joints, where drives that agree do
 /// not.
-/// Unit: rad, or share of the size. Less: time. More: a step ends on another branch. Test: none.
+/// Unit: rad, or share of the size. Less: time. More: a step ends on another branch. Test:
+/// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const STRIDE: f64 = 0.1;
 
 /// Steps on the way at most: a dozen revolutions. What comes later is not known.
-/// Unit: steps. Less: what comes after few revolutions is not known. More: time. Test: none.
+/// Unit: steps. Less: what comes after few revolutions is not known. More: time. Test:
+/// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const DRIVE_STEPS: usize = 800;
 
 /// A step that fails is halved so often at most: what is reached by smaller ones only is too near
 /// to a singular configuration to be followed.
-/// Unit: halvings. Less: motions near singular poses are not followed. More: time. Test: none.
+/// Unit: halvings. Less: motions near singular poses are not followed. More: time. Test:
+/// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const DRIVE_HALVINGS: usize = 6;
 
 /// Share of their terms by which drives must differ before a run stops for it with certainty (runs
@@ -254,11 +272,12 @@ pub(crate) const RUNS_NOTICE: f64 = 1e-9;
 
 /// Halvings that bring any interval to rounding, and more.
 /// Unit: iterations. Less: times are not found to rounding. More: time, where nothing is found.
-/// Test: none.
+/// Test: `roots_to_rounding_also_multiple_ones`.
 pub(crate) const SEARCH_ITERATIONS: usize = 120;
 
 /// Intervals are not divided below this share of their times.
-/// Unit: share of a time. Less: time. More: instants lose digits. Test: none.
+/// Unit: share of a time. Less: time. More: instants lose digits. Test:
+/// `roots_to_rounding_also_multiple_ones`.
 pub(crate) const RESOLUTION: f64 = 2.0 * f64::EPSILON;
 
 /// Where an edge is found to this share of its interval, one reads no more digits.
@@ -312,7 +331,7 @@ pub(crate) const BESIDE_PASSAGE: f64 = 1e-2;
 
 /// What a minimum must be lower than the larger neighbour by.
 /// Unit: share of the larger neighbour. Less: shallow minima are missed. More: rounding is a
-/// minimum. Test: none.
+/// minimum. Test: `a_minimum_lies_a_hundredth_below_a_neighbour`.
 pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 
 /// Digits of a time that was searched for: it is known as well as the motion, which a run knows to
@@ -335,49 +354,53 @@ pub const KERNEL_MAX: usize = 4;
 /// The given motion may miss the equations by this share of their coefficients: its directions may
 /// come from neighbouring configurations.
 /// Unit: share of the coefficients. Less: motions beside a singular pose are doubted. More: wrong
-/// motions are examined. Test: none.
+/// motions are examined. Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const REGULAR: f64 = 1e-6;
 
 /// Coefficients of the forms may be wrong by this.
 /// Unit: 1. Less: rounding of the forms is a proof. More: blocked motions are undecided. Test:
-/// none.
+/// `a_proof_contains_the_motion_by_rounding_only`.
 pub(crate) const FORM_NOISE: f64 = 1e-9;
 
 /// G must exceed this multiple of the identity; the combination w has size one.
 /// Unit: multiples of the identity. Less: rounding is a proof. More: blocked motions are undecided.
-/// Test: none.
+/// Test: `a_definite_form_blocks_from_its_margin_on`.
 pub(crate) const MARGIN: f64 = 1e-5;
 
 /// Corrections of w at most.
-/// Unit: corrections. Less: blocked motions are undecided. More: time. Test: none.
+/// Unit: corrections. Less: blocked motions are undecided. More: time. Test:
+/// `narrow_proofs_are_found`.
 pub(crate) const BLOCKED_CORRECTIONS: usize = 1000;
 
 /// Iterations from one start; convergence to a simple solution is quadratic.
-/// Unit: iterations. Less: branches are not found. More: time. Test: none.
+/// Unit: iterations. Less: branches are not found. More: time. Test:
+/// `a_branch_differs_from_the_motion_by_a_thousandth`.
 pub(crate) const BRANCH_ITERATIONS: usize = 60;
 
 /// A solution meets the equations to this.
-/// Unit: 1. Less: rounding refuses branches. More: what is no branch is one. Test: none.
+/// Unit: 1. Less: rounding refuses branches. More: what is no branch is one. Test:
+/// `a_branch_meets_its_equations_to_rounding`.
 pub(crate) const BRANCH_RESIDUAL: f64 = 1e-12;
 
 /// A solution belongs to another branch if its new motions (and, driven, its rate of time) exceed
 /// this.
 /// Unit: share of the motion. Less: the given motion is another branch. More: branches are missed.
-/// Test: none.
+/// Test: `a_branch_differs_from_the_motion_by_a_thousandth`.
 pub(crate) const OTHER_BRANCH: f64 = 1e-3;
 
 /// Starts for each expected branch.
-/// Unit: starts. Less: branches are missed. More: time. Test: none.
+/// Unit: starts. Less: branches are missed. More: time. Test:
+/// `branches_nearer_than_a_thousandth_are_one`.
 pub(crate) const BRANCH_STARTS: usize = 40;
 
 /// Solutions nearer to each other than this are one.
 /// Unit: share of the motion. Less: one branch is told twice. More: two branches are told as one.
-/// Test: none.
+/// Test: `branches_nearer_than_a_thousandth_are_one`.
 pub(crate) const SAME_BRANCH: f64 = 1e-6;
 
 /// Coefficients below this share of the terms that they are sums of are rounding.
 /// Unit: share of the terms. Less: rounding is a coefficient. More: small coefficients are none.
-/// Test: none.
+/// Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const FORM_ROUNDING: f64 = 1e-10;
 
 // Freedoms.
@@ -390,20 +413,20 @@ pub const MOTIONS_TOLD: usize = 12;
 /// A velocity of length one satisfies a form below this: rounding of a null space, far below any
 /// freedom that is worth a word.
 /// Unit: velocity of length one. Less: freedoms are missed by rounding. More: what moves is at
-/// rest. Test: none.
+/// rest. Test: `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const SATISFIED: f64 = 1e-9;
 
 /// A velocity of length one is new if it differs from the chosen ones by more than this. Above
 /// [`SATISFIED`], so that what is left by rounding of several conditions is not taken for a
 /// freedom.
 /// Unit: velocity of length one. Less: rounding is a freedom. More: freedoms are missed. Test:
-/// none.
+/// `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NEW_MOTION: f64 = 1e-6;
 
 /// A velocity is zero below this share of the fastest one, rotations measured at the size of the
 /// mechanism: rounding of a null space.
 /// Unit: share of the fastest velocity. Less: rounding moves. More: slow bodies are at rest. Test:
-/// none.
+/// `slides_on_slides_move_along_their_axes`.
 pub(crate) const AT_REST: f64 = 1e-10;
 
 /// Joints and bodies × freedoms² up to which a motion of few joints is looked for from every joint;
@@ -471,23 +494,23 @@ pub(crate) const LOAD_ROUNDING: f64 = 1e-9;
 /// holes are not a hundred times worse than those of one. In mechanisms of a few bodies it plays no
 /// part.
 /// Unit: reaches of the bodies. Less: short chains are judged link by link. More: long chains are
-/// fragile. Test: none.
+/// fragile. Test: `sensitivities_are_those_of_mechanisms_built_with_other_numbers`.
 pub(crate) const PIECE: f64 = 20.0;
 
 /// Of points whose effects differ by less than this factor, as those of two points that coincide,
 /// the first is told: reactions that hang on the same misfit are then told in one sentence.
 /// Unit: 1. Less: one misfit is told in many sentences. More: different misfits are told as one.
-/// Test: none.
+/// Test: `a_beam_by_hand`.
 pub(crate) const SAME_EFFECT: f64 = 1.01;
 
 // Memory and words.
 
 /// Bytes of the verdict of a joint with its rows, its components and its name.
-/// Unit: bytes. Less: memory runs out. More: runs are refused. Test: none.
+/// Unit: bytes. Less: memory runs out. More: runs are refused. Test: none, work only.
 pub(crate) const OF_VERDICT: usize = 1500;
 
 /// Matrices of all rows and columns that are held at once where a small mechanism is judged.
-/// Unit: matrices. Less: memory runs out. More: runs are refused. Test: none.
+/// Unit: matrices. Less: memory runs out. More: runs are refused. Test: none, work only.
 pub(crate) const DENSE_MATRICES: usize = 24;
 
 /// A component of a self-stress is zero below this share of its largest one: rounding of the
@@ -500,11 +523,12 @@ pub(crate) const VISIBLE: f64 = 1e-9;
 /// mechanism: above the rounding of a null space, below any distance between joints that a drawing
 /// shows.
 /// Unit: share of the size. Less: one point is told as two. More: two points are told as one. Test:
-/// none.
+/// `a_four_bar_moves_without_its_motor_only`.
 pub(crate) const SAME_PLACE: f64 = 1e-6;
 
 /// Bodies that a sentence names.
-/// Unit: bodies. Less: bodies are counted only. More: sentences nobody reads. Test: none.
+/// Unit: bodies. Less: bodies are counted only. More: sentences nobody reads. Test:
+/// `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NAMED_BODIES: usize = 6;
 
 /// Names that tell which part is meant.

@@ -199,3 +199,34 @@ fn a_row_of_which_little_is_left_is_lost() {
         assert_eq!(factored.is_err(), is_lost, "{sine}");
     }
 }
+
+/// A row that is `share` times the one that was factored, and rows miss by `miss` of their terms at
+/// first: each correction leaves 1 − share² of what the one before has left.
+fn solved_by_factors_of_another_row(share: f64, miss: f64) -> Result<(), SaddleError> {
+    let row = |x: f64| SparseMatrix::from_rows(2, [[(0, x), (1, -x)]]).expect("two columns");
+    let mut saddle = SchurSaddle::new(SchurStructure::new(&row(1.0), &whole(2)));
+    saddle.factor(&row(1.0), &[1.0; 2])?;
+    // Both masses are pushed alike, and one of them by a little more.
+    let f = [1.0 + 2.0 * miss, 1.0];
+    saddle.solve(&row(share), &f, &[0.0], &mut [0.0; 2], &mut [0.0])
+}
+
+#[test]
+fn corrections_go_on_while_they_halve_what_is_left() {
+    for (left, expected) in [(0.45, 4), (0.55, 2)] {
+        let found = solved_by_factors_of_another_row(f64::sqrt(1.0 - left), 0.1);
+        assert!(
+            matches!(found, Err(SaddleError::Unrefined { rounds, .. }) if rounds == expected),
+            "{left}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn what_corrections_leave_is_refused_from_a_billionth_on() {
+    // Two corrections that leave 0.6 each.
+    for (left, is_poor) in [(0.7e-9, false), (1.4e-9, true)] {
+        let found = solved_by_factors_of_another_row(0.4_f64.sqrt(), left / 0.36);
+        assert_eq!(found.is_err(), is_poor, "{left}: {found:?}");
+    }
+}

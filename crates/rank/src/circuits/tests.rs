@@ -191,3 +191,17 @@ fn a_component_with_too_many_circuits_falls_back() {
     // Any 15 rows of a generic matrix are independent, any 16 are a circuit.
     assert!(found.iter().all(|c| c.rows.len() == 16));
 }
+
+/// Two vectors that span a plane by 1e-3 say where it lies; by 1e-5 they do not.
+#[test]
+fn vectors_have_to_span_what_a_circuit_vanishes_on() {
+    let rows = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [2.0, 1.0]];
+    let decision = decide(&Matrix::from_rows(&rows), 0.0).unwrap();
+    let all: Vec<usize> = (0..rows.len()).collect();
+    let dual = Dual::new(&decision, &Support::new(&decision), &all);
+    for (apart, is_found) in [(1e-3, true), (1e-5, false)] {
+        let vectors = vec![vec![1.0, 1.0, 1.0], vec![1.0, 1.0, 1.0 + apart]];
+        let found = vanishing_on(vectors, dual.dimension(), &dual);
+        assert_eq!(found.is_some(), is_found, "{apart}");
+    }
+}

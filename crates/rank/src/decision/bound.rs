@@ -54,6 +54,9 @@ mod tests {
                 "{s:e}: {bound:e}"
             );
             assert!(smallest_singular_value(&a, 0.1 * s) < 0.9 * s);
+            // 1/‖A⁺‖ = 1/√(1 + 1/s²) is what the bound is without rounding.
+            let exact = s.recip().hypot(1.0).recip();
+            assert!(s < 1e-9 || bound > (1.0 - 1e-5) * exact, "{s:e}: {bound:e}");
         }
     }
 

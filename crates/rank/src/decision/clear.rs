@@ -34,3 +34,17 @@ pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
             .last()
             .is_none_or(|&smallest| smallest >= required(tolerance))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Only what clears its noise by 10³ counts, and noise above 1e-4 says nothing is zero.
+    #[test]
+    fn a_number_counts_a_thousand_times_above_its_noise() {
+        assert_eq!(size(1.2e-6, 1e-9), Size::NonZero);
+        assert_eq!(size(0.8e-6, 1e-9), Size::Unclear);
+        assert_eq!(size(1e-5, 0.8e-4), Size::Zero);
+        assert_eq!(size(1e-5, 1.2e-4), Size::Unclear);
+    }
+}

@@ -215,4 +215,39 @@ mod tests {
             assert!(is_open, "{size}, {noise}: {reading:?}");
         }
     }
+
+    fn is_unclear(reading: CoefficientReading) -> bool {
+        matches!(reading, CoefficientReading::Unclear { .. })
+    }
+
+    /// Not zero is what exceeds ten times its tolerance and a billionth; nothing is zero where the
+    /// tolerance is above 1e-5.
+    #[test]
+    fn a_coefficient_has_to_clear_its_tolerance() {
+        use CoefficientReading::{NonZero, Zero};
+        assert!(is_unclear(CoefficientReading::of(0.8e-9, 1e-12)));
+        assert_eq!(CoefficientReading::of(1.2e-9, 1e-12), NonZero);
+        assert!(is_unclear(CoefficientReading::of(0.8e-6, 1e-7)));
+        assert_eq!(CoefficientReading::of(1.2e-6, 1e-7), NonZero);
+        assert_eq!(CoefficientReading::of(1e-7, 0.8e-5), Zero);
+        assert!(is_unclear(CoefficientReading::of(1e-7, 1.2e-5)));
+    }
+
+    /// In double-double a zero comes out as 1e-13 and less, whatever the data are known to; what
+    /// random combinations call zero is ten thousand times smaller than what they do not.
+    #[test]
+    fn what_vanishes_is_zero_and_what_is_near_the_smallest_is_not() {
+        let mut readings = Readings {
+            is_certified: true,
+            has_tolerance: false,
+            smallest: f64::INFINITY,
+        };
+        assert_eq!(readings.read(0.8e-13, 1e-4), CoefficientReading::Zero);
+        assert!(is_unclear(readings.read(1.2e-13, 1e-4)));
+        readings.smallest = 1e-5;
+        assert_eq!(readings.read(0.8e-9, 1e-8), CoefficientReading::Zero);
+        assert!(is_unclear(readings.read(1.2e-9, 1e-8)));
+        readings.is_certified = false;
+        assert!(is_unclear(readings.read(0.8e-13, 1e-4)));
+    }
 }

@@ -294,6 +294,23 @@ fn residual_sets_the_tolerance() {
     ));
 }
 
+/// Noise above a hundredth hides what is above √eps, and no more than rounding below it.
+#[test]
+fn coarse_data_hide_what_is_no_rounding() {
+    for (sigma, tolerance, is_hidden) in [
+        (1.8e-8, 0.012, true),
+        (1.2e-8, 0.012, false),
+        (1.8e-8, 0.008, false),
+    ] {
+        let status = shown(sigma, tolerance);
+        let expected = is_hidden.then_some(Doubt::Hidden { sigma, tolerance });
+        assert_eq!(
+            status,
+            expected.map_or(RankStatus::Decided, RankStatus::Undecided)
+        );
+    }
+}
+
 #[test]
 fn empty_and_zero_matrices_have_rank_zero() {
     for (m, n) in [(0, 0), (0, 3), (3, 0), (2, 2)] {

@@ -119,3 +119,19 @@ impl Uncertainty<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What several roundings left of larger terms is not scaled up to size one.
+    #[test]
+    fn an_entry_near_its_uncertainty_does_not_set_the_scale() {
+        let known = Matrix::from_rows(&[[0.0, 0.0], [0.0, 1e-12]]);
+        for (entry, is_scaled) in [(0.8e-7, false), (1.2e-7, true)] {
+            let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, entry]]);
+            let (scaling, _) = Uncertainty::Entries(&known).equilibrate(&c).unwrap();
+            assert_eq!(scaling.apply(&c)[(1, 1)] >= 0.5, is_scaled, "{entry}");
+        }
+    }
+}

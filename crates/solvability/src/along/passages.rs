@@ -286,3 +286,17 @@ fn regular_motions<F: FnMut(f64) -> State>(
     let units = velocity_units(path.mechanism, path.size());
     Ok(Matrix::from_fn(n, freedoms, |i, j| sum[(i, j)] * units[i]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_minimum_lies_a_hundredth_below_a_neighbour() {
+        for (least, expected) in [(0.994, vec![]), (0.986, vec![[0.0, 2.0]])] {
+            let values = [Some(1.0), Some(least), Some(least)];
+            let found = local_minima(&[0.0, 1.0, 2.0], &values);
+            assert_eq!(found, expected, "{least}");
+        }
+    }
+}

@@ -240,3 +240,6 @@ fn self_stresses(decision: &RankDecision) -> Vec<Vec<f64>> {
 fn norm(x: impl Iterator<Item = f64>) -> f64 {
     x.map(|x| x * x).sum::<f64>().sqrt()
 }
+
+#[cfg(test)]
+mod tests;

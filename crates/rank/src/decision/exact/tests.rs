@@ -294,3 +294,18 @@ fn cranks_as_they_stand() {
     assert_eq!((decision.rank, decision.redundancy), (11, 1));
     assert!(decision.nearly_redundant().is_none());
 }
+
+/// Blocks whose determinants are the first two primes: regular, but not modulo either.
+#[test]
+fn primes_that_divide_a_determinant_are_outvoted() {
+    let mut c = Matrix::zeros(4, 4);
+    for (k, field) in crate::prime_field::fields().take(2).enumerate() {
+        // p = a·2³¹ + b has 62 bits, each part at most 31.
+        let (a, b) = (field.p() >> 31, field.p() & ((1 << 31) - 1));
+        let (first, second) = (2 * k, 2 * k + 1);
+        (c[(first, first)], c[(first, second)]) = (a as f64, -(b as f64));
+        (c[(second, first)], c[(second, second)]) = (1.0, 2_f64.powi(31));
+    }
+    let z = ExactNullSpace::new(&c).unwrap();
+    assert!((0..4).all(|row| z.annihilates([(row, 1.0)])));
+}

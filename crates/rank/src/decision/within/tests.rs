@@ -213,3 +213,52 @@ fn shapes_and_bad_input() {
         RankStatus::Undecided(Doubt::NotPolished { .. })
     ));
 }
+
+/// Rows (1, 1 − e) and (1 − e, 1): the eigenvalues are 2 − e and e.
+fn nearly_parallel(e: f64) -> DdMatrix {
+    let mut c = DdMatrix::from(&Matrix::from_rows(&[[1.0; 2]; 2]));
+    c[(0, 1)] -= Dd::from(e);
+    c[(1, 0)] -= Dd::from(e);
+    c
+}
+
+#[test]
+fn a_thousandth_is_nearly_redundant() {
+    for (e, is_near) in [(0.8e-3, true), (1.2e-3, false)] {
+        let decision = certify_within(&nearly_parallel(e), DATA).unwrap();
+        assert_eq!(decision.rank, 2);
+        assert_eq!(decision.nearly_redundant().is_some(), is_near, "{e}");
+    }
+}
+
+/// Levels read σ₂ up to √2.
+#[test]
+fn what_vanishes_is_ten_digits_below_rounding() {
+    for (e, expected) in [(3e-27, Grounds::Vanishes), (3e-26, Grounds::WithinData)] {
+        let decision = certify_within(&nearly_parallel(e), DATA).unwrap();
+        assert_eq!((decision.rank, grounds(&decision)), (1, expected), "{e}");
+    }
+}
+
+/// A singular value that clears what the data are known to by less than 4 is not decided on.
+#[test]
+fn a_singular_value_clears_the_data_by_four() {
+    for (times, is_decided) in [(2.5, false), (4.5, true)] {
+        let decision = certify_within(&nearly_parallel(times * 1e-9), 1e-10).unwrap();
+        assert_eq!(decision.is_decided(), is_decided, "{times}");
+    }
+}
+
+/// Rows a, b, a of [`nearly_parallel`]: σ₂ is 2e/√3. Data known to u leave coefficients open by
+/// √6·u/σ₂, unless σ₂ is below 1e-6.
+#[test]
+fn coefficients_of_a_nearly_redundant_matrix_are_as_read() {
+    for (e, is_as_read) in [(0.5e-6, true), (2e-6, false)] {
+        let two = nearly_parallel(e);
+        let c = DdMatrix::from_fn(3, 2, |i, j| two[(i % 2, j)]);
+        let decision = certify_within(&c, 1e-12).unwrap();
+        assert_eq!((decision.rank, decision.redundancy), (2, 1));
+        let tolerance = decision.coefficient_tolerance();
+        assert_eq!(tolerance < 1e-9, is_as_read, "{e}: {tolerance:e}");
+    }
+}

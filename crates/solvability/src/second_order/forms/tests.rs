@@ -1,0 +1,107 @@
+//! Forms whose solutions stand in closed form, on either side of what is decided by.
+
+use super::*;
+use crate::second_order::{blocked::is_blocked, branches::others};
+
+/// Forms with one regular motion at most, `x`, and new ones.
+fn forms(x: usize, matrices: &[Matrix]) -> Forms {
+    Forms {
+        x,
+        basis: vec![Vec::new(); matrices[0].ncols()],
+        matrices: matrices.to_vec(),
+        driven: false,
+    }
+}
+
+/// The diagonal matrix of two new motions.
+fn diagonal(g: [f64; 2]) -> Matrix {
+    Matrix::from_rows(&[[g[0], 0.0], [0.0, g[1]]])
+}
+
+/// `g·y² = 0` has no solution but y = 0, if g is not rounding.
+#[test]
+fn a_definite_form_blocks_from_its_margin_on() {
+    for (g, expected) in [(0.7e-5, false), (1.4e-5, true)] {
+        let form = Matrix::from_rows(&[[0.0, 0.0], [0.0, g]]);
+        assert_eq!(is_blocked(&forms(1, &[form])), expected, "{g}");
+    }
+}
+
+/// x·y₁ + x·y₂ + y₁² + y₂² and x·y₁ + (1 + 2d)·x·y₂: their difference is without x·y₁, and it has
+/// singular values of about d that contain the motion. Only if they are rounding is it a proof.
+#[test]
+fn a_proof_contains_the_motion_by_rounding_only() {
+    for (d, expected) in [(5e-9, true), (5e-8, false)] {
+        let form = |second: f64, g: f64| {
+            Matrix::from_rows(&[[0.0, 1.0, second], [1.0, g, 0.0], [second, 0.0, g]])
+        };
+        let pair = [form(1.0, 1.0), form(1.0 + 2.0 * d, 0.0)];
+        assert_eq!(is_blocked(&forms(1, &pair)), expected, "{d}");
+    }
+}
+
+/// diag(1, −0.99) and diag(−9.7, 10): the sum of 9.8 times the first and the second is definite,
+/// and so are few others.
+#[test]
+fn narrow_proofs_are_found() {
+    let pair = [diagonal([1.0, -0.99]), diagonal([-9.7, 10.0])];
+    assert!(is_blocked(&forms(0, &pair)));
+    // Nothing is definite here: y₁ = y₂ solves both.
+    let pair = [diagonal([1.0, -1.0]), diagonal([-1.0, 1.0])];
+    assert!(!is_blocked(&forms(0, &pair)));
+}
+
+/// `y·(y − s·x) = 0`: the other branch is y = s·x.
+#[test]
+fn a_branch_differs_from_the_motion_by_a_thousandth() {
+    for (s, expected) in [(0.7e-3, 0), (1.4e-3, 1)] {
+        let form = Matrix::from_rows(&[[0.0, -0.5 * s], [-0.5 * s, 1.0]]);
+        let found = others(&forms(1, &[form]));
+        assert_eq!(found.len(), expected, "{s}: {found:?}");
+        if let [a] = &found[..] {
+            assert!((a[1] / a[0] - s).abs() < 1e-12, "{a:?}");
+        }
+    }
+}
+
+/// On the parabola `x·y₂ = y₁²` the cubic (p − 1)·(p − 1 − d)·(p + 1) of p = y₁/x is a quadratic
+/// form: with p·y₂ for p³. Directions of p = 1 and p = 1 + d have the cosine 1 − d²/3.
+#[test]
+fn branches_nearer_than_a_thousandth_are_one() {
+    for (d, expected) in [(1e-3, 2), (3e-3, 3)] {
+        // p³ − (1 + d)·p² − p + (1 + d), times p: p²·p² − (1 + d)·p·p² − p² + (1 + d)·p.
+        let mut quartic = Matrix::zeros(3, 3);
+        quartic[(2, 2)] = 1.0;
+        (quartic[(1, 2)], quartic[(2, 1)]) = (-0.5 * (1.0 + d), -0.5 * (1.0 + d));
+        quartic[(1, 1)] = -1.0;
+        (quartic[(0, 1)], quartic[(1, 0)]) = (0.5 * (1.0 + d), 0.5 * (1.0 + d));
+        let parabola = Matrix::from_rows(&[[0.0, 0.0, 0.5], [0.0, -1.0, 0.0], [0.5, 0.0, 0.0]]);
+        let found = others(&forms(1, &[parabola, quartic]));
+        assert_eq!(found.len(), expected, "{d}: {found:?}");
+    }
+}
+
+/// One new motion alone, y = ±1: it meets `g·y² = 0` if g is rounding.
+#[test]
+fn a_branch_meets_its_equations_to_rounding() {
+    for (g, expected) in [(0.7e-12, 1), (1.4e-12, 0)] {
+        let form = Matrix::from_rows(&[[g]]);
+        assert_eq!(others(&forms(0, &[form])).len(), expected, "{g}");
+    }
+}
+
+/// The given motion solves its equations to 1e-6 of their coefficients; coefficients below 1e-10 of
+/// their terms are none.
+#[test]
+fn forms_are_of_a_motion_and_no_rounding() {
+    let normalised = |own: f64, terms: f64| {
+        forms(1, &[Matrix::from_rows(&[[own, 0.5], [0.5, 1.0]])]).normalise(terms)
+    };
+    assert_eq!(normalised(0.7e-6, 1.0), Ok(()));
+    assert!(matches!(
+        normalised(1.4e-6, 1.0),
+        Err(Undetermined::Irregular { .. })
+    ));
+    assert_eq!(normalised(0.0, 0.7e10), Ok(()));
+    assert_eq!(normalised(0.0, 1.4e10), Err(Undetermined::NoTerms));
+}
