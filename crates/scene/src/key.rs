@@ -3,6 +3,8 @@
 
 use serde_json::Value;
 
+use crate::dimension::Dimension;
+
 /// The key that names a definition.
 pub(crate) const TYPE: &str = "type";
 
@@ -13,8 +15,10 @@ pub(crate) struct Key {
     /// What it takes, in the words of messages.
     pub(crate) expected: &'static str,
     pub(crate) takes: Takes,
-    /// The unit of its numbers; empty where they have none.
-    pub(crate) unit: &'static str,
+    /// The dimension of its numbers.
+    pub(crate) unit: Dimension,
+    /// Whether that is multiplied by the dimension of a function's values.
+    is_of_values: bool,
     /// What it means.
     pub(crate) doc: &'static str,
     pub(crate) is_required: bool,
@@ -33,6 +37,10 @@ pub(crate) enum Takes {
     OneOf(fn() -> Vec<&'static str>),
     /// `true` or `false`
     Flag,
+    /// A whole number between these.
+    Whole(i64, i64),
+    /// Units of bare numbers.
+    Units,
     /// One number.
     Number(Interval),
     /// Two numbers.
@@ -86,7 +94,8 @@ impl Key {
             name,
             expected,
             takes,
-            unit: "",
+            unit: Dimension::NONE,
+            is_of_values: false,
             doc: "",
             is_required: false,
             default: None,
@@ -101,9 +110,26 @@ impl Key {
         }
     }
 
-    /// In this unit.
-    pub(crate) const fn unit(self, unit: &'static str) -> Self {
+    /// With numbers of this dimension.
+    pub(crate) const fn unit(self, unit: Dimension) -> Self {
         Self { unit, ..self }
+    }
+
+    /// With numbers of the dimension of a function's values, times `unit`.
+    pub(crate) const fn of_values(self) -> Self {
+        Self {
+            is_of_values: true,
+            ..self
+        }
+    }
+
+    /// The dimension of its numbers in a function whose values have this one.
+    pub(crate) fn unit_in(&self, values: Dimension) -> Dimension {
+        if self.is_of_values {
+            values.times(self.unit, 1)
+        } else {
+            self.unit
+        }
     }
 
     /// What it means.

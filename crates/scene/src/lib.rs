@@ -7,6 +7,8 @@
 //! | `limits` | how large a text may be |
 //! | `read` | the whole file, and what the mechanism refuses |
 //! | `section`, `names` | tables of the first level; names that may occur only once |
+//! | `language` | what numbers mean: format, units, parameters |
+//! | `expression`, `dimension` | a text to a number with its dimension; what fits where |
 //! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
 //! | `body` | bodies, and their names elsewhere |
 //! | `element` | what joints and forces share: type, `connection`, `place`, `arguments` |
@@ -23,13 +25,16 @@ mod body;
 mod combination;
 mod connection;
 mod diagnostic;
+mod dimension;
 mod element;
+mod expression;
 mod field;
 mod findings;
 mod force;
 mod function;
 mod joint;
 mod key;
+mod language;
 mod limits;
 mod locate;
 mod names;
