@@ -15,9 +15,9 @@ use crate::section;
 use crate::table::Table;
 
 /// The format in which texts may be expressions.
-const COMPUTING: i64 = 2;
+pub(crate) const COMPUTING: i64 = 2;
 
-const FORMAT: Key = Key::optional("format", "1 or 2", Takes::Whole(1, COMPUTING))
+pub(crate) const FORMAT: Key = Key::optional("format", "1 or 2", Takes::Whole(1, COMPUTING))
     .doc("Format of the file; 2 allows `[parameters]`, `units`, and expressions where numbers are expected")
     .or(|| 1.into());
 const UNITS: Key = Key::optional("units", "a table { length = \"mm\", … }", Takes::Units)

@@ -77,7 +77,7 @@ pub fn schema(registry: &Registry) -> Value {
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Scene of pfaff",
-        "description": "A planar multibody mechanism and what is to be done with it. SI units, angles in radians.",
+        "description": "A planar multibody mechanism and what is to be done with it. SI units and radians, unless `units` says otherwise.",
         "type": "object",
         "properties": properties,
         "required": [section::SCENE.name, section::BODY.name],

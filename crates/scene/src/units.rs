@@ -1,5 +1,5 @@
-//! Numbers with units, as people write them. The format has none: what is meant is said in its
-//! units, so that advice can be followed as it is.
+//! Numbers with units, as people write them where none are read: what is meant is said in the units
+//! of the format, so that advice can be followed as it is.
 
 use std::f64::consts::PI;
 
@@ -43,7 +43,8 @@ const OWN: [&str; 18] = [
 /// What to write instead of a text that begins with a number and a unit, if it is one.
 pub(crate) fn advice(text: &str) -> Option<String> {
     let (number, between, unit) = split(text)?;
-    const RULE: &str = "numbers stand without units, in SI and radians";
+    const RULE: &str =
+        "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
     let written = match OTHERS.iter().find(|(name, ..)| *name == unit) {
         Some((_, times, over)) => (number.parse::<f64>().ok()? * times / over).to_string(),
         None if OWN.contains(&unit) => number.to_owned(),
@@ -93,14 +94,14 @@ mod tests {
                 "write `157.07963267948966` instead of `1500 rpm`",
             ),
             ("-2.5e3 N", "write `-2.5e3` instead of `-2.5e3 N`"),
-            ("1e5 e", "SI and radians"),
+            ("1e5 e", "`format = 2` in `[scene]`"),
             ("6 1/s", "write `6` instead of `6 1/s`"),
         ] {
             let said = advice(text).unwrap_or_default();
             assert!(said.ends_with(expected), "{text}: {said}");
         }
         // No factor is guessed.
-        let rule = "numbers stand without units, in SI and radians";
+        let rule = "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
         assert_eq!(advice("3 furlongs").as_deref(), Some(rule));
         for silent in [
             "", "kg", "2.0", "2,5", "1/2", "ü", "e", "2 # kg", "-", "1e5", "1e5 #e",

@@ -112,8 +112,8 @@ fn is_key(word: &str) -> bool {
 const CURLED: [char; 5] = ['“', '”', '„', '‘', '’'];
 
 const COMPUTED: (&str, &str) = (
-    "a scene does not compute",
-    "write the number that comes out",
+    "an expression without quotes",
+    "write it in quotes with `format = 2` in `[scene]`, or write the number that comes out",
 );
 
 /// A value that begins with a number.
