@@ -111,12 +111,6 @@ pub(crate) fn names(text: &str) -> Vec<(&str, Range<usize>)> {
     words.filter_map(name).collect()
 }
 
-/// Whether a text names π.
-pub(crate) fn has_pi(text: &str) -> bool {
-    let words = tokens(text).unwrap_or_default();
-    words.iter().any(|(word, _)| *word == Token::Name(PI_NAME))
-}
-
 /// What names stand for.
 pub(crate) trait Scope {
     /// The value of a parameter; inside, `None` if it has none because its own text is wrong.
@@ -390,19 +384,19 @@ impl<'s, S: Scope> Parser<'s, S> {
         };
         let x = self.judge(at, result)?;
         let steep = |x: f64| 1.0 / (1.0 - x * x).max(x_error(q[0])).sqrt();
-        let as_angle = |q: Quantity| Quantity {
-            dimension: Some(angle),
-            ..q
-        };
         let value = match name {
             "sin" => sine(x),
             "cos" => cosine(x),
             "tan" => tangent(x),
-            "asin" => x.smooth("`asin`", f64::asin, steep).map(as_angle),
-            "acos" => x.smooth("`acos`", f64::acos, |x| -steep(x)).map(as_angle),
+            "asin" => x
+                .smooth("`asin`", f64::asin, steep)
+                .map(Quantity::in_radians),
+            "acos" => x
+                .smooth("`acos`", f64::acos, |x| -steep(x))
+                .map(Quantity::in_radians),
             "atan" => x
                 .smooth("`atan`", f64::atan, |x| 1.0 / (1.0 + x * x))
-                .map(as_angle),
+                .map(Quantity::in_radians),
             "exp" => x.smooth("`exp`", f64::exp, f64::exp),
             "log" => x.smooth("`log`", f64::ln, |x| 1.0 / x),
             _ => Ok(x),

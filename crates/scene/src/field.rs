@@ -100,19 +100,13 @@ impl<'t> Field<'t> {
         findings: &mut Findings,
     ) -> Option<f64> {
         let written = self.quantity(expected, self.language, findings)?;
-        let bases = self.language.bases();
-        let text = self.value.get_ref().as_str();
-        match written.at(of, bases) {
+        match written.at(of, self.language.bases()) {
             Ok(q) => {
-                let value = q.to_f64();
-                if let Some(text) = text {
-                    let is_bare = written.dimension.is_none();
-                    self.warn(text, is_bare && of.chosen()[1] != 0, q, findings);
-                }
-                Some(value)
+                self.warn_if_cancelled(q, findings);
+                Some(q.to_f64())
             }
             Err(problem) => {
-                let span = 0..text.unwrap_or_default().len();
+                let span = 0..self.value.get_ref().as_str().unwrap_or_default().len();
                 self.report(Fault { span, problem }, self.language, findings);
                 None
             }
@@ -172,21 +166,8 @@ impl<'t> Field<'t> {
         findings.error_with_help(self.part(span, findings), message, label, help);
     }
 
-    /// Warns of an angle in units of the scene that is written with π, which has radians, and of
-    /// digits that cancel.
-    fn warn(&self, text: &str, is_bare_angle: bool, q: Quantity, findings: &mut Findings) {
-        let in_radians = self.language.bases().angle == Quantity::bare(1.0.into()).value;
-        if is_bare_angle && !in_radians && expression::has_pi(text) {
-            findings.warning(
-                self.span(),
-                format!(
-                    "{}: `{}` has `pi`, but angles without a unit are in the unit that `units` says",
-                    self.subject, self.key
-                ),
-                "not in radians",
-                format!("write the unit: `({text})*rad`"),
-            );
-        }
+    /// Warns of digits that cancel.
+    fn warn_if_cancelled(&self, q: Quantity, findings: &mut Findings) {
         let value = q.to_f64();
         let share = q.error / value.abs();
         if value != 0.0 && share > CANCELLED {

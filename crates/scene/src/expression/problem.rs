@@ -55,6 +55,8 @@ pub(crate) enum Problem {
     PowerOfUnit { of: Dimension },
     #[error("{} has no square root", .of.words())]
     Root { of: Dimension },
+    #[error("a number with `pi` is an angle here, but angles without a unit are not in radians")]
+    Pi,
     #[error("division by zero")]
     DivisionByZero,
     #[error("{name} is not defined for this value")]
@@ -89,6 +91,7 @@ impl Problem {
             Self::Mixed { .. } => "units that do not fit",
             Self::Exponent { .. } => "must be a number without a unit",
             Self::PowerOfUnit { .. } | Self::Root { .. } => "has no such unit",
+            Self::Pi => "needs its unit",
             Self::DivisionByZero => "is zero",
             Self::Undefined { .. } => "not a number",
             Self::Overflow => "not finite",
@@ -110,6 +113,9 @@ impl Problem {
             Self::NoBrackets { name } => format!("write `{name}(…)`"),
             Self::Dimension { expected, .. } => suffixes(*expected)?,
             Self::Mixed { .. } => "write both with units of one kind".to_owned(),
+            Self::Pi => {
+                "write `*rad` behind it, or the angle in the unit that `units` says".to_owned()
+            }
             Self::Exponent { .. } => "divide it by its unit".to_owned(),
             Self::PowerOfUnit { .. } => "divide it by its unit, or use `sqrt`".to_owned(),
             _ => return None,

@@ -20,6 +20,8 @@ pub(crate) struct Quantity {
     pub(crate) error: f64,
     /// `None` for a bare number: it takes the dimension of its place.
     pub(crate) dimension: Option<Dimension>,
+    /// Whether π is in it: then it is meant in radians if it is an angle.
+    has_pi: bool,
 }
 
 /// Factors of bare numbers: the units that a scene chooses.
@@ -37,8 +39,11 @@ impl Bases {
     };
 
     /// A bare number where this dimension is asked for; plain numbers stay as they are.
-    fn scaled(self, bare: Quantity, dimension: Dimension) -> Quantity {
+    fn scaled(self, bare: Quantity, dimension: Dimension) -> Result<Quantity, Problem> {
         let [length, angle] = dimension.chosen();
+        if bare.has_pi && angle != 0 && self.angle != Dd::ONE {
+            return Err(Problem::Pi);
+        }
         let mut q = bare;
         for (base, power) in [(self.length, length), (self.angle, angle)] {
             if base != Dd::ONE {
@@ -46,10 +51,10 @@ impl Bases {
                 q = product(q, factor);
             }
         }
-        Quantity {
+        Ok(Quantity {
             dimension: Some(dimension),
             ..q
-        }
+        })
     }
 }
 
@@ -67,12 +72,16 @@ impl Quantity {
             value,
             error: 0.0,
             dimension: None,
+            has_pi: false,
         }
     }
 
     /// π, a bare number.
     pub(crate) fn pi() -> Self {
-        Self::bare(pi())
+        Self {
+            has_pi: true,
+            ..Self::bare(pi())
+        }
     }
 
     /// One of a unit, `times/over`; half a turn is π in both of its parts.
@@ -87,7 +96,7 @@ impl Quantity {
     /// The value at a place that takes `expected`.
     pub(crate) fn at(self, expected: Dimension, bases: Bases) -> Result<Self, Problem> {
         match self.dimension {
-            None => bases.scaled(self, expected).checked(),
+            None => bases.scaled(self, expected)?.checked(),
             Some(found) if found.fits(expected) => Ok(self),
             Some(found) => Err(Problem::Dimension { found, expected }),
         }
@@ -99,6 +108,22 @@ impl Quantity {
             0.0
         } else {
             self.value.to_f64()
+        }
+    }
+
+    /// This number of radians.
+    pub(crate) fn in_radians(self) -> Self {
+        Self {
+            dimension: Some(Dimension::ANGLE),
+            ..self
+        }
+    }
+
+    /// A result of this number and another one.
+    fn with(self, other: Self) -> Self {
+        Self {
+            has_pi: self.has_pi || other.has_pi,
+            ..self
         }
     }
 
@@ -127,8 +152,8 @@ impl Quantity {
     fn matched(self, other: Self, bases: Bases) -> Result<[Self; 2], Problem> {
         match (self.dimension, other.dimension) {
             (None, None) => Ok([self, other]),
-            (Some(a), None) => Ok([self, bases.scaled(other, a)]),
-            (None, Some(b)) => Ok([bases.scaled(self, b), other]),
+            (Some(a), None) => Ok([self, bases.scaled(other, a)?]),
+            (None, Some(b)) => Ok([bases.scaled(self, b)?, other]),
             (Some(a), Some(b)) if b.fits(a) => Ok([self, other]),
             (Some(a), Some(b)) if a.fits(b) => Ok([
                 Self {
@@ -145,7 +170,8 @@ impl Quantity {
         let [a, b] = self.matched(other, bases)?;
         let sum = or_plain(a.value + b.value, a.value.hi() + b.value.hi());
         let terms = a.value.hi().abs() + b.value.hi().abs();
-        a.of(sum, a.error + b.error + Dd::EPSILON * terms).checked()
+        let error = a.error + b.error + Dd::EPSILON * terms;
+        a.with(b).of(sum, error).checked()
     }
 
     pub(crate) fn times(self, other: Self) -> Result<Self, Problem> {
@@ -163,7 +189,7 @@ impl Quantity {
         let dimension = dimension_of(self.dimension, other.dimension, -1);
         Self {
             dimension,
-            ..self.of(quotient, error)
+            ..self.with(other).of(quotient, error)
         }
         .checked()
     }
@@ -261,6 +287,7 @@ impl Quantity {
             dimension: Some(Dimension::ANGLE),
             error: (y.error + x.error) / radius + f64::EPSILON * angle.abs(),
             value: or_plain(Dd::from_sum(angle, turn), angle),
+            has_pi: false,
         }
         .checked()
     }
@@ -280,6 +307,7 @@ fn product(a: Quantity, b: Quantity) -> Quantity {
         value,
         error: error + Dd::EPSILON * value.hi().abs(),
         dimension: dimension_of(a.dimension, b.dimension, 1),
+        ..a.with(b)
     }
 }
 

@@ -145,6 +145,8 @@ fn bare_numbers_take_the_unit_of_their_place() {
         ("2 N/m", stiffness, 2.0),
         ("7", Dimension::FORCE, 7.0),
         ("acos(0)", ANGLE, FRAC_PI_2),
+        ("pi/2*rad", ANGLE, FRAC_PI_2),
+        ("L*pi/pi", LENGTH, 0.003),
     ] {
         assert_eq!(value(text, of, &in_drawing_units()), Ok(expected), "{text}");
     }
@@ -256,6 +258,16 @@ fn faults_have_their_places() {
         value("2*wrong + cos(wrong)", NONE, &names()),
         Err(String::new())
     );
+}
+
+#[test]
+fn pi_is_no_angle_in_degrees() {
+    for text in ["pi/6", "2*pi - L", "pi + 90 deg", "cos(pi/3)", "sin(-pi^2)"] {
+        let said = value(text, ANGLE, &in_drawing_units()).expect_err(text);
+        assert!(said.contains("a number with `pi` is an angle"), "{said}");
+        let in_radians = value(text, ANGLE, &names());
+        assert!(in_radians.is_ok(), "{text}: {in_radians:?}");
+    }
 }
 
 #[test]

@@ -218,7 +218,7 @@ mod tests {
             (
                 "angle = 30°",
                 8,
-                "write `0.5235987755982988` instead of `30°`",
+                "write `0.5235987755982989` instead of `30°`",
             ),
             ("at = [500 mm, 0]", 6, "write `0.5` instead of `500 mm`"),
             ("type = revolute", 7, "`type = \"revolute\"`"),

@@ -186,6 +186,24 @@ fn every_fault_has_its_place_inside_of_the_text() {
         ),
         (
             "angle = \"phi\"",
+            "angle = \"pi/6\"",
+            [
+                "pi/6",
+                "body `crank`: `angle`: a number with `pi` is an angle here, but angles without a unit are not in radians",
+                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+            ],
+        ),
+        (
+            "\"L*cos(phi)\"",
+            "\"L*cos(pi/3)\"",
+            [
+                "pi/3",
+                "body `crank`: `position`: a number with `pi` is an angle here, but angles without a unit are not in radians",
+                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+            ],
+        ),
+        (
+            "angle = \"phi\"",
             "angle = \"25 mm\"",
             [
                 "25 mm",
@@ -387,12 +405,6 @@ fn the_old_format_computes_nothing() {
 #[test]
 fn what_is_probably_not_meant_is_a_warning() {
     for (from, to, marked, message) in [
-        (
-            "angle = \"phi\"",
-            "angle = \"pi/6\"",
-            "\"pi/6\"",
-            "body `crank`: `angle` has `pi`, but angles without a unit are in the unit that `units` says",
-        ),
         (
             "\"L*cos(phi)\"",
             "\"L*(1 - cos(1e-4*phi))\"",
