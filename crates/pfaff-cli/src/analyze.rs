@@ -30,7 +30,8 @@ pub(crate) fn run(arguments: &Analyze, console: &Console<'_>) -> Outcome {
     }
     Interrupt::ends_at_once()?;
     let drop = rows_from_zero(arguments.drop.as_deref())?;
-    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
+    let source =
+        Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     arguments.resources.apply()?;
     let assembled = arguments.resources.assembled(&source)?;
     let overrides = Overrides {

@@ -15,7 +15,7 @@ use pfaff::dynamics::options::moved;
 use pfaff::dynamics::{Method, Stabilisation};
 use pfaff::sweep::{Axis, Shard};
 
-pub(crate) use known::Known;
+pub(crate) use known::{Known, Settings};
 
 use crate::output::Answer;
 use crate::resources::Resources;
@@ -226,7 +226,7 @@ pub(crate) struct Sweep {
     /// Scene file, or - for standard input
     #[arg(required_unless_present = "merge", conflicts_with = "merge")]
     pub(crate) scene: Option<PathBuf>,
-    /// A number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; may be
+    /// A parameter or number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; may be
     /// given several times
     #[arg(long, value_name = "KEY=VALUES", required_unless_present = "merge")]
     pub(crate) vary: Vec<Axis>,
@@ -239,6 +239,8 @@ pub(crate) struct Sweep {
     /// Number of runs at the same time; default: the number of cores
     #[arg(long, value_name = "K")]
     pub(crate) threads: Option<NonZeroUsize>,
+    #[command(flatten)]
+    pub(crate) settings: Settings,
     /// Keep the trajectory of each run, in runs/NUMBER/trajectory.csv
     #[arg(long)]
     pub(crate) keep_rows: bool,
@@ -264,6 +266,8 @@ pub(crate) struct WorkPrecision {
     /// Every method with every stabilisation
     #[arg(long)]
     pub(crate) all: bool,
+    #[command(flatten)]
+    pub(crate) settings: Settings,
     /// All results as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,

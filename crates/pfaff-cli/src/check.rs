@@ -19,7 +19,8 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     }
     Interrupt::ends_at_once()?;
     arguments.resources.apply()?;
-    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
+    let source =
+        Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let checked = Checked::of(&source, arguments.resources)?;
     if arguments.json {
         console.document(&checked.document())

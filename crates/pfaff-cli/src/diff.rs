@@ -10,7 +10,7 @@ use pfaff::report::documents::{
 };
 use pfaff::{Comparison, Overrides, StudyError};
 
-use crate::args::Diff;
+use crate::args::{Diff, Known};
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
@@ -30,7 +30,8 @@ pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
         ));
     }
     Interrupt::ends_at_once()?;
-    let read = |path| Ok(Source::read(path, console)?.known(arguments.known));
+    let Known { settings, .. } = &arguments.known;
+    let read = |path| Ok(Source::read(path, settings, console)?.known(&arguments.known));
     let sources = [read(&arguments.a)?, read(&arguments.b)?];
     arguments.resources.apply()?;
     let [a, b] = &sources;

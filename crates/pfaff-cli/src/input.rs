@@ -5,10 +5,10 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use pfaff::model::{Registry, Tolerance};
-use pfaff::scene::nearest;
+use pfaff::scene::{KeyError, Template, nearest};
 use pfaff::{AssembledScene, Overrides, Study, StudyError};
 
-use crate::args::Known;
+use crate::args::{Known, Settings};
 use crate::console::Console;
 use crate::output::Failure;
 use crate::resources::{Resources, Stage};
@@ -31,8 +31,12 @@ pub(crate) struct Source<'r> {
 }
 
 impl<'r> Source<'r> {
-    /// Reads a file, or standard input for `-`.
-    pub(crate) fn read(path: &Path, console: &Console<'r>) -> Result<Self, Failure> {
+    /// Reads a file, or standard input for `-`, with other numbers in it.
+    pub(crate) fn read(
+        path: &Path,
+        settings: &Settings,
+        console: &Console<'r>,
+    ) -> Result<Self, Failure> {
         let standard_input = path.as_os_str() == "-";
         let name = if standard_input {
             "<stdin>".to_owned()
@@ -59,14 +63,14 @@ impl<'r> Source<'r> {
         })?;
         Ok(Self {
             name,
-            text,
+            text: with_settings(text, settings)?,
             tolerance: Tolerance::default(),
             registry: console.registry,
         })
     }
 
-    /// Returns the same scene with these tolerances.
-    pub(crate) fn known(self, known: Known) -> Self {
+    /// The same scene with numbers known to this.
+    pub(crate) fn known(self, known: &Known) -> Self {
         Self {
             tolerance: known.into(),
             ..self
@@ -117,8 +121,23 @@ impl<'r> Source<'r> {
     }
 }
 
-/// The error for a file that cannot be read, with the scene in its directory that was probably
-/// meant.
+/// The text of a scene with other numbers in it. One that is not TOML stays as it is: its reader
+/// says what is wrong.
+fn with_settings(text: String, Settings { list }: &Settings) -> Result<String, Failure> {
+    if list.is_empty() {
+        return Ok(text);
+    }
+    let keys: Vec<&str> = list.iter().map(|set| set.key.as_str()).collect();
+    let template = match Template::new(&text, &keys) {
+        Ok(template) => template,
+        Err(KeyError::NotToml) => return Ok(text),
+        Err(e) => return Err(Failure::input(format!("--set: {e}"))),
+    };
+    let expressions: Vec<&str> = list.iter().map(|set| set.expression.as_str()).collect();
+    Ok(template.with_expressions(&expressions))
+}
+
+/// A file that cannot be read, with the scene in its directory that was probably meant.
 pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
     let name = if path.as_os_str() == "-" {
         "<stdin>".into()

@@ -24,7 +24,9 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::Parser;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use pfaff::model::Registry;
+use pfaff::scene::nearest;
 
 pub use args::named;
 use args::{Arguments, Command, Elsewhere};
@@ -84,14 +86,48 @@ where
     I: IntoIterator<Item: Into<OsString> + Clone>,
 {
     let console = Console::new(registry, out, err);
-    let arguments = match C::try_parse_from(arguments) {
+    let words: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let arguments = match C::try_parse_from(&words) {
         Ok(arguments) => arguments,
-        Err(e) => return console.usage(&e),
+        Err(e) => return console.usage(&with_suggestion(e, C::command(), &words)),
     };
     match arguments.run(&console) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => console.report(failure, arguments.answer()),
     }
+}
+
+/// A refusal of words of the command line, with what other programs call by that name if clap knows
+/// nothing like it.
+fn with_suggestion(mut e: clap::Error, program: clap::Command, words: &[OsString]) -> clap::Error {
+    let said = |kind| match e.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.clone()),
+        _ => None,
+    };
+    let command = words.get(1).and_then(|word| program.find_subcommand(word));
+    if let Some(word) = said(ContextKind::InvalidSubcommand)
+        && e.get(ContextKind::SuggestedSubcommand).is_none()
+        && let Some(near) = nearest(
+            &word,
+            program.get_subcommands().map(clap::Command::get_name),
+        )
+    {
+        let near = ContextValue::Strings(vec![near.to_owned()]);
+        e.insert(ContextKind::SuggestedSubcommand, near);
+    } else if let Some(word) = said(ContextKind::InvalidArg)
+        && e.kind() == ErrorKind::UnknownArgument
+        && e.get(ContextKind::SuggestedArg).is_none()
+    {
+        let options = command.into_iter().flat_map(clap::Command::get_arguments);
+        let options: Vec<String> = options
+            .filter_map(|option| Some(format!("--{}", option.get_long()?)))
+            .collect();
+        if let Some(near) = nearest(&word, options.iter().map(String::as_str)) {
+            let near = ContextValue::String(near.to_owned());
+            e.insert(ContextKind::SuggestedArg, near);
+        }
+    }
+    e
 }
 
 impl CommandLine for Arguments {

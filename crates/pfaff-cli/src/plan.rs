@@ -14,7 +14,8 @@ use crate::resources::Bytes;
 
 pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
-    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
+    let source =
+        Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let overrides = Overrides {
         t_end: arguments.t_end,
         method: arguments.method,

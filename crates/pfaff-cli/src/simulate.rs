@@ -22,7 +22,8 @@ pub(crate) const TRUSTED_BALANCE: f64 = 1e-3;
 const TICKS: u64 = 1000;
 
 pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
-    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
+    let source =
+        Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let overrides = overrides(arguments)?;
     let study = source.study(&overrides, arguments.resources)?;
     let memory = study

@@ -16,7 +16,10 @@ use crate::simulate::TRUSTED_BALANCE;
 
 pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
     let (document, ending) = match &arguments.scene {
-        Some(scene) => make(arguments, &Source::read(scene, console)?)?,
+        Some(scene) => make(
+            arguments,
+            &Source::read(scene, &arguments.settings, console)?,
+        )?,
         None => {
             let document = merge(&arguments.merge, &arguments.out).map_err(|e| failure(&e))?;
             let ending = if document.partial {

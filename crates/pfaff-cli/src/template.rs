@@ -20,8 +20,8 @@ macro_rules! examples {
 }
 
 /// From simple to rich, as in `examples/README.md`.
-const EXAMPLES: [Template; 21] = examples!(
-    "door" "carriage" "truss" "four-bar" "knife-edge" "sleigh" "towed-cart" "scotch-yoke" "three-cranks" "gear-train" "planetary-gear"
+const EXAMPLES: [Template; 22] = examples!(
+    "door" "carriage" "truss" "four-bar" "slider-crank" "knife-edge" "sleigh" "towed-cart" "scotch-yoke" "three-cranks" "gear-train" "planetary-gear"
     "sweeper" "car" "truck" "snakeboard" "pantograph" "peaucellier" "chebyshev" "five-bar" "scissor-lift" "andrews"
 );
 

@@ -21,7 +21,8 @@ use crate::start::Start;
 
 pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
-    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
+    let source =
+        Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let path = place(arguments)?;
     arguments.resources.apply()?;
     let start = Start::of(&source, arguments.resources)?;

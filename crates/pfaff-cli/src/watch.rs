@@ -42,8 +42,8 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
 
 /// The text of a check, whether the scene is right or wrong.
 fn verdict(arguments: &Check, console: &Console<'_>) -> String {
-    let checked = Source::read(&arguments.scene, console)
-        .map(|source| source.known(arguments.known))
+    let checked = Source::read(&arguments.scene, &arguments.known.settings, console)
+        .map(|source| source.known(&arguments.known))
         .and_then(|source| Ok(Checked::of(&source, arguments.resources)?.describe()));
     checked.unwrap_or_else(|failure| failure.words(console.is_coloured()))
 }

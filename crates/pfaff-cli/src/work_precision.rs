@@ -11,7 +11,7 @@ use pfaff::report::{
 };
 use pfaff::work_precision::{Plan, Rival, Subject, overview, provenance};
 
-use crate::args::WorkPrecision;
+use crate::args::{Settings, WorkPrecision};
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
@@ -21,7 +21,8 @@ use crate::resources::Resources;
 pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     // All scenes are read before the first is run.
     let scenes = arguments.scenes.iter();
-    let subjects: Result<Vec<Subject>, Failure> = scenes.map(|s| subject(s, console)).collect();
+    let read = |path: &PathBuf| read(path, &arguments.settings, console);
+    let subjects: Result<Vec<Subject>, Failure> = scenes.map(read).collect();
     Request {
         subjects: &subjects?,
         rivals: &[],
@@ -47,7 +48,12 @@ pub fn plan(quick: bool, all: bool) -> Plan {
 /// # Errors
 /// The error in the file or in the scene.
 pub fn subject(path: &Path, console: &Console<'_>) -> Result<Subject, Failure> {
-    let source = Source::read(path, console)?;
+    read(path, &Settings::default(), console)
+}
+
+/// The scene of a file, with other numbers in it.
+fn read(path: &Path, settings: &Settings, console: &Console<'_>) -> Result<Subject, Failure> {
+    let source = Source::read(path, settings, console)?;
     let study = source.study(&pfaff::Overrides::default(), Resources::default())?;
     Subject::of_study(study).map_err(|e| source.failure(e))
 }

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use joints::spec::{Shape, Spec};
+use joints::spec::{Shape, Spec, Unit};
 use joints::{Argument, ArgumentError};
 use model::Function;
 
+use crate::dimension::Dimension;
 use crate::field::{Field, all};
 use crate::findings::Findings;
 use crate::function::{self, Domain};
@@ -56,8 +57,7 @@ impl Arguments {
             };
             let value = match parameter.shape {
                 Shape::Functions(units) => {
-                    let functions =
-                        functions(&field, units.len(), parameter.shape, domains, findings);
+                    let functions = functions(&field, units, parameter.shape, domains, findings);
                     arguments.complete &= functions.is_some();
                     arguments.functions.extend(functions.unwrap_or_default());
                     Some(Argument::Absent)
@@ -129,19 +129,24 @@ fn label(error: &ArgumentError) -> &'static str {
 fn value(field: &Field, shape: Shape, findings: &mut Findings) -> Option<Argument> {
     let expected = shape.to_string();
     match shape {
-        Shape::Point { .. } | Shape::Direction { .. } => {
-            field.pair(&expected, findings).map(Argument::Pair)
+        Shape::Point { .. } => {
+            let pair = field.pair(&expected, Dimension::LENGTH, findings);
+            pair.map(Argument::Pair)
+        }
+        Shape::Direction { .. } => {
+            let pair = field.pair(&expected, Dimension::NONE, findings);
+            pair.map(Argument::Pair)
         }
         Shape::GroundLine => {
             let points = field.pairs(2, &expected, findings)?;
             points.try_into().ok().map(Argument::Pairs)
         }
-        Shape::Numbers([_]) => {
-            let number = field.number_expected(&expected, findings)?;
+        Shape::Numbers([unit]) => {
+            let number = field.number_expected(&expected, (*unit).into(), findings)?;
             Some(Argument::Numbers(vec![number]))
         }
         Shape::Numbers(units) => field
-            .numbers(units.len(), &expected, findings)
+            .numbers(units.len(), &expected, |k| units[k].into(), findings)
             .map(Argument::Numbers),
         Shape::Functions(_) => Some(Argument::Absent),
     }
@@ -150,18 +155,21 @@ fn value(field: &Field, shape: Shape, findings: &mut Findings) -> Option<Argumen
 /// One function, or a list of them.
 fn functions(
     field: &Field,
-    n: usize,
+    units: &[Unit],
     shape: Shape,
     domains: &mut Vec<Domain>,
     findings: &mut Findings,
 ) -> Option<Vec<Function>> {
-    if n == 1 {
-        return function::read(field, domains, findings).map(|f| vec![f]);
+    if let [unit] = units {
+        return function::read(field, (*unit).into(), domains, findings).map(|f| vec![f]);
     }
     let items = field.items(&shape.to_string(), findings)?;
-    if items.len() != n {
+    if items.len() != units.len() {
         field.mismatch(&shape.to_string(), findings);
         return None;
     }
-    all(&items, |item| function::read(item, domains, findings))
+    let mut units = units.iter();
+    all(&items, |item| {
+        function::read(item, (*units.next()?).into(), domains, findings)
+    })
 }

@@ -7,6 +7,7 @@ use std::ops::Range;
 use model::{Body, BodyRef};
 use serde_json::json;
 
+use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
@@ -17,28 +18,28 @@ use crate::tolerance;
 
 const MASS: Key = number("mass", "a number ≥ 0", Interval::NotNegative)
     .needed()
-    .unit("kg")
+    .unit(Dimension::MASS)
     .doc("Mass");
 const INERTIA: Key = number("inertia", "a number ≥ 0", Interval::NotNegative)
     .needed()
-    .unit("kg·m²")
+    .unit(Dimension::INERTIA)
     .doc("Moment of inertia about the centre of mass");
 const POSITION: Key = pair("position")
-    .unit("m")
+    .unit(Dimension::LENGTH)
     .doc("Centre of mass [x, y] at the start")
     .or(|| json!([0.0, 0.0]));
-const VELOCITY: Key = pair("velocity").unit("m/s").doc(
+const VELOCITY: Key = pair("velocity").unit(Dimension::VELOCITY).doc(
     "Velocity [vx, vy] of the centre of mass at the start; it follows from what is given and driven, with the least kinetic energy, where it is left out",
 );
 const ANGLE: Key = number("angle", "a number", Interval::Any)
-    .unit("rad")
+    .unit(Dimension::ANGLE)
     .doc("Angle of the body's frame at the start")
     .or(|| 0.0.into());
 const TOLERANCE: Key = tolerance::length(
     "What points and directions in the body's frame are known to; that of the scene where it is not given",
 );
 const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
-    .unit("rad/s")
+    .unit(Dimension::ANGULAR_VELOCITY)
     .doc("Angular velocity at the start; it follows in the same way where it is left out");
 
 /// Keys of a body in addition to its name.
@@ -79,17 +80,20 @@ impl Bodies {
         let mut required = |key: &Key| {
             table
                 .required(key, findings)
-                .and_then(|field| field.number(findings))
+                .and_then(|field| field.number(key.unit, findings))
                 .unwrap_or_default()
         };
         let (mass, inertia) = (required(&MASS), required(&INERTIA));
         let mut pair = |key: &Key| {
             table
                 .optional(key)
-                .and_then(|field| field.pair(key.expected, findings))
+                .and_then(|field| field.pair(key.expected, key.unit, findings))
         };
         let (position, velocity) = (pair(&POSITION).unwrap_or_default(), pair(&VELOCITY));
-        let mut number = |key: &Key| table.optional(key).and_then(|field| field.number(findings));
+        let mut number = |key: &Key| {
+            let field = table.optional(key);
+            field.and_then(|field| field.number(key.unit, findings))
+        };
         let (angle, angular_velocity) = (
             number(&ANGLE).unwrap_or_default(),
             number(&ANGULAR_VELOCITY),

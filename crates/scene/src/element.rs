@@ -14,6 +14,7 @@ use crate::function::Domain;
 use crate::key::TYPE;
 use crate::nearest::{list, nearest};
 use crate::place;
+use crate::section;
 use crate::table::Table;
 
 /// A definition of the registry.
@@ -119,7 +120,16 @@ pub(crate) fn scene_type(
             format!("`{name}` is a {kind}"),
             Some(format!("write it under `[[{section}]]`")),
         ),
-        None => ("unknown type".to_owned(), None),
+        None => match nearest(name, [section::DRIVE.name]) {
+            Some(drive) => (
+                format!("`{name}` is a {drive}"),
+                Some(
+                    "write it under `[[drive]]`, with the name of the joint that it moves"
+                        .to_owned(),
+                ),
+            ),
+            None => ("unknown type".to_owned(), None),
+        },
     };
     let all = || format!("the types of a {} are {}", types.kind, types);
     findings.error_with_help(

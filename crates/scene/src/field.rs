@@ -7,9 +7,15 @@ use std::rc::Rc;
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
+use crate::dimension::Dimension;
+use crate::expression::{Fault, Problem, Quantity, Scope, decimal};
 use crate::findings::Findings;
+use crate::language::Language;
 use crate::table::Table;
-use crate::units;
+use crate::{expression, nearest, units};
+
+/// Share of a value to which it is accurate where half of its digits have cancelled.
+const CANCELLED: f64 = 1e-8;
 
 /// A value with its key.
 #[derive(Clone)]
@@ -20,6 +26,8 @@ pub(crate) struct Field<'t> {
     pub(crate) key: Cow<'t, str>,
     /// The value.
     pub(crate) value: &'t Spanned<DeValue<'t>>,
+    /// What its numbers mean.
+    pub(crate) language: &'t Language,
 }
 
 impl<'t> Field<'t> {
@@ -38,7 +46,8 @@ impl<'t> Field<'t> {
                         "numbers stand without quotes: write `{text}` instead of `\"{text}\"`"
                     ))
                 } else {
-                    units::advice(text)
+                    const COMPUTED: &str = "texts are computed with `format = 2` in `[scene]`";
+                    units::advice(text).or_else(|| Some(COMPUTED.to_owned()))
                 }
             });
         findings.error_with_help(
@@ -72,13 +81,55 @@ impl<'t> Field<'t> {
         value
     }
 
-    /// A finite number.
-    pub(crate) fn number(&self, findings: &mut Findings) -> Option<f64> {
-        self.number_expected("a number", findings)
+    /// Whether a number is meant: one is written, or an expression.
+    pub(crate) fn may_be_number(&self) -> bool {
+        let value = self.value.get_ref();
+        as_number(value).is_some() || (self.language.computes && value.is_str())
     }
 
-    /// A finite number; `expected` describes it.
-    pub(crate) fn number_expected(&self, expected: &str, findings: &mut Findings) -> Option<f64> {
+    /// A finite number of this dimension.
+    pub(crate) fn number(&self, of: Dimension, findings: &mut Findings) -> Option<f64> {
+        self.number_expected("a number", of, findings)
+    }
+
+    /// A finite number of this dimension; `expected` says more about it.
+    pub(crate) fn number_expected(
+        &self,
+        expected: &str,
+        of: Dimension,
+        findings: &mut Findings,
+    ) -> Option<f64> {
+        let written = self.quantity(expected, self.language, findings)?;
+        match written.at(of, self.language.bases()) {
+            Ok(q) => {
+                self.warn_if_cancelled(q, findings);
+                Some(q.to_f64())
+            }
+            Err(problem) => {
+                let span = 0..self.value.get_ref().as_str().unwrap_or_default().len();
+                self.report(Fault { span, problem }, self.language, findings);
+                None
+            }
+        }
+    }
+
+    /// A finite number, or the value of an expression; bare numbers have no dimension yet.
+    pub(crate) fn quantity(
+        &self,
+        expected: &str,
+        language: &Language,
+        findings: &mut Findings,
+    ) -> Option<Quantity> {
+        if let Some(text) = self.value.get_ref().as_str().filter(|_| language.computes) {
+            let faults = match expression::evaluate(text, language) {
+                Ok(q) => return Some(q),
+                Err(faults) => faults,
+            };
+            for fault in faults {
+                self.report(fault, language, findings);
+            }
+            return None;
+        }
         let Some(value) = as_number(self.value.get_ref()) else {
             self.mismatch(expected, findings);
             return None;
@@ -94,7 +145,42 @@ impl<'t> Field<'t> {
             );
             return None;
         }
-        Some(value)
+        Some(Quantity::bare(match self.value.get_ref() {
+            DeValue::Float(x) if language.computes => decimal(x.as_str()),
+            _ => value.into(),
+        }))
+    }
+
+    /// Reports what is wrong with an expression, at its place.
+    fn report(&self, fault: Fault, language: &Language, findings: &mut Findings) {
+        let Fault { span, problem } = fault;
+        let mut label = problem.label().to_owned();
+        let mut help = problem.help();
+        if let Problem::UnknownName { name } | Problem::UnknownFunction { name } = &problem {
+            match findings.suggest(name, language.names()) {
+                Some(near) => label = format!("did you mean `{near}`?"),
+                None => help = nearest::all("parameters", language.own_names()),
+            }
+        }
+        let message = format!("{}: `{}`: {problem}", self.subject, self.key);
+        findings.error_with_help(self.part(span, findings), message, label, help);
+    }
+
+    /// Warns of digits that cancel.
+    fn warn_if_cancelled(&self, q: Quantity, findings: &mut Findings) {
+        let value = q.to_f64();
+        let share = q.error / value.abs();
+        if value != 0.0 && share > CANCELLED {
+            findings.warning(
+                self.span(),
+                format!(
+                    "{}: `{}` is a small difference of larger numbers: it is accurate to {share:.0e} of its value",
+                    self.subject, self.key
+                ),
+                "digits cancel",
+                "write it in another way, or state a `tolerance`".to_owned(),
+            );
+        }
     }
 
     /// A whole number within the range of the type.
@@ -127,6 +213,7 @@ impl<'t> Field<'t> {
         &self,
         n: usize,
         expected: &str,
+        of: impl Fn(usize) -> Dimension,
         findings: &mut Findings,
     ) -> Option<Vec<f64>> {
         let items = self.items(expected, findings)?;
@@ -135,21 +222,30 @@ impl<'t> Field<'t> {
             self.mismatch(expected, findings);
             return None;
         }
-        all(&items, |item| item.number(findings))
+        each(&items, of, findings)
     }
 
-    /// A list of any number of finite numbers.
-    pub(crate) fn any_numbers(&self, findings: &mut Findings) -> Option<Vec<f64>> {
-        let items = self.items("a list of numbers", findings)?;
-        all(&items, |item| item.number(findings))
+    /// A list of any number of finite numbers, with the dimension of each.
+    pub(crate) fn any_numbers(
+        &self,
+        of: impl Fn(usize) -> Dimension,
+        findings: &mut Findings,
+    ) -> Option<Vec<f64>> {
+        each(&self.items("a list of numbers", findings)?, of, findings)
     }
 
-    /// Two finite numbers.
-    pub(crate) fn pair(&self, expected: &str, findings: &mut Findings) -> Option<[f64; 2]> {
-        self.numbers(2, expected, findings)?.try_into().ok()
+    /// Two finite numbers of one dimension.
+    pub(crate) fn pair(
+        &self,
+        expected: &str,
+        of: Dimension,
+        findings: &mut Findings,
+    ) -> Option<[f64; 2]> {
+        let pair = self.numbers(2, expected, |_| of, findings)?;
+        pair.try_into().ok()
     }
 
-    /// `n` pairs of finite numbers.
+    /// `n` points.
     pub(crate) fn pairs(
         &self,
         n: usize,
@@ -161,7 +257,9 @@ impl<'t> Field<'t> {
             self.mismatch(expected, findings);
             return None;
         }
-        all(&items, |item| item.pair("a point [x, y]", findings))
+        all(&items, |item| {
+            item.pair("a point [x, y]", Dimension::LENGTH, findings)
+        })
     }
 
     /// A table.
@@ -171,8 +269,33 @@ impl<'t> Field<'t> {
             return None;
         };
         let subject = format!("{}: `{}`", self.subject, self.key);
-        Some(Table::new(subject, self.span(), entries))
+        Some(Table::new(subject, self.span(), entries, self.language))
     }
+
+    /// The place of a part of its text in the file; the whole value where the text is written with
+    /// escapes.
+    pub(crate) fn part(&self, part: Range<usize>, findings: &Findings) -> Range<usize> {
+        let whole = self.span();
+        let text = self.value.get_ref().as_str().unwrap_or_default();
+        let written = findings.source.text().get(whole.clone());
+        match written.unwrap_or_default().find(text) {
+            Some(at) if !text.is_empty() => {
+                let begin = whole.start + at;
+                begin + part.start..begin + part.end
+            }
+            _ => whole,
+        }
+    }
+}
+
+/// Reads numbers with the dimension of each.
+fn each(
+    items: &[Field],
+    of: impl Fn(usize) -> Dimension,
+    findings: &mut Findings,
+) -> Option<Vec<f64>> {
+    let mut k = 0..;
+    all(items, |item| item.number(of(k.next()?), findings))
 }
 
 /// Reads all values, even after one that cannot be read.

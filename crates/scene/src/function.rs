@@ -5,7 +5,8 @@ use std::rc::Rc;
 
 use model::{Function, FunctionError};
 
-use crate::field::{Field, all, as_number};
+use crate::dimension::Dimension;
+use crate::field::{Field, all};
 use crate::findings::Findings;
 use crate::key::{Interval, Key, TYPE, Takes};
 use crate::nearest::{did_you_mean, list};
@@ -53,6 +54,7 @@ pub(crate) const KINDS: [Kind; 6] = [
 ];
 
 const START: Key = value("start")
+    .of_values()
     .doc("Value before the first step")
     .or(|| 0.0.into());
 const STEPS: Key = Key::required(
@@ -61,31 +63,49 @@ const STEPS: Key = Key::required(
     Takes::Steps,
 )
 .doc("Steps, which may overlap");
-const FROM: Key = value("from").needed().unit("s").doc("When the step begins");
-const TO: Key = value("to").needed().unit("s").doc("When it ends, later");
-const BY: Key = value("by").needed().doc("By how much the value changes");
-const RATE: Key = value("rate").needed().unit("1/s").doc("Change per second");
+const FROM: Key = value("from")
+    .needed()
+    .unit(Dimension::TIME)
+    .doc("When the step begins");
+const TO: Key = value("to")
+    .needed()
+    .unit(Dimension::TIME)
+    .doc("When it ends, later");
+const BY: Key = value("by")
+    .needed()
+    .of_values()
+    .doc("By how much the value changes");
+const RATE: Key = value("rate")
+    .needed()
+    .unit(Dimension::PER_TIME)
+    .of_values()
+    .doc("Change per second");
 const COEFFICIENTS: Key = Key::required(
     "coefficients",
     "a list of numbers, ascending",
     Takes::Numbers(0),
 )
+.of_values()
 .doc("Coefficients of 1, t, t², …");
-const AMPLITUDE: Key = value("amplitude").needed().doc("Amplitude");
+const AMPLITUDE: Key = value("amplitude").needed().of_values().doc("Amplitude");
 const OMEGA: Key = value("omega")
     .needed()
-    .unit("rad/s")
+    .unit(Dimension::ANGULAR_VELOCITY)
     .doc("Angular frequency");
 const PHASE: Key = value("phase")
-    .unit("rad")
+    .unit(Dimension::ANGLE)
     .doc("Phase at t = 0")
     .or(|| 0.0.into());
-const OFFSET: Key = value("offset").doc("Mean value").or(|| 0.0.into());
+const OFFSET: Key = value("offset")
+    .of_values()
+    .doc("Mean value")
+    .or(|| 0.0.into());
 const TIMES: Key = Key::required("times", "a list of growing times", Takes::Numbers(2))
-    .unit("s")
+    .unit(Dimension::TIME)
     .doc("Times of the points");
-const VALUES: Key =
-    Key::required("values", "a list of numbers", Takes::Numbers(2)).doc("Values at these times");
+const VALUES: Key = Key::required("values", "a list of numbers", Takes::Numbers(2))
+    .of_values()
+    .doc("Values at these times");
 
 /// Keys of a step.
 pub(crate) const STEP_KEYS: [Key; 3] = [FROM, TO, BY];
@@ -107,29 +127,30 @@ pub(crate) struct Domain {
     pub(crate) last: f64,
 }
 
-/// Reads a function. The intervals of tables are added to `domains`.
+/// Reads a function with values of this dimension. Tables leave their domain in `domains`.
 pub(crate) fn read(
     field: &Field,
+    of: Dimension,
     domains: &mut Vec<Domain>,
     findings: &mut Findings,
 ) -> Option<Function> {
     const EXPECTED: &str = "a number or a function of time { type = … }";
-    if as_number(field.value.get_ref()).is_some() {
-        let value = field.number(findings)?;
+    if field.may_be_number() {
+        let value = field.number(of, findings)?;
         return accept(Function::constant(value), field, findings);
     }
     let mut table = field.table(EXPECTED, findings)?;
     let kind = table.needed(TYPE, list(names()), findings)?;
     let function = match kind.text(&list(names()), findings)? {
-        "steps" => steps(&mut table, findings),
+        "steps" => steps(&mut table, of, findings),
         "constant-rate" => {
-            let rate = number(&mut table, &RATE, findings);
+            let rate = number(&mut table, &RATE, of, findings);
             rate.and_then(|rate| accept(Function::constant_rate(rate), field, findings))
         }
-        "polynomial" => polynomial(&mut table, field, findings),
-        "harmonic" => harmonic(&mut table, field, findings),
-        "table" => points(&mut table, Function::table, domains, findings),
-        "linear-table" => points(&mut table, Function::lines, domains, findings),
+        "polynomial" => polynomial(&mut table, of, field, findings),
+        "harmonic" => harmonic(&mut table, of, field, findings),
+        "table" => points(&mut table, of, Function::table, domains, findings),
+        "linear-table" => points(&mut table, of, Function::lines, domains, findings),
         unknown => {
             findings.error_with_help(
                 kind.span(),
@@ -144,10 +165,10 @@ pub(crate) fn read(
     function
 }
 
-/// The number under a key, or its default.
-fn number(table: &mut Table, key: &Key, findings: &mut Findings) -> Option<f64> {
+/// The number under a key of a function with values of this dimension, or its default.
+fn number(table: &mut Table, key: &Key, of: Dimension, findings: &mut Findings) -> Option<f64> {
     match (table.optional(key), key.default) {
-        (Some(field), _) => field.number(findings),
+        (Some(field), _) => field.number(key.unit_in(of), findings),
         (None, Some(default)) => default().as_f64(),
         (None, None) => {
             table.required(key, findings);
@@ -156,11 +177,11 @@ fn number(table: &mut Table, key: &Key, findings: &mut Findings) -> Option<f64> 
     }
 }
 
-fn steps(table: &mut Table, findings: &mut Findings) -> Option<Function> {
-    let start = number(table, &START, findings);
+fn steps(table: &mut Table, of: Dimension, findings: &mut Findings) -> Option<Function> {
+    let start = number(table, &START, of, findings);
     let field = table.required(&STEPS, findings)?;
     let items = field.items(STEPS.expected, findings)?;
-    let read = all(&items, |item| step(item, findings));
+    let read = all(&items, |item| step(item, of, findings));
     let (start, mut steps) = (start?, read?);
     // The function reports only its first fault: report it, replace the step by a valid one and try
     // again.
@@ -186,32 +207,45 @@ fn steps(table: &mut Table, findings: &mut Findings) -> Option<Function> {
     None
 }
 
-fn step(item: &Field, findings: &mut Findings) -> Option<[f64; 3]> {
+fn step(item: &Field, of: Dimension, findings: &mut Findings) -> Option<[f64; 3]> {
     let mut table = item.table("a step { from = …, to = …, by = … }", findings)?;
-    let step = STEP_KEYS.map(|key| number(&mut table, &key, findings));
+    let step = STEP_KEYS.map(|key| number(&mut table, &key, of, findings));
     table.close(findings);
     let [from, to, by] = step;
     Some([from?, to?, by?])
 }
 
-fn polynomial(table: &mut Table, field: &Field, findings: &mut Findings) -> Option<Function> {
-    let coefficients = table
-        .required(&COEFFICIENTS, findings)?
-        .any_numbers(findings)?;
+fn polynomial(
+    table: &mut Table,
+    of: Dimension,
+    field: &Field,
+    findings: &mut Findings,
+) -> Option<Function> {
+    let list = table.required(&COEFFICIENTS, findings)?;
+    let of = COEFFICIENTS.unit_in(of);
+    // That of tᵏ is the k-th power of a second below the others.
+    let power = |k: usize| i8::try_from(k).unwrap_or(i8::MAX);
+    let coefficients = list.any_numbers(|k| of.times(Dimension::PER_TIME, power(k)), findings)?;
     accept(Function::polynomial(&coefficients), field, findings)
 }
 
-fn harmonic(table: &mut Table, field: &Field, findings: &mut Findings) -> Option<Function> {
-    let amplitude = number(table, &AMPLITUDE, findings);
-    let omega = number(table, &OMEGA, findings);
-    let phase = number(table, &PHASE, findings);
-    let offset = number(table, &OFFSET, findings);
+fn harmonic(
+    table: &mut Table,
+    of: Dimension,
+    field: &Field,
+    findings: &mut Findings,
+) -> Option<Function> {
+    let amplitude = number(table, &AMPLITUDE, of, findings);
+    let omega = number(table, &OMEGA, of, findings);
+    let phase = number(table, &PHASE, of, findings);
+    let offset = number(table, &OFFSET, of, findings);
     let function = Function::harmonic(amplitude?, omega?, phase?, offset?);
     accept(function, field, findings)
 }
 
 fn points(
     table: &mut Table,
+    of: Dimension,
     through: impl Fn(&[f64], &[f64]) -> Result<Function, FunctionError>,
     domains: &mut Vec<Domain>,
     findings: &mut Findings,
@@ -219,8 +253,8 @@ fn points(
     let times = table.required(&TIMES, findings);
     let values = table.required(&VALUES, findings);
     let (times, values) = (times?, values?);
-    let t = times.any_numbers(findings);
-    let y = values.any_numbers(findings);
+    let t = times.any_numbers(|_| TIMES.unit, findings);
+    let y = values.any_numbers(|_| VALUES.unit_in(of), findings);
     let (t, y) = (t?, y?);
     let function = match through(&t, &y) {
         Ok(function) => function,

@@ -5,12 +5,13 @@ use std::ops::Range;
 
 use joints::Argument;
 use model::registry::ConstraintDefinition;
-use model::{BodyRef, Drive, Joint};
+use model::{BodyRef, Drive, Function, Joint};
 
 use crate::body::Bodies;
 use crate::connection;
+use crate::dimension::Dimension;
 use crate::element::{self, Types};
-use crate::field::{Field, as_number};
+use crate::field::Field;
 use crate::findings::Findings;
 use crate::function::{self, Domain};
 use crate::key::{Key, TYPE, Takes};
@@ -22,8 +23,7 @@ use crate::tolerance;
 const JOINT: Key =
     Key::required("joint", "the name of a joint", Takes::Text).doc("The joint that is driven");
 const MOTION: Key = Key::required("motion", "a function of time", Takes::Function)
-    .unit("rad or m")
-    .doc("The measure is its initial value + f(t) − f(0); a number holds it");
+    .doc("The measure is its initial value + f(t) − f(0); a number holds it (rad or m)");
 
 /// Keys of a drive in addition to its name and its type.
 pub(crate) const DRIVE_KEYS: [Key; 2] = [JOINT, MOTION];
@@ -140,13 +140,20 @@ impl Drives {
         let joint = joint(&mut table, joints, findings);
         let measure = table.needed(TYPE, MEASURE, findings);
         let motion = table.required(&MOTION, findings);
-        let motion = motion.and_then(|field| {
-            let function = function::read(&field, domains, findings)?;
-            warn_if_held(&field, findings);
-            Some(function)
-        });
         let measure =
             measure.and_then(|field| Some((field.text(MEASURE, findings)?, field.span())));
+        let of = match (joint, measure.as_ref()) {
+            (Some(joint), Some((measure, _))) => dimension(joint, measure),
+            _ => None,
+        };
+        let motion = motion.and_then(|field| {
+            let of = of.unwrap_or(Dimension::UNKNOWN);
+            let function = function::read(&field, of, domains, findings)?;
+            if field.may_be_number() {
+                warn_if_held(&field, &function, findings);
+            }
+            Some(function)
+        });
         let entry = Entry::of(name, &table);
         table.close(findings);
         let (Some(joint), Some((measure, span))) = (joint, measure) else {
@@ -211,11 +218,16 @@ impl Drives {
     }
 }
 
-/// Warns of a motion that is a constant other than zero: the author may expect a speed or a
-/// position, but a drive follows f(t) − f(0).
-fn warn_if_held(motion: &Field, findings: &mut Findings) {
-    let Some(value) = as_number(motion.value.get_ref()).filter(|value| *value != 0.0) else {
+/// Warns of a motion that is a number other than zero: whoever writes one may expect a speed or a
+/// place, but a drive follows f(t) − f(0).
+fn warn_if_held(motion: &Field, function: &Function, findings: &mut Findings) {
+    let [held, ..] = function.jet(0.0);
+    if held == 0.0 {
         return;
+    }
+    let value = match motion.value.get_ref().as_str() {
+        Some(text) => format!("{text:?}"),
+        None => held.to_string(),
     };
     findings.warning(
         motion.span(),
@@ -228,6 +240,15 @@ fn warn_if_held(motion: &Field, findings: &mut Findings) {
             "for a constant speed write `motion = {{ type = \"constant-rate\", rate = {value} }}`, to hold the measure `motion = 0`"
         ),
     );
+}
+
+/// The dimension of a measure of a joint, if it has this measure.
+fn dimension(joint: &Known, measure: &str) -> Option<Dimension> {
+    let definition = joint.definition?;
+    let mut measures = definition.spec.measures.iter();
+    let at = measures.position(|m| m.name == measure)?;
+    let of_drive = definition.drives.get(at)?.spec.common.functions();
+    of_drive.last().map(|(_, unit)| unit.into())
 }
 
 /// The joint that a drive names.

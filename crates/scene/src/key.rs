@@ -3,6 +3,8 @@
 
 use serde_json::Value;
 
+use crate::dimension::Dimension;
+
 /// The key that names a definition.
 pub(crate) const TYPE: &str = "type";
 
@@ -13,9 +15,11 @@ pub(crate) struct Key {
     /// The expected value, as stated in messages.
     pub(crate) expected: &'static str,
     pub(crate) takes: Takes,
-    /// The unit of its numbers; empty if they have none.
-    pub(crate) unit: &'static str,
-    /// Its meaning.
+    /// The dimension of its numbers.
+    pub(crate) unit: Dimension,
+    /// Whether that is multiplied by the dimension of a function's values.
+    is_of_values: bool,
+    /// What it means.
     pub(crate) doc: &'static str,
     pub(crate) is_required: bool,
     /// The default value.
@@ -33,6 +37,10 @@ pub(crate) enum Takes {
     OneOf(fn() -> Vec<&'static str>),
     /// `true` or `false`
     Flag,
+    /// A whole number between these.
+    Whole(i64, i64),
+    /// Units of bare numbers.
+    Units,
     /// One number.
     Number(Interval),
     /// At least this many numbers.
@@ -86,7 +94,8 @@ impl Key {
             name,
             expected,
             takes,
-            unit: "",
+            unit: Dimension::NONE,
+            is_of_values: false,
             doc: "",
             is_required: false,
             default: None,
@@ -101,12 +110,29 @@ impl Key {
         }
     }
 
-    /// Sets the unit.
-    pub(crate) const fn unit(self, unit: &'static str) -> Self {
+    /// With numbers of this dimension.
+    pub(crate) const fn unit(self, unit: Dimension) -> Self {
         Self { unit, ..self }
     }
 
-    /// Sets the meaning.
+    /// With numbers of the dimension of a function's values, times `unit`.
+    pub(crate) const fn of_values(self) -> Self {
+        Self {
+            is_of_values: true,
+            ..self
+        }
+    }
+
+    /// The dimension of its numbers in a function whose values have this one.
+    pub(crate) fn unit_in(&self, values: Dimension) -> Dimension {
+        if self.is_of_values {
+            values.times(self.unit, 1)
+        } else {
+            self.unit
+        }
+    }
+
+    /// What it means.
     pub(crate) const fn doc(self, doc: &'static str) -> Self {
         Self { doc, ..self }
     }

@@ -7,7 +7,9 @@
 //! | `limits` | largest size of a text |
 //! | `read` | the whole file, and the checks by the mechanism |
 //! | `section`, `names` | tables of the first level; names that may occur only once |
-//! | `table`, `field`, `key` | a table that records its keys; a value read as the expected type; the values of a key |
+//! | `language` | what numbers mean: format, units, parameters |
+//! | `expression`, `dimension` | a text to a number with its dimension; what fits where |
+//! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
 //! | `body` | bodies, and their names elsewhere |
 //! | `element` | common parts of joints and forces: type, `connection`, `place`, `arguments` |
 //! | `joint`, `force` | joints and their drives; forces |
@@ -23,13 +25,16 @@ mod body;
 mod combination;
 mod connection;
 mod diagnostic;
+mod dimension;
 mod element;
+mod expression;
 mod field;
 mod findings;
 mod force;
 mod function;
 mod joint;
 mod key;
+mod language;
 mod limits;
 mod locate;
 mod names;

@@ -3,12 +3,74 @@
 /// Longer names are not compared: the effort grows with the square of the length.
 const LONGEST: usize = 80;
 
-/// The candidate most similar to `name`, if it is similar enough: at most a third of the letters
-/// differ, and not all of them. A plural is similar.
+/// What other programs and books call something, and its name here. Words for suggestions only:
+/// those that are no candidates are passed over.
+const ELSEWHERE: [(&str, &str); 56] = [
+    ("pin", "revolute"),
+    ("hinge", "revolute"),
+    ("pivot", "revolute"),
+    ("rotational", "revolute"),
+    ("continuous", "revolute"),
+    ("prismatic", "translational"),
+    ("slider", "translational"),
+    ("slide", "translational"),
+    ("slot", "pin-in-slot"),
+    ("weld", "fixed"),
+    ("rigid", "fixed"),
+    ("clamp", "fixed"),
+    ("rod", "distance"),
+    ("link", "distance"),
+    ("bar", "distance"),
+    ("wheel", "knife-edge"),
+    ("skate", "knife-edge"),
+    ("spring", "spring-damper"),
+    ("damper", "spring-damper"),
+    ("moment", "torque"),
+    ("ramp", "constant-rate"),
+    ("linear", "constant-rate"),
+    ("sine", "harmonic"),
+    ("sin", "harmonic"),
+    ("cosine", "harmonic"),
+    ("spline", "table"),
+    ("rotation", "angle"),
+    ("position", "displacement"),
+    ("link", "body"),
+    ("part", "body"),
+    ("constraint", "joint"),
+    ("motor", "drive"),
+    ("actuator", "drive"),
+    ("load", "force"),
+    ("run", "simulate"),
+    ("simulation", "simulate"),
+    ("solver", "simulate"),
+    ("variables", "parameters"),
+    ("dt", "output_step"),
+    ("step", "output_step"),
+    ("duration", "t_end"),
+    ("integrator", "method"),
+    ("solver", "method"),
+    ("abstol", "atol"),
+    ("reltol", "rtol"),
+    ("theta", "angle"),
+    ("orientation", "angle"),
+    ("omega", "angular_velocity"),
+    ("com", "position"),
+    ("location", "at"),
+    ("rest_length", "free_length"),
+    ("k", "stiffness"),
+    ("c", "damping"),
+    ("g", "gravity"),
+    ("-o", "--out"),
+    ("--dt", "--max-step"),
+];
+
+/// The candidate nearest to `name`, if one is near enough: what other programs call by this name,
+/// or one of whose letters at most a third differ, and not all. A plural is near.
 ///
 /// ```
+/// assert_eq!(scene::nearest("hinge", ["fixed", "revolute"]), Some("revolute"));
 /// assert_eq!(scene::nearest("dor", ["cart", "door"]), Some("door"));
-/// assert_eq!(scene::nearest("hinge", ["cart", "door"]), None);
+/// assert_eq!(scene::nearest("bolt", ["cart", "door"]), None);
 /// ```
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let singular = name.strip_suffix("ies").map(|stem| format!("{stem}y"));
@@ -17,8 +79,19 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let mut rows = Rows::default();
     let (mut wanted, mut other) = (Vec::new(), Vec::new());
     lower(name, &mut wanted);
+    let one = name.strip_suffix('s').unwrap_or(name);
+    let is_said = |said: &str| {
+        [name, one]
+            .iter()
+            .any(|name| name.eq_ignore_ascii_case(said))
+    };
+    let known = ELSEWHERE.iter().filter(|(said, _)| is_said(said));
+    let meant: Vec<&str> = known.map(|(_, meant)| *meant).collect();
     let mut best: Option<(usize, &'a str)> = None;
     for candidate in candidates {
+        if meant.contains(&candidate) {
+            return Some(candidate);
+        }
         if letters.max(candidate.len()) > LONGEST {
             continue;
         }
@@ -146,9 +219,23 @@ mod tests {
     }
 
     #[test]
+    fn words_of_other_programs_are_known_where_they_can_be_meant() {
+        let types = ["distance", "fixed", "revolute", "translational"];
+        assert_eq!(nearest("Hinge", types), Some("revolute"));
+        assert_eq!(nearest("prismatic", types), Some("translational"));
+        assert_eq!(nearest("link", types), Some("distance"));
+        assert_eq!(nearest("links", ["body", "joint"]), Some("body"));
+        assert_eq!(nearest("dt", ["rtol", "output_step"]), Some("output_step"));
+        assert_eq!(nearest("motor", ["rotor", "joint"]), Some("rotor"));
+        for (k, pair) in ELSEWHERE.iter().enumerate() {
+            assert!(!ELSEWHERE[..k].contains(pair), "{pair:?}");
+        }
+    }
+
+    #[test]
     fn far_names_are_not_suggested() {
         assert_eq!(nearest("revolut", ["fixed", "revolute"]), Some("revolute"));
-        assert_eq!(nearest("hinge", ["fixed", "revolute"]), None);
+        assert_eq!(nearest("bolt", ["fixed", "revolute"]), None);
         assert_eq!(nearest("D", ["A", "B"]), None);
         assert_eq!(nearest("a", ["B", "A"]), Some("A"));
         assert_eq!(nearest("bodies", ["joint", "body"]), Some("body"));

@@ -8,6 +8,7 @@ use model::BodyRef;
 
 use crate::body::Bodies;
 use crate::connection::listed;
+use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::nearest::list;
@@ -114,7 +115,7 @@ fn global(
         let expected = format!("{} global points [[x, y], …]", of.len());
         at.pairs(of.len(), &expected, findings)
     } else {
-        at.pair("a global point [x, y]", findings)
+        at.pair("a global point [x, y]", Dimension::LENGTH, findings)
             .map(|point| vec![point; of.len()])
     };
     let Some(points) = points else {
@@ -143,7 +144,9 @@ fn global(
 /// `point`: in the frame of the only body; a list if there are several points.
 fn same_body(field: &Field, n: usize, findings: &mut Findings) -> Vec<Option<[f64; 2]>> {
     let points = match n {
-        1 => field.pair(POINT, findings).map(|point| vec![point]),
+        1 => field
+            .pair(POINT, Dimension::LENGTH, findings)
+            .map(|point| vec![point]),
         _ => field.pairs(n, &format!("{n} points [[x, y], …]"), findings),
     };
     match points {

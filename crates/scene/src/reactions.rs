@@ -222,7 +222,7 @@ fn combine(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
     let text = field.text(COMBINE.expected, findings)?;
     combination::parse(text, names)
         .map_err(|error| {
-            let span = inside(field, text, error.span, findings);
+            let span = field.part(error.span, findings);
             findings.error(
                 span,
                 format!("{}: `combine`: {}", field.subject, error.problem),
@@ -230,18 +230,4 @@ fn combine(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
             );
         })
         .ok()
-}
-
-/// The place in the file of a part of a text; of the whole text if it is written with escapes.
-fn inside(field: &Field, text: &str, part: Range<usize>, findings: &Findings) -> Range<usize> {
-    let whole = field.span();
-    let written = findings
-        .source
-        .text()
-        .get(whole.clone())
-        .unwrap_or_default();
-    match written.find(text) {
-        Some(at) if !text.is_empty() => whole.start + at + part.start..whole.start + at + part.end,
-        _ => whole,
-    }
 }

@@ -11,12 +11,14 @@ use toml::de::DeTable;
 use crate::body::Bodies;
 use crate::combination::{ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
 use crate::element::Types;
 use crate::findings::Findings;
 use crate::force::Forces;
 use crate::function::Domain;
 use crate::joint::{Drives, JointNames, Joints};
 use crate::key::{Interval, Key, Takes};
+use crate::language::{self, Language};
 use crate::limits;
 use crate::locate;
 use crate::names::{Names, Use};
@@ -62,10 +64,14 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     if !errors.is_empty() {
         return Err(findings.sorted());
     }
-    let whole = Table::new("the scene", 0..0, root.get_ref());
+    let plain = Language::PLAIN;
+    let mut whole = Table::new("the scene", 0..0, root.get_ref(), &plain);
+    let language = Language::read(&mut whole, &mut findings);
+    let whole = Table::new("the scene", 0..0, root.get_ref(), &language);
     let mut scene = document(whole, registry, &mut findings);
     scene.warnings = findings.take_warnings();
-    // Freed early, because it is large relative to the result.
+    drop(language);
+    // Large compared with what was read from it.
     drop(root);
     if let Some(source) = &scene.source {
         check(&scene.description, source, &mut findings);
@@ -129,6 +135,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         root.lacks(section::SCENE.name, message, label, findings);
     }
     let heading = head.map_or_else(Heading::default, |head| Heading::read(head, findings));
+    section(&mut root, &section::PARAMETERS, &mut sections, findings);
     let mut parts = Parts::read(&mut root, registry, findings);
     let (groups, group_entries) = groups(&mut root, &mut parts, findings);
     let start = section(&mut root, &section::START, &mut sections, findings)
@@ -287,7 +294,7 @@ const GRAVITY: Key = Key::optional(
     "an acceleration [gx, gy]",
     Takes::Pair(Interval::Any),
 )
-.unit("m/s²")
+.unit(Dimension::ACCELERATION)
 .doc("Acceleration of free bodies [gx, gy]")
 .or(|| json!([0.0, 0.0]));
 
@@ -320,8 +327,11 @@ impl Heading {
         }
         let gravity = table
             .optional(&GRAVITY)
-            .and_then(|field| field.pair(GRAVITY.expected, findings));
+            .and_then(|field| field.pair(GRAVITY.expected, GRAVITY.unit, findings));
         let tolerance = tolerance::of_scene(&mut table, findings);
+        for key in &language::SCENE_KEYS {
+            table.optional(key);
+        }
         table.close(findings);
         Self {
             name: name.unwrap_or_default().to_owned(),

@@ -12,7 +12,8 @@ use serde_json::{Map, Value, json};
 
 use crate::function::{KINDS, STEP_KEYS};
 use crate::joint::{DRIVE_KEYS, MEASURE};
-use crate::key::{Key, TYPE};
+use crate::key::{Interval, Key, TYPE};
+use crate::language::{self, UNIT_KEYS};
 use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::read::SCENE_KEYS;
@@ -34,6 +35,7 @@ use value::{described, reference};
 pub fn schema(registry: &Registry) -> Value {
     let sections = [
         (&section::SCENE, Times::Once, scene_table()),
+        (&section::PARAMETERS, Times::Once, value::parameters()),
         (&section::BODY, Times::Many, body_table()),
         (
             &section::JOINT,
@@ -70,11 +72,12 @@ pub fn schema(registry: &Registry) -> Value {
     properties[section::BODY.name]["minItems"] = 1.into();
     definitions.insert("point".to_owned(), value::point());
     definitions.insert("function".to_owned(), function());
+    definitions.insert("units".to_owned(), table("Units", &UNIT_KEYS));
     definitions.insert("step".to_owned(), table("Step", &STEP_KEYS));
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Scene of pfaff",
-        "description": "A planar multibody mechanism and what is to be done with it. SI units, angles in radians.",
+        "description": "A planar multibody mechanism and what is to be done with it. SI units and radians, unless `units` says otherwise.",
         "type": "object",
         "properties": properties,
         "required": [section::SCENE.name, section::BODY.name],
@@ -112,6 +115,7 @@ fn scene_table() -> Value {
     let keys: Vec<Key> = SCENE_KEYS
         .into_iter()
         .chain(tolerance::SCENE_KEYS)
+        .chain(language::SCENE_KEYS)
         .collect();
     table("Scene", &keys)
 }
@@ -170,7 +174,8 @@ fn function() -> Value {
         require(&mut table, TYPE);
         table
     });
-    let number = json!({ "title": "Constant", "type": "number" });
+    let mut number = value::number(Interval::Any);
+    number["title"] = "Constant".into();
     json!({
         "title": "Function of time",
         "description": "A number, or { type = … }",

@@ -24,6 +24,10 @@ pub(crate) const SCENE: Section = Section::new(
     "scene",
     "What the scene is called, and what holds for all of it",
 );
+pub(crate) const PARAMETERS: Section = Section::new(
+    "parameters",
+    "Names of numbers, each a number or an expression; they may stand in any expression",
+);
 pub(crate) const BODY: Section =
     Section::new("body", "Rigid bodies; the body `ground` is always there");
 pub(crate) const JOINT: Section = Section::new(
@@ -101,7 +105,7 @@ fn named<'t>(
         item.mismatch(&format!("a list of tables `[[{kind}]]`"), findings);
         return None;
     };
-    let mut table = Table::new("", item.span(), entries);
+    let mut table = Table::new("", item.span(), entries, item.language);
     if let Some(name) = table.peek("name").filter(|name| unfit(name).is_none()) {
         table.optional(&NAME);
         table.subject = format!("{kind} `{name}`").into();

@@ -8,6 +8,7 @@ use dynamics::options::moved;
 use dynamics::{Method, MotionError, MotionOptions, RowChoice, Stabilisation};
 
 use crate::diagnostic::Diagnostic;
+use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::function::Domain;
@@ -39,10 +40,10 @@ const T_END: Key = Key::required(
     "a finite time ≥ 0",
     Takes::Number(Interval::NotNegative),
 )
-.unit("s")
+.unit(Dimension::TIME)
 .doc("Last time of the run");
 const OUTPUT_STEP: Key = positive("output_step", "a time > 0")
-    .unit("s")
+    .unit(Dimension::TIME)
     .doc("Time between written rows; t_end/200 where it is not given");
 const RTOL: Key = Key::optional(
     "rtol",
@@ -58,7 +59,7 @@ const ATOL: Key = positive("atol", "a number > 0")
     .doc("Absolute tolerance of a step (m, rad, m/s, rad/s)")
     .or(|| MotionOptions::ATOL.into());
 const MAX_STEP: Key = positive("max_step", "a time > 0")
-    .unit("s")
+    .unit(Dimension::TIME)
     .doc("Largest step; without limit where it is not given");
 const METHOD: Key = Key::optional(
     "method",
@@ -174,7 +175,7 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &m
 
 /// A number within its bounds; errors have the text of `dynamics`.
 fn bounded(field: &Field, key: &Key, findings: &mut Findings) -> Option<f64> {
-    let value = field.number(findings)?;
+    let value = field.number(key.unit, findings)?;
     if key.allows(value) {
         return Some(value);
     }

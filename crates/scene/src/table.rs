@@ -10,6 +10,7 @@ use toml::de::DeTable;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::Key;
+use crate::language::Language;
 use crate::nearest::{list, nearest};
 
 /// A table and what it describes.
@@ -19,6 +20,8 @@ pub(crate) struct Table<'t> {
     /// Its header, or the braces of an inline table.
     pub(crate) header: Range<usize>,
     entries: &'t DeTable<'t>,
+    /// What its numbers mean.
+    language: &'t Language,
     known: Vec<&'static str>,
     /// Keys that are missing, with the index of the problem in the findings.
     missing: Vec<(&'static str, usize)>,
@@ -29,11 +32,13 @@ impl<'t> Table<'t> {
         subject: impl Into<Rc<str>>,
         header: Range<usize>,
         entries: &'t DeTable<'t>,
+        language: &'t Language,
     ) -> Self {
         Self {
             subject: subject.into(),
             header,
             entries,
+            language,
             known: Vec::new(),
             missing: Vec::new(),
         }
@@ -50,6 +55,7 @@ impl<'t> Table<'t> {
             subject: Rc::clone(&self.subject),
             key: Cow::Borrowed(key),
             value,
+            language: self.language,
         })
     }
 
@@ -93,6 +99,7 @@ impl<'t> Table<'t> {
                 subject: Rc::clone(&self.subject),
                 key: Cow::Borrowed(name),
                 value,
+                language: self.language,
             };
             (key.span(), field)
         };

@@ -1,6 +1,6 @@
-//! A scene in which some numbers are variable: the text with other values in their places. The rest
-//! of the text is unchanged, so that [`read`](crate::read()) checks the result like any other
-//! scene, line by line.
+//! A scene in which some numbers are open: the text with other numbers or expressions in their
+//! places. The rest of the text stays as it is, so that [`read`](crate::read()) judges what comes
+//! out like any other scene, line by line.
 //!
 //! The values are chosen by the caller and are not checked here.
 
@@ -22,10 +22,10 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// The text of a scene with variable numbers.
 ///
-/// A key has the form `body.platform.mass`, `joint.H.axis[0]`, `drive.steer.motion.steps[0].by`,
-/// `scene.gravity[1]`, `simulate.rtol`. Named items are given by their names or by `[0]`, `[1]`, …;
-/// entries of lists are counted from 0. A key that the text does not contain is added to its table,
-/// which must exist.
+/// A key is the name of a parameter, or written as people say it: `body.platform.mass`, `joint.H.axis[0]`,
+/// `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Things with names go by
+/// their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key that the text
+/// leaves out is added to its table, which must be there; a parameter is not.
 ///
 /// ```
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
@@ -92,18 +92,47 @@ impl Template {
     /// If the number of values differs from the number of keys.
     #[must_use]
     pub fn with(&self, values: &[f64]) -> String {
+        let texts: Vec<String> = values.iter().map(|x| number(*x)).collect();
+        self.filled(&texts)
+    }
+
+    /// The text with these numbers or expressions, in the order of the keys; expressions need a
+    /// scene of format 2.
+    ///
+    /// ```
+    /// let text = "[scene]\nformat = 2\n[parameters]\nL = 0.3\n";
+    /// let template = scene::Template::new(text, &["L"])?;
+    /// assert!(template.with_expressions(&["2*0.2 m"]).ends_with("L = \"2*0.2 m\"\n"));
+    /// assert!(template.with_expressions(&["0.5"]).ends_with("L = 0.5\n"));
+    /// # Ok::<(), scene::KeyError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there are not as many expressions as keys.
+    #[must_use]
+    pub fn with_expressions(&self, expressions: &[&str]) -> String {
+        let text = |text: &&str| match text.trim().parse() {
+            Ok(value) => number(value),
+            Err(_) => toml::Value::from(*text).to_string(),
+        };
+        let texts: Vec<String> = expressions.iter().map(text).collect();
+        self.filled(&texts)
+    }
+
+    /// The text with these values as TOML writes them.
+    fn filled(&self, texts: &[String]) -> String {
         let n = self.slots.len();
         assert!(
-            values.len() == n,
+            texts.len() == n,
             "{} values for {n} keys of a template",
-            values.len()
+            texts.len()
         );
         let mut out = String::with_capacity(self.text.len() + 32 * n);
         let mut at = 0;
         for (k, slot) in &self.slots {
             out.push_str(&self.text[at..slot.span.start]);
             out.push_str(&slot.before);
-            out.push_str(&number(values[*k]));
+            out.push_str(&texts[*k]);
             out.push_str(slot.after);
             at = slot.span.end;
         }

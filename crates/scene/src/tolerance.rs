@@ -2,13 +2,14 @@
 
 use model::Tolerance;
 
+use crate::dimension::Dimension;
 use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::table::Table;
 
 /// The key `tolerance` with this description.
 pub(crate) const fn length(doc: &'static str) -> Key {
-    positive("tolerance").unit("m").doc(doc)
+    positive("tolerance").unit(Dimension::LENGTH).doc(doc)
 }
 
 /// The key of a joint.
@@ -19,7 +20,7 @@ const OF_SCENE: Key = length(
     "What points and lengths are known to where their joint or body says nothing; their rounding where it is not given",
 );
 const ANGLE: Key = positive("angle_tolerance")
-    .unit("rad")
+    .unit(Dimension::ANGLE)
     .doc("What directions, angles and ratios are known to; `tolerance` divided by the size of the mechanism where it is not given");
 
 /// The keys of `[scene]`.
@@ -32,7 +33,7 @@ const fn positive(name: &'static str) -> Key {
 /// Reads a tolerance, if it is given. Its sign is checked with the mechanism.
 pub(crate) fn read(table: &mut Table, key: &Key, findings: &mut Findings) -> Option<f64> {
     let field = table.optional(key)?;
-    field.number_expected(key.expected, findings)
+    field.number_expected(key.expected, key.unit, findings)
 }
 
 /// Reads the tolerances of `[scene]`.

@@ -1,54 +1,41 @@
-//! Numbers with units, as people write them. The format has no units: the advice gives the number
-//! in the units of the format, so that it can be copied.
+//! Numbers with units, as people write them where none are read: what is meant is said in the units
+//! of the format, so that advice can be followed as it is.
 
-use std::f64::consts::PI;
+use crate::expression::evaluate;
+use crate::language::Language;
 
-/// Units other than those of the format, as `times/over`: quotients stay exact if the factor is
-/// not.
-const OTHERS: [(&str, f64, f64); 26] = [
-    ("mm", 1.0, 1e3),
-    ("cm", 1.0, 1e2),
-    ("km", 1e3, 1.0),
-    ("in", 0.0254, 1.0),
-    ("g", 1.0, 1e3),
-    ("t", 1e3, 1.0),
-    ("ms", 1.0, 1e3),
-    ("min", 60.0, 1.0),
-    ("kN", 1e3, 1.0),
-    ("mm/s", 1.0, 1e3),
-    ("km/h", 1.0, 3.6),
-    ("kNm", 1e3, 1.0),
-    ("kN·m", 1e3, 1.0),
-    ("Nmm", 1.0, 1e3),
-    ("N·mm", 1.0, 1e3),
-    ("N/mm", 1e3, 1.0),
-    ("kN/m", 1e3, 1.0),
-    ("%", 1.0, 1e2),
-    ("°", PI, 180.0),
-    ("deg", PI, 180.0),
-    ("degree", PI, 180.0),
-    ("degrees", PI, 180.0),
-    ("°/s", PI, 180.0),
-    ("deg/s", PI, 180.0),
-    ("rpm", PI, 30.0),
-    ("1/min", PI, 30.0),
-];
-
-/// Units of the format.
-const OWN: [&str; 18] = [
-    "m", "kg", "s", "N", "rad", "m/s", "rad/s", "m/s²", "m/s^2", "kg·m²", "kg*m^2", "kgm²", "N·m",
-    "Nm", "N/m", "N·m/rad", "N·s/m", "1/s",
+/// Units that expressions do not have, in theirs.
+const OTHERS: [(&str, &str); 12] = [
+    ("km", "1e3 m"),
+    ("t", "1e3 kg"),
+    ("km/h", "1e3 m/(60 min)"),
+    ("kNm", "kN*m"),
+    ("Nm", "N*m"),
+    ("Nmm", "N*mm"),
+    ("kgm²", "kg*m²"),
+    ("%", "1/100"),
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("rpm", "2*pi/min"),
+    ("1/min", "2*pi/min"),
 ];
 
 /// Advice for a text that begins with a number and a unit: the number to write instead. `None` for
 /// other texts.
 pub(crate) fn advice(text: &str) -> Option<String> {
     let (number, between, unit) = split(text)?;
-    const RULE: &str = "numbers stand without units, in SI and radians";
-    let written = match OTHERS.iter().find(|(name, ..)| *name == unit) {
-        Some((_, times, over)) => (number.parse::<f64>().ok()? * times / over).to_string(),
-        None if OWN.contains(&unit) => number.to_owned(),
-        None => return Some(RULE.to_owned()),
+    const RULE: &str =
+        "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
+    let other = OTHERS.iter().find(|(name, _)| *name == unit);
+    let of = other.map_or(unit, |(_, of)| of);
+    let Ok(value) = evaluate(&format!("{number}*({of})"), &Language::PLAIN) else {
+        return Some(RULE.to_owned());
+    };
+    let value = value.to_f64();
+    let written = if number.parse() == Ok(value) {
+        number.to_owned()
+    } else {
+        value.to_string()
     };
     Some(format!(
         "{RULE}: write `{written}` instead of `{number}{between}{unit}`"
@@ -86,7 +73,7 @@ mod tests {
     fn what_is_meant_is_told_in_units_of_the_format() {
         for (text, expected) in [
             ("2.0 kg", "write `2.0` instead of `2.0 kg`"),
-            ("30°", "write `0.5235987755982988` instead of `30°`"),
+            ("30°", "write `0.5235987755982989` instead of `30°`"),
             ("500 mm, 0.0]", "write `0.5` instead of `500 mm`"),
             ("2000g # light", "write `2` instead of `2000g`"),
             (
@@ -94,14 +81,14 @@ mod tests {
                 "write `157.07963267948966` instead of `1500 rpm`",
             ),
             ("-2.5e3 N", "write `-2.5e3` instead of `-2.5e3 N`"),
-            ("1e5 e", "SI and radians"),
+            ("1e5 e", "`format = 2` in `[scene]`"),
             ("6 1/s", "write `6` instead of `6 1/s`"),
         ] {
             let said = advice(text).unwrap_or_default();
             assert!(said.ends_with(expected), "{text}: {said}");
         }
-        // No conversion factor is guessed.
-        let rule = "numbers stand without units, in SI and radians";
+        // No factor is guessed.
+        let rule = "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
         assert_eq!(advice("3 furlongs").as_deref(), Some(rule));
         for silent in [
             "", "kg", "2.0", "2,5", "1/2", "ü", "e", "2 # kg", "-", "1e5", "1e5 #e",

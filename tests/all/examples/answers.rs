@@ -29,11 +29,12 @@ const fn answer(
 }
 
 /// In the order of the table.
-const ANSWERS: [Answer; 22] = [
+const ANSWERS: [Answer; 23] = [
     answer("door", [3, 1, 0], &["lower", "upper"]),
     answer("carriage", [2, 2, 1], &["rear", "front"]),
     answer("truss", [12, 1, 0], &["AB", "BC", "CD", "DA", "AC", "BD"]),
     answer("four-bar", [9, 0, 0], &[]),
+    answer("slider-crank", [9, 0, 0], &[]),
     answer("knife-edge", [1, 0, 2], &[]),
     answer("sleigh", [1, 1, 2], &["left", "right"]),
     answer("towed-cart", [6, 1, 0], &["left", "right"]),

@@ -33,6 +33,24 @@ fn four_bar() {
     says("four-bar", half_turn.rem_euclid(2.0 * PI), 4);
 }
 
+/// The piston is as far as crank and rod reach along the bore; both dead centres of an offset bore
+/// are where they lie on one line.
+#[test]
+fn slider_crank() {
+    let run = Run::of("slider-crank");
+    let (r, l, offset, speed) = (0.04, 0.13, 0.005, 50.0 * PI);
+    for row in &run.rows {
+        let phi = PI / 3.0 + speed * row.t;
+        let rise: f64 = offset - r * phi.sin();
+        let reach = r * phi.cos() + (l * l - rise * rise).sqrt();
+        close(run.pose(row, "piston")[0], reach, r + l);
+        close(run.pose(row, "rod")[2], (rise / l).asin(), 1.0);
+        close(run.rate(row, "crank")[2], speed, speed);
+    }
+    let dead = |arm: f64| (arm * arm - offset * offset).sqrt();
+    says("slider-crank", 1e3 * (dead(l + r) - dead(l - r)), 3);
+}
+
 /// Complete elliptic integral K(m) by the arithmetic-geometric mean (Abramowitz and Stegun 17.6).
 fn k(m: f64) -> f64 {
     let (mut a, mut b) = (1.0, (1.0 - m).sqrt());

@@ -1,11 +1,46 @@
-//! Tolerances of the numbers of a scene that the command line states.
+//! What the command line says of the numbers of a scene: other values, and what they are known to.
+
+use std::str::FromStr;
 
 use clap::Args;
 use pfaff::model::Tolerance;
 
-#[derive(Args, Clone, Copy, Default)]
+/// Other numbers in a scene.
+#[derive(Args, Clone, Default)]
+pub(crate) struct Settings {
+    /// Another number or expression for a parameter or key of the scene, as L=0.4,
+    /// L="400 mm" or body.crank.mass=2; may be given several times
+    #[arg(long = "set", value_name = "NAME=EXPR")]
+    pub(crate) list: Vec<Setting>,
+}
+
+/// A key of a scene with its new value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Setting {
+    pub(crate) key: String,
+    pub(crate) expression: String,
+}
+
+impl FromStr for Setting {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        // Names may have the sign in them, expressions do not.
+        let (key, expression) = text.rsplit_once('=').unwrap_or_default();
+        let [key, expression] = [key, expression].map(|part| part.trim().to_owned());
+        if key.is_empty() || expression.is_empty() {
+            return Err("need NAME=EXPR, as L=0.4 or L=\"2*25 mm\"");
+        }
+        Ok(Self { key, expression })
+    }
+}
+
+#[derive(Args, Clone, Default)]
 pub(crate) struct Known {
-    /// Tolerance of points and lengths of the scene (m), in place of `tolerance` in its [scene]
+    #[command(flatten)]
+    pub(crate) settings: Settings,
+    /// What points and lengths of the scene are known to (m), in place of `tolerance` in its
+    /// [scene]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = length)]
     pub(crate) tolerance: Option<f64>,
     /// Tolerance of directions, angles and ratios (rad), in place of `angle_tolerance`; if neither
@@ -14,8 +49,8 @@ pub(crate) struct Known {
     pub(crate) angle_tolerance: Option<f64>,
 }
 
-impl From<Known> for Tolerance {
-    fn from(known: Known) -> Self {
+impl From<&Known> for Tolerance {
+    fn from(known: &Known) -> Self {
         Self {
             length: known.tolerance,
             angle: known.angle_tolerance,
@@ -40,6 +75,17 @@ fn positive(text: &str, expected: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn settings_have_a_name_and_a_value() {
+        let set = |text: &str| text.parse().map(|s: Setting| [s.key, s.expression]);
+        let pair = |a: &str, b: &str| Ok([a.to_owned(), b.to_owned()]);
+        assert_eq!(set("L = 2*25 mm"), pair("L", "2*25 mm"));
+        assert_eq!(set("body.a=b.mass=2"), pair("body.a=b.mass", "2"));
+        for wrong in ["", "L", "L=", "=2", " = "] {
+            assert!(set(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn numbers_above_zero_are_tolerances() {

@@ -418,3 +418,21 @@ fn the_advice_on_velocities_works() {
         }
     }
 }
+
+/// Words of other programs for commands and options.
+#[test]
+fn what_others_call_it_is_suggested() {
+    for (words, expected) in [
+        (&["run", "scene.toml"][..], "'simulate'"),
+        (&["simulate", "scene.toml", "-o", "run"], "'--out'"),
+        (&["simulate", "scene.toml", "--dt", "0.1"], "'--max-step'"),
+    ] {
+        let output = pfaff(words);
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        let said = stderr(&output);
+        assert!(said.contains(expected), "{words:?}: {said}");
+    }
+    // Where there is no such option, none is suggested.
+    let said = stderr(&pfaff(&["analyze", "scene.toml", "-o", "run"]));
+    assert!(!said.contains("--out"), "{said}");
+}

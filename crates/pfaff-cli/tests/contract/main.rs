@@ -15,6 +15,7 @@ mod faults;
 mod folder;
 mod fragile;
 mod freedoms;
+mod language;
 mod library;
 mod man;
 mod new;

@@ -111,8 +111,8 @@ fn is_key(word: &str) -> bool {
 const CURLED: [char; 5] = ['“', '”', '„', '‘', '’'];
 
 const COMPUTED: (&str, &str) = (
-    "a scene does not compute",
-    "write the number that comes out",
+    "an expression without quotes",
+    "write it in quotes with `format = 2` in `[scene]`, or write the number that comes out",
 );
 
 /// A value that begins with a number.
@@ -217,7 +217,7 @@ mod tests {
             (
                 "angle = 30°",
                 8,
-                "write `0.5235987755982988` instead of `30°`",
+                "write `0.5235987755982989` instead of `30°`",
             ),
             ("at = [500 mm, 0]", 6, "write `0.5` instead of `500 mm`"),
             ("type = revolute", 7, "`type = \"revolute\"`"),

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::dimension::Dimension;
 use crate::key::{Interval, Key, Takes};
 use crate::section::LONGEST_NAME;
 
@@ -19,6 +20,10 @@ pub(super) fn described(key: &Key) -> Value {
         Takes::Text => json!({ "type": "string" }),
         Takes::OneOf(names) => json!({ "enum": names() }),
         Takes::Flag => json!({ "type": "boolean" }),
+        Takes::Whole(least, most) => {
+            json!({ "type": "integer", "minimum": least, "maximum": most })
+        }
+        Takes::Units => reference("units"),
         Takes::Number(range) => number(range),
         Takes::Pair(range) => tuple(vec![number(range); 2]),
         Takes::Numbers(least) => {
@@ -41,16 +46,17 @@ pub(super) fn described(key: &Key) -> Value {
     schema
 }
 
-/// The meaning of a value, and its unit.
-pub(super) fn in_unit(meaning: &str, unit: &str) -> String {
+/// What something means, and its unit.
+pub(super) fn in_unit(meaning: &str, unit: Dimension) -> String {
     match unit {
-        "" => meaning.to_owned(),
+        Dimension::NONE => meaning.to_owned(),
         unit => format!("{meaning} ({unit})"),
     }
 }
 
+/// A number, or a text that is computed.
 pub(super) fn number(range: Interval) -> Value {
-    let mut number = json!({ "type": "number" });
+    let mut number = json!({ "type": ["number", "string"] });
     match range {
         Interval::Any => {}
         Interval::NotNegative => number["minimum"] = 0.into(),
@@ -61,6 +67,15 @@ pub(super) fn number(range: Interval) -> Value {
         }
     }
     number
+}
+
+/// `[parameters]`
+pub(super) fn parameters() -> Value {
+    json!({
+        "title": "Parameters",
+        "type": "object",
+        "additionalProperties": number(Interval::Any),
+    })
 }
 
 /// A list of as many values as there are schemas.

@@ -5,7 +5,9 @@ use toml::de::{DeTable, DeValue};
 
 use super::Slot;
 use crate::field::{as_number, found};
+use crate::language::{COMPUTING, FORMAT};
 use crate::nearest::{list, nearest};
+use crate::section;
 
 /// Largest number of names in a message.
 const LISTED: usize = 12;
@@ -92,8 +94,12 @@ fn inside(parts: &[String]) -> String {
 
 /// The place of a key in the text.
 pub(super) fn find(key: &str, text: &str, root: &DeTable) -> Result<Slot, KeyError> {
-    let mut walk = Walk { key, rest: key };
-    let mut node = walk.entry(root)?;
+    let mut walk = Walk {
+        key,
+        rest: key,
+        computes: computes(root),
+    };
+    let mut node = walk.first(root)?;
     loop {
         node = match node.get_ref() {
             _ if walk.rest.is_empty() => return walk.number(node),
@@ -108,11 +114,22 @@ pub(super) fn find(key: &str, text: &str, root: &DeTable) -> Result<Slot, KeyErr
     }
 }
 
-/// A key, and how much of it has been resolved.
+/// Whether texts may be expressions.
+fn computes(root: &DeTable) -> bool {
+    let scene = root.get(section::SCENE.name);
+    let scene = scene.and_then(|scene| scene.get_ref().as_table());
+    let format = scene.and_then(|scene| scene.get(FORMAT.name));
+    let format = format.and_then(|format| as_number(format.get_ref()));
+    format == Some(COMPUTING as f64)
+}
+
+/// How far a key has been followed.
 struct Walk<'k> {
     key: &'k str,
     /// The rest of the key.
     rest: &'k str,
+    /// Whether texts may be expressions.
+    computes: bool,
 }
 
 impl<'k> Walk<'k> {
@@ -169,6 +186,16 @@ impl<'k> Walk<'k> {
         Ok(item)
     }
 
+    /// The value under the first part: a section, or else a parameter.
+    fn first<'t>(&mut self, root: &'t DeTable<'t>) -> Result<&'t Spanned<DeValue<'t>>, KeyError> {
+        let parameters = root.get(section::PARAMETERS.name);
+        let parameters = parameters.and_then(|table| table.get_ref().as_table());
+        let tables = [Some(root), parameters].into_iter().flatten();
+        let entries = tables.flat_map(|table| table.iter());
+        let entries = entries.map(|(key, value)| (&**key.get_ref(), value));
+        self.named(&entries.collect::<Vec<_>>())
+    }
+
     fn entry<'t>(&mut self, table: &'t DeTable<'t>) -> Result<&'t Spanned<DeValue<'t>>, KeyError> {
         let entries = table.iter().map(|(key, value)| (&**key.get_ref(), value));
         self.named(&entries.collect::<Vec<_>>())
@@ -206,7 +233,7 @@ impl<'k> Walk<'k> {
     /// The number at the end of the key.
     fn number(&self, node: &Spanned<DeValue>) -> Result<Slot, KeyError> {
         match node.get_ref() {
-            value if as_number(value).is_some() => Ok(Slot {
+            value if as_number(value).is_some() || (self.computes && value.is_str()) => Ok(Slot {
                 span: node.span(),
                 before: String::new(),
                 after: "",

@@ -2,6 +2,7 @@
 
 mod diagnostics;
 mod elements;
+mod language;
 mod locate;
 mod mutations;
 mod own_joint;

@@ -168,8 +168,8 @@ fn all_forms_are_valid() {
     assert_eq!(verdict(&text), None);
 }
 
-/// One change each, after which the reader refuses the form of the text.
-const WRONG: [(&str, &str); 51] = [
+/// One change each, and the reader refuses the form of the result.
+const WRONG: [(&str, &str); 53] = [
     ("space = \"plane\"", "space = \"space\""),
     ("space = \"plane\"", ""),
     ("name = \"small\"", "name = 3"),
@@ -179,18 +179,23 @@ const WRONG: [(&str, &str); 51] = [
         "name = \"small\"\ngravity = [0.0, 1.0, 2.0]",
     ),
     ("name = \"small\"", "name = \"small\"\nunits = \"SI\""),
+    (
+        "name = \"small\"",
+        "name = \"small\"\nformat = 2\nunits = { length = \"deg\" }",
+    ),
+    ("name = \"small\"", "name = \"small\"\nformat = 3"),
+    ("name = \"small\"", "name = \"small\"\nformat = \"2\""),
+    ("mass = 1.0", "mass = true"),
     ("name = \"small\"", "name = \"small\"\ntolerance = 0.0"),
     (
         "name = \"small\"",
         "name = \"small\"\nangle_tolerance = -1e-6",
     ),
-    ("name = \"small\"", "name = \"small\"\ntolerance = \"1e-4\""),
     ("mass = 1.0", "mass = 1.0\ntolerance = -1e-4"),
     ("mass = 1.0", "mass = 1.0\nangle_tolerance = 1e-4"),
     ("at = [0.0, 0.0]", "at = [0.0, 0.0]\ntolerance = 0"),
     ("stiffness = 1.0", "stiffness = 1.0\ntolerance = 1e-4"),
     ("mass = 1.0", "mass = -1.0"),
-    ("mass = 1.0", "mass = \"1\""),
     ("mass = 1.0", ""),
     ("mass = 1.0", "mas = 1.0"),
     ("mass = 1.0", "mass = nan"),
@@ -257,7 +262,34 @@ fn what_the_reader_refuses_by_form_is_not_valid() {
     }
 }
 
-/// Keys that the reader accepts for a table, as listed in its message about an unknown key.
+/// Expressions stand where numbers do, in format 2; the schema does not tell the formats apart.
+#[test]
+fn expressions_are_valid() {
+    let whole = format!("{BODIES}{MORE}");
+    let text = whole
+        .replacen(
+            "space =",
+            "format = 2\nunits = { angle = \"deg\" }\nspace =",
+            1,
+        )
+        .replacen(
+            "[[body]]",
+            "[parameters]\nm1 = 1.0\nL = \"m1*2 mm\"\n[[body]]",
+            1,
+        )
+        .replacen("mass = 1.0", "mass = \"m1\"", 1)
+        .replacen("angle = 1.5707963267948966", "angle = 90", 1)
+        .replacen("at = [0.0, 0.0]", "at = [\"0 mm\", \"L - L\"]", 1)
+        .replacen("by = 0.1", "by = \"5 deg\"", 1)
+        .replacen("t_end = 1", "t_end = \"500 ms*2\"", 1);
+    assert_eq!(read(&text).err(), None);
+    assert_eq!(verdict(&text), None);
+    let mass = whole.replacen("mass = 1.0", "mass = \"1\"", 1);
+    assert!(read(&mass).is_err());
+    assert_eq!(verdict(&mass), None);
+}
+
+/// Keys that the reader knows for a table, from what it says of one that it does not know.
 fn keys_of_reader(text: &str) -> BTreeSet<String> {
     let problems = read(text).expect_err("a key is unknown");
     let unknown = problems

@@ -35,6 +35,18 @@ fn missing<'s>(required: Option<&'s Value>, value: &Value) -> Option<&'s str> {
     names.into_iter().find(|name| !table.contains_key(*name))
 }
 
+fn is_of_type(name: &str, value: &Value) -> bool {
+    match name {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "boolean" => value.is_boolean(),
+        "number" => value.is_number(),
+        "integer" => value.is_i64() || value.is_u64(),
+        other => panic!("type {other}"),
+    }
+}
+
 fn check(
     root: &Value,
     schema: &serde_json::Map<String, Value>,
@@ -51,15 +63,11 @@ fn check(
             let target = pointer.and_then(|p| root.pointer(p));
             fault(root, target.unwrap_or_else(|| panic!("{of}")), value)
         }
-        "type" => refused(match of.as_str().expect("one type") {
-            "object" => !value.is_object(),
-            "array" => !value.is_array(),
-            "string" => !value.is_string(),
-            "boolean" => !value.is_boolean(),
-            "number" => !value.is_number(),
-            "integer" => !value.is_i64() && !value.is_u64(),
-            other => panic!("type {other}"),
-        }),
+        "type" => {
+            let one = std::slice::from_ref(of);
+            let mut types = of.as_array().map_or(one, Vec::as_slice).iter();
+            refused(!types.any(|name| is_of_type(name.as_str().expect("a type"), value)))
+        }
         "const" => refused(value != of),
         "enum" => refused(!of.as_array().expect("values").contains(value)),
         "oneOf" => {

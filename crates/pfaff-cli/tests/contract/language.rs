@@ -1,0 +1,336 @@
+//! Format 2 on the command line: `--set` for every command that reads a scene, `sweep` over
+//! parameters, and a scene in millimetres and degrees beside the same one in metres and radians.
+
+use serde_json::Value;
+
+use super::bad_input::PENDULUM;
+use super::{Folder, pfaff, stderr, stdout, with_scene};
+
+/// A rod on a hinge and a second hinge at its other end on a rail: a slider-crank, driven.
+const DRAWING: &str = r#"
+[scene]
+name = "slider-crank"
+space = "plane"
+format = 2
+units = { length = "mm", angle = "deg" }
+gravity = [0, -9810]
+
+[parameters]
+r = 100
+L = "3*r"
+phi = 60
+psi = "asin(r*sin(phi)/L)"
+x = "r*cos(phi) + L*cos(psi)"
+
+[[body]]
+name = "crank"
+mass = "200 g"
+inertia = 200
+position = ["r*cos(phi)/2", "r*sin(phi)/2"]
+angle = "phi"
+
+[[body]]
+name = "rod"
+mass = 0.5
+inertia = "4e-3 kg*m^2"
+position = ["(r*cos(phi) + x)/2", "r*sin(phi)/2"]
+angle = "-psi"
+
+[[body]]
+name = "slider"
+mass = 1
+inertia = 1e3
+position = ["x", 0]
+
+[[joint]]
+name = "A"
+type = "revolute"
+bodies = ["ground", "crank"]
+at = [0, 0]
+
+[[joint]]
+name = "B"
+type = "revolute"
+bodies = ["crank", "rod"]
+at = ["r*cos(phi)", "r*sin(phi)"]
+
+[[joint]]
+name = "C"
+type = "revolute"
+bodies = ["rod", "slider"]
+at = ["x", 0]
+
+[[joint]]
+name = "rail"
+type = "translational"
+bodies = ["ground", "slider"]
+points = { ground = [0, 0], slider = [0, 0] }
+axis = [1, 0]
+
+[[drive]]
+name = "motor"
+joint = "A"
+type = "angle"
+motion = { type = "constant-rate", rate = 90 }
+
+[simulate]
+t_end = "500 ms"
+output_step = 0.05
+"#;
+
+/// The same numbers in metres and radians: sin ψ = √3/6, cos ψ = √33/6.
+fn in_metres() -> String {
+    let (cos, sin) = (0.5, 3_f64.sqrt() / 2.0);
+    let (r, l) = (0.1, 0.3);
+    let psi = (sin / 3.0).asin();
+    let x = r * cos + l * 33_f64.sqrt() / 6.0;
+    let begin = DRAWING.find("[parameters]").expect("there");
+    let end = DRAWING.find("[[body]]").expect("there");
+    let mut text = DRAWING.to_owned();
+    text.replace_range(begin..end, "");
+    for (from, to) in [
+        (
+            "format = 2\nunits = { length = \"mm\", angle = \"deg\" }\n",
+            String::new(),
+        ),
+        ("-9810", "-9.81".to_owned()),
+        ("\"200 g\"", "0.2".to_owned()),
+        ("inertia = 200", "inertia = 2e-4".to_owned()),
+        (
+            "[\"r*cos(phi)/2\", \"r*sin(phi)/2\"]",
+            format!("[{:?}, {:?}]", r * cos / 2.0, r * sin / 2.0),
+        ),
+        ("\"phi\"", "1.0471975511965976".to_owned()),
+        ("\"4e-3 kg*m^2\"", "0.004".to_owned()),
+        (
+            "\"(r*cos(phi) + x)/2\", \"r*sin(phi)/2\"",
+            format!("{:?}, {:?}", (r * cos + x) / 2.0, r * sin / 2.0),
+        ),
+        ("\"-psi\"", format!("{:?}", -psi)),
+        ("inertia = 1e3", "inertia = 1e-3".to_owned()),
+        ("\"x\"", format!("{x:?}")),
+        (
+            "[\"r*cos(phi)\", \"r*sin(phi)\"]",
+            format!("[{:?}, {:?}]", r * cos, r * sin),
+        ),
+        ("rate = 90", "rate = 1.5707963267948966".to_owned()),
+        ("\"500 ms\"", "0.5".to_owned()),
+    ] {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, &to);
+    }
+    text
+}
+
+fn document(arguments: &[&str], scene: &str) -> Value {
+    let output = with_scene(arguments, scene);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    serde_json::from_str(&stdout(&output)).expect("one document")
+}
+
+#[test]
+fn a_drawing_is_judged_as_the_same_scene_in_metres() {
+    let verdict = |scene: &str| {
+        let d = document(&["analyze", "-", "--json"], scene);
+        let reactions = d["reactions"].as_array().expect("a list").iter();
+        let verdicts: Vec<Value> = reactions.map(|r| r["verdict"].clone()).collect();
+        (
+            d["rank"].clone(),
+            d["redundancy"].clone(),
+            d["mobility"].clone(),
+            verdicts,
+        )
+    };
+    assert_eq!(verdict(DRAWING), verdict(&in_metres()));
+}
+
+/// Motions agree to what two runs with rounded data leave.
+const AGREED: f64 = 1e-9;
+
+#[test]
+fn a_drawing_moves_as_the_same_scene_in_metres() {
+    let rows = |name: &str, scene: &str| -> Vec<f64> {
+        let folder = Folder::new(name);
+        document(&["simulate", "-", "--out", folder.text(), "--json"], scene);
+        let tables = [folder.read("trajectory.csv"), folder.read("reactions.csv")];
+        let lines = tables.iter().flat_map(|table| table.lines().skip(1));
+        lines
+            .flat_map(|line| line.split(','))
+            .map(|cell| cell.parse().unwrap_or(f64::NAN))
+            .collect()
+    };
+    let (drawing, metres) = (
+        rows("language-drawing", DRAWING),
+        rows("language-metres", &in_metres()),
+    );
+    assert_eq!(drawing.len(), metres.len());
+    assert!(drawing.len() > 11 * 19);
+    for (a, b) in drawing.iter().zip(&metres) {
+        let is_near = (a - b).abs() <= AGREED * (1.0 + b.abs());
+        assert!(is_near || (a.is_nan() && b.is_nan()), "{a} {b}");
+    }
+}
+
+/// Every command that reads a scene takes other numbers for it.
+#[test]
+fn set_changes_the_scene_of_every_command() {
+    let folder = Folder::new("language-commands");
+    std::fs::create_dir_all(&folder.0).expect("a directory");
+    let inner = |name: &str| folder.0.join(name).display().to_string();
+    let [file, out, page] = ["scene.toml", "run", "view.html"].map(inner);
+    std::fs::write(&file, DRAWING).expect("a file");
+    for command in [
+        vec!["check", &file],
+        vec!["analyze", &file],
+        vec!["plan", &file],
+        vec!["view", &file, "--out", &page, "--no-open"],
+        vec!["diff", &file, &file],
+        vec!["simulate", &file, "--out", &out],
+        vec!["work-precision", &file, "--quick", "--out", &out],
+        vec!["sweep", &file, "--vary", "phi=10,20", "--out", &out],
+    ] {
+        // One that shows: the crank is longer than its rod, and the start cannot be.
+        let output = pfaff(&[&command[..], &["--set", "L=r/2"]].concat());
+        assert_eq!(output.status.code(), Some(2), "{command:?}");
+        assert!(
+            stderr(&output).contains("`asin` is not defined for this value"),
+            "{command:?}: {}",
+            stderr(&output)
+        );
+    }
+}
+
+#[test]
+fn set_takes_expressions_and_keys() {
+    let x = |sets: &[&str]| {
+        let folder = Folder::new("language-set");
+        let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", *set]).collect();
+        let arguments = [
+            &["simulate", "-", "--out", folder.text(), "--json"],
+            &sets[..],
+        ]
+        .concat();
+        document(&arguments, DRAWING);
+        let table = folder.read("trajectory.csv");
+        let mut lines = table.lines();
+        let column = lines
+            .next()
+            .expect("a header")
+            .split(',')
+            .position(|c| c == "slider.x");
+        let first = lines
+            .next()
+            .expect("a row")
+            .split(',')
+            .nth(column.expect("there"));
+        first
+            .and_then(|cell| cell.parse::<f64>().ok())
+            .expect("a number")
+    };
+    // At φ = 0 the slider is r + L away.
+    for (sets, expected) in [
+        (&["phi=0"][..], 0.4),
+        (&["phi = 0", "L = 2*r"], 0.3),
+        (&["phi=0", "L=0.25 m", "r=5 cm"], 0.3),
+        (&["parameters.phi=0 rad"], 0.4),
+        (
+            &["phi=0", "body.slider.mass=2 kg", "simulate.rtol=1e-6"],
+            0.4,
+        ),
+    ] {
+        let found = x(sets);
+        assert!((found - expected).abs() < 1e-12, "{sets:?}: {found}");
+    }
+}
+
+#[test]
+fn wrong_settings_say_what_there_is() {
+    for (set, expected) in [
+        (
+            "Lx=2",
+            "--set: `Lx`: there is no `Lx` in `the scene`; did you mean `L`?",
+        ),
+        (
+            "body.crank.name.x=2",
+            "--set: `body.crank.name.x`: there is no `x` in `body.crank.name`",
+        ),
+        ("L", "need NAME=EXPR"),
+        (
+            "L=2*",
+            "`[parameters]`: `L`: a number, a name or `(` is missing at the end",
+        ),
+        (
+            "L=2 kg",
+            "found a quantity (1/kg), need a number without a unit",
+        ),
+    ] {
+        let output = with_scene(&["check", "-", "--set", set], DRAWING);
+        assert_eq!(output.status.code(), Some(2), "{set}");
+        assert!(
+            stderr(&output).contains(expected),
+            "{set}: {}",
+            stderr(&output)
+        );
+    }
+    let twice = ["check", "-", "--set", "L=1", "--set", "parameters.L=2"];
+    let said = stderr(&with_scene(&twice, DRAWING));
+    assert!(
+        said.contains("`parameters.L` and `L` are the same number"),
+        "{said}"
+    );
+    // What is no TOML is said as without settings.
+    let said = stderr(&with_scene(&["check", "-", "--set", "L=1"], "[scene"));
+    assert!(said.contains("<stdin>"), "{said}");
+    // A scene of format 1 takes numbers.
+    let old = ["check", "-", "--set", "body.bob.mass=3"];
+    assert_eq!(with_scene(&old, PENDULUM).status.code(), Some(0));
+    let old = ["check", "-", "--set", "body.bob.mass=3 kg"];
+    let said = stderr(&with_scene(&old, PENDULUM));
+    assert!(said.contains("must be a number"), "{said}");
+}
+
+/// At φ = 0 the slider begins at r + L.
+#[test]
+fn a_parameter_is_swept_like_any_number() {
+    let folder = Folder::new("language-sweep");
+    let arguments = [
+        "sweep",
+        "-",
+        "--vary",
+        "L=200:300:3",
+        "--set",
+        "phi=0",
+        "--out",
+        folder.text(),
+        "--keep-rows",
+    ];
+    let output = with_scene(&arguments, DRAWING);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let table = folder.read("sweep.csv");
+    assert!(
+        table.lines().next().expect("a header").contains("L,"),
+        "{table}"
+    );
+    for (run, expected) in [("1", 0.3), ("2", 0.35), ("3", 0.4)] {
+        let rows = folder.read(&format!("runs/{run}/trajectory.csv"));
+        let mut lines = rows.lines();
+        let column = lines
+            .next()
+            .expect("a header")
+            .split(',')
+            .position(|c| c == "slider.x");
+        let first = lines
+            .next()
+            .expect("a row")
+            .split(',')
+            .nth(column.expect("there"));
+        let x: f64 = first.expect("a cell").parse().expect("a number");
+        assert!((x - expected).abs() < 1e-12, "{run}: {x}");
+    }
+    let wrong = ["sweep", "-", "--vary", "Lx=1:2:2", "--out", folder.text()];
+    let said = stderr(&with_scene(&wrong, DRAWING));
+    assert!(
+        said.contains("there is no `Lx` in `the scene`; did you mean `L`?"),
+        "{said}"
+    );
+}

@@ -1,0 +1,428 @@
+//! Expressions: numbers with units, names, `+ - * / ^`, brackets and functions, from a text to a
+//! number with its dimension.
+//!
+//! A parser of our own (operator precedence after V. Pratt, 1973): it has to report all unknown
+//! names and all misfits of units with their places, and to end on any text. Parsers of expressions
+//! that can be had know neither units nor places, or are whole languages.
+//!
+//! Not here: where a text stands in a file, and what names mean.
+
+mod problem;
+mod quantity;
+mod token;
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+pub(crate) use problem::{Fault, Problem};
+pub(crate) use quantity::{Bases, Quantity};
+use token::{Token, tokens};
+pub(crate) use token::{decimal, is_name};
+
+use crate::dimension::Dimension;
+
+/// Brackets, signs and powers inside of each other: more would be a danger for the stack, and
+/// nobody can read as many.
+const DEEPEST: usize = 60;
+
+/// Units of expressions, as `times/over` in those of the format.
+const UNITS: [(&str, f64, f64, Dimension); 13] = [
+    ("mm", 1.0, 1e3, Dimension::LENGTH),
+    ("cm", 1.0, 1e2, Dimension::LENGTH),
+    ("m", 1.0, 1.0, Dimension::LENGTH),
+    ("in", 254.0, 1e4, Dimension::LENGTH),
+    ("deg", PI, 180.0, Dimension::ANGLE),
+    ("rad", 1.0, 1.0, Dimension::ANGLE),
+    ("g", 1.0, 1e3, Dimension::MASS),
+    ("kg", 1.0, 1.0, Dimension::MASS),
+    ("ms", 1.0, 1e3, Dimension::TIME),
+    ("s", 1.0, 1.0, Dimension::TIME),
+    ("min", 60.0, 1.0, Dimension::TIME),
+    ("N", 1.0, 1.0, Dimension::FORCE),
+    ("kN", 1e3, 1.0, Dimension::FORCE),
+];
+
+/// Functions with what they take.
+const FUNCTIONS: [(&str, &str); 13] = [
+    ("sin", "an angle"),
+    ("cos", "an angle"),
+    ("tan", "an angle"),
+    ("asin", "a number"),
+    ("acos", "a number"),
+    ("atan", "a number"),
+    ("atan2", "two values (y, x)"),
+    ("sqrt", "a value"),
+    ("abs", "a value"),
+    ("min", "two values"),
+    ("max", "two values"),
+    ("exp", "a number"),
+    ("log", "a number"),
+];
+
+const PI_NAME: &str = "pi";
+
+/// The units by name, each as a quantity.
+pub(crate) fn units() -> impl Iterator<Item = (&'static str, Quantity)> {
+    let unit = |&(name, times, over, of): &_| (name, Quantity::unit(times, over, of));
+    UNITS.iter().map(unit)
+}
+
+/// The unit or constant of this name.
+fn constant(name: &str) -> Option<Quantity> {
+    if name == PI_NAME {
+        return Some(Quantity::pi());
+    }
+    let found = UNITS.iter().find(|(unit, ..)| *unit == name);
+    found.map(|&(_, times, over, of)| Quantity::unit(times, over, of))
+}
+
+fn is_unit(name: &str) -> bool {
+    UNITS.iter().any(|(unit, ..)| *unit == name)
+}
+
+fn function(name: &str) -> Option<(&'static str, &'static str)> {
+    FUNCTIONS.iter().find(|(known, _)| *known == name).copied()
+}
+
+/// What a name means to every expression, if it means anything: parameters have other names.
+pub(crate) fn reserved(name: &str) -> Option<&'static str> {
+    match name {
+        PI_NAME => Some("a constant"),
+        name if function(name).is_some() => Some("a function"),
+        name => constant(name).map(|_| "a unit"),
+    }
+}
+
+/// All names that expressions know.
+pub(crate) fn reserved_names() -> impl Iterator<Item = &'static str> {
+    let units = UNITS.iter().map(|(name, ..)| *name);
+    let functions = FUNCTIONS.iter().map(|(name, _)| *name);
+    units.chain(functions).chain([PI_NAME])
+}
+
+/// The names in an expression that are no units, constants or functions; none if it cannot be
+/// taken apart.
+pub(crate) fn names(text: &str) -> Vec<(&str, Range<usize>)> {
+    let words = tokens(text).unwrap_or_default().into_iter();
+    let name = |(token, span)| match token {
+        Token::Name(name) if reserved(name).is_none() => Some((name, span)),
+        _ => None,
+    };
+    words.filter_map(name).collect()
+}
+
+/// What names stand for.
+pub(crate) trait Scope {
+    /// The value of a parameter; inside, `None` if it has none because its own text is wrong.
+    fn parameter(&self, name: &str) -> Option<Option<Quantity>>;
+    /// Units of bare numbers.
+    fn bases(&self) -> Bases;
+}
+
+/// The value of an expression, or everything that is wrong with it; nothing if only a parameter is
+/// wrong that it names.
+pub(crate) fn evaluate(text: &str, scope: &impl Scope) -> Result<Quantity, Vec<Fault>> {
+    let tokens = tokens(text).map_err(|fault| vec![fault])?;
+    let mut parser = Parser {
+        text,
+        tokens,
+        at: 0,
+        scope,
+        faults: Vec::new(),
+    };
+    let value = match parser.whole() {
+        Ok(value) => value,
+        Err(fault) => {
+            parser.faults.push(fault);
+            None
+        }
+    };
+    match value {
+        Some(value) if parser.faults.is_empty() => Ok(value),
+        _ => Err(parser.faults),
+    }
+}
+
+/// How strongly signs bind, weakest first.
+const SUM: u8 = 1;
+const PRODUCT: u8 = 2;
+const SIGNED: u8 = 3;
+const POWER: u8 = 4;
+
+struct Parser<'s, S> {
+    text: &'s str,
+    tokens: Vec<(Token<'s>, Range<usize>)>,
+    at: usize,
+    scope: &'s S,
+    /// What is wrong with names and values; the text is read on after it.
+    faults: Vec<Fault>,
+}
+
+/// A value, `None` after a fault, with its place.
+type Part = (Option<Quantity>, Range<usize>);
+
+impl<'s, S: Scope> Parser<'s, S> {
+    /// The next word with its place; the last one is always the end.
+    fn peek(&self) -> (Token<'s>, Range<usize>) {
+        self.tokens[self.at.min(self.tokens.len() - 1)].clone()
+    }
+
+    fn is_next(&self, sign: u8) -> bool {
+        self.peek().0 == Token::Sign(sign)
+    }
+
+    fn written(&self, span: &Range<usize>) -> String {
+        self.text.get(span.clone()).unwrap_or_default().to_owned()
+    }
+
+    /// Keeps a fault of names or values.
+    fn judge(&mut self, span: Range<usize>, q: Result<Quantity, Problem>) -> Option<Quantity> {
+        let keep = |problem| self.faults.push(Fault { span, problem });
+        q.map_err(keep).ok()
+    }
+
+    /// The whole text.
+    fn whole(&mut self) -> Result<Option<Quantity>, Fault> {
+        if let (Token::End, span) = self.peek() {
+            let problem = Problem::Empty;
+            return Err(Fault { span, problem });
+        }
+        let (value, _) = self.sum(SUM, 0)?;
+        match self.peek() {
+            (Token::End, _) => Ok(value),
+            (_, span) => Err(self.unexpected(span)),
+        }
+    }
+
+    /// What stands where an operator or the end is expected.
+    fn unexpected(&self, span: Range<usize>) -> Fault {
+        let problem = match self.peek().0 {
+            Token::Sign(b')') => Problem::Closed,
+            Token::Sign(b',') => Problem::Comma,
+            _ => Problem::NoOperator {
+                found: self.written(&span),
+            },
+        };
+        Fault { span, problem }
+    }
+
+    /// Operands between signs that bind at least so strongly.
+    fn sum(&mut self, least: u8, depth: usize) -> Result<Part, Fault> {
+        let (mut left, mut span) = self.operand(depth)?;
+        loop {
+            let Token::Sign(sign) = self.peek().0 else {
+                return Ok((left, span));
+            };
+            // A power binds to the right: 2^3^2 is 2^9.
+            let (binds, of_right) = match sign {
+                b'+' | b'-' => (SUM, PRODUCT),
+                b'*' | b'/' => (PRODUCT, SIGNED),
+                b'^' => (POWER, SIGNED),
+                _ => return Ok((left, span)),
+            };
+            if binds < least {
+                return Ok((left, span));
+            }
+            self.at += 1;
+            let (right, of) = self.sum(of_right, depth + 1)?;
+            let whole = span.start..of.end;
+            left = match left.zip(right) {
+                None => None,
+                Some((a, b)) => {
+                    let bases = self.scope.bases();
+                    let (at, q) = match sign {
+                        b'+' => (whole.clone(), a.plus(b, bases)),
+                        b'-' => (whole.clone(), a.plus(b.negated(), bases)),
+                        b'*' => (whole.clone(), a.times(b)),
+                        b'/' => match a.over(b) {
+                            Err(Problem::DivisionByZero) => (of, Err(Problem::DivisionByZero)),
+                            q => (whole.clone(), q),
+                        },
+                        _ => match a.power(b) {
+                            Err(e @ Problem::Exponent { .. }) => (of, Err(e)),
+                            q => (whole.clone(), q),
+                        },
+                    };
+                    self.judge(at, q)
+                }
+            };
+            span = whole;
+        }
+    }
+
+    /// A number, a name, a bracket or a sign before them.
+    fn operand(&mut self, depth: usize) -> Result<Part, Fault> {
+        let (token, span) = self.peek();
+        if depth > DEEPEST {
+            let problem = Problem::Deep { most: DEEPEST };
+            return Err(Fault { span, problem });
+        }
+        self.at += 1;
+        match token {
+            Token::Number(value) => self.number(Quantity::bare(value), span, depth),
+            Token::Name(name) if self.is_next(b'(') => self.call(name, span, depth),
+            Token::Name(name) => Ok((self.name(name, &span), span)),
+            Token::Sign(b'(') => {
+                let (value, _) = self.sum(SUM, depth + 1)?;
+                let end = self.close(&span)?;
+                Ok((value, span.start..end))
+            }
+            Token::Sign(sign @ (b'-' | b'+')) => {
+                let (value, of) = self.sum(SIGNED, depth + 1)?;
+                let negate = |q: Quantity| if sign == b'-' { q.negated() } else { q };
+                Ok((value.map(negate), span.start..of.end))
+            }
+            Token::Sign(_) | Token::End => Err(Fault {
+                problem: Problem::NoOperand {
+                    found: self.written(&span),
+                },
+                span,
+            }),
+        }
+    }
+
+    /// A number, with its unit if one follows; `2 mm^2` is twice a square of 1 mm.
+    fn number(&mut self, q: Quantity, span: Range<usize>, depth: usize) -> Result<Part, Fault> {
+        match self.peek().0 {
+            Token::Name(unit) if is_unit(unit) => {
+                let (unit, of) = self.sum(POWER, depth + 1)?;
+                let span = span.start..of.end;
+                let q = unit.and_then(|unit| self.judge(span.clone(), q.times(unit)));
+                Ok((q, span))
+            }
+            _ => Ok((Some(q), span)),
+        }
+    }
+
+    /// The end of a closing bracket.
+    fn close(&mut self, open: &Range<usize>) -> Result<usize, Fault> {
+        let (token, span) = self.peek();
+        match token {
+            Token::Sign(b')') => {
+                self.at += 1;
+                Ok(span.end)
+            }
+            Token::End => Err(Fault {
+                span: open.clone(),
+                problem: Problem::Open,
+            }),
+            _ => Err(self.unexpected(span)),
+        }
+    }
+
+    /// A constant, a unit or a parameter.
+    fn name(&mut self, name: &str, span: &Range<usize>) -> Option<Quantity> {
+        if let Some(q) = constant(name) {
+            return Some(q);
+        }
+        let problem = match (self.scope.parameter(name), function(name)) {
+            (Some(value), _) => return value,
+            (None, Some((name, _))) => Problem::NoBrackets { name },
+            (None, None) => Problem::UnknownName {
+                name: name.to_owned(),
+            },
+        };
+        self.judge(span.clone(), Err(problem))
+    }
+
+    /// `name(value, …)`
+    fn call(&mut self, name: &str, span: Range<usize>, depth: usize) -> Result<Part, Fault> {
+        let (_, open) = self.peek();
+        self.at += 1;
+        let mut values = vec![self.sum(SUM, depth + 1)?];
+        while self.is_next(b',') {
+            self.at += 1;
+            values.push(self.sum(SUM, depth + 1)?);
+        }
+        let whole = span.start..self.close(&open)?;
+        let q = match function(name) {
+            Some((name, expected)) => self.apply(name, expected, values, &whole),
+            None => {
+                let name = name.to_owned();
+                self.judge(span, Err(Problem::UnknownFunction { name }))
+            }
+        };
+        Ok((q, whole))
+    }
+
+    /// The value of a function.
+    fn apply(
+        &mut self,
+        name: &'static str,
+        expected: &'static str,
+        values: Vec<Part>,
+        whole: &Range<usize>,
+    ) -> Option<Quantity> {
+        let wanted = match name {
+            "atan2" | "min" | "max" => 2,
+            _ => 1,
+        };
+        let found = values.len();
+        if found != wanted {
+            let problem = Problem::Count {
+                name,
+                expected,
+                found,
+            };
+            return self.judge(whole.clone(), Err(problem));
+        }
+        let bases = self.scope.bases();
+        let place = values[0].1.clone();
+        let values: Option<Vec<Quantity>> = values.into_iter().map(|(q, _)| q).collect();
+        let q = values?;
+        // Functions of numbers and angles say what they need at the value, others at the whole.
+        let argument = |of| q[0].at(of, bases);
+        let (angle, number) = (Dimension::ANGLE, Dimension::NONE);
+        let (at, result) = match name {
+            "sin" | "cos" | "tan" => (place, argument(angle)),
+            "asin" | "acos" | "atan" | "exp" | "log" => (place, argument(number)),
+            "sqrt" => (whole.clone(), q[0].root()),
+            "abs" => (whole.clone(), Ok(q[0].abs())),
+            "atan2" => (whole.clone(), q[0].angle(q[1], bases)),
+            "min" => (whole.clone(), q[0].least(q[1], 1.0, bases)),
+            _ => (whole.clone(), q[0].least(q[1], -1.0, bases)),
+        };
+        let x = self.judge(at, result)?;
+        let steep = |x: f64| 1.0 / (1.0 - x * x).max(x_error(q[0])).sqrt();
+        let value = match name {
+            "sin" => sine(x),
+            "cos" => cosine(x),
+            "tan" => tangent(x),
+            "asin" => x
+                .smooth("`asin`", f64::asin, steep)
+                .map(Quantity::in_radians),
+            "acos" => x
+                .smooth("`acos`", f64::acos, |x| -steep(x))
+                .map(Quantity::in_radians),
+            "atan" => x
+                .smooth("`atan`", f64::atan, |x| 1.0 / (1.0 + x * x))
+                .map(Quantity::in_radians),
+            "exp" => x.smooth("`exp`", f64::exp, f64::exp),
+            "log" => x.smooth("`log`", f64::ln, |x| 1.0 / x),
+            _ => Ok(x),
+        };
+        self.judge(whole.clone(), value)
+    }
+}
+
+/// What 1 − x² is at least, near the ends of arcs: the error of x, so that the arc is off by its
+/// root at most.
+fn x_error(x: Quantity) -> f64 {
+    x.error.max(f64::EPSILON)
+}
+
+fn sine(x: Quantity) -> Result<Quantity, Problem> {
+    x.smooth("`sin`", f64::sin, f64::cos)
+}
+
+fn cosine(x: Quantity) -> Result<Quantity, Problem> {
+    x.smooth("`cos`", f64::cos, |x| -x.sin())
+}
+
+fn tangent(x: Quantity) -> Result<Quantity, Problem> {
+    let ratio = sine(x)?.over(cosine(x)?);
+    ratio.map_err(|_| Problem::Undefined { name: "`tan`" })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,151 @@
+//! The words of an expression: numbers, names, operators and brackets.
+
+use std::ops::Range;
+
+use linalg::Dd;
+
+use super::problem::{Fault, Problem};
+
+/// A word.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Token<'s> {
+    Number(Dd),
+    Name(&'s str),
+    /// One of `+ - * / ^ ( ) ,`.
+    Sign(u8),
+    End,
+}
+
+/// All words with their places; the end is one of them.
+pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    while let Some(c) = text[at..].chars().next() {
+        let rest = &text[at..];
+        let (token, length) = match c {
+            c if c.is_whitespace() => {
+                at += c.len_utf8();
+                continue;
+            }
+            '0'..='9' | '.' if number_length(rest) > 0 => {
+                let length = number_length(rest);
+                (Token::Number(decimal(&rest[..length])), length)
+            }
+            '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' => (Token::Sign(rest.as_bytes()[0]), 1),
+            // As units are printed.
+            '·' => (Token::Sign(b'*'), c.len_utf8()),
+            '²' | '³' => {
+                found.push((Token::Sign(b'^'), at..at + c.len_utf8()));
+                let power = if c == '²' { 2.0 } else { 3.0 };
+                (Token::Number(power.into()), c.len_utf8())
+            }
+            '°' => (Token::Name("deg"), c.len_utf8()),
+            c if begins_name(c) => {
+                let length = rest.find(|c| !in_name(c)).unwrap_or(rest.len());
+                (Token::Name(&rest[..length]), length)
+            }
+            sign => {
+                return Err(Fault {
+                    span: at..at + sign.len_utf8(),
+                    problem: Problem::Sign { sign },
+                });
+            }
+        };
+        found.push((token, at..at + length));
+        at += length;
+    }
+    found.push((Token::End, text.len()..text.len()));
+    Ok(found)
+}
+
+fn begins_name(c: char) -> bool {
+    c.is_alphabetic() || c == '_'
+}
+
+fn in_name(c: char) -> bool {
+    begins_name(c) || c.is_ascii_digit()
+}
+
+/// Whether a parameter may have this name.
+pub(crate) fn is_name(name: &str) -> bool {
+    name.starts_with(begins_name) && name.chars().all(in_name)
+}
+
+/// Length of the number that a text begins with; zero if it begins with none. An `e` that no digits
+/// follow belongs to a name.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |from: usize| {
+        let rest = bytes[from..].iter();
+        from + rest
+            .take_while(|b| b.is_ascii_digit() || **b == b'_')
+            .count()
+    };
+    let mut end = digits(0);
+    let mut has_digits = end > 0;
+    if bytes.get(end) == Some(&b'.') {
+        let after = digits(end + 1);
+        has_digits |= after > end + 1;
+        end = after;
+    }
+    if !has_digits {
+        return 0;
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let power = digits(end + 1 + sign);
+        if power > end + 1 + sign {
+            end = power;
+        }
+    }
+    end
+}
+
+/// Digits of the longest whole number that is read exactly.
+const DIGITS: usize = 30;
+
+/// A decimal number in two parts: the double next to it, and what that one misses. `text` is a
+/// number of a file or of an expression; what is none is NaN.
+pub(crate) fn decimal(text: &str) -> Dd {
+    let text = text.replace('_', "");
+    let nearest: f64 = text.parse().unwrap_or(f64::NAN);
+    let (mantissa, power) = text.split_once(['e', 'E']).unwrap_or((&text, "0"));
+    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = [whole.trim_start_matches(['+', '-']), decimals].concat();
+    let shift = i32::try_from(decimals.len()).ok();
+    let power = power
+        .parse::<i32>()
+        .ok()
+        .zip(shift)
+        .map(|(p, s)| p.saturating_sub(s));
+    let digits = digits.trim_start_matches('0');
+    let (Ok(whole), Some(power)) = (digits.parse::<u128>(), power) else {
+        return nearest.into();
+    };
+    // Beyond, one of the two parts leaves the range of doubles on the way.
+    const LARGEST_POWER: u32 = 200;
+    if digits.len() > DIGITS || power.unsigned_abs() > LARGEST_POWER {
+        return nearest.into();
+    }
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "what is lost is the second part"
+    )]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "half a unit in the last place"
+    )]
+    let parts = {
+        let first = whole as f64;
+        let second = (whole as i128 - first as i128) as f64;
+        Dd::from_sum(first, second)
+    };
+    let tens = (0..power.unsigned_abs()).fold(Dd::ONE, |tens, _| tens * 10.0);
+    let magnitude = if power < 0 {
+        parts / tens
+    } else {
+        parts * tens
+    };
+    let missed = magnitude - Dd::from(nearest.abs());
+    Dd::from_sum(nearest, missed.hi() * nearest.signum())
+}

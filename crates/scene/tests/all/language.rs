@@ -1,0 +1,460 @@
+//! Format 2: expressions, parameters and units; every fault at its place inside of the text.
+
+use std::f64::consts::FRAC_PI_6;
+
+use joints::{Pose, Twist};
+use model::BodyRef;
+use proptest::prelude::*;
+use scene::{Diagnostic, Scene};
+
+use super::read;
+
+/// A crank with parameters, in millimetres and degrees.
+const CRANK: &str = r#"[scene]
+name = "crank"
+space = "plane"
+format = 2
+units = { length = "mm", angle = "deg" }
+gravity = [0, -9810]
+
+[parameters]
+L = 300.1
+phi = 30
+m1 = "L/100 * 250 g/(1 mm) * 1 mm"
+tip = "25 mm + L"
+spring = "2 N/mm"
+
+[[body]]
+name = "crank"
+mass = "m1/(L/100)"
+inertia = "2e4"
+position = ["L*cos(phi)", "L*sin(phi)"]
+angle = "phi"
+angular_velocity = "1 rad/s + 90 deg/s"
+tolerance = 0.1
+
+[[joint]]
+name = "A"
+type = "revolute"
+bodies = ["ground", "crank"]
+at = [0.0, 0.0]
+
+[[drive]]
+name = "D"
+joint = "A"
+type = "angle"
+motion = { type = "steps", steps = [{ from = 0, to = "500 ms", by = "phi/2" }] }
+
+[[force]]
+name = "S"
+type = "spring-damper"
+bodies = ["ground", "crank"]
+points = { ground = [0, "tip"], crank = ["-tip", "0 m"] }
+stiffness = "spring"
+damping = 0.5
+
+[simulate]
+t_end = "2 s"
+"#;
+
+fn crank() -> Scene {
+    read(CRANK).unwrap_or_else(|problems| panic!("{problems:#?}"))
+}
+
+/// Numbers by hand, in metres and radians.
+#[test]
+fn numbers_mean_what_their_units_say() {
+    let scene = crank();
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    let d = &scene.description;
+    let body = &d.bodies[0];
+    let near = |found: f64, expected: f64| {
+        let bound = 2.0 * f64::EPSILON * expected.abs();
+        assert!((found - expected).abs() <= bound, "{found} {expected}");
+    };
+    assert_eq!(d.gravity, [0.0, -9.81]);
+    assert_eq!(body.mass, 0.25);
+    assert_eq!(body.inertia, 0.02);
+    near(body.position[0], 0.259_894_223_675_71); // 0.3001·√3/2
+    near(body.position[1], 0.150_05);
+    near(body.angle, FRAC_PI_6);
+    near(
+        body.angular_velocity.expect("given"),
+        2.570_796_326_794_896_6,
+    );
+    assert_eq!(body.tolerance, Some(1e-4));
+    assert_eq!(d.joints[0].bodies, [BodyRef::Ground, BodyRef::Body(0)]);
+    let [half_way, ..] = d.drives[0].motion.jet(0.25);
+    near(half_way, 0.130_899_693_899_574_73); // half of 15°
+    assert_eq!(scene.simulate.expect("a run").t_end, 2.0);
+}
+
+/// The same scene in metres, radians and literals, in the old format.
+#[test]
+fn a_scene_in_millimetres_is_that_in_metres() {
+    let replaced = [
+        (
+            "format = 2\nunits = { length = \"mm\", angle = \"deg\" }\n",
+            "",
+        ),
+        ("-9810", "-9.81"),
+        ("\"m1/(L/100)\"", "0.25"),
+        ("\"2e4\"", "0.02"),
+        (
+            "[\"L*cos(phi)\", \"L*sin(phi)\"]",
+            "[0.25989422367571, 0.15005]",
+        ),
+        ("angle = \"phi\"", "angle = 0.5235987755982989"),
+        ("\"1 rad/s + 90 deg/s\"", "2.5707963267948966"),
+        ("tolerance = 0.1", "tolerance = 1e-4"),
+        (
+            "\"500 ms\", by = \"phi/2\"",
+            "0.5, by = 0.26179938779914946",
+        ),
+        (
+            "[0, \"tip\"], crank = [\"-tip\", \"0 m\"]",
+            "[0, 0.3251], crank = [-0.3251, 0]",
+        ),
+        ("\"spring\"", "2000"),
+        ("damping = 0.5", "damping = 500"),
+        ("\"2 s\"", "2"),
+    ];
+    let mut text = CRANK.to_owned();
+    let parameters =
+        text.find("[parameters]").expect("there")..text.find("[[body]]").expect("there");
+    text.replace_range(parameters, "");
+    for (from, to) in replaced {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    let (new, old) = (
+        crank(),
+        read(&text).unwrap_or_else(|p| panic!("{text}\n{p:#?}")),
+    );
+    let show = |scene: &Scene| {
+        let d = &scene.description;
+        let x = [Pose::GROUND, Pose::new(0.3, -0.2, 0.7)];
+        let v = [
+            Twist::zero(),
+            Twist {
+                x: 1.0,
+                y: 2.0,
+                omega: 3.0,
+            },
+        ];
+        let (mut phi, mut q) = ([f64::NAN; 2], [f64::NAN; 6]);
+        d.joints[0].element.phi(&x, &[], &mut phi);
+        let spring = &d.forces[0].element;
+        spring.q(&x, &v, &[], &mut q[..spring.spec().q.len()]);
+        let motion = &d.drives[0].motion;
+        format!(
+            "{:?} {phi:?} {q:?} {motion:?} {:?}",
+            d.bodies, scene.simulate
+        )
+    };
+    assert_eq!(show(&new), show(&old));
+}
+
+/// What is marked, the message, and the label with the help, of a problem.
+fn said(text: &str, problem: &Diagnostic) -> [String; 3] {
+    let marked = text[problem.primary.span.clone()].to_owned();
+    let help = problem.help.clone().unwrap_or_default();
+    let advice = format!("{} | {help}", problem.primary.text);
+    [marked, problem.message.clone(), advice]
+}
+
+#[test]
+fn every_fault_has_its_place_inside_of_the_text() {
+    for (from, to, expected) in [
+        (
+            "\"L*cos(phi)\"",
+            "\"L*cos(phy)\"",
+            [
+                "phy",
+                "body `crank`: `position`: there is no parameter `phy`",
+                "did you mean `phi`? | ",
+            ],
+        ),
+        (
+            "\"L*cos(phi)\"",
+            "\"L*cosinus(phi)\"",
+            [
+                "cosinus",
+                "body `crank`: `position`: there is no function `cosinus`",
+                "no such function | the parameters are `L`, `m1`, `phi`, `spring`, `tip`",
+            ],
+        ),
+        (
+            "angle = \"phi\"",
+            "angle = \"pi/6\"",
+            [
+                "pi/6",
+                "body `crank`: `angle`: a number with `pi` is an angle here, but angles without a unit are not in radians",
+                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+            ],
+        ),
+        (
+            "\"L*cos(phi)\"",
+            "\"L*cos(pi/3)\"",
+            [
+                "pi/3",
+                "body `crank`: `position`: a number with `pi` is an angle here, but angles without a unit are not in radians",
+                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+            ],
+        ),
+        (
+            "angle = \"phi\"",
+            "angle = \"25 mm\"",
+            [
+                "25 mm",
+                "body `crank`: `angle`: found a length (m), need an angle (rad)",
+                "another unit is needed | its units are `deg`, `rad`",
+            ],
+        ),
+        (
+            "inertia = \"2e4\"",
+            "inertia = \"2 kg*m\"",
+            [
+                "2 kg*m",
+                "body `crank`: `inertia`: found a quantity (kg·m), need a moment of inertia (kg·m²)",
+                "another unit is needed | write its unit, as `2 kg·m²`",
+            ],
+        ),
+        (
+            "\"L*sin(phi)\"",
+            "\"L/(phi - 30)\"",
+            [
+                "(phi - 30)",
+                "body `crank`: `position`: division by zero",
+                "is zero | ",
+            ],
+        ),
+        (
+            "by = \"phi/2\"",
+            "by = \"phi/2 m\"",
+            [
+                "phi/2 m",
+                "drive `D`: `motion`: `steps`: `by`: found a quantity (1/m), need an angle (rad)",
+                "another unit is needed | its units are `deg`, `rad`",
+            ],
+        ),
+        (
+            "t_end = \"2 s\"",
+            "t_end = \"2 s + 1 deg\"",
+            [
+                "2 s + 1 deg",
+                "`[simulate]`: `t_end`: a time (s) and an angle (rad) have no sum, difference or order",
+                "units that do not fit | write both with units of one kind",
+            ],
+        ),
+        (
+            "t_end = \"2 s\"",
+            "t_end = '''2 s (1'''",
+            [
+                "(",
+                "`[simulate]`: `t_end`: a bracket is never closed",
+                "opens here | write `)` where its content ends",
+            ],
+        ),
+        (
+            "stiffness = \"spring\"",
+            "stiffness = \"-spring\"",
+            [
+                "\"-spring\"",
+                "force `S`: `stiffness` is -2000, need a number ≥ 0",
+                "may not be negative | ",
+            ],
+        ),
+        (
+            "tip = \"25 mm + L\"",
+            "tip = \"25 mm + 2 L\"",
+            [
+                "L",
+                "`[parameters]`: `tip`: an operator is missing before `L`",
+                "write an operator before this | to multiply, write `*L`",
+            ],
+        ),
+        (
+            "tip = \"25 mm + L\"",
+            "tip = [1, 2]",
+            [
+                "[1, 2]",
+                "`[parameters]`: `tip` must be a number or an expression, found a list of 2 values",
+                "expected a number or an expression | ",
+            ],
+        ),
+        (
+            "L = 300.1",
+            "L = 300.1\ng = 9.81",
+            [
+                "g",
+                "the parameter `g` has the name of a unit",
+                "choose another name | for example `g_1`",
+            ],
+        ),
+        (
+            "L = 300.1",
+            "L = 300.1\n\"2L\" = 1",
+            [
+                "\"2L\"",
+                "the parameter \"2L\" has a name that expressions cannot contain",
+                "choose another name | names have letters, digits and `_`, and begin with no digit",
+            ],
+        ),
+        (
+            "spring = \"2 N/mm\"",
+            "spring = \"2*spring\"",
+            [
+                "spring",
+                "the parameter `spring` depends on itself",
+                "closes the circle | give one of them a value without the others",
+            ],
+        ),
+        (
+            "phi = 30",
+            "phi = \"psi/2\"\npsi = \"phi*2\"",
+            [
+                "psi",
+                "the parameters `phi` → `psi` → `phi` depend on each other",
+                "closes the circle | give one of them a value without the others",
+            ],
+        ),
+        (
+            "length = \"mm\"",
+            "length = \"inch\"",
+            [
+                "\"inch\"",
+                "`[scene]`: `units`: `length` must be a unit of length, found `inch`",
+                "no such unit | did you mean `in`?",
+            ],
+        ),
+        (
+            "format = 2",
+            "format = 3",
+            [
+                "3",
+                "`[scene]`: `format` is 3, need 1 or 2",
+                "no such format | ",
+            ],
+        ),
+    ] {
+        assert!(CRANK.contains(from), "{from}");
+        let text = CRANK.replacen(from, to, 1);
+        let problems = read(&text).expect_err(to);
+        let found: Vec<_> = problems.iter().map(|p| said(&text, p)).collect();
+        assert_eq!(found.len(), 1, "{to}: {found:#?}");
+        let [marked, message, advice] = &found[0];
+        assert_eq!([marked.as_str(), message, advice], expected, "{to}");
+    }
+}
+
+#[test]
+fn all_faults_are_told_at_once() {
+    let text = CRANK
+        .replacen("\"L*cos(phi)\", \"L*sin(phi)\"", "\"a + b\", \"1 s\"", 1)
+        .replacen("phi = 30", "phi = \"30 deg + zeta\"", 1)
+        .replacen("\"2 s\"", "\"2 kg\"", 1);
+    let problems = read(&text).expect_err("four faults");
+    let marked: Vec<&str> = problems
+        .iter()
+        .map(|p| &text[p.primary.span.clone()])
+        .collect();
+    // Uses of the wrong `phi` are consequences.
+    assert_eq!(marked, ["zeta", "a", "b", "1 s", "2 kg"]);
+}
+
+/// Texts that TOML writes with escapes are marked as a whole.
+#[test]
+fn escapes_do_not_shift_places() {
+    let text = CRANK.replacen("t_end = \"2 s\"", "t_end = \"2\\u0020kg\"", 1);
+    let problems = read(&text).expect_err("a mass");
+    assert_eq!(&text[problems[0].primary.span.clone()], "\"2\\u0020kg\"");
+}
+
+/// Without `format = 2` nothing is new, and what to write is said.
+#[test]
+fn the_old_format_computes_nothing() {
+    let text = CRANK.replacen("format = 2\n", "", 1);
+    let problems = read(&text).expect_err("format 1");
+    let found: Vec<_> = problems.iter().map(|p| said(&text, p)).collect();
+    let expected = [
+        [
+            "{ length = \"mm\", angle = \"deg\" }",
+            "`units` needs the format 2",
+            "not in format 1 | add `format = 2` to `[scene]`",
+        ],
+        [
+            "[parameters]",
+            "`[parameters]` needs the format 2",
+            "not in format 1 | add `format = 2` to `[scene]`",
+        ],
+    ];
+    assert_eq!(found, expected);
+    let plain = "[scene]\nname = \"a\"\nspace = \"plane\"\n[[body]]\nname = \"a\"\nmass = \"2*3\"\ninertia = 1\n";
+    let problems = read(plain).expect_err("a text");
+    assert_eq!(
+        said(plain, &problems[0]),
+        [
+            "\"2*3\"",
+            "body `a`: `mass` must be a number, found the text \"2*3\"",
+            "expected a number | texts are computed with `format = 2` in `[scene]`",
+        ]
+    );
+}
+
+#[test]
+fn what_is_probably_not_meant_is_a_warning() {
+    for (from, to, marked, message) in [
+        (
+            "\"L*cos(phi)\"",
+            "\"L*(1 - cos(1e-4*phi))\"",
+            "\"L*(1 - cos(1e-4*phi))\"",
+            "body `crank`: `position` is a small difference of larger numbers: it is accurate to 2e-7 of its value",
+        ),
+        (
+            "motion = { type = \"steps\", steps = [{ from = 0, to = \"500 ms\", by = \"phi/2\" }] }",
+            "motion = \"phi\"",
+            "\"phi\"",
+            "drive `D`: `motion = \"phi\"` is constant, and a drive follows f(t) − f(0), so the measure is held at its initial value",
+        ),
+    ] {
+        assert!(CRANK.contains(from), "{from}");
+        let text = CRANK.replacen(from, to, 1);
+        let scene = read(&text).unwrap_or_else(|p| panic!("{p:#?}"));
+        let found: Vec<_> = scene
+            .warnings
+            .iter()
+            .map(|w| (&text[w.primary.span.clone()], &*w.message))
+            .collect();
+        assert_eq!(found, [(marked, message)]);
+    }
+}
+
+proptest! {
+    /// Whatever stands in a text, reading ends, without a panic, with places inside of the file.
+    #[test]
+    fn no_text_panics(text in expression(), other in expression()) {
+        let quoted = |text: &str| toml::Value::from(text).to_string();
+        let scene = CRANK
+            .replacen("\"L*cos(phi)\"", &quoted(&text), 1)
+            .replacen("\"25 mm + L\"", &quoted(&other), 1);
+        if let Err(problems) = read(&scene) {
+            prop_assert!(!problems.is_empty());
+            for p in problems {
+                prop_assert!(scene.get(p.primary.span.clone()).is_some(), "{p}");
+            }
+        }
+    }
+}
+
+fn expression() -> impl Strategy<Value = String> {
+    let words = prop::sample::select(vec![
+        "1", "0", "2.5", "1e308", "1e-320", "1e999", "L", "tip", "m1", "x", "mm", "deg", "N", "s",
+        "min", "pi", "+", "-", "*", "/", "^", "(", ")", ",", "sin(", "acos(", "atan2(", "sqrt(",
+        "min(", "exp(", "log(", " ", "_", "²", "°", "é", "\n", "\"", "\u{0}",
+    ]);
+    prop_oneof![
+        prop::collection::vec(words, 0..24).prop_map(|words| words.concat()),
+        "\\PC{0,20}",
+    ]
+}
