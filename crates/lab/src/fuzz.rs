@@ -15,6 +15,7 @@
 //! | [`watch`] | processes that try texts, with limits of time and memory |
 //! | [`campaign`] | many inputs, several at the same time; what was found |
 //! | [`minimise`] | the shortest text that still fails alike |
+//! | [`passages`] | parallelograms through their flat poses, against closed forms |
 //! | [`mod@exact`] | degenerate scenes whose answer exact arithmetic knows: does the program give it? |
 
 pub mod campaign;
@@ -22,6 +23,7 @@ pub mod damage;
 pub mod exact;
 pub mod input;
 pub mod minimise;
+pub mod passages;
 pub mod scenes;
 pub mod trial;
 pub mod watch;

@@ -76,6 +76,12 @@ impl IndependentCoordinates {
         })
     }
 
+    /// The next state is completed from the configuration at the head of `y`.
+    pub(crate) fn begin_from(&mut self, y: &[f64]) {
+        let n_q = self.q.len();
+        self.q.copy_from_slice(&y[..n_q]);
+    }
+
     /// Completes a state: from the state completed last or, if that was too far away, from the one
     /// accepted last, or from what the integrator carries. Where nothing is free that comes first,
     /// because nothing else tells how far the motion has gone.

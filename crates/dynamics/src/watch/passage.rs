@@ -53,6 +53,11 @@ impl Passage {
         self.t
     }
 
+    /// Relative pivot at the last accepted step.
+    pub(super) fn pivot(&self) -> f64 {
+        self.pivot
+    }
+
     /// When the pivots of the last two accepted steps, continued as a straight line, vanish.
     pub(super) fn expected(&self) -> Option<f64> {
         (self.rate < 0.0).then(|| self.t - self.pivot / self.rate)
