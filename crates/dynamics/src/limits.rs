@@ -189,6 +189,13 @@ pub(crate) const SOUND: f64 = 0.5;
 
 // Singular configurations.
 
+/// Below this share positions are corrected at least once: a state that misses its rows by rounding
+/// δ is off by δ over the share, and its accelerations by that over the square of it. One
+/// correction makes angles exact, whatever the coordinates are rounded to.
+/// Unit: share of pivots. Less: far from the origin passages fail. More: corrections for nothing.
+/// Test: `parallelograms_pass_their_flat_poses_at_speed`.
+pub(crate) const SHARPENED: f64 = 0.2;
+
 /// Below this share rows are delicate: stages have to lie on the constraints.
 /// Unit: share of pivots. Less: stages off the constraints by δ are wrong by δ over the share.
 /// More: ordinary steps pay for projected stages. Test:
@@ -214,6 +221,18 @@ pub(crate) const NEAREST_TOLERANCES: f64 = 100.0;
 /// Unit: share of pivots. Less: loose steps take another branch. More: loose runs stop. Test:
 /// `limits_stand_in_their_order`.
 pub(crate) const NEAREST_MAX: f64 = 0.1;
+
+/// A step that comes near all at once begins again, shorter, if it ends at less than so many times
+/// the nearest approach: rounding of accelerations grows with the third power of the distance.
+/// Unit: nearest approaches. Less: the next step has to pass from where its stages are rounding.
+/// More: steps are refused in vain. Test: `parallelograms_pass_their_flat_poses_at_speed`.
+pub(crate) const NEARBY: f64 = 10.0;
+
+/// It has come near all at once if its pivot has fallen to this share.
+/// Unit: share of the pivot at the last accepted step. Less: as above. More: motions that stay
+/// near a singular configuration are slowed down. Test:
+/// `parallelograms_pass_their_flat_poses_at_speed`.
+pub(crate) const FALLEN: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps
 /// grow by more.

@@ -8,6 +8,7 @@ mod component;
 mod energy;
 mod equations;
 mod impulse;
+mod integration;
 mod passages;
 mod permits;
 mod record;

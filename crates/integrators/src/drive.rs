@@ -23,6 +23,14 @@ const STRETCH: f64 = 1.01;
 /// A step that ends before a delicate time leaves this fraction of the distance that a step of its
 /// size could pass.
 const LEFT_TO_PASS: f64 = 0.8;
+/// A step may miss its tolerance by the slack of a delicate time if it ends at most this many times
+/// its size before it: a step that leaves the next one nearly all of its reach still does.
+const NEAR: f64 = 2.0;
+/// Trials after which progress is looked at.
+const STRIDE: u64 = 2000;
+/// A run that would need this many times the permitted steps, at the pace of the last [`STRIDE`]
+/// trials, does not proceed: a transient is over long before.
+const HOPELESS: f64 = 1e3;
 /// Step-size factor after a failed evaluation.
 const FACTOR_AFTER_FAILURE: f64 = 0.25;
 /// Step-size factor after a rejection by the hook.
@@ -134,10 +142,10 @@ pub(crate) fn check<O: Ode>(
     interval.legs()
 }
 
-/// Whether a step passes a delicate time, or is so close that the next step of its size would.
+/// Whether a step goes over a delicate time, or ends at most [`NEAR`] of its size before it.
 fn is_near(delicate: &Delicate, trial: &Trial<'_>) -> bool {
     let ahead = |t: f64| (delicate.t - t) / trial.h;
-    ahead(trial.t) > 0.0 && ahead(trial.t1) < 1.0
+    ahead(trial.t) > 0.0 && ahead(trial.t1) < NEAR
 }
 
 /// A failure before the first evaluation.
@@ -191,6 +199,8 @@ struct Run<'a, E: std::error::Error + 'static> {
     failures: u32,
     last_rejection: Option<Cause<E>>,
     is_first_leg: bool,
+    /// Trials and time when progress was looked at last.
+    looked_at: (u64, f64),
 }
 
 impl<'a, E: std::error::Error + 'static> Run<'a, E> {
@@ -214,6 +224,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             failures: 0,
             last_rejection: None,
             is_first_leg: true,
+            looked_at: (0, t),
         }
     }
 
@@ -320,10 +331,11 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             return Err(IntegrationError::TooManySteps { t, steps, h });
         }
         let remaining = leg.end - t;
+        let stands_still = self.stands_still(steps, remaining);
         let reaches_end = STRETCH * h.abs() >= remaining.abs();
         let too_small =
             h.abs() < SMALLEST_STEP_IN_EPSILONS * f64::EPSILON * t.abs() && !reaches_end;
-        if too_small || self.failures > self.options.max_failures || t + h == t {
+        if stands_still || too_small || self.failures > self.options.max_failures || t + h == t {
             let norm = self.error_norm.unwrap_or(f64::NAN);
             return Err(IntegrationError::StepSizeCollapsed {
                 t,
@@ -346,8 +358,19 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         })
     }
 
-    /// Computes stages, error test, hook. On success `y1`, `f1` and `error_norm` describe an
-    /// accepted step.
+    /// Whether the last trials have led so little on that the rest of the leg is out of reach.
+    fn stands_still(&mut self, steps: u64, remaining: f64) -> bool {
+        let (before, since) = self.looked_at;
+        if steps < before + STRIDE {
+            return false;
+        }
+        self.looked_at = (steps, self.t);
+        let pace = (self.t - since).abs() / STRIDE as f64;
+        remaining.abs() > HOPELESS * self.options.max_steps as f64 * pace
+    }
+
+    /// Stages, error test, hook. On success `y1`, `f1` and `error_norm` describe a step that is
+    /// accepted.
     fn attempt<O: Ode<Error = E>, S: Stepper<O>>(
         &mut self,
         ode: &mut O,

@@ -1,6 +1,8 @@
 //! Cost of an integration.
 
-/// Counts of one integration, complete even after a failure.
+use std::ops::AddAssign;
+
+/// Counts of one integration, complete also after a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Statistics {
@@ -45,5 +47,24 @@ impl Statistics {
     #[must_use]
     pub fn total_evaluations(&self) -> u64 {
         self.evaluations + self.hook_evaluations + self.output_evaluations
+    }
+}
+
+/// Costs of one integration after another.
+impl AddAssign for Statistics {
+    fn add_assign(&mut self, next: Self) {
+        self.evaluations += next.evaluations;
+        self.output_evaluations += next.output_evaluations;
+        self.hook_evaluations += next.hook_evaluations;
+        self.jacobians += next.jacobians;
+        self.factorisations += next.factorisations;
+        self.solves += next.solves;
+        self.newton_iterations += next.newton_iterations;
+        self.accepted += next.accepted;
+        self.rejected_by_error += next.rejected_by_error;
+        self.rejected_by_failure += next.rejected_by_failure;
+        self.rejected_by_hook += next.rejected_by_hook;
+        self.projections += next.projections;
+        self.largest_correction = self.largest_correction.max(next.largest_correction);
     }
 }

@@ -10,18 +10,20 @@
 //! | --- | --- |
 //! | [`input`] | the text of an input |
 //! | [`scenes`] | a random scene of all joints, drives, forces and functions |
-//! | [`damage`] | random changes of a text |
-//! | [`trial`] | one text passed to the library, and the properties that its results must have |
-//! | [`watch`] | child processes that test texts, with limits of time and memory |
-//! | [`campaign`] | many inputs, several at the same time, and the failures |
-//! | [`minimise`] | the shortest text with the same failure |
-//! | [`mod@exact`] | degenerate scenes whose answer is known by exact arithmetic, compared with that of the program |
+//! | [`damage`] | what is done to a text |
+//! | [`trial`] | one text through the library, and what must hold of what comes out |
+//! | [`watch`] | processes that try texts, with limits of time and memory |
+//! | [`campaign`] | many inputs, several at the same time; what was found |
+//! | [`minimise`] | the shortest text that still fails alike |
+//! | [`passages`] | parallelograms through their flat poses, against closed forms |
+//! | [`mod@exact`] | degenerate scenes whose answer exact arithmetic knows: does the program give it? |
 
 pub mod campaign;
 pub mod damage;
 pub mod exact;
 pub mod input;
 pub mod minimise;
+pub mod passages;
 pub mod scenes;
 pub mod trial;
 pub mod watch;

@@ -76,10 +76,15 @@ impl IndependentCoordinates {
         })
     }
 
-    /// Completes a state. Starts from the last completed state; if that is too far away, from the
-    /// last accepted one, or from the dependent entries of the integrator. If there is no free
-    /// coordinate, the entries of the integrator come first, because only they show how far the
-    /// motion has advanced.
+    /// The next state is completed from the configuration at the head of `y`.
+    pub(crate) fn begin_from(&mut self, y: &[f64]) {
+        let n_q = self.q.len();
+        self.q.copy_from_slice(&y[..n_q]);
+    }
+
+    /// Completes a state: from the state completed last or, if that was too far away, from the one
+    /// accepted last, or from what the integrator carries. Where nothing is free that comes first,
+    /// because nothing else tells how far the motion has gone.
     pub(crate) fn complete(
         &mut self,
         equations: &mut KeptEquations<'_>,

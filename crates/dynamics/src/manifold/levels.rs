@@ -6,7 +6,7 @@ use model::System;
 use super::newton::{Level, Limits, correct};
 use crate::error::MotionFault;
 use crate::limits::{
-    CORRECTIONS, FEW_ROUNDINGS, ROUNDINGS, STALLED_ROUNDINGS, VELOCITY_CORRECTIONS, WEAK,
+    CORRECTIONS, FEW_ROUNDINGS, ROUNDINGS, SHARPENED, STALLED_ROUNDINGS, VELOCITY_CORRECTIONS, WEAK,
 };
 use crate::solve::{KeptEquations, KeptRows};
 
@@ -104,8 +104,9 @@ pub(super) fn correct_position(
         Moves::AllCoordinates => enough(&equations.position),
         Moves::DependentCoordinates => FEW_ROUNDINGS,
     };
+    let least = usize::from(equations.position.relative_pivot() < SHARPENED);
     let limits = Limits {
-        corrections: [0, CORRECTIONS],
+        corrections: [least, CORRECTIONS],
         enough,
         stalled: STALLED_ROUNDINGS,
     };

@@ -3,20 +3,17 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use integrators::{
-    Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Radau5, Rows,
-    Tsit5, integrate,
-};
+use integrators::{Cause, IntegrationError, Interval, Options, OutputTimes, Rows};
 use model::System;
 use solvability::{contradicting_drives_along, generic};
 
 use super::equations::RunEquations;
-use super::passages;
+use super::integration::Run;
 use super::sample::{AtRows, Sample};
 use super::summary::{Failure, Summary};
 use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
-use crate::options::{Method, MotionOptions};
+use crate::options::MotionOptions;
 use crate::plan::{self, Plan};
 use crate::prepare::Prepared;
 
@@ -72,20 +69,9 @@ pub(super) fn run_component(
         ..Options::with_tolerance(options.rtol, options.atol)
     };
     let rows = Rows::new(output_times(plan), &interval).map_err(|e| not_begun(named(e)))?;
-    let mut run = Run {
-        equations,
-        rows,
-        row,
-        watch,
-        stopped: None,
-    };
+    let mut run = Run::new(equations, rows, row, watch);
     let clock = Instant::now();
-    let outcome = match method {
-        Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
-        Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
-        Method::Auto | Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
-        Method::Radau5 => run.go(&Radau5, &interval, &y0, &settings),
-    };
+    let outcome = run.go(method, &interval, &y0, &settings);
     let wall_seconds = clock.elapsed().as_secs_f64();
     let (t, statistics) = match &outcome {
         Ok(o) => (o.t, o.statistics),
@@ -175,69 +161,8 @@ fn output_times(plan: &Plan<'_>) -> OutputTimes {
     }
 }
 
-/// A run in progress: the equations, the remaining rows, and the error if it has been stopped.
-struct Run<'r, 'm> {
-    equations: RunEquations<'m>,
-    rows: Rows,
-    row: &'r mut ShowRow<'r>,
-    watch: &'r Watch<'r>,
-    stopped: Option<MotionError>,
-}
-
-type Integrated = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
-
-impl<'m> Run<'_, 'm> {
-    fn go<M: integrators::Method<RunEquations<'m>>>(
-        &mut self,
-        method: &M,
-        interval: &Interval<'_>,
-        y0: &[f64],
-        settings: &Options,
-    ) -> Integrated {
-        let Self {
-            equations,
-            rows,
-            row,
-            watch,
-            stopped,
-        } = self;
-        let mut show = |e: &mut RunEquations<'m>, t: f64, y: &mut [f64]| match e.show(t, y, row) {
-            Ok(flow) => flow,
-            Err(fault) => {
-                *stopped = Some(fault.into());
-                ControlFlow::Break(())
-            }
-        };
-        if rows.start(equations, y0, &mut show).is_break() {
-            // No time is integrated; the rest is the result at the start.
-            let nowhere = Interval::new(interval.t0, interval.t0);
-            return integrate(method, equations, &nowhere, y0, settings, |_| {
-                ControlFlow::Break(())
-            });
-        }
-        let mut refused = None;
-        let outcome = integrate(method, equations, interval, y0, settings, |step| {
-            passages::note(step);
-            let (times, ends) = (
-                [step.t0(), step.t1()],
-                [step.y0(), step.f0(), step.y1(), step.f1()],
-            );
-            step.ode().take_step(times, ends);
-            rows.emit(step, &mut show).unwrap_or_else(|error| {
-                refused = Some(error);
-                ControlFlow::Break(())
-            })?;
-            watch(step.t1())
-        });
-        if let Some(error) = refused {
-            *stopped = Some(named(error));
-        }
-        outcome
-    }
-}
-
-/// The fault behind a collapsed step, if it comes from the equations.
-fn named(error: IntegrationError<MotionFault>) -> MotionError {
+/// The cause behind a collapsed step, if it is ours.
+pub(super) fn named(error: IntegrationError<MotionFault>) -> MotionError {
     match error {
         IntegrationError::StepSizeCollapsed {
             cause: Cause::Problem(fault),

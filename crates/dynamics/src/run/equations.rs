@@ -19,7 +19,18 @@ use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 use crate::watch::{Next, Now, are_delicate};
 
-/// The equations of a run, with its record.
+/// Who leads over singular configurations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Leader {
+    /// The method of the run.
+    Alone,
+    /// The method of the run, until one is near; `is_due` if a step has met one unforeseen.
+    HandsOver { is_due: bool },
+    /// The method that passes them.
+    Passes,
+}
+
+/// The equations of a run with what is noted on the way.
 pub(super) struct RunEquations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
     pub(super) record: Record,
@@ -28,6 +39,7 @@ pub(super) struct RunEquations<'m> {
     /// Linear systems of implicit methods, allocated by their first step.
     reduced: Option<Reduced>,
     t_end: f64,
+    leader: Leader,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
     /// Whether stages of the present step were evaluated by generated code that is no longer in
@@ -59,6 +71,7 @@ impl<'m> RunEquations<'m> {
             wanted,
             reduced: None,
             t_end: options.t_end,
+            leader: Leader::Alone,
             is_careful: false,
             is_void: false,
             by_time: ByTime::for_run(prepared, options),
@@ -89,7 +102,36 @@ impl<'m> RunEquations<'m> {
     fn wants_care(&self) -> bool {
         let motion = &self.motion;
         let off = motion.manifold.projects() && motion.independent().is_none();
-        off && (self.is_by_time() || are_delicate(&motion.equations.velocity))
+        let is_near = motion.watch.delicate().is_some() || are_delicate(&motion.equations.velocity);
+        off && (self.is_by_time() || is_near)
+    }
+
+    /// From here on `leader` leads; on all coordinates, unless it is implicit and chooses
+    /// independent ones.
+    pub(super) fn follow(&mut self, leader: Leader) {
+        let KeptRowMotion {
+            manifold,
+            equations,
+            ..
+        } = &mut self.motion;
+        if leader == Leader::Passes && manifold.coordinates.take().is_some() {
+            equations.velocity.forget_partition();
+            equations.position.forget_partition();
+        }
+        self.leader = leader;
+        self.is_careful = self.wants_care();
+    }
+
+    /// Whether another method has to lead after an accepted step to t.
+    pub(super) fn hands_over(&self, t: f64) -> bool {
+        let watch = &self.motion.watch;
+        let is_foreseen = watch.delicate().is_some();
+        let hands_over = match self.leader {
+            Leader::Alone => false,
+            Leader::HandsOver { is_due } => is_due || is_foreseen,
+            Leader::Passes => !is_foreseen && !are_delicate(&self.motion.equations.velocity),
+        };
+        hands_over && !self.is_break(t)
     }
 
     /// The work is computed without error control: its error has no weight. It still counts as a
@@ -124,6 +166,7 @@ impl<'m> RunEquations<'m> {
         // With independent coordinates only these are interpolated, and generated code uses its own
         // coordinates.
         let is_whole = self.motion.independent().is_none() && !self.motion.is_on_code();
+        self.lead_completion(t);
         let found = if self.wanted.on_constraints || !is_whole {
             Some(self.motion.end_row(t_before, (q, v))?)
         } else {
@@ -206,8 +249,19 @@ impl<'m> RunEquations<'m> {
         }
     }
 
-    /// Evaluates f(t, y) without generated code.
+    /// Within the last accepted step, states on independent coordinates are completed from where
+    /// the step leads: what the integrator carries for the others is a guess over a whole step.
+    fn lead_completion(&mut self, t: f64) {
+        if let Some(coordinates) = &mut self.motion.manifold.coordinates
+            && let Some(led) = self.last.lead(t)
+        {
+            coordinates.begin_from(led);
+        }
+    }
+
+    /// f(t, y) by the interpreter.
     fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
+        self.lead_completion(t);
         if !self.is_careful {
             self.motion.derivative(t, y, dy)?;
             return match &mut self.reduced {
@@ -254,6 +308,13 @@ impl<'m> RunEquations<'m> {
         let (equations, watch) = (&mut motion.equations, &mut motion.watch);
         let projects = motion.manifold.projects();
         let may_have_passed = !on_code && watch.may_have_passed(equations, [step.t0, step.t]);
+        if may_have_passed
+            && self.leader == (Leader::HandsOver { is_due: false })
+            && watch.came_from_afar()
+        {
+            self.leader = Leader::HandsOver { is_due: true };
+            return Err(Next::Reject);
+        }
         if may_have_passed && !projects {
             let missed = motion
                 .manifold

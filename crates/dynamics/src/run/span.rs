@@ -50,8 +50,7 @@ impl Span {
         t: f64,
         y: &[f64],
     ) -> Result<(), MotionFault> {
-        let [t0, t1] = self.times;
-        if !(t0 < t && t < t1) {
+        if self.lead(t).is_none() {
             return Ok(());
         }
         let Sizes { way, speed, mean } = match self.sizes {
@@ -61,7 +60,6 @@ impl Span {
                 *self.sizes.insert(sizes)
             }
         };
-        self.lead(t);
         let n_q = mechanism.layout().n_q;
         let (q, v) = y.split_at(n_q);
         let (led_q, led_v) = self.led.split_at(n_q);
@@ -101,9 +99,12 @@ impl Span {
         }
     }
 
-    /// The cubic Hermite interpolant of both ends at t.
-    fn lead(&mut self, t: f64) {
+    /// Where the step leads at a time t between its ends: the cubic Hermite interpolant of them.
+    pub(super) fn lead(&mut self, t: f64) -> Option<&[f64]> {
         let [t0, t1] = self.times;
+        if !(t0 < t && t < t1) {
+            return None;
+        }
         let [y0, f0, y1, f1] = &self.ends;
         let (h, x) = (t1 - t0, (t - t0) / (t1 - t0));
         let rest = 1.0 - x;
@@ -112,6 +113,7 @@ impl Span {
         let cubic = ends.map(|((y0, y1), (f0, f1))| y0 + a * (y1 - y0) + h * (b * f0 + c * f1));
         self.led.clear();
         self.led.extend(cubic);
+        Some(&self.led)
     }
 }
 

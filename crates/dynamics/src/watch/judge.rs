@@ -16,8 +16,8 @@ use crate::error::MotionFault;
 use crate::events::Event;
 use crate::guards::GUARDED;
 use crate::limits::{
-    BLIND, BLIND_MAX, BLIND_TOLERANCES, FORESIGHT, JUST_AHEAD, NEAREST, NEAREST_MAX,
-    NEAREST_TOLERANCES, PASSED, SMOOTH,
+    BLIND, BLIND_MAX, BLIND_TOLERANCES, FALLEN, FORESIGHT, JUST_AHEAD, NEARBY, NEAREST,
+    NEAREST_MAX, NEAREST_TOLERANCES, PASSED, SMOOTH, SUSPECT,
 };
 use crate::options::{MotionOptions, RowChoice};
 use crate::solve::{KeptEquations, KeptRows};
@@ -98,17 +98,26 @@ impl Watch {
         self.delicate.map(|t| (t, (PASSED / self.rtol).max(1.0)))
     }
 
-    /// Refuses the end of a step at t if it is too close to a singular configuration; rows must be
-    /// freshly factored. Break times and the end of the run are always allowed as ends of steps.
+    /// Whether the end of a step at t is a place where it must not end, at freshly factored rows.
+    /// Steps have to end at break times and at the end of the run, wherever that is; one that has
+    /// come near to a singular configuration all at once had better end farther away.
     pub(crate) fn judge_place(
         &self,
         equations: &KeptEquations<'_>,
         t: f64,
         has_to_end: bool,
     ) -> Next {
-        let is_near = equations.velocity.relative_pivot() < self.nearest();
-        if is_near && !has_to_end {
-            Next::Stop(self.no_way_over(t))
+        if has_to_end {
+            return Next::Accept;
+        }
+        let pivot = equations.velocity.relative_pivot();
+        if pivot < self.nearest() {
+            return Next::Stop(self.no_way_over(t));
+        }
+        // The next step would have to pass from so near that its stages are mostly rounding.
+        let fell = pivot < FALLEN * self.passage.pivot();
+        if fell && pivot < NEARBY * self.nearest() {
+            Next::Reject
         } else {
             Next::Accept
         }
@@ -166,9 +175,13 @@ impl Watch {
         is_foreseen || GUARDED && self.passage.is_suspect(&mut equations.velocity)
     }
 
-    /// Checks the correction of a step to t that may have passed a singular configuration, in the
-    /// norm of the step: other branches are as far away as the end of the step is from the
-    /// configuration.
+    /// Whether the last accepted step ended far from singular configurations.
+    pub(crate) fn came_from_afar(&self) -> bool {
+        self.passage.pivot() >= SUSPECT
+    }
+
+    /// Judges a step to t that may have passed a singular configuration by its correction, in the
+    /// norm of the step: other branches are as far away as the place where it ends.
     pub(crate) fn judge_correction(
         &self,
         equations: &KeptEquations<'_>,

@@ -52,7 +52,12 @@ impl Passage {
         self.t
     }
 
-    /// The time at which the pivots vanish, extrapolated linearly from the last two accepted steps.
+    /// Relative pivot at the last accepted step.
+    pub(super) fn pivot(&self) -> f64 {
+        self.pivot
+    }
+
+    /// When the pivots of the last two accepted steps, continued as a straight line, vanish.
     pub(super) fn expected(&self) -> Option<f64> {
         (self.rate < 0.0).then(|| self.t - self.pivot / self.rate)
     }

@@ -15,7 +15,7 @@ use crate::fuzz::campaign::{Campaign, Tally};
 use crate::fuzz::exact;
 use crate::fuzz::exact::rounded::{self, Suite};
 use crate::fuzz::watch::Limits;
-use crate::fuzz::{input, trial};
+use crate::fuzz::{input, passages, trial};
 
 #[derive(Subcommand)]
 pub(super) enum Fuzz {
@@ -78,7 +78,20 @@ pub(super) enum Fuzz {
     /// Tests scenes of full rank near a lower rank, with tolerances below a third of their distance
     /// from it; exit code 1 if one is called redundant
     FullRank(Drawings),
-    /// Tests inputs in sequence and answers each with a letter: the process that `run` starts
+    /// Turns parallelograms through their flat poses at 1 … 10 rad/s; exit code 1 if one is wrong or
+    /// stops late, or if fewer than 97 of 100 pass
+    Passages {
+        /// How many
+        #[arg(long, default_value_t = 150, value_parser = clap::value_parser!(u64).range(1..))]
+        runs: u64,
+        /// Seed of all runs
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// The first run
+        #[arg(long, default_value_t = 0)]
+        from: u64,
+    },
+    /// Tries inputs one after the other and answers each with a letter: what `run` begins
     #[command(hide = true)]
     Work {
         /// Seed
@@ -221,6 +234,16 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
         }
         Fuzz::Rounded(drawings) => drawings.examine(Suite::Rounded, console),
         Fuzz::FullRank(drawings) => drawings.examine(Suite::FullRank, console),
+        Fuzz::Passages { runs, seed, from } => {
+            let clock = Instant::now();
+            let bar = progress(*runs);
+            let tally = passages::Tally::of(*seed, *from, *runs, || bar.inc(1));
+            bar.finish_and_clear();
+            let seconds = clock.elapsed().as_secs_f64();
+            let head = format!("seed {seed}: {runs} runs in {seconds:.1} s\n");
+            console.print(&(head + &tally.describe()))?;
+            passed(tally.passes())
+        }
         Fuzz::Show { seed, number } => console.print(&input::text(*seed, *number)),
         Fuzz::Work { seed, from, to } => console.write(|mut out| {
             (*from..*to).try_for_each(|number| answer(&mut out, &input::text(*seed, number)))

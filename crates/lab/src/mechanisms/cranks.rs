@@ -9,11 +9,20 @@ use super::{revolute, rod};
 /// horizontal coupler. Body k is crank k, the last one the coupler; joint 2k is the ground pivot of
 /// crank k, joint 2k + 1 its tip.
 pub fn cranks(pivots: &[f64], length: f64, theta: f64) -> Description {
-    let tip = |x: f64| [x + length * theta.cos(), length * theta.sin()];
+    cranks_at([0.0; 2], pivots, length, theta)
+}
+
+/// The same with all of it moved by `origin`.
+pub fn cranks_at(origin: [f64; 2], pivots: &[f64], length: f64, theta: f64) -> Description {
+    let pivot = |x: f64| [origin[0] + x, origin[1]];
+    let tip = |x: f64| {
+        let [x, y] = pivot(x);
+        [x + length * theta.cos(), y + length * theta.sin()]
+    };
     let mut bodies: Vec<Body> = pivots
         .iter()
         .enumerate()
-        .map(|(k, &x)| rod(&format!("crank {}", k + 1), 1.0, [x, 0.0], tip(x)))
+        .map(|(k, &x)| rod(&format!("crank {}", k + 1), 1.0, pivot(x), tip(x)))
         .collect();
     bodies.push(rod(
         "coupler",
@@ -32,7 +41,7 @@ pub fn cranks(pivots: &[f64], length: f64, theta: f64) -> Description {
                     &format!("pivot {}", k + 1),
                     &bodies,
                     [BodyRef::Ground, crank],
-                    [x, 0.0],
+                    pivot(x),
                 ),
                 revolute(&format!("tip {}", k + 1), &bodies, [crank, coupler], tip(x)),
             ]

@@ -1,0 +1,175 @@
+//! The integration of one component: its method, and another one over singular configurations.
+//!
+//! Near a singular configuration accelerations are quotients of two small numbers, so a step has to
+//! pass it from as far away as it can. `dop853` passes with the longest steps; implicit methods do
+//! not pass at all, because their coordinates cease to be independent. So every other method stops
+//! before a singular configuration that is foreseen, `dop853` passes it, and the method goes on
+//! behind it.
+
+use std::ops::ControlFlow;
+
+use integrators::{
+    Dop853, Dopri5, End, InitialStep, Interval, Options, Outcome, Radau5, Rows, Statistics, Tsit5,
+    integrate,
+};
+
+use super::component::{ShowRow, Watch, named};
+use super::equations::{Leader, RunEquations};
+use super::passages;
+use crate::error::{MotionError, MotionFault};
+use crate::options::Method;
+
+/// A run on its way.
+pub(super) struct Run<'r, 'm> {
+    pub(super) equations: RunEquations<'m>,
+    /// Rows that are still to be shown.
+    rows: Rows,
+    row: &'r mut ShowRow<'r>,
+    watch: &'r Watch<'r>,
+    /// Why it was stopped between two steps.
+    pub(super) stopped: Option<MotionError>,
+}
+
+type Integrated = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
+
+impl<'r, 'm> Run<'r, 'm> {
+    /// A run that has not begun.
+    pub(super) fn new(
+        equations: RunEquations<'m>,
+        rows: Rows,
+        row: &'r mut ShowRow<'r>,
+        watch: &'r Watch<'r>,
+    ) -> Self {
+        Self {
+            equations,
+            rows,
+            row,
+            watch,
+            stopped: None,
+        }
+    }
+
+    /// Integrates from `y0` over the interval and shows its rows.
+    pub(super) fn go(
+        &mut self,
+        method: Method,
+        interval: &Interval<'_>,
+        y0: &[f64],
+        settings: &Options,
+    ) -> Integrated {
+        if self.show_start(y0).is_break() {
+            return Ok(Outcome {
+                t: interval.t0,
+                y: y0.to_vec(),
+                end: End::Stopped,
+                next_step: None,
+                statistics: Statistics::default(),
+            });
+        }
+        let (mut interval, most) = (*interval, settings.max_steps);
+        let mut settings = settings.clone();
+        let (mut y, mut spent) = (y0.to_vec(), Statistics::default());
+        let alone = matches!(method, Method::Auto | Method::Dop853);
+        let mut leader = if alone {
+            Leader::Alone
+        } else {
+            Leader::HandsOver { is_due: false }
+        };
+        loop {
+            self.equations.follow(leader);
+            let (run, from) = (&mut *self, (&interval, &y[..], &settings));
+            let (hands_over, outcome) = match method {
+                _ if leader == Leader::Passes => run.stretch(&Dop853, from),
+                Method::Auto | Method::Dop853 => run.stretch(&Dop853, from),
+                Method::Dopri5 => run.stretch(&Dopri5, from),
+                Method::Tsit5 => run.stretch(&Tsit5, from),
+                Method::Radau5 => run.stretch(&Radau5, from),
+            };
+            let mut outcome = match outcome {
+                Ok(outcome) => outcome,
+                Err(mut failure) => {
+                    failure.statistics += spent;
+                    return Err(failure);
+                }
+            };
+            outcome.statistics += spent;
+            if !hands_over {
+                return Ok(outcome);
+            }
+            leader = match leader {
+                Leader::Passes => Leader::HandsOver { is_due: false },
+                Leader::Alone | Leader::HandsOver { .. } => Leader::Passes,
+            };
+            (interval.t0, y, spent) = (outcome.t, outcome.y, outcome.statistics);
+            let steps = spent.accepted + spent.rejected();
+            settings.max_steps = most.saturating_sub(steps).max(1);
+            let next = outcome.next_step;
+            settings.initial_step = next.map_or(InitialStep::Automatic, InitialStep::Given);
+        }
+    }
+
+    /// Shows the row of the start, if there is one.
+    fn show_start(&mut self, y0: &[f64]) -> ControlFlow<()> {
+        let Self {
+            equations,
+            rows,
+            row,
+            stopped,
+            ..
+        } = self;
+        rows.start(equations, y0, |e, t, y| show(e, (t, y), row, stopped))
+    }
+
+    /// Integrates until the end, or until another method has to lead; whether it has.
+    fn stretch<M: integrators::Method<RunEquations<'m>>>(
+        &mut self,
+        method: &M,
+        (interval, y, settings): (&Interval<'_>, &[f64], &Options),
+    ) -> (bool, Integrated) {
+        let Self {
+            equations,
+            rows,
+            row,
+            watch,
+            stopped,
+        } = self;
+        let (mut refused, mut hands_over) = (None, false);
+        let outcome = integrate(method, equations, interval, y, settings, |step| {
+            let (times, ends) = (
+                [step.t0(), step.t1()],
+                [step.y0(), step.f0(), step.y1(), step.f1()],
+            );
+            step.ode().take_step(times, ends);
+            passages::note(step);
+            let emitted = rows.emit(step, |e, t, y| show(e, (t, y), row, stopped));
+            emitted.unwrap_or_else(|error| {
+                refused = Some(error);
+                ControlFlow::Break(())
+            })?;
+            watch(times[1])?;
+            hands_over = step.ode().hands_over(times[1]);
+            if hands_over {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        if let Some(error) = refused {
+            *stopped = Some(named(error));
+        }
+        (hands_over, outcome)
+    }
+}
+
+/// Shows a row; a fault ends the run.
+fn show(
+    equations: &mut RunEquations<'_>,
+    (t, y): (f64, &mut [f64]),
+    row: &mut ShowRow<'_>,
+    stopped: &mut Option<MotionError>,
+) -> ControlFlow<()> {
+    equations.show(t, y, row).unwrap_or_else(|fault| {
+        *stopped = Some(fault.into());
+        ControlFlow::Break(())
+    })
+}
