@@ -82,6 +82,14 @@ impl ConstraintGroup {
             .any(|[component, at]| *at == row && *component < TORQUE)
     }
 
+    /// Whether the first body takes other slots, too.
+    pub(crate) fn repeats_first_body(&self) -> bool {
+        let [first, others @ ..] = &self.bodies[..] else {
+            return false;
+        };
+        others.contains(first)
+    }
+
     /// Entries of the block of C, with their places in it, of other slots that the first body
     /// takes, too.
     pub(crate) fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
