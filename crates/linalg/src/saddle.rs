@@ -88,9 +88,9 @@ impl KeptRowSaddle {
         Self::with_columns(n, &vec![Vec::from_iter(0..n); r])
     }
 
-    /// Allocates storage for n coordinates and rows that are zero outside the given columns:
-    /// entries outside are not read. The solutions are the same as with [`KeptRowSaddle::new`], bit
-    /// for bit, with less work if rows have few entries.
+    /// Storage for n coordinates and rows of which each is zero outside its columns: entries there
+    /// are not looked at. The same solutions as with [`KeptRowSaddle::new`] but for rounding, for
+    /// less work where rows have few entries.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;

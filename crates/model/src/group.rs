@@ -82,8 +82,16 @@ impl ConstraintGroup {
             .any(|[component, at]| *at == row && *component < TORQUE)
     }
 
-    /// Entries of the block of C that belong to further slots with the same body as the first slot,
-    /// with their indices in the block.
+    /// Whether the first body takes other slots, too.
+    pub(crate) fn repeats_first_body(&self) -> bool {
+        let [first, others @ ..] = &self.bodies[..] else {
+            return false;
+        };
+        others.contains(first)
+    }
+
+    /// Entries of the block of C, with their places in it, of other slots that the first body
+    /// takes, too.
     pub(crate) fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
         let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
         self.spec

@@ -99,43 +99,44 @@ impl<'a> Reactions<'a> {
     /// The map `W` (3 × rows) with `[Fx, Fy, T] = W·λ`; allocates.
     #[must_use]
     pub fn wrench_map(self, id: ConstraintId) -> Matrix {
-        let c = self.constraint(id);
-        let element = &c.element;
-        let pattern = element.spec().wrench;
-        let mut values = vec![0.0; pattern.len()];
-        element.wrench(
-            c.site.x(&self.s.slots),
-            c.site.f(&self.s.slots),
-            &mut values,
-        );
-        let mut map = Matrix::zeros(COMPONENTS.len(), c.rows.len());
-        for (&[component, row], value) in pattern.iter().zip(values) {
-            map[(component, row)] = value;
-        }
-        self.add_repeated(id, &mut map);
+        let mut map = Matrix::zeros(COMPONENTS.len(), self.group(id).rows.len());
+        self.visit_wrench(id, &mut Vec::new(), |component, row, value| {
+            map[(component, row)] += value;
+        });
         map
     }
 
-    /// Adds −Cᵀ of further slots with the first body, moved from its origin to the place.
-    fn add_repeated(self, id: ConstraintId, map: &mut Matrix) {
-        let group = self.group(id);
-        if group.repeated().next().is_none() {
-            return;
-        }
-        let c = self.constraint(id);
+    /// Visits the terms of this map: component, row and value. `block` is storage.
+    fn visit_wrench(
+        self,
+        id: ConstraintId,
+        block: &mut Vec<f64>,
+        mut visit: impl FnMut(usize, usize, f64),
+    ) {
+        let (group, c) = (self.group(id), self.constraint(id));
         let element = &c.element;
         let (x, f) = (c.site.x(&self.s.slots), c.site.f(&self.s.slots));
-        let mut block = vec![0.0; group.spec.c.len()];
-        element.c_constant(&mut block);
-        element.c(x, f, &mut block);
+        block.clear();
+        block.resize(group.spec.wrench.len(), 0.0);
+        element.wrench(x, f, block);
+        for (&[component, row], value) in group.spec.wrench.iter().zip(&*block) {
+            visit(component, row, *value);
+        }
+        if !group.repeats_first_body() {
+            return;
+        }
+        // −Cᵀ of the other slots that the first body takes, moved from its origin to the place.
+        block.clear();
+        block.resize(group.spec.c.len(), 0.0);
+        element.c_constant(block);
+        element.c(x, f, block);
         let [px, py] = element.place(x);
         let lever = [px - x[0].x, py - x[0].y];
         for (at, e) in group.repeated() {
-            let value = block[at];
-            map[(e.dof, e.row)] -= value;
+            visit(e.dof, e.row, -block[at]);
             match e.dof {
-                0 => map[(TORQUE, e.row)] -= lever[1] * value,
-                1 => map[(TORQUE, e.row)] += lever[0] * value,
+                0 => visit(TORQUE, e.row, -(lever[1] * block[at])),
+                1 => visit(TORQUE, e.row, lever[0] * block[at]),
                 _ => {}
             }
         }
@@ -224,16 +225,31 @@ impl<'a> Reactions<'a> {
     /// short.
     #[must_use]
     pub fn reaction(self, id: ConstraintId, lambda: &[f64]) -> Reaction {
-        let group = self.group(id);
+        self.reaction_in(&mut Vec::new(), id, lambda)
+    }
+
+    /// The same with storage that may serve again: from the second reaction of this size on,
+    /// nothing is allocated.
+    #[must_use]
+    pub fn reaction_in(self, block: &mut Vec<f64>, id: ConstraintId, lambda: &[f64]) -> Reaction {
+        let (group, c) = (self.group(id), self.constraint(id));
         let lambda = &lambda[group.rows.clone()];
-        let wrench = self.wrench_map(id).times(lambda);
-        let named = group.spec.component;
-        let component = named
-            .and_then(|name| self.component_coefficients(id, name))
-            .map(|coefficients| coefficients.iter().zip(lambda).map(|(k, l)| k * l).sum());
+        // Of multipliers that there are not, no component is known.
+        let mut wrench = [lambda.iter().map(|l| l * 0.0).sum::<f64>() + 0.0; 3];
+        self.visit_wrench(id, block, |component, row, value| {
+            wrench[component] += value * lambda[row];
+        });
+        let component = group.spec.component.map(|_| {
+            block.clear();
+            block.resize(lambda.len(), 0.0);
+            let (x, f) = (c.site.x(&self.s.slots), c.site.f(&self.s.slots));
+            c.element.component(x, f, block);
+            block.iter().zip(lambda).map(|(k, l)| k * l).sum()
+        });
+        let [fx, fy, torque] = wrench;
         Reaction {
-            force: [wrench[0], wrench[1]],
-            torque: wrench[2],
+            force: [fx, fy],
+            torque,
             component,
         }
     }

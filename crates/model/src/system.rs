@@ -108,9 +108,10 @@ impl Layout {
 
     /// Row `i` of C as (column, value).
     pub fn row<'a>(&'a self, s: &'a Scratch, i: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
-        self.pattern
-            .row(i)
-            .map(move |k| (self.pattern.column[k], s.entries[self.pattern.entry[k]]))
+        let (column, entry) = (&self.pattern.column, &self.pattern.entry);
+        let columns = column[self.pattern.row(i)].iter();
+        let places = columns.zip(&entry[self.pattern.row(i)]);
+        places.map(|(&column, &entry)| (column, s.entries[entry]))
     }
 
     /// Ids of all joints and drives, in the order of their rows.

@@ -43,9 +43,11 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     }
     let t_end = options.t_end;
     let outcome = study.simulate_as(&origin(), &directory, |t| {
-        bar.set_position((t / t_end * TICKS as f64) as u64);
-        let rate = t / bar.elapsed().as_secs_f64();
-        bar.set_message(format!("{t:.3} s, {rate:.2} s of motion each second"));
+        if !bar.is_hidden() {
+            bar.set_position((t / t_end * TICKS as f64) as u64);
+            let rate = t / bar.elapsed().as_secs_f64();
+            bar.set_message(format!("{t:.3} s, {rate:.2} s of motion each second"));
+        }
         if interrupt.is_asked() {
             ControlFlow::Break(())
         } else {

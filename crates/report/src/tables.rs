@@ -8,7 +8,7 @@ mod reactions;
 mod tests;
 mod trajectory;
 
-use std::io::Write;
+use std::io::{self, BufWriter, Write};
 
 use serde::Serialize;
 
@@ -54,7 +54,9 @@ pub enum TableError {
 /// A CSV writer with a fixed number of columns.
 pub struct Table<W: Write> {
     name: &'static str,
-    csv: csv::Writer<W>,
+    out: BufWriter<W>,
+    /// One line, reused.
+    line: Vec<u8>,
 }
 
 impl<W: Write> Table<W> {
@@ -63,17 +65,28 @@ impl<W: Write> Table<W> {
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
     pub fn new(name: &'static str, out: W, header: &[String]) -> Result<Self, TableError> {
-        let csv = csv::WriterBuilder::new()
-            .has_headers(false)
-            .from_writer(out);
-        let mut table = Self { name, csv };
-        let written = table.csv.write_record(header);
-        table.checked(written)?;
+        let mut table = Self {
+            name,
+            out: BufWriter::new(out),
+            line: Vec::new(),
+        };
+        table.record(header)?;
         Ok(table)
     }
 
+    /// Writes a row of numbers: none of them needs quotes.
     fn row(&mut self, values: &[f64]) -> Result<(), TableError> {
-        self.record(values)
+        self.line.clear();
+        let mut text = zmij::Buffer::new();
+        for &value in values {
+            self.line.extend_from_slice(text.format(value).as_bytes());
+            self.line.push(b',');
+        }
+        if let Some(last) = self.line.last_mut() {
+            *last = b'\n';
+        }
+        let written = self.out.write_all(&self.line);
+        self.checked(written)
     }
 
     /// Writes a row of any plain values.
@@ -81,7 +94,12 @@ impl<W: Write> Table<W> {
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
     pub fn record(&mut self, values: impl Serialize) -> Result<(), TableError> {
-        let written = self.csv.serialize(values);
+        let mut csv = csv::WriterBuilder::new()
+            .has_headers(false)
+            .from_writer(Vec::new());
+        let written = csv.serialize(values).map_err(io::Error::other);
+        let line = written.and_then(|()| csv.into_inner().map_err(|e| e.into_error()));
+        let written = line.and_then(|line| self.out.write_all(&line));
         self.checked(written)
     }
 
@@ -90,8 +108,8 @@ impl<W: Write> Table<W> {
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
     pub fn flush(&mut self) -> Result<(), TableError> {
-        let written = self.csv.flush();
-        self.checked(written.map_err(csv::Error::from))
+        let written = self.out.flush();
+        self.checked(written)
     }
 
     /// Returns the writer after everything is written.
@@ -100,20 +118,17 @@ impl<W: Write> Table<W> {
     /// - [`TableError::Write`]: the writer failed.
     pub fn finish(self) -> Result<W, TableError> {
         let table = self.name;
-        self.csv.into_inner().map_err(|e| TableError::Write {
+        self.out.into_inner().map_err(|e| TableError::Write {
             table,
             source: e.into_error(),
         })
     }
 
-    fn checked(&self, written: csv::Result<()>) -> Result<(), TableError> {
-        written.map_err(|e| TableError::Write {
+    /// Errors are kept as they are, so that callers can tell a closed pipe from a full disk.
+    fn checked(&self, written: io::Result<()>) -> Result<(), TableError> {
+        written.map_err(|source| TableError::Write {
             table: self.name,
-            // Kept unchanged, so that callers can distinguish a closed pipe from a full disk.
-            source: match e.into_kind() {
-                csv::ErrorKind::Io(source) => source,
-                other => std::io::Error::other(format!("{other:?}")),
-            },
+            source,
         })
     }
 

@@ -192,6 +192,7 @@ impl<'m> RunEquations<'m> {
             t_before,
             wanted: &self.wanted,
             motion: &mut self.motion,
+            lambda: None,
         };
         row(&mut Sample {
             t,

@@ -33,6 +33,8 @@ pub(super) struct OfMotion<'s, 'm> {
     pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
     pub(super) known: Known,
+    /// Multipliers, once they were asked for.
+    pub(super) lambda: Option<Vec<f64>>,
 }
 
 /// How far the equations of a row have been solved; they are solved at most once.
@@ -129,6 +131,9 @@ impl OfMotion<'_, '_> {
     }
 
     fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
+        if let Some(lambda) = &self.lambda {
+            return Ok(lambda.clone());
+        }
         let mechanism = self.motion.mechanism();
         let mut lambda = vec![f64::NAN; mechanism.layout().rows()];
         if self.wanted.reactions.is_empty() {
@@ -148,6 +153,7 @@ impl OfMotion<'_, '_> {
                 lambda[group.rows.clone()].fill(f64::NAN);
             }
         }
+        self.lambda = Some(lambda.clone());
         Ok(lambda)
     }
 
@@ -159,10 +165,11 @@ impl OfMotion<'_, '_> {
     /// Reactions of the given multipliers.
     fn reactions_of(&self, lambda: &[f64]) -> Vec<Reaction> {
         let mechanism = self.motion.mechanism();
-        let s = self.motion.scratch();
+        let reactions = mechanism.reactions(self.motion.scratch());
+        let mut block = Vec::new();
         let reaction = |(k, id)| {
             if self.wants(k) {
-                mechanism.reactions(s).reaction(id, lambda)
+                reactions.reaction_in(&mut block, id, lambda)
             } else {
                 left_out(mechanism, k)
             }

@@ -99,8 +99,13 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Like [`KeptRows::factor`], skipping rows whose pivot relative to the reference is below
-    /// `floor`.
+    /// Takes coordinates up in the order of the last factorisation from the next one on: where the
+    /// largest entries are the same, nothing has to be moved.
+    pub(crate) fn keep_order(&mut self) {
+        self.solver.keep_order();
+    }
+
+    /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
     pub(crate) fn factor_above(
         &mut self,
         share: f64,

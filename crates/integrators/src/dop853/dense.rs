@@ -60,8 +60,9 @@ impl<O: Ode> Dense<O> for Stages {
         let h = ends.trial.h;
         for s in STEP_STAGES..STAGES {
             let (known, next) = self.extra.split_at_mut(s - STEP_STAGES);
-            for (i, y) in self.y.iter_mut().enumerate() {
-                *y = ends.y0[i] + h * slope(&A[s], ends, &self.k, known, i);
+            slopes(&A[s], ends, &self.k, known, &mut self.y);
+            for (y, y0) in self.y.iter_mut().zip(ends.y0) {
+                *y = y0 + h * *y;
             }
             let t = ends.trial.stage_time(C[s]);
             evaluate(ode, t, &self.y, &mut next[0], evaluations)?;
@@ -83,25 +84,26 @@ impl Stages {
     ) {
         let h = ends.trial.h;
         let extra = &self.extra[..S - STEP_STAGES];
-        for (i, out) in out.iter_mut().enumerate() {
-            let (y0, y1) = (ends.y0[i], ends.y1[i]);
-            *out = y0 + (w.delta * (y1 - y0) + h * slope(&w.stages, ends, &self.k, extra, i));
+        slopes(&w.stages, ends, &self.k, extra, out);
+        for ((out, y0), y1) in out.iter_mut().zip(ends.y0).zip(ends.y1) {
+            *out = y0 + (w.delta * (y1 - y0) + h * *out);
         }
     }
 }
 
-/// Component `i` of Σ w_j k_j. Stages 2 to 5 have no weight; stages after `extra` are not read.
-#[inline]
-fn slope(w: &[f64], ends: &Ends<'_>, k: &[Vec<f64>; 11], extra: &[Vec<f64>], i: usize) -> f64 {
-    let mut sum = w[0] * ends.f0[i];
-    for (w, k) in w[5..12].iter().zip(&k[4..]) {
-        sum += w * k[i];
+/// Writes Σ w_j k_j, stage by stage. Stages 2 to 5 have no weight; further ones than `extra` are
+/// not read.
+fn slopes(w: &[f64], ends: &Ends<'_>, k: &[Vec<f64>; 11], extra: &[Vec<f64>], out: &mut [f64]) {
+    for (out, k) in out.iter_mut().zip(ends.f0) {
+        *out = w[0] * k;
     }
-    sum += w[12] * ends.f1[i];
-    for (w, k) in w[STEP_STAGES..].iter().zip(extra) {
-        sum += w * k[i];
+    let stages = k[4..].iter().map(Vec::as_slice).chain([ends.f1]);
+    let stages = stages.chain(extra.iter().map(Vec::as_slice));
+    for (w, k) in w[5..].iter().zip(stages) {
+        for (out, k) in out.iter_mut().zip(k) {
+            *out += w * k;
+        }
     }
-    sum
 }
 
 /// Weights of u(θ) − y0 in terms of the difference of the states and of the stages.
