@@ -16,6 +16,8 @@ pub(crate) struct Fault {
 pub(crate) enum Problem {
     #[error("the text is empty")]
     Empty,
+    #[error("the text is longer than {most} bytes")]
+    Long { most: usize },
     #[error("`{sign}` has no meaning in an expression")]
     Sign { sign: char },
     #[error("a number, a name or `(` is missing{}", before(.found))]
@@ -77,6 +79,7 @@ impl Problem {
     pub(crate) fn label(&self) -> &'static str {
         match self {
             Self::Empty | Self::NoOperand { .. } => "something is missing here",
+            Self::Long { .. } => "too long",
             Self::Sign { .. } => "no sign of expressions",
             Self::NoOperator { .. } => "write an operator before this",
             Self::Comma => "not here",
@@ -109,7 +112,9 @@ impl Problem {
             Self::NoOperator { found } => format!("to multiply, write `*{found}`"),
             Self::Comma => "decimals follow a point, as `2.5`".to_owned(),
             Self::Open => "write `)` where its content ends".to_owned(),
-            Self::Deep { .. } => "give parts of it names in `[parameters]`".to_owned(),
+            Self::Deep { .. } | Self::Long { .. } => {
+                "give parts of it names in `[parameters]`".to_owned()
+            }
             Self::NoBrackets { name } => format!("write `{name}(…)`"),
             Self::Dimension { expected, .. } => suffixes(*expected)?,
             Self::Mixed { .. } => "write both with units of one kind".to_owned(),

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{E, FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, LN_10, SQRT_2};
 
+use super::token::LONGEST;
 use super::*;
 
 /// Parameters by name, in metres and radians or in what else is chosen.
@@ -272,19 +273,15 @@ fn pi_is_no_angle_in_degrees() {
 
 #[test]
 fn nothing_nests_without_limit() {
-    let n = 200_000;
-    for text in [
-        "(".repeat(n),
-        "-".repeat(n),
-        "cos(".repeat(n),
-        "2^".repeat(n),
-        "2 mm^".repeat(n),
-    ] {
-        let said = value(&text, NONE, &names()).expect_err("too deep");
+    let n = LONGEST / 5;
+    for text in ["(", "-", "cos(", "2^", "2 mm^"] {
+        let said = value(&text.repeat(n), NONE, &names()).expect_err("too deep");
         assert!(said.contains("nested deeper than 60"), "{said}");
     }
-    let flat = "1+".repeat(n) + "1";
-    assert_eq!(value(&flat, NONE, &names()), Ok(200_001.0));
+    let flat = |n: usize| value(&("1+".repeat(n) + "1"), NONE, &names());
+    assert_eq!(flat(LONGEST / 2 - 1), Ok((LONGEST / 2) as f64));
+    let said = flat(LONGEST / 2).expect_err("too long");
+    assert!(said.contains("longer than 16384 bytes"), "{said}");
 }
 
 #[test]

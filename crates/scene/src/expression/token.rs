@@ -16,8 +16,16 @@ pub(crate) enum Token<'s> {
     End,
 }
 
+/// Longest text (bytes): its words take some forty times as much memory.
+pub(super) const LONGEST: usize = 1 << 14;
+
 /// All words with their places; the end is one of them.
 pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault> {
+    if text.len() > LONGEST {
+        let problem = Problem::Long { most: LONGEST };
+        let span = 0..text.len();
+        return Err(Fault { span, problem });
+    }
     let mut found = Vec::new();
     let mut at = 0;
     while let Some(c) = text[at..].chars().next() {

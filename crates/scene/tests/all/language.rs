@@ -363,6 +363,27 @@ fn all_faults_are_told_at_once() {
     assert_eq!(marked, ["zeta", "a", "b", "1 s", "2 kg"]);
 }
 
+/// Parameters are resolved in any order and number, without a stack that grows with them.
+#[test]
+fn thousands_of_parameters_follow_each_other() {
+    let n = 20_000;
+    let mut chain = String::from("[parameters]\np0 = 1e-4\n");
+    for k in (1..=n).rev() {
+        chain += &format!("p{k} = \"p{} + p0\"\n", k - 1);
+    }
+    let text = CRANK.replacen("[parameters]\n", &chain, 1);
+    let text = text.replacen("mass = \"m1/(L/100)\"", &format!("mass = \"p{n}\""), 1);
+    let scene = read(&text).unwrap_or_else(|p| panic!("{:#?}", p[0]));
+    assert_eq!(scene.description.bodies[0].mass, 2.0001);
+    // A circle of all of them is one problem.
+    let text = text.replacen("p0 = 1e-4", &format!("p0 = \"p{n}\""), 1);
+    let problems = read(&text).expect_err("a circle");
+    assert_eq!(problems.len(), 1, "{:#?}", problems[1]);
+    let message = &problems[0].message;
+    assert!(message.starts_with("the parameters `p"), "{message}");
+    assert!(message.ends_with("depend on each other"), "{message}");
+}
+
 /// Texts that TOML writes with escapes are marked as a whole.
 #[test]
 fn escapes_do_not_shift_places() {
