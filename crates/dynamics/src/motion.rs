@@ -402,8 +402,6 @@ impl<'m> KeptRowMotion<'m> {
     /// Accepts the state just evaluated as the end of a step to t.
     pub(crate) fn accept(&mut self, t: f64, may_have_passed: bool) -> Option<Event> {
         let is_worn = are_worn(&self.equations);
-        self.equations.velocity.keep_order();
-        self.equations.position.keep_order();
         if let Some(coordinates) = &mut self.manifold.coordinates {
             coordinates.accept(t, is_worn);
         }

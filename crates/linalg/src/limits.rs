@@ -83,12 +83,6 @@ pub(crate) const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 /// for. Test: `graded_masses_choose_among_the_large_entries`.
 pub(crate) const CANDIDATE: f64 = 0.1;
 
-/// An entry of this share of the largest one is as good a pivot: rows stay with the coordinates that
-/// they were solved for, and turn to those that the fewest rows meet.
-/// Unit: share of the largest entry. Less: elimination grows. More: rows turn to other coordinates
-/// more often. Test: `rows_stay_with_entries_that_are_as_large`.
-pub(crate) const AS_LARGE: f64 = 0.5;
-
 /// Rounds of refinement at most; more than these only happen if the equations are singular.
 /// Unit: rounds. Less: solutions that converge slowly are refused. More: time before the refusal.
 /// Test: `rounds_that_do_not_converge_are_named`.

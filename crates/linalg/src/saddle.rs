@@ -89,8 +89,8 @@ impl KeptRowSaddle {
     }
 
     /// Storage for n coordinates and rows of which each is zero outside its columns: entries there
-    /// are not looked at. The same solutions as with [`KeptRowSaddle::new`] but for rounding, for
-    /// less work where rows have few entries.
+    /// are not looked at. The same solutions as with [`KeptRowSaddle::new`], bit for bit, for less
+    /// work where rows have few entries.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;

@@ -99,12 +99,6 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Takes coordinates up in the order of the last factorisation from the next one on: where the
-    /// largest entries are the same, nothing has to be moved.
-    pub(crate) fn keep_order(&mut self) {
-        self.solver.keep_order();
-    }
-
     /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
     pub(crate) fn factor_above(
         &mut self,

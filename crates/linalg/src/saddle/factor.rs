@@ -103,7 +103,7 @@ impl KeptRowSaddle {
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
-        self.free.factor((&self.lu, &self.order), row, mass)?;
+        self.free.factor(&self.lu, row, mass)?;
         self.is_factored = true;
         Ok(())
     }

@@ -3,7 +3,6 @@
 
 use super::error::SaddleError;
 use super::lu::TallLu;
-use super::order::Order;
 use crate::kernels::{axpy, dot, max_abs};
 
 /// Null space basis, masses, and factors of the reduced mass of k = n − r free motions.
@@ -11,8 +10,6 @@ use crate::kernels::{axpy, dot, max_abs};
 pub(super) struct FreeMotions {
     /// Row c: `−L₁⁻ᵀ·L₂ᵀ·e_c`, the dependent part of the null vector c. k×r, row-major.
     basis: Vec<f64>,
-    /// One null vector on its way, by position.
-    null_vector: Vec<f64>,
     /// diag(M) in the order of P.
     pub(super) mass: Vec<f64>,
     /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
@@ -29,7 +26,6 @@ impl FreeMotions {
         let most = (0..=rows).map(|r| (n - r) * r).max().unwrap_or(0);
         Self {
             basis: vec![0.0; most],
-            null_vector: vec![0.0; n],
             mass: vec![0.0; n],
             reduced_mass: vec![0.0; n * n],
             mass_ratio: f64::INFINITY,
@@ -44,33 +40,28 @@ impl FreeMotions {
     /// Basis and factors for these rows and masses.
     pub(super) fn factor<'c>(
         &mut self,
-        (lu, order): (&TallLu, &Order),
+        lu: &TallLu,
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
         for (m, &coordinate) in self.mass.iter_mut().zip(&lu.permutation) {
             *m = mass[coordinate];
         }
-        self.fill_basis(lu, order);
+        self.fill_basis(lu);
         self.factor_reduced_mass(lu, row)
     }
 
     /// Solves `L₁ᵀ·Y = −L₂ᵀ` column by column.
-    fn fill_basis(&mut self, lu: &TallLu, order: &Order) {
+    fn fill_basis(&mut self, lu: &TallLu) {
         let (n, r) = (lu.n, lu.r);
         if r == 0 {
             return;
         }
-        let fill = lu.fill(order);
-        let y = &mut self.null_vector;
-        y[r..].fill(0.0);
-        for (c, basis) in self.basis[..(n - r) * r].chunks_exact_mut(r).enumerate() {
-            y[r + c] = 1.0;
-            for j in (0..r).rev() {
-                y[j] = lu.less_lower(fill, j, 0.0, y);
+        for (c, y) in self.basis[..(n - r) * r].chunks_exact_mut(r).enumerate() {
+            for t in (0..r).rev() {
+                let l_t = lu.row(t);
+                y[t] = -l_t[r + c] - dot(&l_t[t + 1..r], &y[t + 1..r]);
             }
-            y[r + c] = 0.0;
-            basis.copy_from_slice(&y[..r]);
         }
     }
 

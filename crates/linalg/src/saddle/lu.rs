@@ -1,15 +1,12 @@
 //! LU with partial pivoting of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`,
 //! `L = [L₁; L₂]` unit lower trapezoidal.
 
-use std::mem;
-use std::ops::Range;
-
 use super::error::{SaddleError, check_finite, check_length};
-use super::fill::Fill;
 use super::order::Order;
-use crate::limits::{AS_LARGE, CANDIDATE};
+use crate::kernels::{axpy, dot, max_abs};
+use crate::limits::CANDIDATE;
 
-/// Factors of the rows that are used, without their zeros.
+/// Factors of the rows that are used.
 #[derive(Debug, Clone)]
 pub(super) struct TallLu {
     pub(super) n: usize,
@@ -17,20 +14,17 @@ pub(super) struct TallLu {
     pub(super) r: usize,
     /// The row of C for each row in use, ascending.
     used: Vec<usize>,
-    /// Where rows have entries, if they were not all solved for the coordinates of the order.
-    own: Fill,
-    has_own: bool,
-    /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal.
+    /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
     factors: Vec<f64>,
     /// 1/U_jj of each row in use: a product is cheaper than a quotient.
     inverse: Vec<f64>,
-    /// A row on its way, zero between two of them; n.
-    x: Vec<f64>,
     /// Position i of P·x is coordinate `permutation[i]`, coordinate j is at `place[j]`.
     pub(super) permutation: Vec<usize>,
     place: Vec<usize>,
     /// Sign of P.
     parity: f64,
+    /// Whether each row was solved for the coordinate that the order has for it.
+    is_in_order: bool,
     /// Smallest `|pivot| / largest entry of its row`, rows left out included.
     pub(super) pivot_ratio: f64,
 }
@@ -51,14 +45,12 @@ impl TallLu {
             n,
             r: rows,
             used: (0..rows).collect(),
-            own: Fill::new(n, rows),
-            has_own: false,
             factors: vec![0.0; rows * n],
             inverse: vec![0.0; rows],
-            x: vec![0.0; n],
             permutation: (0..n).collect(),
             place: (0..n).collect(),
             parity: 1.0,
+            is_in_order: true,
             pivot_ratio: f64::INFINITY,
         }
     }
@@ -66,8 +58,10 @@ impl TallLu {
     /// Removes all rows; coordinates are used in this order.
     pub(super) fn begin(&mut self, order: &Order) {
         self.permutation.copy_from_slice(&order.coordinates);
-        self.place.copy_from_slice(&order.place);
-        self.has_own = false;
+        for (i, &coordinate) in order.coordinates.iter().enumerate() {
+            self.place[coordinate] = i;
+        }
+        self.is_in_order = true;
         self.parity = order.parity;
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
@@ -78,33 +72,9 @@ impl TallLu {
         &self.used[..self.r]
     }
 
-    /// Whether rows were solved for other coordinates than those of the order, or left out.
-    pub(super) fn has_turned(&self) -> bool {
-        self.has_own
-    }
-
-    /// Where the factors have entries.
-    pub(super) fn fill<'a>(&'a self, order: &'a Order) -> &'a Fill {
-        if self.has_own { &self.own } else { &order.fill }
-    }
-
-    /// `start − Σ L_ij·y_i` over column j of L below its diagonal.
-    pub(super) fn less_lower(&self, fill: &Fill, j: usize, start: f64, y: &[f64]) -> f64 {
-        self.less(fill, fill.row(j).lower(), start, y)
-    }
-
-    fn less(&self, fill: &Fill, entries: Range<usize>, start: f64, y: &[f64]) -> f64 {
-        let factors = self.factors[entries.clone()].iter();
-        let terms = factors.zip(fill.positions(entries));
-        terms.fold(start, |left, (factor, &i)| left - factor * y[i])
-    }
-
-    /// Subtracts a multiple of these entries from x.
-    fn subtract(&self, fill: &Fill, entries: Range<usize>, by: f64, x: &mut [f64]) {
-        let factors = self.factors[entries.clone()].iter();
-        for (factor, &i) in factors.zip(fill.positions(entries)) {
-            x[i] -= by * factor;
-        }
+    /// Row j of the factors, see [`TallLu::factors`].
+    pub(super) fn row(&self, j: usize) -> &[f64] {
+        &self.factors[j * self.n..(j + 1) * self.n]
     }
 
     /// Computes the next column of U and of L from a row of C: gather, eliminate with the rows
@@ -116,134 +86,134 @@ impl TallLu {
         graded: Option<&[f64]>,
         floor: f64,
     ) -> Result<Elimination, SaddleError> {
-        let j = self.r;
-        check_length("row of C", c_j, self.n)?;
-        let columns = &order.columns[row];
-        if self.has_own {
-            self.own.push(columns, &self.place);
-        }
-        let fill = if self.has_own { &self.own } else { &order.fill };
-        let (x, place) = (&mut self.x[..], &self.place[..]);
-        // It is not finite if an entry is not.
-        let (mut scale, mut sum) = (0.0_f64, 0.0);
-        for &column in columns {
+        let (n, j) = (self.n, self.r);
+        check_length("row of C", c_j, n)?;
+        let (before, rest) = self.factors.split_at_mut(j * n);
+        let x = &mut rest[..n];
+        x.fill(0.0);
+        // x·0 is NaN exactly for NaN and infinities.
+        let (mut scale, mut zero) = (0.0_f64, 0.0);
+        for &column in order.columns.of(row) {
             let c = c_j[column];
-            x[place[column]] = c;
-            sum += c.abs();
+            x[self.place[column]] = c;
+            zero += c * 0.0;
             scale = if c.abs() > scale { c.abs() } else { scale };
         }
-        if !sum.is_finite()
-            && let Err(error) = check_finite("C", c_j, row * self.n)
-        {
-            x.fill(0.0);
-            return Err(error);
+        if zero != 0.0 {
+            check_finite("C", c_j, row * n)?;
         }
-        let own = fill.row(j);
-        let (before, u_j) = self.factors.split_at_mut(own.start);
-        for (&k, u_kj) in fill.positions(own.upper()).iter().zip(u_j) {
-            let u = mem::take(&mut x[k]);
-            *u_kj = u;
-            let below = fill.row(k).lower();
-            for (l_ik, &i) in before[below.clone()].iter().zip(fill.positions(below)) {
-                x[i] -= u * l_ik;
-            }
-        }
-
-        let below = fill.positions(own.lower());
-        let solvable = order.solvable;
-        let mut largest = if x[j].abs() > 0.0 { x[j].abs() } else { 0.0 };
-        for &i in below {
-            if x[i].abs() > largest && i < solvable {
-                largest = x[i].abs();
-            }
-        }
-        let enough = AS_LARGE * largest;
-        let mut at = j;
-        if !(order.is_chosen && x[j].abs() >= enough) {
-            let as_large = |&i: &usize| i < solvable && x[i].abs() >= enough;
-            let candidates = [j]
-                .into_iter()
-                .chain(below.iter().copied())
-                .filter(as_large);
-            let met = |&i: &usize| order.rows_of[self.permutation[i]];
-            at = candidates.min_by_key(met).unwrap_or(j);
-        }
-        if let Some(mass) = graded {
-            let candidates = [j].into_iter().chain(below.iter().copied());
-            let candidates =
-                candidates.filter(|&i| i < solvable && x[i].abs() >= CANDIDATE * largest);
-            let mass = |i: usize| mass[self.permutation[i]];
-            // Compares c²/m without quotients: masses may be zero.
-            let lightest = candidates.reduce(|a, b| {
-                if x[b] * x[b] * mass(a) > x[a] * x[a] * mass(b) {
-                    b
-                } else {
-                    a
+        // As long as rows are solved for the coordinates of the order, their entries are those of
+        // the lists.
+        let below = if row == j && self.is_in_order {
+            for &k in order.fill.upper.of(j) {
+                let (u_kj, l_k) = (x[k], &before[k * n..(k + 1) * n]);
+                for &i in order.fill.lower.of(k) {
+                    x[i] -= u_kj * l_k[i];
                 }
-            });
-            at = lightest.unwrap_or(j);
-        }
-        x.swap(at, j);
-        let pivot = mem::take(&mut x[j]);
+            }
+            Some(order.fill.lower.of(j))
+        } else {
+            for (k, l_k) in before.chunks_exact(n).enumerate() {
+                let u_kj = x[k];
+                if u_kj != 0.0 {
+                    axpy(-u_kj, &l_k[k + 1..], &mut x[k + 1..]);
+                }
+            }
+            None
+        };
+
+        let solvable = order.solvable;
+        let at = match (graded, below) {
+            (None, Some(below)) => {
+                let (mut at, mut largest) = (j, max_abs(&x[j..=j]));
+                for &i in below {
+                    if i < solvable && x[i].abs() > largest {
+                        (at, largest) = (i, x[i].abs());
+                    }
+                }
+                Some(at)
+            }
+            (None, None) => {
+                // No entry is the largest one if all are NaN.
+                let largest = max_abs(&x[j..solvable]);
+                (j..solvable).find(|&i| x[i].abs() == largest)
+            }
+            (Some(mass), _) => {
+                let largest = max_abs(&x[j..solvable]);
+                let candidates = (j..solvable).filter(|&i| x[i].abs() >= CANDIDATE * largest);
+                let mass = |i: usize| mass[self.permutation[i]];
+                // Compares c²/m without quotients: masses may be zero.
+                candidates.reduce(|a, b| {
+                    if x[b] * x[b] * mass(a) > x[a] * x[a] * mass(b) {
+                        b
+                    } else {
+                        a
+                    }
+                })
+            }
+        };
+        let at = at.unwrap_or(j);
+        let pivot = x[at];
         if scale > 0.0 {
-            self.pivot_ratio = self.pivot_ratio.min(largest / scale);
+            self.pivot_ratio = self.pivot_ratio.min(pivot.abs() / scale);
         }
-        let is_used = largest > floor * scale && !pivot.is_nan();
-        let inverse = 1.0 / pivot;
-        self.factors[own.diagonal] = pivot;
-        for (l_ij, &i) in self.factors[own.lower()].iter_mut().zip(below) {
-            *l_ij = mem::take(&mut x[i]) * inverse;
+        if pivot.is_nan() || pivot.abs() <= floor * scale {
+            return Ok(Elimination::Dependent {
+                pivot: pivot.abs(),
+                scale,
+            });
         }
-        let known = if is_used { j + 1 } else { j };
-        if self.has_own {
-            self.own.truncate(known);
-        } else if !is_used || at != j {
-            self.own.copy_first(known, &order.fill);
-            self.has_own = true;
-        }
-        if !is_used {
-            let pivot = largest;
-            return Ok(Elimination::Dependent { pivot, scale });
-        }
+        self.used[j] = row;
+        self.r += 1;
         if at != j {
-            self.own.swap(at);
             self.permutation.swap(at, j);
             self.place[self.permutation[at]] = at;
             self.place[self.permutation[j]] = j;
+            x.swap(at, j);
+            for l_k in before.chunks_exact_mut(n) {
+                l_k.swap(at, j);
+            }
+            self.is_in_order = false;
             self.parity = -self.parity;
         }
-        (self.used[j], self.inverse[j]) = (row, inverse);
-        self.r += 1;
+        let inverse = 1.0 / pivot;
+        self.inverse[j] = inverse;
+        for l in &mut x[j + 1..] {
+            *l *= inverse;
+        }
         Ok(Elimination::Used)
     }
 
     /// y₁ such that `C·a = γ` with the y₂ that is there: `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
-    pub(super) fn determine(&self, order: &Order, gamma: &[f64], y: &mut [f64]) {
-        let fill = self.fill(order);
-        for (j, (&row, inverse)) in self.used().iter().zip(&self.inverse).enumerate() {
-            y[j] = self.less(fill, fill.row(j).upper(), gamma[row], y) * inverse;
+    pub(super) fn determine(&self, gamma: &[f64], y: &mut [f64]) {
+        let rows = self.factors[..self.r * self.n].chunks_exact(self.n.max(1));
+        let rows = rows.enumerate();
+        for (j, row) in rows.clone() {
+            y[j] = (gamma[self.used[j]] - dot(&row[..j], &y[..j])) * self.inverse[j];
         }
-        for j in (0..self.r).rev() {
-            y[j] = self.less_lower(fill, j, y[j], y);
+        for (j, row) in rows.rev() {
+            y[j] -= dot(&row[j + 1..], &y[j + 1..]);
         }
     }
 
     /// g[..r] ← λ with `L₁·U·λ = g₁`; the other rows of `L·U·λ = g` then hold as well.
-    pub(super) fn solve_for_multipliers(&self, order: &Order, g: &mut [f64]) {
-        let fill = self.fill(order);
-        for j in 0..self.r {
-            self.subtract(fill, fill.row(j).lower(), g[j], g);
+    pub(super) fn solve_for_multipliers(&self, g: &mut [f64]) {
+        let r = self.r;
+        for j in 0..r {
+            let g_j = g[j];
+            axpy(-g_j, &self.row(j)[j + 1..r], &mut g[j + 1..r]);
         }
-        for j in (0..self.r).rev() {
+        for j in (0..r).rev() {
+            let row = self.row(j);
             g[j] *= self.inverse[j];
-            self.subtract(fill, fill.row(j).upper(), g[j], g);
+            let g_j = g[j];
+            axpy(-g_j, &row[..j], &mut g[..j]);
         }
     }
 
     /// Sign and logarithm of `sign(P)·Π u_jj`.
-    pub(super) fn pivots(&self, order: &Order) -> (f64, f64) {
-        let fill = self.fill(order);
-        let pivots = || (0..self.r).map(|j| self.factors[fill.row(j).diagonal]);
+    pub(super) fn pivots(&self) -> (f64, f64) {
+        let pivots = || (0..self.r).map(|j| self.factors[j * self.n + j]);
         (
             self.parity * pivots().map(f64::signum).product::<f64>(),
             pivots().map(|u| u.abs().ln()).sum(),

@@ -64,7 +64,7 @@ impl KeptRowSaddle {
         if self.border.factor(entry).is_err() {
             return Determinant::ZERO;
         }
-        let (sign, log) = self.lu.pivots(&self.order);
+        let (sign, log) = self.lu.pivots();
         let border = self.border.determinant();
         Determinant {
             sign: sign * border.sign,

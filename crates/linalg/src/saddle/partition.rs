@@ -45,9 +45,6 @@ impl KeptRowSaddle {
     /// factorisation still solves for the largest entries, but if these are the same, nothing has
     /// to be exchanged.
     pub fn keep_order(&mut self) {
-        if !self.lu.has_turned() {
-            return;
-        }
         let solvable = self.order.solvable;
         let order = self.lu.permutation.iter().copied();
         self.order.change(order, solvable);
@@ -55,7 +52,7 @@ impl KeptRowSaddle {
 
     /// From the next factorisation on, each one chooses its own coordinates.
     pub fn forget_partition(&mut self) {
-        self.order.reset();
+        self.order.change(0..self.lu.n, self.lu.n);
     }
 
     /// Overwrites the dependent entries of `x` so that `C·x = γ`, and does not change the free
@@ -87,7 +84,7 @@ impl KeptRowSaddle {
         for (y, &coordinate) in self.y.iter_mut().zip(&self.lu.permutation) {
             *y = x[coordinate];
         }
-        self.lu.determine(&self.order, gamma, &mut self.y);
+        self.lu.determine(gamma, &mut self.y);
         for (y, &coordinate) in self.y.iter().zip(&self.lu.permutation) {
             x[coordinate] = *y;
         }

@@ -47,7 +47,7 @@ impl KeptRowSaddle {
 
         // A particular solution, with zeros in the free coordinates.
         self.y[self.lu.r..].fill(0.0);
-        self.lu.determine(&self.order, gamma, &mut self.y);
+        self.lu.determine(gamma, &mut self.y);
         self.force_left(f);
         self.free.add(self.lu.r, &self.g, &mut self.y);
         for (&coordinate, &y_i) in self.lu.permutation.iter().zip(&self.y) {
@@ -86,7 +86,7 @@ impl KeptRowSaddle {
             *y = a[coordinate];
         }
         self.force_left(f);
-        self.lu.solve_for_multipliers(&self.order, &mut self.g);
+        self.lu.solve_for_multipliers(&mut self.g);
         lambda.fill(0.0);
         for (&row, &l) in self.lu.used().iter().zip(&self.g) {
             lambda[row] = l;

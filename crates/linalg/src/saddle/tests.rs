@@ -226,30 +226,6 @@ fn graded_masses_choose_among_the_large_entries() {
     }
 }
 
-/// The second coordinate is in one row, the first in both.
-#[test]
-fn rows_stay_with_entries_that_are_as_large() {
-    let new = || KeptRowSaddle::with_columns(3, &[vec![0, 1], vec![0, 2]]).unwrap();
-    let solved_for = |saddle: &mut KeptRowSaddle, entry: f64| {
-        let rows = [[1.0, entry, 0.0], [1.0, 0.0, 1.0]];
-        saddle.factor(|k| &rows[k], &[1.0; 3]).unwrap();
-        saddle.keep_order();
-        saddle.solved_for()[0]
-    };
-    // Half of the largest entry is as good, and met by fewer rows.
-    for (entry, first) in [(0.49, 0), (0.51, 1)] {
-        assert_eq!(solved_for(&mut new(), entry), first, "{entry}");
-    }
-    // What a row was solved for stays as long as its entry is large enough.
-    let mut saddle = new();
-    let entries = [0.49, 1.9, 2.1, 0.51, 0.49];
-    let expected = [0, 0, 1, 1, 0];
-    assert_eq!(
-        entries.map(|entry| solved_for(&mut saddle, entry)),
-        expected
-    );
-}
-
 /// Elimination leaves exactly `left` of the second row.
 #[test]
 fn a_pivot_of_a_few_roundings_is_no_pivot() {
