@@ -239,6 +239,18 @@ pub(crate) const FALLEN: f64 = 0.1;
 /// Unit: steps. Less: a step meets one unforeseen. More: searches in vain. Test: none.
 pub(crate) const FORESIGHT: f64 = 12.0;
 
+/// Implicit methods hand over to `dop853` this many steps before a singular configuration; explicit
+/// ones as soon as it is predicted.
+/// Unit: steps. Less: they pass it themselves, and fail. More: explicit steps under stiff forces.
+/// Test: `a_grip_of_1e12_takes_few_steps`.
+pub(crate) const IMPLICIT_REACH: f64 = 4.0;
+
+/// If what rows miss by rounding of their coordinates exceeds this share of the mechanism, stages
+/// are moved onto the constraints as soon as a singular configuration is predicted.
+/// Unit: share of the size. Less: steps up to it lose accuracy of the method. More: far from the
+/// origin passages fail. Test: `parallelograms_pass_their_flat_poses_at_speed`.
+pub(crate) const COARSE: f64 = 1e-13;
+
 /// Relative error of a step over a singular configuration that rounding may cause where steps are
 /// short; 1e-10 was not enough at 1e-10 where generated code is left on the way to one.
 /// Unit: 1. Less: steps collapse before it. More: the passage costs digits. Test:
@@ -312,6 +324,12 @@ pub(crate) const STAYS: f64 = 0.75;
 /// Those places.
 /// Unit: places. Less: passages are not foreseen. More: time. Test: none.
 pub(crate) const GLANCES: usize = 6;
+
+/// A pivot has a minimum between two places if it falls there to this share of both: at an end of
+/// what is searched it only falls.
+/// Unit: share of the pivots at the neighbouring places. Less: passages are not found. More: one
+/// passage is reported twice. Test: `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
+pub(crate) const RISES: f64 = 0.5;
 
 /// Between two places a pivot falls at most by so many times what it changes by between any two
 /// neighbouring ones.

@@ -14,6 +14,7 @@ use super::sample::{AtRows, Known, OfMotion, Sample, Source};
 use super::span::Span;
 use crate::error::MotionFault;
 use crate::guards::GUARDED;
+use crate::limits::{COARSE, IMPLICIT_REACH};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
@@ -40,6 +41,9 @@ pub(super) struct RunEquations<'m> {
     reduced: Option<Reduced>,
     t_end: f64,
     leader: Leader,
+    /// Whether coordinates are so large relative to the mechanism that their rounding shows in
+    /// stages on the way to a singular configuration.
+    is_coarse: bool,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
     /// Whether stages of the present step were evaluated by generated code that is no longer in
@@ -72,6 +76,7 @@ impl<'m> RunEquations<'m> {
             reduced: None,
             t_end: options.t_end,
             leader: Leader::Alone,
+            is_coarse: false,
             is_careful: false,
             is_void: false,
             by_time: ByTime::for_run(prepared, options),
@@ -80,6 +85,8 @@ impl<'m> RunEquations<'m> {
             stage: y0,
             motion,
         };
+        let at = &equations.motion.equations.at;
+        equations.is_coarse = at.mechanism.scales(&at.s).relative_residual(at.size) > COARSE;
         equations.is_careful = equations.wants_care();
         equations.record.min_pivot_ratio = equations.motion.pivot_ratio();
         equations
@@ -102,7 +109,8 @@ impl<'m> RunEquations<'m> {
     fn wants_care(&self) -> bool {
         let motion = &self.motion;
         let off = motion.manifold.projects() && motion.independent().is_none();
-        let is_near = motion.watch.delicate().is_some() || are_delicate(&motion.equations.velocity);
+        let is_expected = self.is_coarse && motion.watch.delicate().is_some();
+        let is_near = is_expected || are_delicate(&motion.equations.velocity);
         off && (self.is_by_time() || is_near)
     }
 
@@ -122,10 +130,16 @@ impl<'m> RunEquations<'m> {
         self.is_careful = self.wants_care();
     }
 
-    /// Whether another method has to lead after an accepted step to t.
-    pub(super) fn hands_over(&self, t: f64) -> bool {
-        let watch = &self.motion.watch;
-        let is_foreseen = watch.delicate().is_some();
+    /// Whether another method has to lead after an accepted step over these times.
+    pub(super) fn hands_over(&self, [t0, t]: [f64; 2]) -> bool {
+        let delicate = self.motion.watch.delicate().map(|(t, _)| t);
+        // Explicit steps up to it would be far shorter than those of an implicit method.
+        let reach = if self.motion.independent().is_some() {
+            IMPLICIT_REACH * (t - t0)
+        } else {
+            f64::INFINITY
+        };
+        let is_foreseen = delicate.is_some_and(|at| at - t < reach);
         let hands_over = match self.leader {
             Leader::Alone => false,
             Leader::HandsOver { is_due } => is_due || is_foreseen,

@@ -147,7 +147,7 @@ impl<'r, 'm> Run<'r, 'm> {
                 ControlFlow::Break(())
             })?;
             watch(times[1])?;
-            hands_over = step.ode().hands_over(times[1]);
+            hands_over = step.ode().hands_over(times);
             if hands_over {
                 ControlFlow::Break(())
             } else {

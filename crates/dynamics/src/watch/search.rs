@@ -7,7 +7,7 @@ use solvability::decide_rows;
 
 use super::passage::Now;
 use crate::events::{Event, EventKind};
-use crate::limits::{BEYOND, GLANCES, PLACES, SHARP, STAYS, STEEPER, VANISHES};
+use crate::limits::{BEYOND, GLANCES, PLACES, RISES, SHARP, STAYS, STEEPER, VANISHES};
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
 /// A singular configuration within a step.
@@ -137,7 +137,12 @@ impl<'m> Search<'m> {
                 let interval = [time(k - 1), time(k + 1)];
                 let enough = SHARP * (interval[1] - interval[0]);
                 let least = minimum(interval, noise, enough, |t| at(t, self).ok_or(()));
-                least.ok()??.0
+                let (t, pivot) = least.ok()??;
+                // At an end of what is searched the pivot only falls.
+                if pivot > RISES * pivots[k - 1].min(pivots[k + 1]) {
+                    return None;
+                }
+                t
             }
         };
         let pivot = at(t, self)?;
