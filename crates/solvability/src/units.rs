@@ -12,7 +12,7 @@ mod rewrite;
 
 use crate::limits::{OF_ONE_JOINT, UNIT_ROUNDING};
 use model::reaction::COMPONENTS;
-use model::{ColumnKind, ConstraintId, Frame, Mechanism, System};
+use model::{ColumnKind, ConstraintId, Frame, Mechanism};
 use rank::{RankDecision, RankError};
 
 pub use rewrite::{Dimension, Units};
@@ -101,7 +101,6 @@ pub(crate) fn check_equations(
     configuration: &Configuration<'_>,
     real: &Equations,
 ) -> Result<Vec<UnitCheck>, UnitError> {
-    let mechanism = &configuration.reactions.mechanism;
     let numbers = Numbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
     if configuration.solvability.null_space().ncols() == 0 {
@@ -130,7 +129,7 @@ pub(crate) fn check_equations(
         for other in &others {
             compare(&numbers.least(other, &other.multipliers(equations)?, None)?);
         }
-        for id in mechanism.layout().constraint_ids() {
+        for id in configuration.layout().constraint_ids() {
             compare(&numbers.least(&in_si, &lambda_0, Some(id))?);
         }
         if is_real {
@@ -176,7 +175,7 @@ struct Numbers<'a> {
 impl<'a> Numbers<'a> {
     fn of(configuration: &'a Configuration<'a>) -> Result<Self, RequestError> {
         let (mut checks, mut forms, mut wrenches) = (Vec::new(), Vec::new(), Vec::new());
-        let layout = configuration.reactions.mechanism.layout();
+        let layout = configuration.layout();
         for (k, group) in layout.groups.iter().enumerate() {
             let id = ConstraintId(k);
             for component in group.components() {
@@ -216,12 +215,7 @@ impl<'a> Numbers<'a> {
     /// What is free in other units.
     fn rewritten(&self, equations: &Equations, units: Units) -> Result<Rewritten, UnitError> {
         let decided = self.configuration.solvability.decision();
-        let kinds = self
-            .configuration
-            .reactions
-            .mechanism
-            .layout()
-            .column_kinds();
+        let kinds = self.configuration.layout().column_kinds();
         let rewriting = Rewriting::new(equations, units, &kinds);
         let equations = rewriting.equations(equations);
         let decision = rank::decide(&equations.c, decided.evidence.constraint_residual)?;
@@ -276,12 +270,7 @@ impl<'a> Numbers<'a> {
     /// fractions of 1 N, of 1 N at the arm of the mechanism's size for rotations.
     fn probing_load(&self, equations: &Equations) -> Equations {
         let golden = 0.618_033_988_749_894_9;
-        let kinds = self
-            .configuration
-            .reactions
-            .mechanism
-            .layout()
-            .column_kinds();
+        let kinds = self.configuration.layout().column_kinds();
         let load = |(k, kind): (usize, &ColumnKind)| {
             let arm = match kind {
                 ColumnKind::Translation => 1.0,
@@ -308,12 +297,7 @@ impl<'a> Numbers<'a> {
             .iter()
             .zip(numbers)
             .map(|(check, x)| x.abs() / self.unit(check, 1.0));
-        let kinds = self
-            .configuration
-            .reactions
-            .mechanism
-            .layout()
-            .column_kinds();
+        let kinds = self.configuration.layout().column_kinds();
         let loads = kinds
             .iter()
             .zip(&equations.force)

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 
 use linalg::Matrix;
 use model::start::scene_size;
-use model::{Mechanism, System};
+use model::{Layout, Mechanism, System};
 use rank::RankDecision;
 
 use super::error::{RequestError, check};
@@ -84,6 +84,11 @@ impl<'a> Configuration<'a> {
     #[must_use]
     pub fn reactions(&self) -> &ReactionForms<'a> {
         &self.reactions
+    }
+
+    /// Rows and columns of the mechanism.
+    pub(crate) fn layout(&self) -> &Layout {
+        self.reactions.mechanism.layout()
     }
 
     /// What can be said of the multipliers.
