@@ -24,7 +24,7 @@ impl ConfigurationAnalysis<'_> {
     /// sleigh.joint("blade", &[body], KnifeEdge { s: [0.0, 0.0], normal: Direction::Y });
     /// let study = Study::build(sleigh)?;
     /// let document = study.analyse(0.0, None)?.document(&[])?;
-    /// assert_eq!((document.rank, document.mobility), (1, 2));
+    /// assert_eq!((document.ranks.rank, document.ranks.mobility), (1, 2));
     /// let json = serde_json::to_value(&document).unwrap();
     /// assert_eq!(json["reactions"][0]["name"], "blade");
     /// assert_eq!(json["reactions"][0]["verdict"], "unique");
@@ -60,7 +60,7 @@ impl ConfigurationAnalysis<'_> {
             document.explain(&explanation, self.mechanism.layout());
         }
         if let Some(generic) = &generic {
-            document.continuation = self.continuation(generic)?.as_ref().map(Into::into);
+            document.answers.continuation = self.continuation(generic)?.as_ref().map(Into::into);
         }
         let sensitivities = self.sensitivities()?;
         document.add_sensitivities(&sensitivities, self.mechanism.layout());
@@ -70,11 +70,11 @@ impl ConfigurationAnalysis<'_> {
         document.warnings.extend(only_here(&document, self));
         // Where other configurations were reached, it moves.
         let cannot_move = generic.is_none() && self.cannot_move()?;
-        document.freedoms.cannot_move |= cannot_move;
-        if cannot_move && document.mobility > 0 {
+        document.ranks.freedoms.cannot_move |= cannot_move;
+        if cannot_move && document.ranks.mobility > 0 {
             document.warnings.push(locked(&document));
         }
-        document.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
+        document.answers.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
         Ok(document)
     }
 }
@@ -83,12 +83,12 @@ impl ConfigurationAnalysis<'_> {
 /// there: the steps away follow the joints alone.
 fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) -> Option<String> {
     let generic = d.generic.as_ref()?;
-    if generic.redundancy >= d.redundancy || d.evidence.permanent != Some(false) {
+    if generic.redundancy >= d.ranks.redundancy || d.evidence.permanent != Some(false) {
         return None;
     }
     let layout = configuration.mechanism.layout();
     let drives = layout.groups.iter().any(|g| g.is_drive());
-    let free = match (drives, d.nonholonomic_rows > 0) {
+    let free = match (drives, d.configuration.nonholonomic_rows > 0) {
         (false, false) => "",
         (true, false) => ", with drives left free",
         (false, true) => ", with knife edges and other conditions on velocities left free",
@@ -101,7 +101,7 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
     Some(format!(
         "redundancy {} and its verdicts hold at this singular configuration only; {compared} that the joints allow{free}, and `--along` \
          tells whether the motion leaves this one",
-        d.redundancy,
+        d.ranks.redundancy,
     ))
 }
 
@@ -109,6 +109,6 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
 fn locked(d: &AnalysisDocument) -> String {
     format!(
         "mobility {} at first order, but this mechanism cannot move: second order blocks every velocity that the constraints allow",
-        d.mobility
+        d.ranks.mobility
     )
 }

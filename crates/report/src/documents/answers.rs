@@ -117,7 +117,7 @@ pub struct DiffDocument<'a> {
     /// Those of the second scene only.
     pub dependencies_new: &'a [&'a DependencyDocument],
     /// Differences of the motions; `null` if they were not compared.
-    pub motion: Option<DiffMotion<'a>>,
+    pub motion: Option<&'a DiffMotion>,
     /// Why they were not.
     pub motion_not_compared: Option<&'a str>,
 }
@@ -137,13 +137,13 @@ pub struct DiffSide<'a> {
 impl<'a> From<&'a AnalysisDocument> for DiffSide<'a> {
     fn from(d: &'a AnalysisDocument) -> Self {
         Self {
-            scene: &d.scene,
-            bodies: d.bodies,
-            rows: d.rows,
-            rank: d.rank,
-            redundancy: d.redundancy,
-            mobility: d.mobility,
-            mobility_without_drives: d.freedoms.mobility_without_drives(),
+            scene: &d.configuration.scene,
+            bodies: d.configuration.bodies,
+            rows: d.configuration.rows,
+            rank: d.ranks.rank,
+            redundancy: d.ranks.redundancy,
+            mobility: d.ranks.mobility,
+            mobility_without_drives: d.ranks.freedoms.mobility_without_drives(),
         }
     }
 }
@@ -199,18 +199,18 @@ pub struct DiffChange<'a> {
 
 /// Differences of two motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffMotion<'a> {
-    /// How far both were run (s).
+pub struct DiffMotion {
+    /// How far both were run (s): to the earlier of their ends.
     pub t_end: f64,
-    /// Body by body.
-    pub bodies: Vec<DiffBody<'a>>,
+    /// Bodies that both scenes have, in the order of the first.
+    pub bodies: Vec<DiffBody>,
 }
 
 /// The largest differences of the motions of a body, and when (s).
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffBody<'a> {
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct DiffBody {
     /// The body.
-    pub body: &'a str,
+    pub body: String,
     /// m
     pub distance: f64,
     /// Time of that.
