@@ -94,15 +94,20 @@ impl Mechanism {
 }
 
 impl<'m> Data<'m> {
-    fn constraints(self) -> &'m [PlacedConstraint] {
-        &self.0.elements.constraints
+    /// The constraints, each with the places of its numbers among all.
+    fn numbered(self) -> impl Iterator<Item = (&'m PlacedConstraint, Range<usize>)> {
+        let mut first = 0;
+        self.0.elements.constraints.iter().map(move |c| {
+            let numbers = first..first + c.element.spec().n_data();
+            first = numbers.end;
+            (c, numbers)
+        })
     }
 
     /// Number of values stored by all constraints.
     #[must_use]
     pub fn count(self) -> usize {
-        let counts = self.constraints().iter().map(|c| c.element.spec().n_data());
-        counts.sum()
+        self.numbered().last().map_or(0, |(_, numbers)| numbers.end)
     }
 
     /// All points, directions and numbers of the constraints, at the poses of the scratch;
@@ -110,19 +115,18 @@ impl<'m> Data<'m> {
     #[must_use]
     pub fn blocks(self, s: &Scratch) -> Vec<DataBlock> {
         let mut blocks = Vec::new();
-        let mut first = 0;
         let mut numbers = Vec::new();
         let stated = has_tolerances(self.0).then(|| size_of(self.0, s));
-        for (group, c) in self.constraints().iter().enumerate() {
+        for (group, (c, places)) in self.numbered().enumerate() {
             let element = &c.element;
             numbers.clear();
-            numbers.resize(element.spec().n_data(), 0.0);
+            numbers.resize(places.len(), 0.0);
             element.data(&mut numbers);
             let length = self.length_scale(c, s, &numbers);
             let turned = moving_poses(c, s).map(|(_, pose)| pose.angle.abs());
             let angle = turned.fold(1.0, f64::max);
             for datum in element.spec().data {
-                let at = first + datum.first;
+                let at = places.start + datum.first;
                 let block = |offset: usize, count: usize, unit: DataUnit, is_direction: bool| {
                     let own = &numbers[datum.first + offset..datum.first + offset + count];
                     let largest = own.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
@@ -160,7 +164,6 @@ impl<'m> Data<'m> {
                     }
                 }
             }
-            first += element.spec().n_data();
         }
         blocks
     }
@@ -168,53 +171,49 @@ impl<'m> Data<'m> {
     /// Adds the gradient of `λᵀ·C·v` with respect to all numbers of the constraints, times
     /// `factor`, to `out`; `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
     pub fn add_power(self, s: &Scratch, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
-        let mut first = 0;
         let (mut still, mut slots, mut f) = (Vec::new(), Vec::new(), Vec::new());
-        let mut own = Vec::new();
-        for c in self.constraints() {
-            let element = &c.element;
-            let count = element.spec().n_data();
-            let lambda = &lambda[c.rows.clone()];
-            if count > 0 && lambda.iter().any(|l| *l != 0.0) {
-                own.clear();
-                own.resize(count, 0.0);
-                let x = c.site.x(&s.slots);
-                slots.clear();
-                slots.extend(c.site.bodies.iter().map(|&body| twist_of(body, v)));
-                // Without velocities and functions of time, Γ vanishes.
-                still.resize(slots.len(), Twist::zero());
-                f.resize(c.site.functions.len(), [0.0; 3]);
-                element.d_residual_dp(x, &still, &slots, &f, lambda, &mut own);
-                for (out, own) in out[first..first + count].iter_mut().zip(&own) {
-                    *out += factor * own;
-                }
-            }
-            first += count;
-        }
+        self.add(lambda, factor, out, |c, lambda, own| {
+            slots.clear();
+            slots.extend(c.site.bodies.iter().map(|&body| twist_of(body, v)));
+            // Without velocities and functions of time Γ vanishes.
+            still.resize(slots.len(), Twist::zero());
+            f.resize(c.site.functions.len(), [0.0; 3]);
+            let x = c.site.x(&s.slots);
+            c.element.d_residual_dp(x, &still, &slots, &f, lambda, own);
+        });
     }
 
     /// Adds the gradient of `λᵀ·Φ` with respect to all numbers of the constraints, times `factor`,
     /// to `out`; `lambda` has at least m values.
     pub fn add_phi(self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
-        let m = self.0.layout().m;
-        let mut first = 0;
+        let of_phi = &lambda[..self.0.layout().m];
+        self.add(of_phi, factor, out, |c, lambda, own| {
+            let (x, f) = (c.site.x(&s.slots), c.site.f(&s.slots));
+            c.element.d_phi_dp(x, f, lambda, own);
+        });
+    }
+
+    /// Adds gradients that `kernel` writes for a constraint and its multipliers, times `factor`, to
+    /// `out`. Rows beyond `lambda` have no part in them.
+    fn add(
+        self,
+        lambda: &[f64],
+        factor: f64,
+        out: &mut [f64],
+        mut kernel: impl FnMut(&PlacedConstraint, &[f64], &mut [f64]),
+    ) {
         let mut own = Vec::new();
-        for c in self.constraints() {
-            let element = &c.element;
-            let count = element.spec().n_data();
-            if count > 0 && c.rows.start < m {
-                let lambda = &lambda[c.rows.clone()];
-                if lambda.iter().any(|l| *l != 0.0) {
-                    own.clear();
-                    own.resize(count, 0.0);
-                    let x = c.site.x(&s.slots);
-                    element.d_phi_dp(x, c.site.f(&s.slots), lambda, &mut own);
-                    for (out, own) in out[first..first + count].iter_mut().zip(&own) {
-                        *out += factor * own;
-                    }
-                }
+        for (c, numbers) in self.numbered() {
+            let lambda = lambda.get(c.rows.clone()).unwrap_or_default();
+            if numbers.is_empty() || lambda.iter().all(|l| *l == 0.0) {
+                continue;
             }
-            first += count;
+            own.clear();
+            own.resize(numbers.len(), 0.0);
+            kernel(c, lambda, &mut own);
+            for (out, own) in out[numbers].iter_mut().zip(&own) {
+                *out += factor * own;
+            }
         }
     }
 
@@ -238,7 +237,7 @@ impl<'m> Data<'m> {
     /// directions, to `out`.
     pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
         let mut own = Vec::new();
-        for c in self.constraints() {
+        for c in &self.0.elements.constraints {
             let element = &c.element;
             let pattern = element.spec().d_force_dx;
             let lambda = &lambda[c.rows.clone()];

@@ -89,9 +89,13 @@ fn of_study(
     if arguments.at_time == 0.0 {
         document.warnings.extend(study.cannot_begin());
     }
-    document.along = along.transpose()?;
+    document.answers.along = along.transpose()?;
     answer(arguments, &configuration, &document, console)?;
-    if document.along.is_some_and(|along| along.stopped.is_some()) {
+    if document
+        .answers
+        .along
+        .is_some_and(|along| along.stopped.is_some())
+    {
         Err(Failure::Incomplete)
     } else {
         Ok(())

@@ -11,13 +11,15 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use pfaff::Overrides;
 use pfaff::dynamics::options::moved;
 use pfaff::dynamics::{Method, Stabilisation};
 use pfaff::sweep::{Axis, Shard};
 
 pub(crate) use known::{Known, Settings};
 
-use crate::output::Answer;
+use crate::input::rows_from_zero;
+use crate::output::{Answer, Failure};
 use crate::resources::Resources;
 use crate::template::Template;
 
@@ -172,18 +174,8 @@ pub(crate) struct Simulate {
     /// Largest step (s)
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub(crate) max_step: Option<f64>,
-    /// Integrator
-    #[arg(long, value_name = "M", value_parser = chosen("method", Method::ALL, Method::name))]
-    pub(crate) method: Option<Method>,
-    /// Removed: every run keeps independent rows
-    #[arg(long, value_name = "F", value_parser = no_formulation, hide = true)]
-    pub(crate) formulation: Option<String>,
-    /// Treatment of drift
-    #[arg(long, value_name = "S", value_parser = chosen("stabilisation", Stabilisation::ALL, Stabilisation::name))]
-    pub(crate) stabilisation: Option<Stabilisation>,
-    /// Rows to eliminate, counted from 1
-    #[arg(long, value_name = "ROWS", value_delimiter = ',')]
-    pub(crate) drop: Option<Vec<usize>>,
+    #[command(flatten)]
+    pub(crate) way: Way,
     #[command(flatten)]
     pub(crate) known: Known,
     #[command(flatten)]
@@ -200,6 +192,20 @@ pub(crate) struct Plan {
     /// Last time (s)
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
+    #[command(flatten)]
+    pub(crate) way: Way,
+    #[command(flatten)]
+    pub(crate) known: Known,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+    /// The plan as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// How the motion is computed.
+#[derive(Args)]
+pub(crate) struct Way {
     /// Integrator
     #[arg(long, value_name = "M", value_parser = chosen("method", Method::ALL, Method::name))]
     pub(crate) method: Option<Method>,
@@ -212,13 +218,18 @@ pub(crate) struct Plan {
     /// Rows to eliminate, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// The plan as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
+}
+
+impl Way {
+    /// What it changes of the options of a scene.
+    pub(crate) fn overrides(&self) -> Result<Overrides, Failure> {
+        Ok(Overrides {
+            method: self.method,
+            stabilisation: self.stabilisation,
+            drop: rows_from_zero(self.drop.as_deref())?,
+            ..Overrides::default()
+        })
+    }
 }
 
 #[derive(Args)]

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use pfaff::difference::{MotionComparison, VerdictChange};
+use pfaff::difference::{self, VerdictChange};
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
-    DependencyDocument, DiffBody, DiffChange, DiffDocument, DiffMotion, DiffReaction,
-    ReactionDocument,
+    DependencyDocument, DiffChange, DiffDocument, DiffMotion, DiffReaction, ReactionDocument,
 };
 use pfaff::{Comparison, Overrides, StudyError};
 
@@ -49,20 +48,15 @@ pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// The result for the motions.
-enum Motion {
-    /// The motions were compared.
-    Both(MotionComparison),
-    /// They were not compared; the reason.
-    None(String),
-}
+/// The differences of the motions, or why they are not compared.
+type Motion = Result<DiffMotion, String>;
 
 /// Compares the motions if both scenes have one.
 fn motion(sources: &[Source; 2], starts: &[Start; 2], arguments: &Diff) -> Result<Motion, Failure> {
     for (source, start) in sources.iter().zip(starts) {
         if start.scene.simulate.is_none() {
             let name = &source.name;
-            return Ok(Motion::None(format!("`{name}` has no [simulate]")));
+            return Ok(Err(format!("`{name}` has no [simulate]")));
         }
     }
     let mut studies = Vec::new();
@@ -70,13 +64,13 @@ fn motion(sources: &[Source; 2], starts: &[Start; 2], arguments: &Diff) -> Resul
         let assembled = arguments.resources.assembled(source)?;
         match assembled.prepare(&Overrides::default()) {
             Ok(study) => studies.push(study),
-            Err(e) => return Ok(Motion::None(cannot_move(&source.name, &e))),
+            Err(e) => return Ok(Err(cannot_move(&source.name, &e))),
         }
     }
-    Ok(match MotionComparison::of(&studies[0], &studies[1]) {
-        Ok(Some(motion)) => Motion::Both(motion),
-        Ok(None) => Motion::None("one of the scenes has no [simulate]".to_owned()),
-        Err(e) => Motion::None(format!("one of them stopped: {e}")),
+    Ok(match difference::motions(&studies[0], &studies[1]) {
+        Ok(Some(motion)) => Ok(motion),
+        Ok(None) => Err("one of the scenes has no [simulate]".to_owned()),
+        Err(e) => Err(format!("one of them stopped: {e}")),
     })
 }
 
@@ -94,21 +88,6 @@ fn document<'a>(
         a: v.sides[0].into(),
         b: v.sides[1].into(),
     };
-    let body = |b: &'a pfaff::MotionDifference| DiffBody {
-        body: &b.body,
-        distance: b.distance[0],
-        t_distance: b.distance[1],
-        angle: b.angle[0],
-        t_angle: b.angle[1],
-    };
-    let (motion, reason) = match motion {
-        Motion::Both(m) => {
-            let bodies = m.bodies.iter().map(body).collect();
-            let t_end = m.t_end;
-            (Some(DiffMotion { t_end, bodies }), None)
-        }
-        Motion::None(reason) => (None, Some(reason.as_str())),
-    };
     DiffDocument {
         ok: true,
         a: sides[0].into(),
@@ -118,8 +97,8 @@ fn document<'a>(
         changed: c.verdicts.iter().map(changed).collect(),
         dependencies_gone: &c.gone,
         dependencies_new: &c.new,
-        motion,
-        motion_not_compared: reason,
+        motion: motion.as_ref().ok(),
+        motion_not_compared: motion.as_ref().err().map(String::as_str),
     }
 }
 
@@ -141,8 +120,8 @@ fn describe(
     }
     text.push('\n');
     text.push_str(&match motion {
-        Motion::Both(motion) => moved(motion),
-        Motion::None(reason) => format!("motions not compared: {reason}\n"),
+        Ok(motion) => moved(motion),
+        Err(reason) => format!("motions not compared: {reason}\n"),
     });
     text
 }
@@ -169,20 +148,20 @@ fn numbers(names: &[String; 2], [a, b]: [&AnalysisDocument; 2]) -> String {
         String::new(),
     ]];
     let counts = [
-        ("bodies", a.bodies, b.bodies),
+        ("bodies", a.configuration.bodies, b.configuration.bodies),
         ("joints and drives", a.reactions.len(), b.reactions.len()),
-        ("rows", a.rows, b.rows),
-        ("rank", a.rank, b.rank),
-        ("redundancy", a.redundancy, b.redundancy),
-        ("mobility", a.mobility, b.mobility),
+        ("rows", a.configuration.rows, b.configuration.rows),
+        ("rank", a.ranks.rank, b.ranks.rank),
+        ("redundancy", a.ranks.redundancy, b.ranks.redundancy),
+        ("mobility", a.ranks.mobility, b.ranks.mobility),
         ("not unique", open(a), open(b)),
     ];
     let fragile = [a, b].map(|d| d.fragile_reactions().count());
     let fragile = (fragile != [0, 0]).then_some(("fragile", fragile[0], fragile[1]));
-    // For scenes without drives both numbers are equal, so this one is omitted.
-    let released = |d: &AnalysisDocument| d.freedoms.mobility_without_drives();
+    // Of scenes without drives it is the same number again.
+    let released = |d: &AnalysisDocument| d.ranks.freedoms.mobility_without_drives();
     let is_driven = released(a).is_some() || released(b).is_some();
-    let [x, y] = [a, b].map(|d| released(d).unwrap_or(d.mobility));
+    let [x, y] = [a, b].map(|d| released(d).unwrap_or(d.ranks.mobility));
     let released = is_driven.then_some(("mobility without drives", x, y));
     let (before, after) = counts.split_at(counts.len() - 1);
     for &(what, x, y) in before.iter().chain(&released).chain(after).chain(&fragile) {
@@ -260,13 +239,13 @@ fn dependencies(title: &str, list: &[&DependencyDocument]) -> String {
     text
 }
 
-/// Bodies sorted by the difference of their motions, the largest first.
-fn moved(motion: &MotionComparison) -> String {
+/// Bodies by the distance of their motions, the largest first.
+fn moved(motion: &DiffMotion) -> String {
     if motion.bodies.is_empty() {
         return "no body has the same name in both scenes: no motion to compare\n".to_owned();
     }
     let mut bodies: Vec<_> = motion.bodies.iter().collect();
-    bodies.sort_by(|a, b| b.distance[0].total_cmp(&a.distance[0]));
+    bodies.sort_by(|a, b| b.distance.total_cmp(&a.distance));
     let mut text = format!(
         "motion to t = {} s, largest difference of each body:\n",
         motion.t_end
@@ -278,7 +257,7 @@ fn moved(motion: &MotionComparison) -> String {
     ];
     for body in bodies.iter().take(LISTED) {
         let mut row = vec![body.body.clone()];
-        for [value, t] in [body.distance, body.angle] {
+        for (value, t) in [(body.distance, body.t_distance), (body.angle, body.t_angle)] {
             row.push(format!("{value:.1e}"));
             row.push(format!("{t:.3}"));
         }

@@ -7,7 +7,7 @@ use pfaff::report::PlanDocument;
 
 use crate::args;
 use crate::console::Console;
-use crate::input::{Source, rows_from_zero};
+use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Outcome, columns, count};
 use crate::resources::Bytes;
@@ -18,10 +18,7 @@ pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let overrides = Overrides {
         t_end: arguments.t_end,
-        method: arguments.method,
-        stabilisation: arguments.stabilisation,
-        drop: rows_from_zero(arguments.drop.as_deref())?,
-        ..Overrides::default()
+        ..arguments.way.overrides()?
     };
     let study = source.study(&overrides, arguments.resources)?;
     let plan = study.plan().map_err(|e| source.failure(e))?;

@@ -8,7 +8,7 @@ use pfaff::{Overrides, StudyError};
 
 use crate::args::Simulate;
 use crate::console::Console;
-use crate::input::{Source, rows_from_zero};
+use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, json};
 use crate::work_precision::provenance;
@@ -87,10 +87,8 @@ fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
         rtol: arguments.rtol,
         atol: arguments.atol,
         max_step: arguments.max_step,
-        method: arguments.method,
-        stabilisation: arguments.stabilisation,
-        drop: rows_from_zero(arguments.drop.as_deref())?,
         threads: arguments.resources.threads,
+        ..arguments.way.overrides()?
     })
 }
 

@@ -57,8 +57,8 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
             reactions: start.reactions.len(),
             not_unique: open,
             fragile,
-            mobility: start.document.mobility,
-            mobility_without_drives: start.document.freedoms.mobility_without_drives(),
+            mobility: start.document.ranks.mobility,
+            mobility_without_drives: start.document.ranks.freedoms.mobility_without_drives(),
         });
     }
     let opened = if arguments.no_open {
@@ -75,7 +75,11 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         "{}: {}, {open} not unique{fragile}; {}\nwritten to {}\n{opened}",
         start.scene.name(),
         count(start.reactions.len(), "joint or drive", "joints and drives"),
-        start.document.freedoms.summary(start.document.mobility),
+        start
+            .document
+            .ranks
+            .freedoms
+            .summary(start.document.ranks.mobility),
         path.display()
     ))
 }

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use dynamics::{MotionOptions, Sample};
 use model::Mechanism;
 use report::AnalysisDocument;
-use report::documents::{DependencyDocument, ReactionDocument};
+use report::documents::{DependencyDocument, DiffBody, DiffMotion, ReactionDocument};
 
 use crate::error::StudyError;
 use crate::study::Study;
@@ -36,7 +36,7 @@ use crate::study::Study;
 /// let fixed = document("type = \"revolute\"")?;
 /// let relaxed = document("type = \"pin-in-slot\", axis = [1.0, 0.0]")?;
 /// let changed = Comparison::of(&fixed, &relaxed);
-/// assert_eq!((fixed.redundancy, relaxed.redundancy), (1, 0));
+/// assert_eq!((fixed.ranks.redundancy, relaxed.ranks.redundancy), (1, 0));
 /// assert_eq!(changed.verdicts.iter().map(|v| v.name).collect::<Vec<_>>(), ["left", "right"]);
 /// assert_eq!(changed.gone.len(), 1);
 /// # Ok::<(), pfaff::StudyError>(())
@@ -91,9 +91,9 @@ impl<'a> Comparison<'a> {
             })
         });
         let unmatched = |from: &'a AnalysisDocument, other: &AnalysisDocument| {
-            let mut left: Vec<Vec<&str>> = other.dependencies.iter().map(joints).collect();
+            let mut left: Vec<Vec<&str>> = other.reasons.dependencies.iter().map(joints).collect();
             let mut rest = Vec::new();
-            for dependency in &from.dependencies {
+            for dependency in &from.reasons.dependencies {
                 match left.iter().position(|known| *known == joints(dependency)) {
                     Some(at) => drop(left.swap_remove(at)),
                     None => rest.push(dependency),
@@ -146,75 +146,50 @@ fn joints(dependency: &DependencyDocument) -> Vec<&str> {
     names
 }
 
-/// Difference between the motions of a body.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct MotionDifference {
-    /// The body.
-    pub body: String,
-    /// Largest distance of its two positions (m), and its time (s).
-    pub distance: [f64; 2],
-    /// Largest difference of its two angles (rad), and its time (s).
-    pub angle: [f64; 2],
-}
-
-/// The differences of the motions of two scenes, body by body.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct MotionComparison {
-    /// Time up to which both motions were run (s): the earlier of their ends.
-    pub t_end: f64,
-    /// Bodies that both scenes have, in the order of the first.
-    pub bodies: Vec<MotionDifference>,
-}
-
-/// Number of times at which motions are compared, in addition to the start.
+/// Times at which motions are compared, besides the start.
 const TIMES: f64 = 200.0;
 
 /// Number of coordinates of a planar body.
 const N_BODY: usize = 3;
 
-impl MotionComparison {
-    /// Runs both scenes with their own options and compares 201 states. Returns `None` if one of
-    /// them has no `[simulate]` table.
-    ///
-    /// # Errors
-    /// [`StudyError::Motion`]: one of the motions stopped.
-    pub fn of(first: &Study, second: &Study) -> Result<Option<Self>, StudyError> {
-        let (Some(a), Some(b)) = (&first.options, &second.options) else {
-            return Ok(None);
-        };
-        let t_end = a.t_end.min(b.t_end);
-        let pairs = common(&first.prepared.mechanism, &second.prepared.mechanism);
-        let mut expected: Vec<Vec<f64>> = Vec::new();
-        run(first, a, t_end, |sample| expected.push(sample.q.to_vec()))?;
-        let names = first.prepared.mechanism.bodies();
-        let mut bodies: Vec<MotionDifference> = pairs
-            .iter()
-            .map(|[i, _]| MotionDifference {
-                body: names[*i].name.clone(),
-                distance: [0.0; 2],
-                angle: [0.0; 2],
-            })
-            .collect();
-        let mut row = 0;
-        run(second, b, t_end, |sample| {
-            let Some(q) = expected.get(row) else { return };
-            row += 1;
-            for (body, [i, j]) in bodies.iter_mut().zip(&pairs) {
-                let difference = |k: usize| q[N_BODY * i + k] - sample.q[N_BODY * j + k];
-                let distance = difference(0).hypot(difference(1));
-                if distance > body.distance[0] {
-                    body.distance = [distance, sample.t];
-                }
-                let angle = difference(2).abs();
-                if angle > body.angle[0] {
-                    body.angle = [angle, sample.t];
-                }
+/// Runs both scenes with their own options and compares 201 states, body by body. Returns `None` if
+/// one of them has no `[simulate]`.
+///
+/// # Errors
+/// [`StudyError::Motion`]: one of the motions stopped.
+pub fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion>, StudyError> {
+    let (Some(a), Some(b)) = (&first.options, &second.options) else {
+        return Ok(None);
+    };
+    let t_end = a.t_end.min(b.t_end);
+    let pairs = common(&first.prepared.mechanism, &second.prepared.mechanism);
+    let mut expected: Vec<Vec<f64>> = Vec::new();
+    run(first, a, t_end, |sample| expected.push(sample.q.to_vec()))?;
+    let names = first.prepared.mechanism.bodies();
+    let mut bodies: Vec<DiffBody> = pairs
+        .iter()
+        .map(|[i, _]| DiffBody {
+            body: names[*i].name.clone(),
+            ..DiffBody::default()
+        })
+        .collect();
+    let mut row = 0;
+    run(second, b, t_end, |sample| {
+        let Some(q) = expected.get(row) else { return };
+        row += 1;
+        for (body, [i, j]) in bodies.iter_mut().zip(&pairs) {
+            let difference = |k: usize| q[N_BODY * i + k] - sample.q[N_BODY * j + k];
+            let distance = difference(0).hypot(difference(1));
+            if distance > body.distance {
+                (body.distance, body.t_distance) = (distance, sample.t);
             }
-        })?;
-        Ok(Some(Self { t_end, bodies }))
-    }
+            let angle = difference(2).abs();
+            if angle > body.angle {
+                (body.angle, body.t_angle) = (angle, sample.t);
+            }
+        }
+    })?;
+    Ok(Some(DiffMotion { t_end, bodies }))
 }
 
 /// Indices of the bodies that both mechanisms have.

@@ -45,7 +45,7 @@ pub use solvability;
 pub use along_motion::{Progress, VerdictsAlongMotion};
 pub use assembled::AssembledScene;
 pub use configuration::ConfigurationAnalysis;
-pub use difference::{Comparison, MotionDifference};
+pub use difference::Comparison;
 pub use error::StudyError;
 pub use solvability::Numbers;
 pub use study::{Overrides, Study};

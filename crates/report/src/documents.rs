@@ -19,13 +19,13 @@ use serde::ser::{SerializeMap, Serializer};
 use solvability::{Judgement, Verdict};
 
 pub use analysis::{
-    AlongDocument, AnalysisDocument, ComponentDocument, ContinuationDocument, DataDocument,
-    DependencyDocument, DifferenceDocument, DistributionDocument, EliminationsDocument,
-    EvidenceDocument, FrameDocument, FreeDirectionDocument, GenericDocument,
-    GenericVerdictsDocument, GroupDocument, MakeUniqueDocument, MixingDocument,
-    NamedVerdictDocument, NearlyRedundantDocument, NoteDocument, PartsDocument, PassageDocument,
-    PointDocument, ReactionDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument,
-    WayDocument,
+    AlongDocument, AnalysisDocument, AnswersDocument, ComponentDocument, ConfigurationDocument,
+    ContinuationDocument, DataDocument, DependencyDocument, DifferenceDocument,
+    DistributionDocument, EliminationsDocument, EvidenceDocument, FrameDocument,
+    FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
+    MakeUniqueDocument, MixingDocument, NamedVerdictDocument, NearlyRedundantDocument,
+    NoteDocument, PartsDocument, PassageDocument, PointDocument, RanksDocument, ReactionDocument,
+    ReasonsDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument, WayDocument,
 };
 pub use answers::{
     CheckDocument, DiffBody, DiffChange, DiffDocument, DiffMotion, DiffReaction, DiffSide,

@@ -1,6 +1,9 @@
 //! Problems found while reading. Reading continues after each of them.
 
 use std::cell::Cell;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::hash::Hash;
 use std::ops::Range;
 
 use crate::diagnostic::{Diagnostic, Severity};
@@ -140,7 +143,29 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(self.source, span, message, label).and(first));
     }
 
-    /// The known name that was probably intended, as long as there are few problems and few names.
+    /// Whether something that may be named once is named for the first time, here; else reports both
+    /// places.
+    pub(crate) fn is_first<T: Eq + Hash>(
+        &mut self,
+        named: &mut HashMap<T, Range<usize>>,
+        thing: T,
+        span: Range<usize>,
+        twice: impl Into<String>,
+    ) -> bool {
+        match named.entry(thing) {
+            Entry::Occupied(first) => {
+                let first = first.get().clone();
+                self.collision(span, twice, "named again here", first, "first named here");
+                false
+            }
+            Entry::Vacant(place) => {
+                place.insert(span);
+                true
+            }
+        }
+    }
+
+    /// The known name that was probably meant, as long as there are few problems and few names.
     pub(crate) fn suggest<'a>(
         &self,
         name: &str,

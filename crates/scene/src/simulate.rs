@@ -1,7 +1,6 @@
 //! `[simulate]`: options of a run.
 
 use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 use std::ops::Range;
 
 use dynamics::options::moved;
@@ -248,7 +247,7 @@ fn refuse_moved(table: &mut Table, findings: &mut Findings) {
 fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
     const EXPECTED: &str = DROP.expected;
     let mut rows: Vec<(usize, Range<usize>)> = Vec::new();
-    let mut first: HashMap<usize, Range<usize>> = HashMap::new();
+    let mut named = HashMap::new();
     for item in field.items(EXPECTED, findings).unwrap_or_default() {
         let Some(number) = item.integer(EXPECTED, findings) else {
             continue;
@@ -264,18 +263,9 @@ fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
             );
             continue;
         };
-        match first.entry(row) {
-            Entry::Occupied(first) => findings.collision(
-                item.span(),
-                format!("{}: `drop` names row {number} twice", field.subject),
-                "named again here",
-                first.get().clone(),
-                "first named here",
-            ),
-            Entry::Vacant(place) => {
-                place.insert(item.span());
-                rows.push((row, item.span()));
-            }
+        let twice = format!("{}: `drop` names row {number} twice", field.subject);
+        if findings.is_first(&mut named, row, item.span(), twice) {
+            rows.push((row, item.span()));
         }
     }
     rows

@@ -1,8 +1,6 @@
 //! `[start]`: options of the start.
 
 use std::collections::HashMap;
-use std::collections::hash_map::Entry;
-use std::ops::Range;
 
 use model::StartOptions;
 use model::start::{Coordinate, CorrectionLimit, KeepLevel};
@@ -42,7 +40,7 @@ pub(crate) const KEYS: [Key; 2] = [KEEP, ALLOW_CORRECTION];
 /// Reads the section.
 pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -> StartOptions {
     let mut kept: Vec<Coordinate> = Vec::new();
-    let mut first: HashMap<(usize, usize, bool), Range<usize>> = HashMap::new();
+    let mut named = HashMap::new();
     let items = table
         .optional(&KEEP)
         .and_then(|field| field.items(KEEP.expected, findings))
@@ -52,18 +50,10 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
             continue;
         };
         let Coordinate { body, dof, level } = coordinate;
-        match first.entry((body, dof, level == KeepLevel::Position)) {
-            Entry::Occupied(first) => findings.collision(
-                item.span(),
-                "`[start]`: `keep` names a coordinate twice",
-                "named again here",
-                first.get().clone(),
-                "first named here",
-            ),
-            Entry::Vacant(place) => {
-                place.insert(item.span());
-                kept.push(coordinate);
-            }
+        let thing = (body, dof, level == KeepLevel::Position);
+        let twice = "`[start]`: `keep` names a coordinate twice";
+        if findings.is_first(&mut named, thing, item.span(), twice) {
+            kept.push(coordinate);
         }
     }
     let allowed = table

@@ -9,8 +9,8 @@ mod value;
 
 use crate::limits::VALUE_ROUNDINGS;
 use crate::pose::dimensionless;
+use model::ConstraintId;
 use model::reaction::COMPONENTS;
-use model::{ConstraintId, System};
 use rank::{KeptRowsError, RankStatus};
 
 pub(crate) use equations::solution_under;
@@ -195,11 +195,7 @@ impl Configuration<'_> {
             Choice::Compliance(joints) => self.rigid(joints),
             _ => Vec::new(),
         };
-        self.distribute_as(
-            lambda_0,
-            choice,
-            Label::of(self.reactions.mechanism.layout(), choice, &rigid),
-        )
+        self.distribute_as(lambda_0, choice, Label::of(self.layout(), choice, &rigid))
     }
 
     /// Like [`Self::distribute`], with this label.
@@ -209,7 +205,7 @@ impl Configuration<'_> {
         choice: &Choice,
         label: Label,
     ) -> Result<Distribution, ChoiceError> {
-        let layout = self.reactions.mechanism.layout();
+        let layout = self.layout();
         check("multipliers", lambda_0, layout.rows())?;
         if let RankStatus::Undecided(doubt) = self.solvability.decision().status {
             return Err(ChoiceError::Undecided(doubt));
@@ -282,7 +278,7 @@ impl Configuration<'_> {
     }
 
     fn elastic(&self, lambda_0: &[f64], joints: &[Compliance]) -> Result<Vec<f64>, ChoiceError> {
-        let mut of_joint = vec![[0.0; 3]; self.reactions.mechanism.layout().groups.len()];
+        let mut of_joint = vec![[0.0; 3]; self.layout().groups.len()];
         for joint in joints {
             self.reactions.check_id(joint.reaction)?;
             let total = &mut of_joint[joint.reaction.0];
@@ -303,7 +299,7 @@ impl Configuration<'_> {
         lambda_0: &[f64],
         weights: impl Fn(ConstraintId) -> [f64; 3],
     ) -> Result<Vec<f64>, ChoiceError> {
-        let groups = &self.reactions.mechanism.layout().groups;
+        let groups = &self.layout().groups;
         let mut terms = Vec::new();
         for (k, group) in groups.iter().enumerate() {
             let id = ConstraintId(k);
@@ -328,7 +324,7 @@ impl Configuration<'_> {
         if visible == p {
             return Ok(());
         }
-        for group in &self.reactions.mechanism.layout().groups {
+        for group in &self.layout().groups {
             let b_x = self
                 .solvability
                 .b_x(group.rows.clone())
@@ -365,7 +361,7 @@ impl Configuration<'_> {
     }
 
     fn refused(&self, rows: &[usize], source: KeptRowsError) -> ChoiceError {
-        let labels = &self.reactions.mechanism.layout().labels;
+        let labels = &self.layout().labels;
         let known: Vec<usize> = rows.iter().copied().filter(|&i| i < labels.len()).collect();
         let is_unique =
             |i: &&usize| matches!(self.solvability.row(**i), Ok(row) if row.verdict.is_unique());
@@ -382,12 +378,12 @@ impl Configuration<'_> {
 
     /// Joints and drives that share loads with others but are not listed: they count as rigid.
     pub(crate) fn rigid(&self, listed: &[Compliance]) -> Vec<ConstraintId> {
-        let groups = &self.reactions.mechanism.layout().groups;
+        let groups = &self.layout().groups;
         let shares = |id: &ConstraintId| {
             let judged = self.solvability.group(groups[id.0].rows.clone());
             matches!(judged, Ok(judged) if judged.verdict == Verdict::NotUnique)
         };
-        let ids = self.reactions.mechanism.layout().constraint_ids();
+        let ids = self.layout().constraint_ids();
         ids.filter(|id| listed.iter().all(|j| j.reaction != *id) && shares(id))
             .collect()
     }

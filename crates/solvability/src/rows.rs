@@ -6,7 +6,7 @@ use crate::error::AnalysisError;
 use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
 use crate::pose::{decide, decide_dropping, decide_holonomic, evaluated, uncertainty};
 use model::start::scene_size;
-use model::{Known, Mechanism, Scratch, System};
+use model::{Known, Layout, Mechanism, Scratch, System};
 use rank::{
     Doubt, Evidence, KeptRowsError, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankStatus,
 };
@@ -152,13 +152,7 @@ pub fn decide_rows(
     s: &Scratch,
     q: &[f64],
 ) -> Result<RowDecision, AnalysisError> {
-    of_parts(mechanism, s, q, |part, s, q, _| {
-        if part.layout().rows() > SPARSE_FROM {
-            Ok((&decide_some(part, s, q, 0..part.layout().rows())?).into())
-        } else {
-            Ok((&decide(part, s, q)?).into())
-        }
-    })
+    of_small_and_large(mechanism, s, q, decide, Layout::rows)
 }
 
 /// Rank and kept rows of Φq alone.
@@ -170,11 +164,22 @@ pub fn decide_holonomic_rows(
     s: &Scratch,
     q: &[f64],
 ) -> Result<RowDecision, AnalysisError> {
+    of_small_and_large(mechanism, s, q, decide_holonomic, |layout| layout.m)
+}
+
+/// Small parts by `small`, the first rows of large ones sparsely.
+fn of_small_and_large(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    small: fn(&Mechanism, &Scratch, &[f64]) -> Result<RankDecision, AnalysisError>,
+    first: fn(&Layout) -> usize,
+) -> Result<RowDecision, AnalysisError> {
     of_parts(mechanism, s, q, |part, s, q, _| {
         if part.layout().rows() > SPARSE_FROM {
-            Ok((&decide_some(part, s, q, 0..part.layout().m)?).into())
+            Ok((&decide_some(part, s, q, 0..first(part.layout()))?).into())
         } else {
-            Ok((&decide_holonomic(part, s, q)?).into())
+            Ok((&small(part, s, q)?).into())
         }
     })
 }

@@ -12,7 +12,7 @@ mod rewrite;
 
 use crate::limits::{OF_ONE_JOINT, UNIT_ROUNDING};
 use model::reaction::COMPONENTS;
-use model::{ColumnKind, ConstraintId, Frame, Mechanism, System};
+use model::{ColumnKind, ConstraintId, Frame, Mechanism};
 use rank::{RankDecision, RankError};
 
 pub use rewrite::{Dimension, Units};
@@ -102,7 +102,6 @@ pub(crate) fn check_equations(
     configuration: &Configuration<'_>,
     real: &Equations,
 ) -> Result<Vec<UnitCheck>, UnitError> {
-    let mechanism = &configuration.reactions.mechanism;
     let numbers = Numbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
     if configuration.solvability.null_space().ncols() == 0 {
@@ -131,7 +130,7 @@ pub(crate) fn check_equations(
         for other in &others {
             compare(&numbers.least(other, &other.multipliers(equations)?, None)?);
         }
-        for id in mechanism.layout().constraint_ids() {
+        for id in configuration.layout().constraint_ids() {
             compare(&numbers.least(&in_si, &lambda_0, Some(id))?);
         }
         if is_real {
@@ -177,7 +176,7 @@ struct Numbers<'a> {
 impl<'a> Numbers<'a> {
     fn of(configuration: &'a Configuration<'a>) -> Result<Self, RequestError> {
         let (mut checks, mut forms, mut wrenches) = (Vec::new(), Vec::new(), Vec::new());
-        let layout = configuration.reactions.mechanism.layout();
+        let layout = configuration.layout();
         for (k, group) in layout.groups.iter().enumerate() {
             let id = ConstraintId(k);
             for component in group.components() {
@@ -217,12 +216,7 @@ impl<'a> Numbers<'a> {
     /// Decides the free directions in other units.
     fn rewritten(&self, equations: &Equations, units: Units) -> Result<Rewritten, UnitError> {
         let decided = self.configuration.solvability.decision();
-        let kinds = self
-            .configuration
-            .reactions
-            .mechanism
-            .layout()
-            .column_kinds();
+        let kinds = self.configuration.layout().column_kinds();
         let rewriting = Rewriting::new(equations, units, &kinds);
         let equations = rewriting.equations(equations);
         let decision = rank::decide(&equations.c, decided.evidence.constraint_residual)?;
@@ -277,12 +271,7 @@ impl<'a> Numbers<'a> {
     /// fractions of 1 N, and for rotations of 1 N times the size of the mechanism.
     fn probing_load(&self, equations: &Equations) -> Equations {
         let golden = 0.618_033_988_749_894_9;
-        let kinds = self
-            .configuration
-            .reactions
-            .mechanism
-            .layout()
-            .column_kinds();
+        let kinds = self.configuration.layout().column_kinds();
         let load = |(k, kind): (usize, &ColumnKind)| {
             let arm = match kind {
                 ColumnKind::Translation => 1.0,
@@ -309,12 +298,7 @@ impl<'a> Numbers<'a> {
             .iter()
             .zip(numbers)
             .map(|(check, x)| x.abs() / self.unit(check, 1.0));
-        let kinds = self
-            .configuration
-            .reactions
-            .mechanism
-            .layout()
-            .column_kinds();
+        let kinds = self.configuration.layout().column_kinds();
         let loads = kinds
             .iter()
             .zip(&equations.force)

@@ -60,11 +60,8 @@ impl Data<'_> {
     pub fn gradients(self, s: &Scratch, lambda: &[f64], a: &[f64], v: &[f64]) -> DataGradients {
         let moves = v.iter().any(|v| *v != 0.0);
         let (mut each, mut values) = (Vec::new(), Vec::new());
-        let mut first = 0;
-        for c in &self.0.elements.constraints {
+        for (c, numbers) in self.numbered() {
             let element = &c.element;
-            let numbers = first..first + element.spec().n_data();
-            first = numbers.end;
             if numbers.is_empty() {
                 continue;
             }

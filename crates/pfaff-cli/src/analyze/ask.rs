@@ -41,7 +41,7 @@ pub(super) fn document(
         .map_err(failure)?;
     if let Some(n) = arguments.eliminations {
         let sets = configuration.elimination_sets(n);
-        document.eliminations = Some(EliminationsDocument::new(
+        document.answers.eliminations = Some(EliminationsDocument::new(
             configuration.eliminations(),
             Some(sets),
         ));
@@ -49,6 +49,7 @@ pub(super) fn document(
     for (name, id) in arguments.make_unique.iter().zip(wanted) {
         let found = configuration.make_unique(id, &allowed, Limits::default());
         document
+            .answers
             .make_unique
             .push(MakeUniqueDocument::new(name, &allowed, found));
     }
@@ -78,7 +79,7 @@ pub(super) fn document(
                 .filter(|(_, values)| !values.is_empty())
                 .map(|(group, values)| ValuesDocument::of_group(&group.name, &values))
                 .collect();
-            document.choices.push(made);
+            document.answers.choices.push(made);
         }
     }
     Ok(document)

@@ -15,7 +15,7 @@ pub(super) const HINTS: usize = 8;
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
     let mut out = String::new();
     let useful = hints.iter().any(|hint| hint.reason.is_none());
-    if useful && d.make_unique.is_empty() {
+    if useful && d.answers.make_unique.is_empty() {
         out.push_str("\nWhat would make it unique (a decision of the designer, not a finding):\n");
         for hint in hints.iter().take(HINTS) {
             out.push_str(&wrapped(
@@ -24,10 +24,10 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
             ));
         }
     }
-    if useful && hints.len() > HINTS && d.make_unique.is_empty() {
+    if useful && hints.len() > HINTS && d.answers.make_unique.is_empty() {
         out.push_str("- others: `--make-unique NAME`\n");
     }
-    for wanted in &d.make_unique {
+    for wanted in &d.answers.make_unique {
         out.push_str(&format!(
             "\nTo make {} unique, with the motion as it is ({}):\n",
             wanted.reaction,
@@ -47,7 +47,12 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
             out.push_str("- and others: the search was not finished\n");
         }
     }
-    let Some(eliminations) = d.eliminations.as_ref().filter(|_| d.redundancy > 0) else {
+    let Some(eliminations) = d
+        .answers
+        .eliminations
+        .as_ref()
+        .filter(|_| d.ranks.redundancy > 0)
+    else {
         return out;
     };
     let number = eliminations.count.map(|n| n.to_string());
@@ -62,7 +67,7 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
             format!(": {}", sets.collect::<Vec<_>>().join(" "))
         }
     };
-    let rows = count(d.redundancy, "row", "rows");
+    let rows = count(d.ranks.redundancy, "row", "rows");
     let sentence = match number {
         Some(n) => {
             let word = if n == "1" { "set" } else { "sets" };

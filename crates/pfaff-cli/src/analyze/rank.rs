@@ -14,7 +14,7 @@ pub(super) fn describe(d: &AnalysisDocument) -> String {
     let mut out = ranks(d);
     out.push_str(&wrapped(
         "  ",
-        &match d.parts {
+        &match d.ranks.parts {
             Some(parts) => of_parts(d, parts),
             None => proof(d),
         },
@@ -24,7 +24,7 @@ pub(super) fn describe(d: &AnalysisDocument) -> String {
     }
     out.push_str(&wrapped("  ", &elsewhere(d)));
     out.push_str(&motions(d));
-    if let Some(continuation) = &d.continuation {
+    if let Some(continuation) = &d.answers.continuation {
         out.push_str(&wrapped("  ", &continuation.text));
     }
     out
@@ -51,14 +51,14 @@ fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
 fn ranks(d: &AnalysisDocument) -> String {
     let mut out = format!(
         "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, {}\n",
-        d.rank,
-        d.rank_holonomic,
-        d.rank_nonholonomic,
-        d.redundancy,
-        d.freedoms.sentence(d.mobility),
+        d.ranks.rank,
+        d.ranks.rank_holonomic,
+        d.ranks.rank_nonholonomic,
+        d.ranks.redundancy,
+        d.ranks.freedoms.sentence(d.ranks.mobility),
     );
-    let without = d.freedoms.without_drives.as_ref();
-    if let Some(without) = without.filter(|without| without.redundancy != d.redundancy) {
+    let without = d.ranks.freedoms.without_drives.as_ref();
+    if let Some(without) = without.filter(|without| without.redundancy != d.ranks.redundancy) {
         out.push_str(&format!(
             "  without {} rank {} and redundancy {}\n",
             without.possessive(),
@@ -71,13 +71,13 @@ fn ranks(d: &AnalysisDocument) -> String {
 
 /// The possible motions, in words.
 fn motions(d: &AnalysisDocument) -> String {
-    let told = d.freedoms.sentences().into_iter();
+    let told = d.ranks.freedoms.sentences().into_iter();
     told.map(|(lead, text)| wrapped(&format!("  {lead}: "), &text))
         .collect()
 }
 
 fn cannot_move(d: &AnalysisDocument) -> String {
-    match &d.freedoms.without_drives {
+    match &d.ranks.freedoms.without_drives {
         None => "this mechanism cannot move".to_owned(),
         Some(without) => format!(
             "this mechanism cannot move, with {} or without",
@@ -88,7 +88,7 @@ fn cannot_move(d: &AnalysisDocument) -> String {
 
 fn proof(d: &AnalysisDocument) -> String {
     let e = &d.evidence;
-    let r = d.rank;
+    let r = d.ranks.rank;
     if let Some(reason) = &e.reason {
         return format!("UNDECIDED: {reason}");
     }
@@ -101,13 +101,13 @@ fn proof(d: &AnalysisDocument) -> String {
             e.tolerance
         );
     }
-    let others = match d.redundancy {
+    let others = match d.ranks.redundancy {
         1 => "the other row is".to_owned(),
         p => format!("the {p} other rows are"),
     };
     let next = e.sigma_next_extended.unwrap_or(f64::NAN);
     match e.grounds {
-        Some("full_rank") if d.redundancy == 0 => match d.rows {
+        Some("full_rank") if d.ranks.redundancy == 0 => match d.configuration.rows {
             1 => "proved: the only row is independent".to_owned(),
             rows => format!("proved: all {rows} rows are independent"),
         },
@@ -154,9 +154,9 @@ fn nearly(d: &AnalysisDocument) -> Option<String> {
         .filter(concerned)
         .map(|r| r.name.as_str())
         .collect();
-    let index = match d.parts {
+    let index = match d.ranks.parts {
         Some(_) => "r".to_owned(),
-        None => d.rank.to_string(),
+        None => d.ranks.rank.to_string(),
     };
     Some(format!(
         "NEARLY REDUNDANT: σ_{index} = {:.1e} is not zero, but the rows of {} almost depend on each other. The rank is that of the data as \
@@ -177,7 +177,7 @@ fn elsewhere(d: &AnalysisDocument) -> String {
         (g.redundancy, n)
     });
     match (d.evidence.permanent, compared) {
-        (_, Some((p, n))) if p > d.redundancy => format!(
+        (_, Some((p, n))) if p > d.ranks.redundancy => format!(
             "at {n} the redundancy is {p}, more than here: what is independent here hangs on digits that the data may not have"
         ),
         (Some(true), Some((_, n))) => format!("permanent: the same redundancy at {n}"),
@@ -185,13 +185,13 @@ fn elsewhere(d: &AnalysisDocument) -> String {
             format!("ONLY HERE: at {n} the redundancy falls to {p}; this configuration is singular")
         }
         (_, Some((p, n))) => format!("at {n} the redundancy is {p}"),
-        (_, None) if d.freedoms.cannot_move => {
+        (_, None) if d.ranks.freedoms.cannot_move => {
             format!(
                 "{}: there is no other configuration to compare with",
                 cannot_move(d)
             )
         }
-        (_, None) if d.rows > ONE_PART => {
+        (_, None) if d.configuration.rows > ONE_PART => {
             format!("not compared with other configurations: that takes long above {ONE_PART} rows")
         }
         (_, None) => "not compared with other configurations: none could be reached".to_owned(),

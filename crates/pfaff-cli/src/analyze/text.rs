@@ -34,8 +34,8 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
     out.push_str(&frames(d));
     out.push_str(&why(d));
     out.push_str(&deletions::describe(d, hints));
-    out.push_str(&numbers::describe(&d.choices));
-    out.extend(d.along.as_ref().map(along::describe));
+    out.push_str(&numbers::describe(&d.answers.choices));
+    out.extend(d.answers.along.as_ref().map(along::describe));
     let told = |warning: &&String| {
         let reason = d.evidence.reason.as_ref();
         !reason.is_some_and(|reason| warning.contains(reason.as_str()))
@@ -64,13 +64,13 @@ pub(super) fn notes(d: &AnalysisDocument) -> String {
 fn heading(d: &AnalysisDocument) -> String {
     format!(
         "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",
-        d.scene,
-        d.time,
-        count(d.bodies, "body", "bodies"),
-        count(d.coordinates, "coordinate", "coordinates"),
-        count(d.rows, "row", "rows"),
-        d.holonomic_rows,
-        d.nonholonomic_rows,
+        d.configuration.scene,
+        d.configuration.time,
+        count(d.configuration.bodies, "body", "bodies"),
+        count(d.configuration.coordinates, "coordinate", "coordinates"),
+        count(d.configuration.rows, "row", "rows"),
+        d.configuration.holonomic_rows,
+        d.configuration.nonholonomic_rows,
     )
 }
 
@@ -254,16 +254,20 @@ fn frames(d: &AnalysisDocument) -> String {
 }
 
 fn why(d: &AnalysisDocument) -> String {
-    if d.dependencies.is_empty() {
+    if d.reasons.dependencies.is_empty() {
         return String::new();
     }
     let mut out = "\nWhy:\n".to_owned();
     // One dependency that contains all mixing rows replaces the list.
     let of_dependencies: BTreeSet<&Vec<String>> =
-        d.dependencies.iter().map(|x| &x.joints).collect();
+        d.reasons.dependencies.iter().map(|x| &x.joints).collect();
     let is_told = |m: &&MixingDocument| of_dependencies.contains(&m.reactions);
-    let mixing = d.mixing.iter().filter(|m| m.redundancy > 1 || !is_told(m));
-    let dependencies = d.dependencies.iter().map(|x| &x.text);
+    let mixing = d
+        .reasons
+        .mixing
+        .iter()
+        .filter(|m| m.redundancy > 1 || !is_told(m));
+    let dependencies = d.reasons.dependencies.iter().map(|x| &x.text);
     let reasons: Vec<&String> = mixing.map(|m| &m.text).chain(dependencies).collect();
     for text in reasons.iter().take(REASONS) {
         out.push_str(&wrapped("- ", text));

@@ -45,7 +45,7 @@ fn a_journey_is_the_one_of_the_command() {
     let along_motion = study
         .verdicts_along_motion(Some(1.0), |_| {})
         .expect("it moves");
-    document.along = Some(along_motion.document());
+    document.answers.along = Some(along_motion.document());
     assert_eq!(written(&document), stdout(&output));
 }
 

@@ -22,7 +22,7 @@ impl ConfigurationAnalysis<'_> {
     /// sleigh.joint("blade", &[body], KnifeEdge { s: [0.0, 0.0], normal: Direction::Y });
     /// let study = Study::build(sleigh)?;
     /// let document = study.analyse(0.0, None)?.document(&[])?;
-    /// assert_eq!((document.rank, document.mobility), (1, 2));
+    /// assert_eq!((document.ranks.rank, document.ranks.mobility), (1, 2));
     /// let json = serde_json::to_value(&document).unwrap();
     /// assert_eq!(json["reactions"][0]["name"], "blade");
     /// assert_eq!(json["reactions"][0]["verdict"], "unique");
@@ -58,7 +58,7 @@ impl ConfigurationAnalysis<'_> {
             document.explain(&explanation, self.mechanism.layout());
         }
         if let Some(generic) = &generic {
-            document.continuation = self.continuation(generic)?.as_ref().map(Into::into);
+            document.answers.continuation = self.continuation(generic)?.as_ref().map(Into::into);
         }
         let sensitivities = self.sensitivities()?;
         document.add_sensitivities(&sensitivities, self.mechanism.layout());
@@ -68,11 +68,11 @@ impl ConfigurationAnalysis<'_> {
         document.warnings.extend(only_here(&document, self));
         // If other configurations were reached, the mechanism can move.
         let cannot_move = generic.is_none() && self.cannot_move()?;
-        document.freedoms.cannot_move |= cannot_move;
-        if cannot_move && document.mobility > 0 {
+        document.ranks.freedoms.cannot_move |= cannot_move;
+        if cannot_move && document.ranks.mobility > 0 {
             document.warnings.push(locked(&document));
         }
-        document.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
+        document.answers.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
         Ok(document)
     }
 }
@@ -81,12 +81,12 @@ impl ConfigurationAnalysis<'_> {
 /// because the steps away ignore the drives.
 fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) -> Option<String> {
     let generic = d.generic.as_ref()?;
-    if generic.redundancy >= d.redundancy || d.evidence.permanent != Some(false) {
+    if generic.redundancy >= d.ranks.redundancy || d.evidence.permanent != Some(false) {
         return None;
     }
     let layout = configuration.mechanism.layout();
     let drives = layout.groups.iter().any(|g| g.is_drive());
-    let free = match (drives, d.nonholonomic_rows > 0) {
+    let free = match (drives, d.configuration.nonholonomic_rows > 0) {
         (false, false) => "",
         (true, false) => ", with drives left free",
         (false, true) => ", with knife edges and other conditions on velocities left free",
@@ -99,7 +99,7 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
     Some(format!(
         "redundancy {} and its verdicts hold at this singular configuration only; {compared} that the joints allow{free}, and `--along` \
          tells whether the motion leaves this one",
-        d.redundancy,
+        d.ranks.redundancy,
     ))
 }
 
@@ -107,6 +107,6 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
 fn locked(d: &AnalysisDocument) -> String {
     format!(
         "mobility {} at first order, but this mechanism cannot move: second order blocks every velocity that the constraints allow",
-        d.mobility
+        d.ranks.mobility
     )
 }

@@ -38,6 +38,42 @@ use super::{FreedomsDocument, SensitivityDocument, VerdictDocument, from_one};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct AnalysisDocument {
+    /// What was judged.
+    #[serde(flatten)]
+    pub configuration: ConfigurationDocument,
+    /// What its rank is.
+    #[serde(flatten)]
+    pub ranks: RanksDocument,
+    /// What the data are known to, and what hangs on that.
+    pub data: DataDocument,
+    /// The numbers behind the rank.
+    pub evidence: EvidenceDocument,
+    /// Ranks at other configurations; `null` if nobody asked, or none could be reached.
+    pub generic: Option<GenericDocument>,
+    /// Joints and drives in the order of their rows.
+    pub reactions: Vec<ReactionDocument>,
+    /// Verdicts of combinations that were asked for; [`AnalysisDocument::new`] leaves it empty.
+    pub groups: Vec<GroupDocument>,
+    /// Which unique reactions are fragile and what they hang on, in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fragile: Vec<String>,
+    /// Why reactions are not unique.
+    #[serde(flatten)]
+    pub reasons: ReasonsDocument,
+    /// What else was asked for.
+    #[serde(flatten)]
+    pub answers: AnswersDocument,
+    /// What definitions say of the reactions of their joints; [`AnalysisDocument::add_notes`] fills
+    /// it.
+    pub notes: Vec<NoteDocument>,
+    /// What else the reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// What was judged: a mechanism at a time, and its size.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ConfigurationDocument {
     /// Name of the scene.
     pub scene: String,
     /// Time (s).
@@ -52,7 +88,13 @@ pub struct AnalysisDocument {
     pub holonomic_rows: usize,
     /// Number of nonholonomic rows h.
     pub nonholonomic_rows: usize,
-    /// Rank r of C.
+}
+
+/// The rank of C, and what follows from it alone.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RanksDocument {
+    /// r = rank C
     pub rank: usize,
     /// Rank of Φq alone.
     pub rank_holonomic: usize,
@@ -74,24 +116,23 @@ pub struct AnalysisDocument {
     /// together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parts: Option<PartsDocument>,
-    /// Tolerances of the data, and what depends on them.
-    pub data: DataDocument,
-    /// Evidence for the rank.
-    pub evidence: EvidenceDocument,
-    /// Ranks at other configurations; `null` if not requested, or if none could be reached.
-    pub generic: Option<GenericDocument>,
-    /// Verdicts on joints and drives in the order of their rows.
-    pub reactions: Vec<ReactionDocument>,
-    /// Verdicts on requested combinations; [`AnalysisDocument::new`] leaves it empty.
-    pub groups: Vec<GroupDocument>,
-    /// Sentences on fragile unique reactions and the data on which they depend.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub fragile: Vec<String>,
+}
+
+/// Why reactions are not unique.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ReasonsDocument {
     /// Minimal sets of dependent rows.
     pub dependencies: Vec<DependencyDocument>,
     /// Joints and drives whose reactions are coupled.
     pub mixing: Vec<MixingDocument>,
-    /// Rows that may be deleted without a change of motion.
+}
+
+/// Answers to questions that not every analysis is asked.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct AnswersDocument {
+    /// What may be deleted without a change of motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub eliminations: Option<EliminationsDocument>,
     /// Deletions that make reactions unique.
@@ -107,11 +148,6 @@ pub struct AnalysisDocument {
     /// motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continuation: Option<ContinuationDocument>,
-    /// Notes of the definitions on the reactions of their joints; [`AnalysisDocument::add_notes`]
-    /// fills it.
-    pub notes: Vec<NoteDocument>,
-    /// Other remarks for the reader.
-    pub warnings: Vec<String>,
 }
 
 /// Sets of joints on common cycles that were analysed separately.
@@ -169,46 +205,44 @@ impl AnalysisDocument {
         let decision = &analysis.decision;
         let dependencies = analysis.dependencies.iter();
         let group_of = groups_of_rows(analysis);
+        let rows_of_parts = analysis.parts.iter().map(PartAnalysis::rows);
         Self {
-            scene: scene.to_owned(),
-            time: analysis.time,
-            bodies: analysis.bodies,
-            coordinates: analysis.coordinates,
-            rows: analysis.holonomic_rows + analysis.nonholonomic_rows,
-            holonomic_rows: analysis.holonomic_rows,
-            nonholonomic_rows: analysis.nonholonomic_rows,
-            rank: decision.rank,
-            rank_holonomic: analysis.rank_holonomic,
-            rank_nonholonomic: analysis.rank_nonholonomic,
-            redundancy: decision.redundancy,
-            mobility: analysis.mobility(),
-            freedoms: FreedomsDocument::default(),
-            kept_rows: from_one(&decision.kept),
-            dropped_rows: from_one(&decision.dropped),
-            parts: (analysis.parts.len() > 1).then(|| PartsDocument {
-                number: analysis.parts.len(),
-                largest: analysis
-                    .parts
-                    .iter()
-                    .map(PartAnalysis::rows)
-                    .max()
-                    .unwrap_or(0),
-            }),
+            configuration: ConfigurationDocument {
+                scene: scene.to_owned(),
+                time: analysis.time,
+                bodies: analysis.bodies,
+                coordinates: analysis.coordinates,
+                rows: analysis.holonomic_rows + analysis.nonholonomic_rows,
+                holonomic_rows: analysis.holonomic_rows,
+                nonholonomic_rows: analysis.nonholonomic_rows,
+            },
+            ranks: RanksDocument {
+                rank: decision.rank,
+                rank_holonomic: analysis.rank_holonomic,
+                rank_nonholonomic: analysis.rank_nonholonomic,
+                redundancy: decision.redundancy,
+                mobility: analysis.mobility(),
+                freedoms: FreedomsDocument::default(),
+                kept_rows: from_one(&decision.kept),
+                dropped_rows: from_one(&decision.dropped),
+                parts: (analysis.parts.len() > 1).then(|| PartsDocument {
+                    number: analysis.parts.len(),
+                    largest: rows_of_parts.max().unwrap_or(0),
+                }),
+            },
             data: DataDocument::new(analysis),
             evidence: EvidenceDocument::new(analysis, generic),
             generic: generic.map(Into::into),
             reactions: analysis.reactions.iter().map(Into::into).collect(),
             groups: Vec::new(),
             fragile: Vec::new(),
-            dependencies: dependencies
-                .map(|d| DependencyDocument::new(d, &analysis.reactions, &group_of))
-                .collect(),
-            mixing: Vec::new(),
-            eliminations: None,
-            make_unique: Vec::new(),
-            choices: Vec::new(),
-            along: None,
-            continuation: None,
+            reasons: ReasonsDocument {
+                dependencies: dependencies
+                    .map(|d| DependencyDocument::new(d, &analysis.reactions, &group_of))
+                    .collect(),
+                mixing: Vec::new(),
+            },
+            answers: AnswersDocument::default(),
             notes: Vec::new(),
             warnings: analysis.warnings.clone(),
         }
@@ -217,7 +251,7 @@ impl AnalysisDocument {
     /// Adds what can move. The freedoms must belong to the analysis.
     #[must_use]
     pub fn with_freedoms(mut self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
-        self.freedoms = FreedomsDocument::new(freedoms, mechanism);
+        self.ranks.freedoms = FreedomsDocument::new(freedoms, mechanism);
         self
     }
 
@@ -243,22 +277,18 @@ impl AnalysisDocument {
                 .directions
                 .iter()
                 .map(|d| &layout.groups[d.joint.0].name);
-            DependencyDocument {
-                rows: from_one(&stress.rows),
-                joints: joints.cloned().collect(),
-                coefficients: stress.coefficients.clone(),
-                within_tolerance: stress.left_out > 0.0,
-                margin: (stress.left_out > 0.0).then_some(stress.left_out),
-                text: said_within(&stress.text, stress.left_out),
-            }
+            let joints = joints.cloned().collect();
+            let (rows, coefficients) = (&stress.rows, &stress.coefficients);
+            DependencyDocument::of(rows, joints, coefficients, stress.left_out, &stress.text)
         };
         // Results for parts that were not explained are kept.
         let told: Vec<DependencyDocument> = explanation.stresses.iter().map(stress).collect();
-        let mut others = std::mem::replace(&mut self.dependencies, told);
-        if self.parts.is_some() {
-            let told: BTreeSet<&Vec<usize>> = self.dependencies.iter().map(|d| &d.rows).collect();
+        let mut others = std::mem::replace(&mut self.reasons.dependencies, told);
+        if self.ranks.parts.is_some() {
+            let all = &mut self.reasons.dependencies;
+            let told: BTreeSet<&Vec<usize>> = all.iter().map(|d| &d.rows).collect();
             others.retain(|d| !told.contains(&d.rows));
-            self.dependencies.append(&mut others);
+            all.append(&mut others);
         }
         let mixing = |mixing: &Mixing| {
             let reactions = mixing.reactions.iter();
@@ -271,7 +301,7 @@ impl AnalysisDocument {
                 text: mixing.text.clone(),
             }
         };
-        self.mixing = explanation.mixing.iter().map(mixing).collect();
+        self.reasons.mixing = explanation.mixing.iter().map(mixing).collect();
     }
 
     /// Adds the notes of the definitions of the joints on their reactions.
@@ -287,30 +317,36 @@ impl AnalysisDocument {
     }
 }
 
-/// The text of a dependency, with the size of what holds only within the tolerance.
-fn said_within(text: &str, left_out: f64) -> String {
-    if left_out > 0.0 {
-        format!("{text}; within the tolerance (margin {left_out:.1e})")
-    } else {
-        text.to_owned()
-    }
-}
-
 impl DependencyDocument {
     fn new(dependency: &Dependency, reactions: &[ReactionVerdict], group_of: &[usize]) -> Self {
         let mut concerned: Vec<usize> = dependency.rows.iter().map(|&row| group_of[row]).collect();
         concerned.sort_unstable();
         concerned.dedup();
+        let joints = concerned.iter().map(|&k| reactions[k].name.clone());
+        let (rows, coefficients) = (&dependency.rows, &dependency.coefficients);
+        let (left_out, text) = (dependency.left_out, &dependency.text);
+        Self::of(rows, joints.collect(), coefficients, left_out, text)
+    }
+
+    /// Of rows from 0; `left_out` is what counts as zero within the tolerance only.
+    fn of(
+        rows: &[usize],
+        joints: Vec<String>,
+        coefficients: &[f64],
+        left_out: f64,
+        text: &str,
+    ) -> Self {
+        let margin = (left_out > 0.0).then_some(left_out);
         Self {
-            rows: from_one(&dependency.rows),
-            joints: concerned
-                .iter()
-                .map(|&k| reactions[k].name.clone())
-                .collect(),
-            coefficients: dependency.coefficients.clone(),
-            within_tolerance: dependency.left_out > 0.0,
-            margin: (dependency.left_out > 0.0).then_some(dependency.left_out),
-            text: said_within(&dependency.text, dependency.left_out),
+            rows: from_one(rows),
+            joints,
+            coefficients: coefficients.to_vec(),
+            within_tolerance: margin.is_some(),
+            margin,
+            text: match margin {
+                Some(margin) => format!("{text}; within the tolerance (margin {margin:.1e})"),
+                None => text.to_owned(),
+            },
         }
     }
 }

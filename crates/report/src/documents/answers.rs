@@ -117,8 +117,8 @@ pub struct DiffDocument<'a> {
     /// Dependencies that only the second scene has.
     pub dependencies_new: &'a [&'a DependencyDocument],
     /// Differences of the motions; `null` if they were not compared.
-    pub motion: Option<DiffMotion<'a>>,
-    /// Reason why they were not compared.
+    pub motion: Option<&'a DiffMotion>,
+    /// Why they were not.
     pub motion_not_compared: Option<&'a str>,
 }
 
@@ -137,13 +137,13 @@ pub struct DiffSide<'a> {
 impl<'a> From<&'a AnalysisDocument> for DiffSide<'a> {
     fn from(d: &'a AnalysisDocument) -> Self {
         Self {
-            scene: &d.scene,
-            bodies: d.bodies,
-            rows: d.rows,
-            rank: d.rank,
-            redundancy: d.redundancy,
-            mobility: d.mobility,
-            mobility_without_drives: d.freedoms.mobility_without_drives(),
+            scene: &d.configuration.scene,
+            bodies: d.configuration.bodies,
+            rows: d.configuration.rows,
+            rank: d.ranks.rank,
+            redundancy: d.ranks.redundancy,
+            mobility: d.ranks.mobility,
+            mobility_without_drives: d.ranks.freedoms.mobility_without_drives(),
         }
     }
 }
@@ -199,19 +199,19 @@ pub struct DiffChange<'a> {
 
 /// Differences of two motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffMotion<'a> {
-    /// Time up to which both were run (s).
+pub struct DiffMotion {
+    /// How far both were run (s): to the earlier of their ends.
     pub t_end: f64,
-    /// Differences body by body.
-    pub bodies: Vec<DiffBody<'a>>,
+    /// Bodies that both scenes have, in the order of the first.
+    pub bodies: Vec<DiffBody>,
 }
 
-/// The largest differences between the motions of a body, with their times (s).
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffBody<'a> {
+/// The largest differences of the motions of a body, and when (s).
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct DiffBody {
     /// The body.
-    pub body: &'a str,
-    /// Distance (m).
+    pub body: String,
+    /// m
     pub distance: f64,
     /// Time of the largest distance (s).
     pub t_distance: f64,

@@ -140,19 +140,19 @@ fn answer(page: &RunPage<'_>) -> String {
     let fragile: Vec<&str> = fragile.map(|(name, ..)| *name).collect();
     let mut text = String::new();
     if let Some(a) = page.analysis {
-        if a.rows == 0 {
+        if a.configuration.rows == 0 {
             return "Nothing is constrained: all bodies move freely.".to_owned();
         }
-        let rows = match a.rows {
+        let rows = match a.configuration.rows {
             1 => "The one constraint row has".to_owned(),
             n => format!("The {n} constraint rows have"),
         };
-        let redundant = match a.redundancy {
+        let redundant = match a.ranks.redundancy {
             0 => "none is redundant".to_owned(),
             1 => "one is redundant".to_owned(),
             p => format!("{} are redundant", count(p)),
         };
-        let mut freedoms = match a.mobility {
+        let mut freedoms = match a.ranks.mobility {
             _ if page.freedoms().is_some_and(|f| f.cannot_move) => {
                 "the mechanism cannot move".to_owned()
             }
@@ -165,7 +165,10 @@ fn answer(page: &RunPage<'_>) -> String {
         }
         add(
             &mut text,
-            format_args!("{rows} rank {}: {redundant}, and {freedoms}. ", a.rank),
+            format_args!(
+                "{rows} rank {}: {redundant}, and {freedoms}. ",
+                a.ranks.rank
+            ),
         );
     }
     match (unique.as_slice(), open.as_slice()) {
@@ -250,11 +253,11 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     let mut tiles: Vec<(String, &str)> = Vec::new();
     if let Some(a) = page.analysis {
         tiles.push((
-            format!("{} of {}", a.rank, a.rows),
+            format!("{} of {}", a.ranks.rank, a.configuration.rows),
             "rank of the constraint rows",
         ));
-        tiles.push((a.redundancy.to_string(), "degree of redundancy"));
-        tiles.push((a.mobility.to_string(), "freedoms of motion"));
+        tiles.push((a.ranks.redundancy.to_string(), "degree of redundancy"));
+        tiles.push((a.ranks.mobility.to_string(), "freedoms of motion"));
         if let Some(without) = page.freedoms().and_then(|f| f.without_drives.as_ref()) {
             tiles.push((without.mobility.to_string(), "without drives"));
         }

@@ -38,7 +38,7 @@ impl RunPage<'_> {
     /// The free motions at the start.
     pub(super) fn freedoms(&self) -> Option<&FreedomsDocument> {
         let of_run = self.run.map(|run| &run.freedoms);
-        of_run.or(self.analysis.map(|a| &a.freedoms))
+        of_run.or(self.analysis.map(|a| &a.ranks.freedoms))
     }
 
     /// Joints and drives at the start: name, verdict, and whether they are fragile.

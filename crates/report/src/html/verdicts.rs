@@ -121,8 +121,8 @@ fn why(out: &mut String, page: &RunPage<'_>) {
     let Some(analysis) = page.analysis else {
         return;
     };
-    let mixing = analysis.mixing.iter().map(|m| m.text.clone());
-    let dependencies = analysis.dependencies.iter().map(|d| d.text.clone());
+    let mixing = analysis.reasons.mixing.iter().map(|m| m.text.clone());
+    let dependencies = analysis.reasons.dependencies.iter().map(|d| d.text.clone());
     let reasons: Vec<String> = mixing.chain(dependencies).map(|t| capital(&t)).collect();
     if !reasons.is_empty() {
         out.push_str("<h3>What is redundant</h3>\n");

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 
 use linalg::Matrix;
 use model::start::scene_size;
-use model::{Mechanism, System};
+use model::{Layout, Mechanism, System};
 use rank::RankDecision;
 
 use super::error::{RequestError, check};
@@ -86,7 +86,12 @@ impl<'a> Configuration<'a> {
         &self.reactions
     }
 
-    /// Solvability of the multipliers.
+    /// Rows and columns of the mechanism.
+    pub(crate) fn layout(&self) -> &Layout {
+        self.reactions.mechanism.layout()
+    }
+
+    /// What can be said of the multipliers.
     #[must_use]
     pub fn solvability(&self) -> &Solvability {
         &self.solvability

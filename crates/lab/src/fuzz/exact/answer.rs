@@ -39,7 +39,7 @@ fn document(configuration: Result<ConfigurationAnalysis<'_>, StudyError>) -> Res
     let mut document = configuration.document(&[]).map_err(|e| e.to_string())?;
     let reactions = configuration.analysis.reactions.iter();
     let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
-    document.make_unique = open
+    document.answers.make_unique = open
         .take(ASKED)
         .map(|r| {
             let found = configuration.make_unique(r.id, &Allowed::Sensible, LIMITS);
@@ -50,7 +50,7 @@ fn document(configuration: Result<ConfigurationAnalysis<'_>, StudyError>) -> Res
         let choice = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
         let chosen = configuration.distribution(&choice);
         let chosen = chosen.iter().map(|d| DistributionDocument::new(d, &[]));
-        document.choices = chosen.collect();
+        document.answers.choices = chosen.collect();
     }
     serde_json::to_value(document).map_err(|e| e.to_string())
 }
