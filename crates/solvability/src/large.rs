@@ -75,7 +75,7 @@ pub(crate) fn judge_sparse(
     let told = dependencies.len();
     if told < all.found.redundancy && all.found.is_decided() {
         warnings.push(format!(
-            "{told} of {} dependencies are told: {} rows share cycles, and more than {ROWS_MAX} of them depend on each other",
+            "{told} of {} dependencies are listed: {} rows share cycles, and more than {ROWS_MAX} of them depend on each other",
             all.found.redundancy,
             layout.rows()
         ));
