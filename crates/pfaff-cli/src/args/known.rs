@@ -5,7 +5,7 @@ use pfaff::model::Tolerance;
 
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct Known {
-    /// Tolerance of points and lengths of the scene (m), in place of `tolerance` in its [scene]
+    /// Tolerance of points and lengths of the scene (m), in place of its `tolerance`
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = length)]
     pub(crate) tolerance: Option<f64>,
     /// Tolerance of directions, angles and ratios (rad), in place of `angle_tolerance`; if neither
