@@ -35,7 +35,7 @@ pub(crate) fn method(
         });
     }
     if options.method != Method::Auto {
-        return Ok(decided(options.method, "asked for".to_owned()));
+        return Ok(decided(options.method, "requested".to_owned()));
     }
     if !prepared.mechanism.has_applied_forces() {
         return explicit("no applied forces, so that nothing can be stiff");

@@ -184,7 +184,7 @@ pub trait Stepper<O: Ode>: Dense<O> {
     }
 }
 
-/// The interface of a method for dense output; object-safe, so that [`Step`] does not depend on the
+/// The interface of a method for dense output; object-safe, so that `Step` does not depend on the
 /// method.
 pub trait Dense<O: Ode> {
     /// Without further evaluations.

@@ -1,7 +1,7 @@
 force! { plane BodyPointForce(i) {
     /// A force with given components in the frame of the body at point `s` of the body.
     params {
-        /// Where the force acts.
+        /// Point of application.
         s: Point in i,
         /// Components [Fx, Fy] along the axes of the body.
         force: [Function<Force>, Function<Force>],

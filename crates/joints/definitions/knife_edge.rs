@@ -1,9 +1,9 @@
 joint! { plane KnifeEdge(i) {
     /// Point `s` has no velocity along `normal` (a wheel or a blade): `(R·n)·v_s = 0`.
     params {
-        /// Where the edge touches the plane.
+        /// The contact point.
         s: Point in i,
-        /// Across the edge: the point does not move this way.
+        /// Direction across the edge, in which the point cannot move.
         normal: Direction in i,
     }
     rows: [normal];

@@ -5,7 +5,7 @@ joint! { plane PinInSlot(i, j) {
         s_i: Point in i,
         /// The pin on body j.
         s_j: Point in j,
-        /// Along the slot.
+        /// Direction of the slot.
         axis: Direction in i,
     }
     let d = point(j, s_j) - point(i, s_i);

@@ -1,7 +1,7 @@
 force! { plane PointForce(i) {
     /// A force with given global components at point `s` of the body.
     params {
-        /// Where the force acts.
+        /// Point of application.
         s: Point in i,
         /// Global components [Fx, Fy].
         force: [Function<Force>, Function<Force>],

@@ -4,7 +4,7 @@ joint! { plane Rolling(i, j) {
     params {
         /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel.
         s: Point in i,
-        /// The way of rolling.
+        /// Direction of rolling.
         direction: Direction in i,
         /// Radius of the spinner, not zero; negative: it turns the other way.
         radius: Length,

@@ -5,9 +5,9 @@ force! { plane SpringDamper(i, j) {
         s_i: Point in i,
         /// End on body j.
         s_j: Point in j,
-        /// Tension over extension, k.
+        /// Stiffness k, tension per extension.
         stiffness: Stiffness,
-        /// Tension over rate of extension, c.
+        /// Damping c, tension per rate of extension.
         damping: Damping,
         /// Length without tension at rest, l0.
         free_length: Length = norm(point(j, s_j) - point(i, s_i)),
@@ -17,7 +17,7 @@ force! { plane SpringDamper(i, j) {
     let length = norm(d);
     require "the two points are apart, or the free length is zero":
         free_length == 0.0 || length > 0.0;
-    // −k·l on l is −k on d·d/2, which needs no direction: where the points meet, the derivative is right.
+    // −k·l on l is −k on d·d/2, which needs no direction: the derivative is correct if the points coincide.
     force: -stiffness on 0.5 * dot(d, d);
     force: stiffness * free_length - damping * rate(length) on length;
 } }

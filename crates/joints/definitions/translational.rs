@@ -6,7 +6,7 @@ joint! { plane Translational(i, j) {
         s_i: Point in i,
         /// The point of body j that stays on the line.
         s_j: Point in j,
-        /// Along the line.
+        /// Direction of the line.
         axis: Direction in i,
     }
     let d = point(j, s_j) - point(i, s_i);

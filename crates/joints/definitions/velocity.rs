@@ -3,7 +3,7 @@ joint! { plane Velocity(i) {
     params {
         /// The point whose velocity is prescribed.
         s: Point in i,
-        /// The way in which it is prescribed.
+        /// Direction of the prescribed velocity.
         direction: Direction in i,
         /// Velocity of the point along the direction.
         rate: Function<Velocity>,

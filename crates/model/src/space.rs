@@ -320,7 +320,7 @@ impl SpaceKind {
         });
     }
 
-    /// Like [`Self::difference`], as a vector; allocates.
+    /// Like `difference`, as a vector; allocates.
     #[must_use]
     pub fn difference_of(self, q: &[f64], from: &[f64]) -> Vec<f64> {
         let mut d = vec![0.0; N_BODY * (q.len() / self.n_q())];

@@ -129,7 +129,7 @@ fn describe(d: &SweepDocument, ending: Ending, out: &str) -> String {
     );
     text.push_str(match ending {
         Ending::Whole => "",
-        Ending::Interrupted => "interrupted; the same command goes on where it was\n",
+        Ending::Interrupted => "interrupted; the same command resumes it\n",
         Ending::Missing => "runs are missing: shards that were not made, or not to their end\n",
     });
     for failure in &d.failures {

@@ -119,7 +119,7 @@ fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) 
             map,
             element_key(map, drive, &[]),
             error,
-            "asks for other velocities",
+            "requires other velocities",
         )
         .and(map.text.label(span, word)),
         None => at(map, span, error, "not with these constraints"),
@@ -183,7 +183,7 @@ fn contradicting(
         .map(|drive| element_key(map, drive, &[]));
     if let Some(first) = spans.next() {
         return spans.fold(
-            at(map, first, error, "asks for what cannot go on"),
+            at(map, first, error, "requires what cannot continue"),
             |d, span| d.and(map.text.label(span, "together with this one")),
         );
     }
@@ -191,7 +191,7 @@ fn contradicting(
         [] => (others, ["contradicts the others", "contradicts too"]),
         [drive] => {
             let rows = std::iter::once(*drive).chain(others);
-            let marks = ["asks for what the others forbid", "holds it"];
+            let marks = ["requires what the others forbid", "holds it"];
             (rows.collect(), marks)
         }
         // Joints between drives are not wrong themselves.

@@ -32,7 +32,7 @@ pub(crate) const BODY: Section =
     Section::new("body", "Rigid bodies; the body `ground` is always there");
 pub(crate) const JOINT: Section = Section::new(
     "joint",
-    "Joints between bodies, wheels and blades included; their rows stand in the order of this list",
+    "Joints between bodies, wheels and blades included; their rows are in the order of this list",
 );
 pub(crate) const DRIVE: Section = Section::new(
     "drive",

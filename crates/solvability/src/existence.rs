@@ -4,8 +4,8 @@
 //! the right-hand sides: their sum over a circuit does not vanish if a row was redundant only at
 //! another configuration.
 //!
-//! Nothing is decided here about the rank: the circuits are those of ranks that have been decided.
-//! Drives in a contradiction are named, together with the motion that each of them prescribes.
+//! The rank is not decided here: the circuits are those of ranks that have been decided. Drives in
+//! a contradiction are named, together with the motion that each of them prescribes.
 
 mod demands;
 mod drives;
@@ -78,9 +78,9 @@ pub struct Contradiction {
     pub tolerance: f64,
     /// Number of joints and drives with functions of time that take part.
     pub drives: usize,
-    /// What the drives among them prescribe, in the order of their rows. For a contradiction of
-    /// accelerations without a drive: what the drives prescribe that leave the bodies no other
-    /// velocities.
+    /// The motions that the drives among them prescribe, in the order of their rows. For a
+    /// contradiction of accelerations without a drive: the motions prescribed by the drives that
+    /// leave the bodies no other velocities.
     pub demands: Vec<Demand>,
     /// Whether these drives are not among the rows, but prescribe velocities with which the rows
     /// cannot continue to hold.
@@ -141,7 +141,7 @@ impl Contradiction {
                 rows.join(", ")
             ),
             [only] => format!(
-                "drive `{}` asks {} {}, which misses what {} allow by {size:.3e} {unit}",
+                "drive `{}` asks {} {}, which differs from what {} allow by {size:.3e} {unit}",
                 only.drive,
                 only.of_what(),
                 only.asked(*level),

@@ -78,7 +78,7 @@ pub struct Mixing {
     pub text: String,
 }
 
-/// Why the reaction of one joint or drive is not unique.
+/// The reason why the reaction of one joint or drive is not unique.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ReactionExplanation {
@@ -217,9 +217,9 @@ fn mixing(mechanism: &Mechanism, solvability: &Solvability) -> Vec<Mixing> {
         };
         let names = names(layout, &reactions);
         let text = match names.as_slice() {
-            [one] => format!("inside {one} {missing} missing to tell its multipliers"),
+            [one] => format!("inside {one} {missing} missing to determine its multipliers"),
             several => format!(
-                "{} share loads: {missing} missing to tell all of them",
+                "{} share loads: {missing} missing to determine all of them",
                 list(several)
             ),
         };

@@ -53,7 +53,7 @@ impl std::fmt::Display for Continuation {
                 };
                 write!(
                     f,
-                    "a bifurcation: {others} compatible with the constraints, which do not determine how the motion goes on"
+                    "a bifurcation: {others} compatible with the constraints, which do not determine how the motion continues"
                 )
             }
             Self::Undetermined(reason) => write!(

@@ -221,7 +221,7 @@ impl Analysis {
                     }
                 }
                 Err(reason) => all.left_out.push(format!(
-                    "how much the reactions of {} hang on the data is not known: {reason}",
+                    "the sensitivity of the reactions of {} to the data is not known: {reason}",
                     judged.extent.name(mechanism)
                 )),
             }

@@ -36,7 +36,7 @@ pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
         .filter(touched)
         .collect();
     format!(
-        "within the tolerance it is open which rows of {} depend on each other; what is open is not told",
+        "within the tolerance it is open which rows of {} depend on each other; those dependencies are not listed",
         list(&names(layout, &ids))
     )
 }

@@ -18,7 +18,7 @@ use crate::prepare::Prepared;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodeMismatch {
-    /// It was generated for a mechanism of another size.
+    /// The code was generated for a mechanism of another size.
     #[error("the code `{name}` has {found} {what}, the mechanism {expected}")]
     Size {
         /// Name of the code.
@@ -102,7 +102,7 @@ pub enum NoCode {
     #[error("none was given")]
     None,
     /// The method needs more than accelerations.
-    #[error("the method {0} asks for more than accelerations")]
+    #[error("the method {0} needs more than accelerations")]
     Method(&'static str),
     /// States are not projected.
     #[error("code is watched by its projections, the stabilisation is {0}")]

@@ -67,7 +67,7 @@ impl Exchange {
                 equations.swap_requested_rows();
                 equations.requested_rows = None;
                 equations.velocity.factor(&equations.at)?;
-                "the rows asked for are independent again and kept again"
+                "the requested rows are independent again and are kept again"
             }
             Some(Velocity::Others(rows, were_asked_for)) => {
                 let lost = std::mem::replace(&mut equations.velocity, *rows);

@@ -11,7 +11,7 @@ use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
 /// A force with given components in the frame of the body at point `s` of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyPointForce {
-    /// Where the force acts. Point in the frame of the body (m).
+    /// Point of application. Point in the frame of the body (m).
     pub s: [f64; 2],
 }
 impl Force for BodyPointForce {
@@ -25,13 +25,13 @@ impl Force for BodyPointForce {
                 default: false,
             }),
             doc: "A force with given components in the frame of the body at point `s` of the body.",
-            text: "force! { plane BodyPointForce(i) {\n    /// A force with given components in the frame of the body at point `s` of the body.\n    params {\n        /// Where the force acts.\n        s: Point in i,\n        /// Components [Fx, Fy] along the axes of the body.\n        force: [Function<Force>, Function<Force>],\n    }\n    scene \"point-force\";\n    variant frame = \"body\";\n    let f = vector(i, [force[0], force[1]]);\n    force: f[0] on point(i, s)[0];\n    force: f[1] on point(i, s)[1];\n} }",
+            text: "force! { plane BodyPointForce(i) {\n    /// A force with given components in the frame of the body at point `s` of the body.\n    params {\n        /// Point of application.\n        s: Point in i,\n        /// Components [Fx, Fy] along the axes of the body.\n        force: [Function<Force>, Function<Force>],\n    }\n    scene \"point-force\";\n    variant frame = \"body\";\n    let f = vector(i, [force[0], force[1]]);\n    force: f[0] on point(i, s)[0];\n    force: f[1] on point(i, s)[1];\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
                     "s",
                     Shape::Point { slot: 0 },
-                    "Where the force acts.",
+                    "Point of application.",
                 ),
                 Parameter::required(
                     "force",

@@ -14,9 +14,9 @@ use crate::spec::{
 /// Point `s` has no velocity along `normal` (a wheel or a blade): `(R·n)·v_s = 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnifeEdge {
-    /// Where the edge touches the plane. Point in the frame of the body (m).
+    /// The contact point. Point in the frame of the body (m).
     pub s: [f64; 2],
-    /// Across the edge: the point does not move this way. Unit vector in the frame of the body.
+    /// Direction across the edge, in which the point cannot move. Unit vector in the frame of the body.
     pub normal: Direction,
 }
 #[allow(unused_variables)]
@@ -27,18 +27,14 @@ impl Constraint for KnifeEdge {
             scene_type: "knife-edge",
             variant: None,
             doc: "Point `s` has no velocity along `normal` (a wheel or a blade): `(R·n)·v_s = 0`.",
-            text: "joint! { plane KnifeEdge(i) {\n    /// Point `s` has no velocity along `normal` (a wheel or a blade): `(R·n)·v_s = 0`.\n    params {\n        /// Where the edge touches the plane.\n        s: Point in i,\n        /// Across the edge: the point does not move this way.\n        normal: Direction in i,\n    }\n    rows: [normal];\n    psi: dot(direction(i, normal), velocity(point(i, s)));\n    component N: direction(i, normal);\n    place: point(i, s);\n} }",
+            text: "joint! { plane KnifeEdge(i) {\n    /// Point `s` has no velocity along `normal` (a wheel or a blade): `(R·n)·v_s = 0`.\n    params {\n        /// The contact point.\n        s: Point in i,\n        /// Direction across the edge, in which the point cannot move.\n        normal: Direction in i,\n    }\n    rows: [normal];\n    psi: dot(direction(i, normal), velocity(point(i, s)));\n    component N: direction(i, normal);\n    place: point(i, s);\n} }",
             slots: &["i"],
             parameters: &[
-                Parameter::required(
-                    "s",
-                    Shape::Point { slot: 0 },
-                    "Where the edge touches the plane.",
-                ),
+                Parameter::required("s", Shape::Point { slot: 0 }, "The contact point."),
                 Parameter::required(
                     "normal",
                     Shape::Direction { slot: 0 },
-                    "Across the edge: the point does not move this way.",
+                    "Direction across the edge, in which the point cannot move.",
                 ),
             ],
             points_apart: false,

@@ -18,7 +18,7 @@ pub struct PinInSlot {
     pub s_i: [f64; 2],
     /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Along the slot. Unit vector in the frame of body i.
+    /// Direction of the slot. Unit vector in the frame of body i.
     pub axis: Direction,
 }
 impl PinInSlot {
@@ -51,7 +51,7 @@ impl Constraint for PinInSlot {
             scene_type: "pin-in-slot",
             variant: None,
             doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.",
-            text: "joint! { plane PinInSlot(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.\n    params {\n        /// A point of the slot in body i.\n        s_i: Point in i,\n        /// The pin on body j.\n        s_j: Point in j,\n        /// Along the slot.\n        axis: Direction in i,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    rows: [normal];\n    phi: dot(perp(direction(i, axis)), d);\n    measure displacement: dot(direction(i, axis), d);\n    measure angle: angle(j) - angle(i);\n    place: point(i, s_i);\n} }",
+            text: "joint! { plane PinInSlot(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.\n    params {\n        /// A point of the slot in body i.\n        s_i: Point in i,\n        /// The pin on body j.\n        s_j: Point in j,\n        /// Direction of the slot.\n        axis: Direction in i,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    rows: [normal];\n    phi: dot(perp(direction(i, axis)), d);\n    measure displacement: dot(direction(i, axis), d);\n    measure angle: angle(j) - angle(i);\n    place: point(i, s_i);\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
@@ -67,7 +67,7 @@ impl Constraint for PinInSlot {
                 Parameter::required(
                     "axis",
                     Shape::Direction { slot: 0 },
-                    "Along the slot.",
+                    "Direction of the slot.",
                 ),
             ],
             points_apart: false,
@@ -585,7 +585,7 @@ pub struct PinInSlotDisplacementDrive {
     pub s_i: [f64; 2],
     /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Along the slot. Unit vector in the frame of body i.
+    /// Direction of the slot. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Value of the measure at the assembled start; set by `initialise`.
     pub measure_0: f64,
@@ -614,7 +614,7 @@ impl Constraint for PinInSlotDisplacementDrive {
                 Parameter::required(
                     "axis",
                     Shape::Direction { slot: 0 },
-                    "Along the slot.",
+                    "Direction of the slot.",
                 ),
                 Parameter::required(
                     "motion",
@@ -1178,7 +1178,7 @@ pub struct PinInSlotAngleDrive {
     pub s_i: [f64; 2],
     /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Along the slot. Unit vector in the frame of body i.
+    /// Direction of the slot. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Value of the measure at the assembled start; set by `initialise`.
     pub measure_0: f64,
@@ -1207,7 +1207,7 @@ impl Constraint for PinInSlotAngleDrive {
                 Parameter::required(
                     "axis",
                     Shape::Direction { slot: 0 },
-                    "Along the slot.",
+                    "Direction of the slot.",
                 ),
                 Parameter::required(
                     "motion",

@@ -11,7 +11,7 @@ use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
 /// A force with given global components at point `s` of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointForce {
-    /// Where the force acts. Point in the frame of the body (m).
+    /// Point of application. Point in the frame of the body (m).
     pub s: [f64; 2],
 }
 impl Force for PointForce {
@@ -25,13 +25,13 @@ impl Force for PointForce {
                 default: true,
             }),
             doc: "A force with given global components at point `s` of the body.",
-            text: "force! { plane PointForce(i) {\n    /// A force with given global components at point `s` of the body.\n    params {\n        /// Where the force acts.\n        s: Point in i,\n        /// Global components [Fx, Fy].\n        force: [Function<Force>, Function<Force>],\n    }\n    variant frame = \"global\", default;\n    force: force[0] on point(i, s)[0];\n    force: force[1] on point(i, s)[1];\n} }",
+            text: "force! { plane PointForce(i) {\n    /// A force with given global components at point `s` of the body.\n    params {\n        /// Point of application.\n        s: Point in i,\n        /// Global components [Fx, Fy].\n        force: [Function<Force>, Function<Force>],\n    }\n    variant frame = \"global\", default;\n    force: force[0] on point(i, s)[0];\n    force: force[1] on point(i, s)[1];\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
                     "s",
                     Shape::Point { slot: 0 },
-                    "Where the force acts.",
+                    "Point of application.",
                 ),
                 Parameter::required(
                     "force",

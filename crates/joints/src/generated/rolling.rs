@@ -17,7 +17,7 @@ use crate::spec::{
 pub struct Rolling {
     /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel. Point in the frame of body i (m).
     pub s: [f64; 2],
-    /// The way of rolling. Unit vector in the frame of body i.
+    /// Direction of rolling. Unit vector in the frame of body i.
     pub direction: Direction,
     /// Radius of the spinner, not zero; negative: it turns the other way. Unit: [`Unit::Length`].
     pub radius: f64,
@@ -30,7 +30,7 @@ impl Constraint for Rolling {
             scene_type: "rolling",
             variant: None,
             doc: "The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j: `(R·d)·v_s − radius·ω_j = 0`.",
-            text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:\n    /// `(R·d)·v_s − radius·ω_j = 0`.\n    params {\n        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel.\n        s: Point in i,\n        /// The way of rolling.\n        direction: Direction in i,\n        /// Radius of the spinner, not zero; negative: it turns the other way.\n        radius: Length,\n    }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
+            text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:\n    /// `(R·d)·v_s − radius·ω_j = 0`.\n    params {\n        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel.\n        s: Point in i,\n        /// Direction of rolling.\n        direction: Direction in i,\n        /// Radius of the spinner, not zero; negative: it turns the other way.\n        radius: Length,\n    }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
@@ -41,7 +41,7 @@ impl Constraint for Rolling {
                 Parameter::required(
                     "direction",
                     Shape::Direction { slot: 0 },
-                    "The way of rolling.",
+                    "Direction of rolling.",
                 ),
                 Parameter::required(
                     "radius",

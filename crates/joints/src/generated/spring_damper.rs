@@ -15,9 +15,9 @@ pub struct SpringDamper {
     pub s_i: [f64; 2],
     /// End on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Tension over extension, k. Unit: [`Unit::Stiffness`].
+    /// Stiffness k, tension per extension. Unit: [`Unit::Stiffness`].
     pub stiffness: f64,
-    /// Tension over rate of extension, c. Unit: [`Unit::Damping`].
+    /// Damping c, tension per rate of extension. Unit: [`Unit::Damping`].
     pub damping: f64,
     /// Length without tension at rest, l0. Unit: [`Unit::Length`].
     pub free_length: Option<f64>,
@@ -31,7 +31,7 @@ impl Force for SpringDamper {
             scene_type: "spring-damper",
             variant: None,
             doc: "Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.",
-            text: "force! { plane SpringDamper(i, j) {\n    /// Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j.\n        s_j: Point in j,\n        /// Tension over extension, k.\n        stiffness: Stiffness,\n        /// Tension over rate of extension, c.\n        damping: Damping,\n        /// Length without tension at rest, l0.\n        free_length: Length = norm(point(j, s_j) - point(i, s_i)),\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    let length = norm(d);\n    require \"the two points are apart, or the free length is zero\":\n        free_length == 0.0 || length > 0.0;\n    // −k·l on l is −k on d·d/2, which needs no direction: where the points meet, the derivative is right.\n    force: -stiffness on 0.5 * dot(d, d);\n    force: stiffness * free_length - damping * rate(length) on length;\n} }",
+            text: "force! { plane SpringDamper(i, j) {\n    /// Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j.\n        s_j: Point in j,\n        /// Stiffness k, tension per extension.\n        stiffness: Stiffness,\n        /// Damping c, tension per rate of extension.\n        damping: Damping,\n        /// Length without tension at rest, l0.\n        free_length: Length = norm(point(j, s_j) - point(i, s_i)),\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    let length = norm(d);\n    require \"the two points are apart, or the free length is zero\":\n        free_length == 0.0 || length > 0.0;\n    // −k·l on l is −k on d·d/2, which needs no direction: the derivative is correct if the points coincide.\n    force: -stiffness on 0.5 * dot(d, d);\n    force: stiffness * free_length - damping * rate(length) on length;\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required("s_i", Shape::Point { slot: 0 }, "End on body i."),
@@ -39,12 +39,12 @@ impl Force for SpringDamper {
                 Parameter::required(
                     "stiffness",
                     Shape::Numbers(&[Unit::Stiffness]),
-                    "Tension over extension, k.",
+                    "Stiffness k, tension per extension.",
                 ),
                 Parameter::required(
                     "damping",
                     Shape::Numbers(&[Unit::Damping]),
-                    "Tension over rate of extension, c.",
+                    "Damping c, tension per rate of extension.",
                 ),
                 Parameter::optional(
                     "free_length",

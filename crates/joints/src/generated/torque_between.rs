@@ -18,13 +18,13 @@ impl Force for TorqueBetween {
             scene_type: "torque",
             variant: None,
             doc: "A torque on body j, opposite on body i.",
-            text: "force! { plane TorqueBetween(i, j) {\n    /// A torque on body j, opposite on body i.\n    params {\n        /// Torque on body j, positive counterclockwise; body i takes the opposite.\n        torque: Function<Torque>,\n    }\n    scene \"torque\";\n    force: torque on angle(j) - angle(i);\n} }",
+            text: "force! { plane TorqueBetween(i, j) {\n    /// A torque on body j, opposite on body i.\n    params {\n        /// Torque on body j, positive counterclockwise; the opposite torque acts on body i.\n        torque: Function<Torque>,\n    }\n    scene \"torque\";\n    force: torque on angle(j) - angle(i);\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
                     "torque",
                     Shape::Functions(&[Unit::Torque]),
-                    "Torque on body j, positive counterclockwise; body i takes the opposite.",
+                    "Torque on body j, positive counterclockwise; the opposite torque acts on body i.",
                 ),
             ],
             points_apart: false,

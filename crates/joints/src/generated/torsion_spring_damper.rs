@@ -11,9 +11,9 @@ use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
 /// Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TorsionSpringDamper {
-    /// Torque over relative angle, k. Unit: [`Unit::TorsionStiffness`].
+    /// Stiffness k, torque per relative angle. Unit: [`Unit::TorsionStiffness`].
     pub stiffness: f64,
-    /// Torque over relative angular velocity, c. Unit: [`Unit::TorsionDamping`].
+    /// Damping c, torque per relative angular velocity. Unit: [`Unit::TorsionDamping`].
     pub damping: f64,
     /// Relative angle φ_j − φ_i without torque at rest, φ0. Unit: [`Unit::Angle`].
     pub free_angle: Option<f64>,
@@ -27,18 +27,18 @@ impl Force for TorsionSpringDamper {
             scene_type: "torsion-spring-damper",
             variant: None,
             doc: "Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.",
-            text: "force! { plane TorsionSpringDamper(i, j) {\n    /// Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.\n    params {\n        /// Torque over relative angle, k.\n        stiffness: TorsionStiffness,\n        /// Torque over relative angular velocity, c.\n        damping: TorsionDamping,\n        /// Relative angle φ_j − φ_i without torque at rest, φ0.\n        free_angle: Angle = angle(j) - angle(i),\n    }\n    let twist = angle(j) - angle(i);\n    force: -(stiffness * (twist - free_angle) + damping * rate(twist)) on twist;\n} }",
+            text: "force! { plane TorsionSpringDamper(i, j) {\n    /// Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.\n    params {\n        /// Stiffness k, torque per relative angle.\n        stiffness: TorsionStiffness,\n        /// Damping c, torque per relative angular velocity.\n        damping: TorsionDamping,\n        /// Relative angle φ_j − φ_i without torque at rest, φ0.\n        free_angle: Angle = angle(j) - angle(i),\n    }\n    let twist = angle(j) - angle(i);\n    force: -(stiffness * (twist - free_angle) + damping * rate(twist)) on twist;\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
                     "stiffness",
                     Shape::Numbers(&[Unit::TorsionStiffness]),
-                    "Torque over relative angle, k.",
+                    "Stiffness k, torque per relative angle.",
                 ),
                 Parameter::required(
                     "damping",
                     Shape::Numbers(&[Unit::TorsionDamping]),
-                    "Torque over relative angular velocity, c.",
+                    "Damping c, torque per relative angular velocity.",
                 ),
                 Parameter::optional(
                     "free_angle",

@@ -19,7 +19,7 @@ pub struct Translational {
     pub s_i: [f64; 2],
     /// The point of body j that stays on the line. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Along the line. Unit vector in the frame of body i.
+    /// Direction of the line. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Kept from the assembled start; set by `initialise`.
     pub angle_0: f64,
@@ -45,7 +45,7 @@ impl Constraint for Translational {
             scene_type: "translational",
             variant: None,
             doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its initial value.",
-            text: "joint! { plane Translational(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its\n    /// initial value.\n    params {\n        /// A point of the line in body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the line.\n        s_j: Point in j,\n        /// Along the line.\n        axis: Direction in i,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    initial { angle_0: Angle = angle(j) - angle(i) }\n    rows: [normal, angle];\n    phi: [\n        dot(perp(direction(i, axis)), d),\n        angle(j) - angle(i) - angle_0,\n    ];\n    measure displacement: dot(direction(i, axis), d);\n    place: point(i, s_i);\n} }",
+            text: "joint! { plane Translational(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its\n    /// initial value.\n    params {\n        /// A point of the line in body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the line.\n        s_j: Point in j,\n        /// Direction of the line.\n        axis: Direction in i,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    initial { angle_0: Angle = angle(j) - angle(i) }\n    rows: [normal, angle];\n    phi: [\n        dot(perp(direction(i, axis)), d),\n        angle(j) - angle(i) - angle_0,\n    ];\n    measure displacement: dot(direction(i, axis), d);\n    place: point(i, s_i);\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
@@ -61,7 +61,7 @@ impl Constraint for Translational {
                 Parameter::required(
                     "axis",
                     Shape::Direction { slot: 0 },
-                    "Along the line.",
+                    "Direction of the line.",
                 ),
             ],
             points_apart: false,
@@ -603,7 +603,7 @@ pub struct TranslationalDisplacementDrive {
     pub s_i: [f64; 2],
     /// The point of body j that stays on the line. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Along the line. Unit vector in the frame of body i.
+    /// Direction of the line. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Kept from the assembled start; set by `initialise`.
     pub angle_0: f64,
@@ -634,7 +634,7 @@ impl Constraint for TranslationalDisplacementDrive {
                 Parameter::required(
                     "axis",
                     Shape::Direction { slot: 0 },
-                    "Along the line.",
+                    "Direction of the line.",
                 ),
                 Parameter::required(
                     "motion",

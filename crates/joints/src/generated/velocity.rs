@@ -16,7 +16,7 @@ use crate::spec::{
 pub struct Velocity {
     /// The point whose velocity is prescribed. Point in the frame of the body (m).
     pub s: [f64; 2],
-    /// The way in which it is prescribed. Unit vector in the frame of the body.
+    /// Direction of the prescribed velocity. Unit vector in the frame of the body.
     pub direction: Direction,
 }
 #[allow(unused_variables)]
@@ -27,7 +27,7 @@ impl Constraint for Velocity {
             scene_type: "velocity",
             variant: None,
             doc: "The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.",
-            text: "joint! { plane Velocity(i) {\n    /// The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.\n    params {\n        /// The point whose velocity is prescribed.\n        s: Point in i,\n        /// The way in which it is prescribed.\n        direction: Direction in i,\n        /// Velocity of the point along the direction.\n        rate: Function<Velocity>,\n    }\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - rate;\n    place: point(i, s);\n} }",
+            text: "joint! { plane Velocity(i) {\n    /// The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.\n    params {\n        /// The point whose velocity is prescribed.\n        s: Point in i,\n        /// Direction of the prescribed velocity.\n        direction: Direction in i,\n        /// Velocity of the point along the direction.\n        rate: Function<Velocity>,\n    }\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - rate;\n    place: point(i, s);\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
@@ -38,7 +38,7 @@ impl Constraint for Velocity {
                 Parameter::required(
                     "direction",
                     Shape::Direction { slot: 0 },
-                    "The way in which it is prescribed.",
+                    "Direction of the prescribed velocity.",
                 ),
                 Parameter::required(
                     "rate",

@@ -115,7 +115,7 @@ pub enum BuildError {
         y: f64,
     },
     /// A drive is in the list of joints, or a joint in the list of drives.
-    #[error("`{name}` stands among the {list}, but `{definition}` is none")]
+    #[error("`{name}` is in the list of {list}, but `{definition}` does not belong there")]
     Role {
         /// The joint or drive.
         name: String,

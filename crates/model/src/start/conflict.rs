@@ -130,20 +130,20 @@ impl VelocityConflict {
             }
             [] => {
                 let (do_not, beside) = match (self.rows.len(), self.with_others) {
-                    (1, true) => ("does not", " beside what else is given"),
+                    (1, true) => ("does not", " together with the other given velocities"),
                     (1, false) => ("does not", ""),
-                    (_, true) => ("do not", " beside what else is given"),
+                    (_, true) => ("do not", " together with the other given velocities"),
                     (_, false) => ("do not", ""),
                 };
                 format!("{fact}, which {word} {rows} {do_not} allow{beside}: {nearest}")
             }
             [only] => format!(
-                "drive `{only}` asks for what the given velocities do not allow: {fact}, and {nearest} ({word} {rows})"
+                "drive `{only}` requires velocities that the given ones do not allow: {fact}, and {nearest} ({word} {rows})"
             ),
             drives => {
                 let drives: Vec<String> = drives.iter().map(|d| format!("`{d}`")).collect();
                 format!(
-                    "drives {} ask for what the given velocities do not allow: {fact}, and {nearest} ({word} {rows})",
+                    "drives {} require velocities that the given ones do not allow: {fact}, and {nearest} ({word} {rows})",
                     named(&drives)
                 )
             }

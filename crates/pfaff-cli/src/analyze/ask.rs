@@ -64,7 +64,7 @@ pub(super) fn document(
             // The comparison of units uses double precision, the choices use the proved rank.
             Err(StudyError::Units(e @ UnitError::RankChanges { .. })) => {
                 document.warnings.push(format!(
-                    "a change of units does not tell facts from choices: {e}"
+                    "a change of units does not distinguish facts from choices: {e}"
                 ));
                 Vec::new()
             }

@@ -37,10 +37,7 @@ impl FromStr for Setting {
 
 #[derive(Args, Clone, Default)]
 pub(crate) struct Known {
-    #[command(flatten)]
-    pub(crate) settings: Settings,
-    /// What points and lengths of the scene are known to (m), in place of `tolerance` in its
-    /// [scene]
+    /// Tolerance of points and lengths of the scene (m), in place of its `tolerance`
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = length)]
     pub(crate) tolerance: Option<f64>,
     /// Tolerance of directions, angles and ratios (rad), in place of `angle_tolerance`; if neither

@@ -141,7 +141,7 @@ fn nearly_redundant_rows_are_judged_although_they_cannot_move() {
         &stdout(&output),
         &[
             "choice 1: minimum norm",
-            "does not tell facts from choices: the rank was decided as 3, but reads 2",
+            "does not distinguish facts from choices: the rank was decided as 3, but reads 2",
         ],
     );
     let output = with_scene(&["analyze", "-", "--choose", "minimum-norm"], &twin(4e-14));

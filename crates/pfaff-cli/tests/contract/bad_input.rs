@@ -444,7 +444,7 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
         given("position = [1.0, 0.0]\nvelocity = [0.0, 0.0]\nangular_velocity = 1.0"),
         2,
         &[
-            "`omega` of body `bob` is given as 1, which row 2 (`pivot`, y) does not allow beside what else is given",
+            "`omega` of body `bob` is given as 1, which row 2 (`pivot`, y) does not allow together with the other given velocities",
             "in velocities that fit it is 0, more than 1.0e-3 off",
             "leave out `angular_velocity` of body `bob`, so that it follows from the others",
             "allow_correction = true",
@@ -475,9 +475,9 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
         },
         2,
         &[
-            "drive `motor` asks for what the given velocities do not allow",
+            "drive `motor` requires velocities that the given ones do not allow",
             "`omega` of body `bob` is given as 0, and in velocities that fit it is 1",
-            "asks for other velocities",
+            "requires other velocities",
             "given here",
         ],
     );

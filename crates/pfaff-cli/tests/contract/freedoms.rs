@@ -154,8 +154,8 @@ fn what_cannot_move_is_said_to() {
     contains(
         &stderr(&output),
         &[
-            "drive `motor` asks the angle of `pin` to change at 1 rad/s, which misses what rows 2 (`pin`, y) and 4 (`third`, y) allow",
-            "asks for what the others forbid",
+            "drive `motor` asks the angle of `pin` to change at 1 rad/s, which differs from what rows 2 (`pin`, y) and 4 (`third`, y) allow",
+            "requires what the others forbid",
             "holds it",
         ],
     );

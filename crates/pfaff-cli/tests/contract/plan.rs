@@ -76,7 +76,7 @@ fn flags_change_the_plan_as_they_change_the_run() {
     let radau = json(&stdout(&pfaff(&[
         "plan", ROBOT, "--json", "--method", "radau5",
     ])));
-    assert_eq!(decision(&radau, "method", None)["reason"], "asked for");
+    assert_eq!(decision(&radau, "method", None)["reason"], "requested");
     assert_eq!(
         decision(&radau, "linear_systems", None)["taken"],
         "on independent coordinates"

@@ -135,7 +135,7 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
     }
     if page.recording.stride > 1 {
         told.push(format!(
-            "One in {} rows of output is kept: {} of {}. trajectory.csv and reactions.csv have all that was asked for.",
+            "One in {} rows of output is kept: {} of {}. trajectory.csv and reactions.csv contain all requested rows.",
             page.recording.stride,
             page.recording.frames.len(),
             page.recording.rows()

@@ -102,7 +102,7 @@ fn reason(r: &ReactionDocument) -> String {
             "nothing else connects the two parts of the mechanism that it joins".to_owned()
         }
         (None, Some(_), _) => {
-            "it can be told from the bodies at the ends of the mechanism alone".to_owned()
+            "it follows from the bodies at the ends of the mechanism alone".to_owned()
         }
         (None, None, "unique") => "no dependency of rows reaches it".to_owned(),
         (None, None, _) => components(r),

@@ -102,9 +102,10 @@ fn connection(spec: &Spec) -> Value {
             let slots = spec.slots[..n].join(", ");
             let mut bodies = tuple(vec![json!({ "type": "string" }); n]);
             bodies["uniqueItems"] = true.into();
-            bodies["description"] =
-                format!("The bodies [{slots}] of the definition; reactions are told on the first")
-                    .into();
+            bodies["description"] = format!(
+                "The bodies [{slots}] of the definition; reactions are reported on the first"
+            )
+            .into();
             bodies
         }
     }

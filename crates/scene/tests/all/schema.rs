@@ -56,7 +56,7 @@ fn keys_of_joints_and_forces_are_explained() {
             "force",
             "spring-damper",
             "stiffness",
-            "Tension over extension, k: a number ≥ 0 (N/m)",
+            "Stiffness k, tension per extension: a number ≥ 0 (N/m)",
         ),
         (
             "force",
@@ -68,13 +68,13 @@ fn keys_of_joints_and_forces_are_explained() {
             "joint",
             "knife-edge",
             "normal",
-            "Across the edge: the point does not move this way: a direction [x, y] in the frame of the body",
+            "Direction across the edge, in which the point cannot move: a direction [x, y] in the frame of the body",
         ),
         (
             "joint",
             "knife-edge",
             "point",
-            "The place [x, y] in the frame of the body (m). Where the edge touches the plane.",
+            "The place [x, y] in the frame of the body (m). The contact point.",
         ),
         (
             "joint",

@@ -21,7 +21,7 @@ pub enum ChoiceError {
     Saddle(#[from] SaddleError),
     /// Redundant rows require different accelerations: no reactions exist.
     #[error(
-        "row {} asks for an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
+        "row {} requires an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
          there are no reactions that satisfy both",
         row + 1
     )]
@@ -47,7 +47,7 @@ pub enum ChoiceError {
     },
     /// Several rigid supports share a load, and the choice does not determine how.
     #[error(
-        "the choice leaves open how loads are shared ({free} missing): what has weight zero (a rigid joint) stays undetermined among its like; \
+        "the choice leaves open how loads are shared ({free} missing): joints with weight zero (rigid ones) share loads in a way that is not determined; \
          give a compliance to one more of the joints that mix"
     )]
     Indeterminate {
@@ -56,7 +56,7 @@ pub enum ChoiceError {
     },
     /// The wrench on the first body does not determine all reactions of the joint.
     #[error(
-        "the reaction of `{reaction}` on its first body does not tell those on its other bodies, which are not unique"
+        "the reaction of `{reaction}` on its first body does not determine those on its other bodies, which are not unique"
     )]
     Hidden {
         /// The joint or drive.
@@ -95,7 +95,7 @@ pub enum ChoiceError {
     Rows {
         /// The requested rows that exist.
         rows: Vec<RowLabel>,
-        /// Those of them whose multiplier is unique.
+        /// The requested rows whose multiplier is unique.
         unique: Vec<RowLabel>,
         /// Cause; rows are counted from 0 here.
         source: KeptRowsError,

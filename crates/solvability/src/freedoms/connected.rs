@@ -51,7 +51,7 @@ impl<'a> Connected<'a> {
         }
         let freedoms = self.whole.layout().n_v.saturating_sub(rank + told.freedoms);
         let reason = match told.too_large {
-            0 => format!("the first {MOTIONS_TOLD} motions are told"),
+            0 => format!("the first {MOTIONS_TOLD} motions are listed"),
             _ => format!("connected joints of more than {ROWS_MAX} rows are not taken apart"),
         };
         FreeMotions {

@@ -414,7 +414,7 @@ fn of_many_motions_the_first_are_told() {
     assert_eq!(free.motions.motions.len(), MOTIONS_TOLD);
     let left_out = free.motions.left_out.expect("not all are told");
     assert_eq!(left_out.freedoms, 8);
-    assert_eq!(left_out.reason, "the first 12 motions are told");
+    assert_eq!(left_out.reason, "the first 12 motions are listed");
 }
 
 #[test]

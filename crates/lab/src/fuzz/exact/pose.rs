@@ -87,11 +87,11 @@ pub struct Posed {
     pub order: Vec<usize>,
     /// Joints and drives in the order of the file.
     pub links: Vec<Placed>,
-    /// As in [`Drawing`](super::drawing::Drawing).
+    /// As in [`Drawing`].
     pub redundancy: Option<usize>,
-    /// As in [`Drawing`](super::drawing::Drawing).
+    /// As in [`Drawing`].
     pub has_constant_rank: bool,
-    /// The seed of the errors, if positions have errors as in [`Drawing`](super::drawing::Drawing).
+    /// The seed of the errors, if positions have errors as in [`Drawing`].
     pub careless: Option<u64>,
     /// Relative accuracy of numbers that depend on the drawing, if it is written with few digits.
     pub known_to: f64,

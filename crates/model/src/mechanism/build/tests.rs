@@ -48,13 +48,13 @@ fn joints_and_drives_stand_in_their_own_lists() {
         .expect("both are in the wrong list");
     let text: Vec<String> = errors.iter().map(ToString::to_string).collect();
     assert!(
-        text.iter()
-            .any(|e| e == "`motor` stands among the joints, but `RevoluteAngleDrive` is none"),
+        text.iter().any(|e| e
+            == "`motor` is in the list of joints, but `RevoluteAngleDrive` does not belong there"),
         "{text:?}"
     );
     assert!(
         text.iter()
-            .any(|e| e == "`pivot` stands among the drives, but `Revolute` is none"),
+            .any(|e| e == "`pivot` is in the list of drives, but `Revolute` does not belong there"),
         "{text:?}"
     );
 }

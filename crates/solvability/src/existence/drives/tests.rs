@@ -275,7 +275,7 @@ fn locked_door(motion: Function) -> Description {
 #[test]
 fn a_drive_that_asks_for_what_joints_forbid_is_named_with_them() {
     let found = at_start(&locked_door(rate(2.0)));
-    let text = "at t = 0 s drive `motor` asks the angle of `hinge` to change at 2 rad/s, which misses what rows 2 (`hinge`, y) and 4 (`third`, y) \
+    let text = "at t = 0 s drive `motor` asks the angle of `hinge` to change at 2 rad/s, which differs from what rows 2 (`hinge`, y) and 4 (`third`, y) \
                 allow by 2.000e0 rad/s. The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a \
                 singular configuration. Begin at another configuration, or prescribe another motion";
     assert_eq!(
@@ -291,7 +291,7 @@ fn a_drive_that_asks_for_what_joints_forbid_is_named_with_them() {
     assert_eq!(along(&locked_door(rate(0.0)), 1.0), None);
 }
 
-/// Nothing contradicts if no row is redundant or if there are no drives.
+/// There is no contradiction if no row is redundant or if there are no drives.
 #[test]
 fn a_drive_that_is_needed_contradicts_nothing() {
     let mut d = Description::new("crank");
