@@ -42,7 +42,8 @@ pub(crate) const SPARE_COMBINATIONS: usize = 4;
 /// then read from one null space, and it can be compared with itself at other configurations, which
 /// takes matrices of all rows and columns.
 /// Unit: rows. Less: small mechanisms are not compared with themselves elsewhere. More: time: it
-/// grows with their cube, and 600 rows take half a minute. Test: none.
+/// grows with their cube, and 600 rows take half a minute. Test:
+/// `a_motor_that_lags_behind_is_named_with_the_joints_between`.
 pub const ONE_PART: usize = 250;
 
 /// By how much singular values must clear the tolerance: runs of the stress matrix keep their
