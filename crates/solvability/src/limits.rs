@@ -341,12 +341,12 @@ pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 /// Digits of a time that was searched for: it is known as well as the motion, which a run knows to
 /// little more than its tolerance.
 /// Unit: digits. Less: times that differ look the same. More: digits that are not known are told.
-/// Test: none.
+/// Test: `a_motion_that_turns_back_between_two_samples_passes_twice`.
 pub(crate) const SEARCHED_DIGITS: i32 = 7;
 
 /// Digits of a time that a function of the scene gives.
 /// Unit: digits. Less: times that differ look the same. More: digits that are rounding are told.
-/// Test: none.
+/// Test: `a_rest_in_a_singular_pose_is_a_stretch`.
 pub(crate) const GIVEN_DIGITS: i32 = 10;
 
 // Second order.
