@@ -244,7 +244,27 @@ fn every_flat_pose_and_every_upright_one_of_several_turns() {
     assert_eq!(along.passages.iter().filter(|p| drops(p)).count(), 6);
 }
 
-/// Freedoms that are independent of the cranks do not affect how these continue.
+/// θ = 3·(t − 0.41…)·(t − 0.97) is 1.2 and 0.05 at the two samples and passes zero twice between
+/// them.
+#[test]
+fn a_motion_that_turns_back_between_two_samples_passes_twice() {
+    let flat = [0.412_345_678_9, 0.97];
+    let motion = |t: f64| {
+        let [a, b] = flat.map(|flat| t - flat);
+        parallel(&THREE, 3.0 * a * b, 3.0 * (a + b))
+    };
+    let along = along_motion(&free(&THREE), motion, &[0.0, 1.0]).expect("judged");
+    let times: Vec<f64> = along.passages.iter().map(|p| p.time).collect();
+    assert_eq!(times.len(), 2, "{times:?}");
+    for (time, exact) in times.iter().zip(flat) {
+        assert!((time - exact).abs() < 1e-10, "{time}");
+    }
+    // Seven digits of a time that was searched for.
+    let text = &along.passages[0].text;
+    assert!(text.starts_with("at t = 0.4123457 s "), "{text}");
+}
+
+/// Freedoms that have nothing to do with the cranks do not change how these go on.
 #[test]
 fn a_pendulum_beside_the_cranks() {
     for (pivots, drive) in [
@@ -308,7 +328,8 @@ fn a_pendulum_beside_the_cranks() {
 /// A drive that rests in the flat pose: singular on an interval, which ends at its break time.
 #[test]
 fn a_rest_in_a_singular_pose_is_a_stretch() {
-    let law = Function::steps(0.0, &[[1.0, 2.0, 0.5]]).expect("ordered");
+    const UNTIL: f64 = 1.012_345_678_912;
+    let law = Function::steps(0.0, &[[UNTIL, 2.0, 0.5]]).expect("ordered");
     let mechanism = driven(&THREE, 0.0, law.clone());
     let motion = |t: f64| {
         let [theta, omega, _] = law.jet(t);
@@ -319,7 +340,10 @@ fn a_rest_in_a_singular_pose_is_a_stretch() {
     let [rest] = along.stretches.as_slice() else {
         panic!("{:?}", along.stretches);
     };
-    assert_eq!((rest.from, rest.to, rest.redundancy), (0.0, 1.0, 2));
+    assert_eq!((rest.from, rest.to, rest.redundancy), (0.0, UNTIL, 2));
+    // Ten digits of a time that the law gives.
+    let says = "from t = 0 s to t = 1.012345679 s ";
+    assert!(rest.text.starts_with(says), "{}", rest.text);
     assert!(along.passages.is_empty(), "{:?}", along.passages);
 }
 

@@ -2,9 +2,10 @@
 //! arithmetic for every ε, with reactions of size 1/ε, until ε is less than the uncertainty of the
 //! data. No answer for any ε may be wrong.
 
+use dynamics::{MotionError, RowChoice, prepare};
 use exact::Exact;
 use linalg::Matrix;
-use model::{Mechanism, System};
+use model::{BodyRef, Mechanism, StartOptions, System};
 use rank::Grounds;
 use solvability::{Analysis, Verdict, analyse};
 use tests::cranks;
@@ -187,4 +188,25 @@ fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
         }
         Said::Undecided => {}
     }
+}
+
+/// Vertical cranks at 0, 1 and 1.7 press on their coupler by 0.7, −1.7 and 1, each through two
+/// joints. Rows across them, and of a pendulum beside them, have no part in it.
+#[test]
+fn a_start_names_the_rows_that_nearly_depend_and_no_others() {
+    let mut d = cranks::misaligned(1e-9);
+    let pendulum = BodyRef::Body(d.bodies.len());
+    d.bodies
+        .push(tests::rod("pendulum", 1.0, [5.0, 0.0], [5.0, -1.0]));
+    let pair = [BodyRef::Ground, pendulum];
+    d.joints
+        .push(tests::revolute("hinge", &d.bodies, pair, [5.0, 0.0]));
+    let mechanism = Mechanism::build(&d).expect("builds");
+    let refused = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic);
+    let Err(MotionError::Inseparable { rows, sigma, .. }) = refused else {
+        panic!("{:?}", refused.err());
+    };
+    assert!(sigma < 1e-9, "{sigma}");
+    assert_eq!(rows.len(), 6, "{rows:?}");
+    assert!(rows.iter().all(|row| !row.contains("hinge")), "{rows:?}");
 }

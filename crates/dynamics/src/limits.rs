@@ -1,7 +1,7 @@
 //! The table of limits: every number of this crate that somebody chose. Each says what it is, in
-//! which unit, what breaks where it is wrong (`Less`: if it were smaller, `More`: if it were
-//! larger), and which test decides on its subject; `none` where there is none yet.
-//! `tests/all/limits.rs` reads it.
+//! which unit, what breaks if it is wrong (`Less`: if it were smaller, `More`: if it were larger),
+//! and which test fails then; `none, work only` if only time or memory change, `none` if there is no
+//! test yet. `tests/all/limits.rs` reads it.
 //!
 //! Shares of pivots are shares of the *reference pivots*, those at which the rows were chosen.
 
@@ -14,7 +14,7 @@ use crate::options::MotionOptions;
 /// From so many kept rows on they are solved sparsely.
 /// Unit: rows. Less: small mechanisms lose independent coordinates and refinement. More: an
 /// evaluation of a chain grows with the cube of its rows. Test:
-/// `sparse_rows_accelerate_as_dense_ones_do`.
+/// `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const SPARSE_FROM: usize = 64;
 
 /// Kept rows up to which solutions with graded masses are refined.
@@ -24,17 +24,17 @@ pub(crate) const REFINED_MOST: usize = 600;
 
 /// More rows are not solved densely.
 /// Unit: rows. Less: refuses what could be solved. More: matrices of more than a gigabyte. Test:
-/// none.
+/// `the_motion_is_the_same_by_every_way_through_it`.
 pub(crate) const DENSE_MOST: usize = 5000;
 
 /// Matrices of its order that a dense solver holds.
 /// Unit: matrices. Less: the estimate of memory is too small. More: runs are refused that fit.
-/// Test: none.
+/// Test: none, work only.
 pub(crate) const DENSE_MATRICES: usize = 3;
 
 /// Vectors of all coordinates, velocities and rows that a run holds.
-/// Unit: vectors. Less: the estimate of memory is too small. More: runs are refused that fit.
-/// Test: none.
+/// Unit: vectors. Less: the estimate of memory is too small. More: runs are refused that fit. Test:
+/// none, work only.
 pub(crate) const VECTORS: usize = 60;
 
 /// Solutions of mechanisms larger than this, or smaller than its inverse, are refined.
@@ -54,8 +54,8 @@ pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
 
 /// Corrections of the position per projection; one or two are the rule, more where a tolerance is
 /// very loose.
-/// Unit: corrections. Less: loose steps are refused. More: a projection that diverges takes
-/// longer to say so. Test: none.
+/// Unit: corrections. Less: loose steps are refused. More: a projection that diverges takes longer
+/// to say so. Test: `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const CORRECTIONS: usize = 20;
 
 /// The same by generated code, which is left for the interpreter after them.
@@ -64,7 +64,8 @@ pub(crate) const CORRECTIONS: usize = 20;
 pub(crate) const CODE_CORRECTIONS: usize = 6;
 
 /// Corrections of the velocity per projection.
-/// Unit: corrections. Less: what rounding leaves of the first stays. More: time. Test: none.
+/// Unit: corrections. Less: what rounding leaves of the first stays. More: time. Test:
+/// `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const VELOCITY_CORRECTIONS: usize = 3;
 
 /// Kept rows count as satisfied below this many roundings of their terms.
@@ -140,8 +141,8 @@ pub(crate) const PARTITION_WORN: f64 = 0.5;
 
 /// Dependent coordinates that move by more than this when a state is completed may have gone to
 /// another branch or another turn.
-/// Unit: share of the mechanism's size, or rad. Less: long steps are refused. More: another
-/// branch is taken. Test: none.
+/// Unit: share of the mechanism's size, or rad. Less: long steps are refused. More: another branch
+/// is taken. Test: `shifted_systems_are_solved`.
 pub(crate) const FAR_COMPLETION: f64 = 0.6;
 
 /// Beside this they may move by so many times the way that the mechanism would go from the last
@@ -156,7 +157,7 @@ pub(crate) const FAR_IN_A_STEP: f64 = 0.5;
 
 /// The same beside, where nothing moves.
 /// Unit: share of the mechanism's size, or rad. Less: starts from rest are refused. More: another
-/// branch is taken. Test: none.
+/// branch is taken. Test: `a_grip_of_1e12_takes_few_steps`.
 pub(crate) const FAR_AT_REST: f64 = 1e-2;
 
 // Exchange of rows.
@@ -178,7 +179,8 @@ pub(crate) const PIVOT_RECOVERY: f64 = 0.2;
 pub(crate) const LARGE_COEFFICIENT: f64 = 10.0;
 
 /// Other rows are worth an exchange if their coefficients are so many times smaller.
-/// Unit: 1. Less: rows change at every step. More: poor rows stay. Test: none.
+/// Unit: 1. Less: rows change at every step. More: poor rows stay. Test:
+/// `sixty_four_step_sizes_over_the_flat_pose`.
 pub(crate) const WORTH_EXCHANGE: f64 = 3.0;
 
 /// Rows of output are looked at below this share only: what kept rows multiply rounding by is
@@ -204,22 +206,22 @@ pub(crate) const DELICATE: f64 = 0.1;
 
 /// Stages below this share make a step suspect.
 /// Unit: share of pivots. Less: passages are not told, and branches not compared. More: ordinary
-/// steps are searched. Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
+/// steps are searched. Test: `rows_that_nobody_wants_are_not_computed`.
 pub(crate) const SUSPECT: f64 = 0.1;
 
 /// Nearest approach of the end of a step to a singular configuration.
 /// Unit: share of pivots. Less: a projection cannot tell the branches apart. More: no step ends
-/// where the motion is slow. Test:
-/// `limits_stand_in_their_order`.
+/// where the motion is slow. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NEAREST: f64 = 1e-3;
 
 /// The same in units of the relative tolerance.
-/// Unit: tolerances. Less: loose steps take another branch. More: as above. Test: none.
+/// Unit: tolerances. Less: loose steps take another branch. More: as above. Test:
+/// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NEAREST_TOLERANCES: f64 = 100.0;
 
 /// Loose tolerances must not keep a motion farther away than this.
 /// Unit: share of pivots. Less: loose steps take another branch. More: loose runs stop. Test:
-/// `limits_stand_in_their_order`.
+/// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NEAREST_MAX: f64 = 0.1;
 
 /// A step that comes near all at once begins again, shorter, if it ends at less than so many times
@@ -236,7 +238,8 @@ pub(crate) const FALLEN: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps
 /// grow by more.
-/// Unit: steps. Less: a step meets one unforeseen. More: searches in vain. Test: none.
+/// Unit: steps. Less: a step meets one unforeseen. More: searches in vain. Test:
+/// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const FORESIGHT: f64 = 12.0;
 
 /// Implicit methods hand over to `dop853` this many steps before a singular configuration; explicit
@@ -253,8 +256,7 @@ pub(crate) const COARSE: f64 = 1e-13;
 
 /// Relative error of a step over a singular configuration that rounding may cause where steps are
 /// short; 1e-10 was not enough at 1e-10 where generated code is left on the way to one.
-/// Unit: 1. Less: steps collapse before it. More: the passage costs digits. Test:
-/// `singular_configurations_are_passed_by_the_interpreter`.
+/// Unit: 1. Less: steps collapse before it. More: the passage costs digits. Test: none.
 pub(crate) const PASSED: f64 = 1e-9;
 
 /// Largest relative correction of a step over a singular configuration.
@@ -272,39 +274,40 @@ pub(crate) const KINK: f64 = 0.25;
 
 /// Steps that end at a contradiction collapse within this share of the run before it.
 /// Unit: share of the run. Less: the contradiction is not named. More: another one is. Test:
-/// `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
+/// `a_contradiction_just_ahead_is_why_a_run_stops`.
 pub(crate) const JUST_AHEAD: f64 = 1e-9;
 
 /// Reactions are not told nearer to a singular configuration than this share.
 /// Unit: share of pivots. Less: reactions are rounding. More: they are left out where they are
-/// known. Test:
-/// `limits_stand_in_their_order`.
+/// known. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const BLIND: f64 = 1e-6;
 
 /// The same in units of the relative tolerance: a row off its motion by δ has reactions that are
 /// wrong by δ divided by that share.
-/// Unit: tolerances. Less: reactions are wrong. More: they are left out. Test: none.
+/// Unit: tolerances. Less: reactions are wrong. More: they are left out. Test:
+/// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const BLIND_TOLERANCES: f64 = 1e3;
 
 /// Loose tolerances must not hide reactions farther away than this.
 /// Unit: share of pivots. Less: reactions are wrong. More: they are left out. Test:
-/// `limits_stand_in_their_order`.
+/// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const BLIND_MAX: f64 = 1e-2;
 
 // The search for singular instants.
 
 /// Places at which a step is first looked at.
-/// Unit: intervals. Less: two passages within a step are one. More: time. Test: none.
+/// Unit: intervals. Less: two passages within a step are one. More: time. Test:
+/// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const PLACES: usize = 16;
 
 /// An instant at which a pivot is smallest is found to this: there the pivot is as small.
-/// Unit: share of the interval. Less: time. More: passages are missed. Test:
-/// `forty_four_bars_are_where_one_angle_says`.
+/// Unit: share of the interval. Less: time. More: passages are missed. Test: none.
 pub(crate) const SHARP: f64 = 1e-7;
 
 /// A singular configuration is looked for up to so many times the distance at which a straight
 /// line meets it.
-/// Unit: distances. Less: curved pivots vanish unforeseen. More: time. Test: none.
+/// Unit: distances. Less: curved pivots vanish unforeseen. More: time. Test:
+/// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const BEYOND: f64 = 1.5;
 
 /// Where a pivot falls to this share of the present one and rises again, it vanishes: what is
@@ -322,7 +325,8 @@ pub(crate) const VANISHES: f64 = 0.2;
 pub(crate) const STAYS: f64 = 0.75;
 
 /// Those places.
-/// Unit: places. Less: passages are not foreseen. More: time. Test: none.
+/// Unit: places. Less: passages are not foreseen. More: time. Test:
+/// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const GLANCES: usize = 6;
 
 /// A pivot has a minimum between two places if it falls there to this share of both: at an end of
@@ -337,20 +341,23 @@ pub(crate) const RISES: f64 = 0.5;
 pub(crate) const STEEPER: f64 = 2.0;
 
 /// States of a step by which a passage is judged.
-/// Unit: intervals. Less: the judge does not find it. More: time. Test: none.
+/// Unit: intervals. Less: the judge does not find it. More: time. Test:
+/// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const PASSAGE_STATES: usize = 8;
 
 /// Rows up to which the motion at a passage is judged: determinants at many instants grow with
 /// their cube.
-/// Unit: rows. Less: uniqueness is not decided. More: time. Test: none.
+/// Unit: rows. Less: uniqueness is not decided. More: time. Test:
+/// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const JUDGED_MOST: usize = 64;
 
 /// Passages of one step that are told at most.
-/// Unit: passages. Less: some are not told. More: time. Test: none.
+/// Unit: passages. Less: some are not told. More: time. Test: `passages_are_told_at_the_same_time`.
 pub(crate) const MOST_PASSAGES: usize = 8;
 
 /// What they are apart at least.
-/// Unit: share of the step. Less: one is told twice. More: two are told as one. Test: none.
+/// Unit: share of the step. Less: one is told twice. More: two are told as one. Test:
+/// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const BESIDE: f64 = 0.02;
 
 // Jumps.
@@ -363,11 +370,13 @@ pub(crate) const NO_JUMP: f64 = 1e-9;
 
 /// Between times that are so many roundings apart a continuous function changes much more than
 /// between neighbouring ones.
-/// Unit: roundings. Less: rounding hides the change. More: other changes take part. Test: none.
+/// Unit: roundings. Less: rounding hides the change. More: other changes take part. Test:
+/// `smooth_steps_are_no_jumps`.
 pub(crate) const WIDE: f64 = 1e6;
 
 /// What remains of the wider change, if it is more than this share, is a jump.
-/// Unit: share. Less: steep functions jump. More: jumps are steep. Test: none.
+/// Unit: share. Less: steep functions jump. More: jumps are steep. Test:
+/// `a_jump_of_the_rate_is_an_impulse_with_its_energy`.
 pub(crate) const REMAINS: f64 = 0.5;
 
 // Rows of output.
@@ -391,12 +400,11 @@ pub(crate) const LED_AT_REST: f64 = 1e-3;
 pub(crate) const PEAK: f64 = 3.0;
 
 /// A step that is tried again and again forgets what it has seen after so many times.
-/// Unit: times. Less: stages are evaluated twice. More: memory. Test:
-/// `it_is_evaluated_once_at_each_time_of_a_step`.
+/// Unit: times. Less: stages are evaluated twice. More: memory. Test: none, work only.
 pub(crate) const REMEMBERED: usize = 256;
 
 /// Rows that a component may be ahead of the others.
-/// Unit: rows. Less: threads wait. More: memory. Test: none.
+/// Unit: rows. Less: threads wait. More: memory. Test: none, work only.
 pub(crate) const AHEAD: usize = 64;
 
 // Generated code.
@@ -440,7 +448,7 @@ pub(crate) const DISTANCE: f64 = 0.01;
 
 /// The same for velocities: terms in their squares have to count.
 /// Unit: size of the mechanism, or rad, per second. Less: they do not. More: they alone do. Test:
-/// none.
+/// `code_of_another_mechanism_is_refused`.
 pub(crate) const SPEED: f64 = 1.0;
 
 // Choices.
@@ -474,7 +482,8 @@ pub(crate) const NAMED: usize = 3;
 
 /// Rows with a smaller share than this of the largest weight take no part in a combination that
 /// is told.
-/// Unit: share. Less: rows are named that do not matter. More: some that do are not. Test: none.
+/// Unit: share. Less: rows are named that do not matter. More: some that do are not. Test:
+/// `a_start_names_the_rows_that_nearly_depend_and_no_others`.
 pub(crate) const TAKES_PART: f64 = 0.1;
 
 // What a run does where nobody says otherwise.

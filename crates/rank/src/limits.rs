@@ -188,7 +188,7 @@ pub const COEFFICIENT_ROUNDING: f64 = 1e-12;
 /// How much shall be left of a kept row beside those kept before it, if there are enough of them.
 /// Long chains have rows of which 1e-3 is left.
 /// Unit: share of the row. Less: kept rows are nearly dependent. More: rows of long chains are
-/// passed over. Test: none.
+/// passed over. Test: `of_nearly_parallel_rows_one_is_kept`.
 pub(crate) const LEFT: f64 = 1e-4;
 
 /// Solves with RᵀR. With q of them the bound is too low by at most `(√(3·r)/ε)^(1/2q)`: 4.3 at r =

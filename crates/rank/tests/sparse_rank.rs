@@ -58,8 +58,23 @@ fn kept_rows_are_as_many_and_independent() {
     assert_eq!(found.dropped.len(), known.redundancy);
 }
 
-/// Another order of bodies and rows, another unit of length, and a unit for each row give the same
-/// results.
+/// Two rows that differ by 1e-5, and one that is orthogonal to the first: it is kept, whichever of
+/// them comes first.
+#[test]
+fn of_nearly_parallel_rows_one_is_kept() {
+    let rows = [[1.0, 0.0], [1.0, 1e-5], [0.0, 1.0]];
+    for order in [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 1, 0]] {
+        let row = |k: usize| rows[k].into_iter().enumerate().filter(|(_, c)| *c != 0.0);
+        let c = SparseMatrix::from_rows(2, order.map(row)).expect("two columns");
+        let found = decide_sparse(&c, 0.0, &[0..1, 1..2], Sketch::default()).expect("finite");
+        assert_eq!(found.rank, 2, "{order:?}");
+        let kept: Vec<usize> = found.kept.iter().map(|&k| order[k]).collect();
+        assert!(kept.contains(&2), "{order:?}: {kept:?}");
+    }
+}
+
+/// Bodies and rows in another order, another unit of length, and one for each row: the same
+/// answers.
 #[test]
 fn order_and_units_do_not_matter() {
     let known = chain(20);

@@ -42,7 +42,8 @@ pub(crate) const SPARE_COMBINATIONS: usize = 4;
 /// then read from one null space, and it can be compared with itself at other configurations, which
 /// takes matrices of all rows and columns.
 /// Unit: rows. Less: small mechanisms are not compared with themselves elsewhere. More: time: it
-/// grows with their cube, and 600 rows take half a minute. Test: none.
+/// grows with their cube, and 600 rows take half a minute. Test:
+/// `a_motor_that_lags_behind_is_named_with_the_joints_between`.
 pub const ONE_PART: usize = 250;
 
 /// By how much singular values must clear the tolerance: runs of the stress matrix keep their
@@ -124,7 +125,7 @@ pub(crate) const HOLONOMIC: f64 = 1e-6;
 /// Singular vectors below this share of the largest singular value are rounding and need not be
 /// orthogonal to the others.
 /// Unit: share of the largest singular value. Less: rounding has to be orthogonal. More: small
-/// singular vectors are not. Test: none.
+/// singular vectors are not. Test: `singular_vectors_of_rounding_are_replaced`.
 pub(crate) const RESOLVED: f64 = 1e-13;
 
 /// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the
@@ -167,7 +168,7 @@ pub(crate) const WALK_CORRECTED: f64 = 0.5;
 
 /// Share of the other directions.
 /// Unit: share of a direction. Less: freedoms stand still. More: the way is that of all freedoms.
-/// Test: none.
+/// Test: `a_way_is_led_by_one_freedom_and_takes_the_others_along`.
 pub(crate) const OTHER_DIRECTIONS: f64 = 0.3;
 
 /// Iterations at most. Each costs a solution of as many equations as there are.
@@ -201,7 +202,8 @@ pub(crate) const FOLLOWED: f64 = 1e-12;
 // Other configurations.
 
 /// Points compared.
-/// Unit: configurations. Less: chance calls redundancy permanent. More: time. Test: none.
+/// Unit: configurations. Less: chance calls redundancy permanent. More: time. Test:
+/// `cranks_are_compared_with_themselves_elsewhere`.
 pub(crate) const POINTS: usize = 4;
 
 /// Walks at most, also those that lead nowhere.
@@ -297,13 +299,14 @@ pub(crate) const FALL: f64 = 4.0;
 pub(crate) const REGULAR_SAMPLE: f64 = 0.1;
 
 /// A minimum, with a sample more on each side, is divided once more into so many intervals.
-/// Unit: intervals. Less: minima between samples are missed. More: time. Test: none.
+/// Unit: intervals. Less: minima between samples are missed. More: time. Test:
+/// `every_flat_pose_and_every_upright_one_of_several_turns`.
 pub(crate) const FINER: u8 = 16;
 
 /// A sign change belongs to a singular configuration if σ_r is below this there; otherwise rows or
 /// frame have turned.
 /// Unit: singular value of a matrix of size one. Less: passages are missed. More: rows that turn
-/// are passages. Test: none.
+/// are passages. Test: `every_flat_pose_and_every_upright_one_of_several_turns`.
 pub(crate) const SINGULAR_INSTANT: f64 = 1e-6;
 
 /// A frame has turned too far to compare signs if its overlap is below this.
@@ -320,13 +323,14 @@ pub(crate) const SAMPLE_HALVINGS: usize = 8;
 
 /// Between two samples C is no farther from the first than this times their distance: a motion is
 /// nearly straight there.
-/// Unit: 1. Less: passages of curved motions are missed. More: time. Test: none.
+/// Unit: 1. Less: passages of curved motions are missed. More: time. Test:
+/// `noise_in_the_states_blurs_the_time_by_as_much`.
 pub(crate) const BENT: f64 = 2.0;
 
 /// Directions of the regular motion are those at this share of the nearly singular interval beside
 /// the instant.
 /// Unit: share of the nearly singular interval. Less: directions are those of the singular pose.
-/// More: directions are those of elsewhere. Test: none.
+/// More: directions are those of elsewhere. Test: `a_pendulum_beside_the_cranks`.
 pub(crate) const BESIDE_PASSAGE: f64 = 1e-2;
 
 /// What a minimum must be lower than the larger neighbour by.
@@ -337,18 +341,19 @@ pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 /// Digits of a time that was searched for: it is known as well as the motion, which a run knows to
 /// little more than its tolerance.
 /// Unit: digits. Less: times that differ look the same. More: digits that are not known are told.
-/// Test: none.
+/// Test: `a_motion_that_turns_back_between_two_samples_passes_twice`.
 pub(crate) const SEARCHED_DIGITS: i32 = 7;
 
 /// Digits of a time that a function of the scene gives.
 /// Unit: digits. Less: times that differ look the same. More: digits that are rounding are told.
-/// Test: none.
+/// Test: `a_rest_in_a_singular_pose_is_a_stretch`.
 pub(crate) const GIVEN_DIGITS: i32 = 10;
 
 // Second order.
 
 /// New motions that are examined at once.
-/// Unit: motions. Less: uniqueness is undecided. More: time: it doubles with each. Test: none.
+/// Unit: motions. Less: uniqueness is undecided. More: time: it doubles with each. Test:
+/// `what_is_not_decided_is_said`.
 pub const KERNEL_MAX: usize = 4;
 
 /// The given motion may miss the equations by this share of their coefficients: its directions may
@@ -445,16 +450,16 @@ pub(crate) const VALUE_ROUNDINGS: f64 = 4.0;
 /// Redundant accelerations agree to this share of their terms: that of rounding in velocities on
 /// the constraints, with room.
 /// Unit: share of the terms. Less: rounding contradicts. More: contradictions are solved. Test:
-/// `contradicting_drives_have_no_reactions`.
+/// `three_cranks_with_least_norm`.
 pub(crate) const AGREEMENT: f64 = 1e-9;
 
 /// The first solve leaves its own rounding; the second removes what of it matters.
-/// Unit: solves. Less: rounding of the first remains. More: time. Test: none.
+/// Unit: solves. Less: rounding of the first remains. More: time. Test: `beam_on_three_springs`.
 pub(crate) const CHOICE_SOLVES: usize = 2;
 
 /// A change below this share of the largest force or torque is rounding.
 /// Unit: share of the largest force or torque. Less: rounding depends on units. More: what depends
-/// on units is called a fact. Test: none.
+/// on units is called a fact. Test: `facts_do_not_depend_on_units`.
 pub(crate) const UNIT_ROUNDING: f64 = 1e-9;
 
 /// The unit of one joint alone is this much smaller than that of the others.
@@ -486,7 +491,7 @@ pub(crate) const MANY: f64 = 30.0;
 /// A load below this share of what would stop the bodies within the size of the mechanism,
 /// m·v²/size, is the rounding of a motion without any.
 /// Unit: share of what stops the bodies. Less: rounding is a load. More: small loads are none.
-/// Test: `without_any_load_unit_loads_are_asked`.
+/// Test: none.
 pub(crate) const LOAD_ROUNDING: f64 = 1e-9;
 
 /// Points move by a share of the size of the mechanism, but at most by that of so many times the
@@ -537,7 +542,8 @@ pub(crate) const NAMED_BODIES: usize = 6;
 pub(crate) const FIRST_NAMED: usize = 3;
 
 /// Rows that a label names; of more it names the first few.
-/// Unit: rows. Less: rows are counted only. More: labels nobody reads. Test: none.
+/// Unit: rows. Less: rows are counted only. More: labels nobody reads. Test:
+/// `eliminations_of_the_robot_are_runs_without_these_rows`.
 pub(crate) const NAMED_ROWS: usize = 12;
 
 /// More rows than this are not listed in a sentence.

@@ -250,3 +250,42 @@ impl Watch {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row off its motion by the tolerance has reactions wrong by tolerance over pivot: those that
+    /// are told keep three digits, where the tolerance is neither rounding nor loose. Branches are
+    /// told apart with two.
+    #[test]
+    fn pivots_are_compared_with_what_the_tolerance_leaves_of_them() {
+        for (rtol, nearest, blind) in [
+            (1e-2, 0.1, 1e-2),
+            (1e-4, 1e-2, 1e-2),
+            (1e-7, 1e-3, 1e-4),
+            (1e-15, 1e-3, 1e-6),
+        ] {
+            let options = MotionOptions {
+                rtol,
+                ..MotionOptions::to(1.0)
+            };
+            let watch = Watch::new(&RowChoice::Automatic, &options);
+            let is = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-9;
+            assert!(is(watch.nearest(), nearest), "{rtol}");
+            assert!(is(watch.blind(), blind), "{rtol}");
+        }
+    }
+
+    /// A step that was refused just ahead of where the run stands says why it cannot go on; one
+    /// farther away does not.
+    #[test]
+    fn a_contradiction_just_ahead_is_why_a_run_stops() {
+        for (ahead, is_why) in [(0.7e-9, true), (1.4e-9, false)] {
+            let mut watch = Watch::new(&RowChoice::Automatic, &MotionOptions::to(10.0));
+            let fault = watch.no_way_over(5.0 + 10.0 * ahead);
+            watch.contradicted = Some((5.0 + 10.0 * ahead, fault));
+            assert_eq!(watch.contradiction(5.0).is_some(), is_why, "{ahead}");
+        }
+    }
+}

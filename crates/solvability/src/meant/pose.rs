@@ -271,3 +271,20 @@ impl<'a> Pose<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The second vector belongs to a singular value that is rounding of zero, and is not
+    /// orthogonal to the first.
+    #[test]
+    fn singular_vectors_of_rounding_are_replaced() {
+        let columns = Matrix::from_rows(&[[1.0, 0.6], [0.0, 0.8], [0.0, 0.0]]);
+        for (sigma, is_kept) in [(0.7e-13, false), (1.4e-13, true)] {
+            let all = complete(&columns, &[1.0, sigma]);
+            assert_eq!(all[(0, 0)], 1.0);
+            assert_eq!(all[(0, 1)].abs() > 1e-15, is_kept, "{sigma}");
+        }
+    }
+}

@@ -54,6 +54,13 @@ fn a_beam_by_hand() {
         assert!((of.change / 7.5e-5 - 1.0).abs() < 1e-9, "{name}: {of:?}");
         assert_eq!(of.by.map(|by| by.joint), Some(ConstraintId(0)), "{name}");
         assert!(!of.is_fragile());
+        for (change, is_fragile) in [(0.08, false), (0.12, true)] {
+            let by_more = Sensitivity {
+                change,
+                ..of.clone()
+            };
+            assert_eq!(by_more.is_fragile(), is_fragile, "{change}");
+        }
     }
 }
 

@@ -160,3 +160,10 @@ fn what_the_data_make_of_the_way_adds_up() {
         assert!((change - right).abs() < 1e-12, "{}: {change}", block.name);
     }
 }
+
+#[test]
+fn a_way_is_led_by_one_freedom_and_takes_the_others_along() {
+    let way = mixed(&Matrix::identity(3), -1.0);
+    assert_eq!(way[0], -1.0);
+    assert!(way[1..].iter().all(|x| (-0.5..-0.1).contains(x)), "{way:?}");
+}
