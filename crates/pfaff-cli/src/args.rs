@@ -237,8 +237,8 @@ pub(crate) struct Sweep {
     /// Scene file, or - for standard input
     #[arg(required_unless_present = "merge", conflicts_with = "merge")]
     pub(crate) scene: Option<PathBuf>,
-    /// A parameter or number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; may be
-    /// given several times
+    /// A parameter or number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or
+    /// KEY=A,B,C; may be given several times
     #[arg(long, value_name = "KEY=VALUES", required_unless_present = "merge")]
     pub(crate) vary: Vec<Axis>,
     /// Directory for the results

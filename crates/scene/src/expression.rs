@@ -10,37 +10,22 @@
 mod problem;
 mod quantity;
 mod token;
+mod unit;
 
-use std::f64::consts::PI;
 use std::ops::Range;
 
 pub(crate) use problem::{Fault, Problem};
 pub(crate) use quantity::{Bases, Quantity};
 use token::{Token, tokens};
 pub(crate) use token::{decimal, is_name};
+pub(crate) use unit::names_of;
+use unit::{UNITS, is_unit};
 
 use crate::dimension::Dimension;
 
 /// Brackets, signs and powers inside of each other: more would be a danger for the stack, and
 /// nobody can read as many.
 const DEEPEST: usize = 60;
-
-/// Units of expressions, as `times/over` in those of the format.
-const UNITS: [(&str, f64, f64, Dimension); 13] = [
-    ("mm", 1.0, 1e3, Dimension::LENGTH),
-    ("cm", 1.0, 1e2, Dimension::LENGTH),
-    ("m", 1.0, 1.0, Dimension::LENGTH),
-    ("in", 254.0, 1e4, Dimension::LENGTH),
-    ("deg", PI, 180.0, Dimension::ANGLE),
-    ("rad", 1.0, 1.0, Dimension::ANGLE),
-    ("g", 1.0, 1e3, Dimension::MASS),
-    ("kg", 1.0, 1.0, Dimension::MASS),
-    ("ms", 1.0, 1e3, Dimension::TIME),
-    ("s", 1.0, 1.0, Dimension::TIME),
-    ("min", 60.0, 1.0, Dimension::TIME),
-    ("N", 1.0, 1.0, Dimension::FORCE),
-    ("kN", 1e3, 1.0, Dimension::FORCE),
-];
 
 /// Functions with what they take.
 const FUNCTIONS: [(&str, &str); 13] = [
@@ -74,10 +59,6 @@ fn constant(name: &str) -> Option<Quantity> {
     }
     let found = UNITS.iter().find(|(unit, ..)| *unit == name);
     found.map(|&(_, times, over, of)| Quantity::unit(times, over, of))
-}
-
-fn is_unit(name: &str) -> bool {
-    UNITS.iter().any(|(unit, ..)| *unit == name)
 }
 
 fn function(name: &str) -> Option<(&'static str, &'static str)> {

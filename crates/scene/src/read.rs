@@ -329,7 +329,7 @@ impl Heading {
             .optional(&GRAVITY)
             .and_then(|field| field.pair(GRAVITY.expected, GRAVITY.unit, findings));
         let tolerance = tolerance::of_scene(&mut table, findings);
-        for key in &language::SCENE_KEYS {
+        for key in &language::read::SCENE_KEYS {
             table.optional(key);
         }
         table.close(findings);

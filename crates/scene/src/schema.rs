@@ -13,7 +13,7 @@ use serde_json::{Map, Value, json};
 use crate::function::{KINDS, STEP_KEYS};
 use crate::joint::{DRIVE_KEYS, MEASURE};
 use crate::key::{Interval, Key, TYPE};
-use crate::language::{self, UNIT_KEYS};
+use crate::language::read::{self as language, UNIT_KEYS};
 use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::read::SCENE_KEYS;

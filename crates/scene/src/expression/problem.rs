@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::unit::names_of;
 use crate::dimension::Dimension;
 
 /// What is wrong, and where in the text.
@@ -133,9 +134,7 @@ fn suffixes(of: Dimension) -> Option<String> {
     if of == Dimension::NONE {
         return Some("divide it by its unit, as `/(1 rad)` or `/(1 m)`".to_owned());
     }
-    let fitting = super::units().filter(|(_, unit)| unit.dimension == Some(of));
-    let names: Vec<&str> = fitting.map(|(name, _)| name).collect();
-    Some(match &names[..] {
+    Some(match &names_of(of)[..] {
         [] => format!("write its unit, as `2 {of}`"),
         names => format!(
             "its units are {}",

@@ -1,7 +1,7 @@
 //! Values against closed forms written down as decimals, and places of faults.
 
 use std::collections::BTreeMap;
-use std::f64::consts::{E, FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, LN_10, SQRT_2};
+use std::f64::consts::{E, FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, LN_10, PI, SQRT_2};
 
 use super::token::LONGEST;
 use super::*;

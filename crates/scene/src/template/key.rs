@@ -5,7 +5,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::Slot;
 use crate::field::{as_number, found};
-use crate::language::{COMPUTING, FORMAT};
+use crate::language::read::{COMPUTING, FORMAT};
 use crate::nearest::{list, nearest};
 use crate::section;
 

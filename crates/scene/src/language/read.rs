@@ -1,0 +1,261 @@
+//! `format` and `units` of `[scene]`, and `[parameters]`.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use linalg::Dd;
+
+use super::Language;
+use crate::dimension::Dimension;
+use crate::expression::{self, Bases, is_name, names_of, reserved, units};
+use crate::field::Field;
+use crate::findings::Findings;
+use crate::key::{Key, Takes};
+use crate::nearest::{did_you_mean, list};
+use crate::section;
+use crate::table::Table;
+
+/// The format in which texts may be expressions.
+pub(crate) const COMPUTING: i64 = 2;
+
+pub(crate) const FORMAT: Key = Key::optional("format", "1 or 2", Takes::Whole(1, COMPUTING))
+    .doc("Format of the file; 2 allows `[parameters]`, `units`, and expressions where numbers are expected")
+    .or(|| 1.into());
+const UNITS: Key = Key::optional("units", "a table { length = \"mm\", … }", Takes::Units)
+    .doc("Units of numbers that are written without a unit; metres and radians if it is not given");
+const LENGTH: Key = Key::optional("length", "a unit of length", Takes::OneOf(lengths))
+    .doc("Unit of lengths; with \"mm\", velocities are in mm/s, inertias in kg·mm², stiffnesses in N/mm")
+    .or(|| "m".into());
+const ANGLE: Key = Key::optional("angle", "a unit of angle", Takes::OneOf(angles))
+    .doc("Unit of angles; with \"deg\", angular velocities are in deg/s")
+    .or(|| "rad".into());
+
+/// The keys of `[scene]` that say how the rest is read.
+pub(crate) const SCENE_KEYS: [Key; 2] = [FORMAT, UNITS];
+/// The keys of `units`.
+pub(crate) const UNIT_KEYS: [Key; 2] = [LENGTH, ANGLE];
+
+fn lengths() -> Vec<&'static str> {
+    names_of(Dimension::LENGTH)
+}
+
+fn angles() -> Vec<&'static str> {
+    names_of(Dimension::ANGLE)
+}
+
+impl Language {
+    /// Reads `format` and `units` of `[scene]`, and `[parameters]`. Other problems of these
+    /// sections are left to their readers.
+    pub(crate) fn read(root: &mut Table, findings: &mut Findings) -> Self {
+        let mut language = Self::PLAIN;
+        let entries = |field: &Field| field.value.get_ref().is_table();
+        let scene = root.optional(section::SCENE.name).filter(entries);
+        let head = scene.and_then(|field| field.table("", findings));
+        let mut is_stated = false;
+        let mut units = None;
+        if let Some(mut head) = head {
+            head.subject = "`[scene]`".into();
+            let format = head.optional(&FORMAT);
+            is_stated = format.is_some();
+            let format = format.and_then(|field| whole(&field, findings));
+            // A format that cannot be read has been reported.
+            language.computes = format == Some(COMPUTING) || (is_stated && format.is_none());
+            units = head.optional(&UNITS);
+        }
+        let needs_format = |span, what: &str, findings: &mut Findings| {
+            let help = if is_stated {
+                "write `format = 2` in `[scene]`"
+            } else {
+                "add `format = 2` to `[scene]`"
+            };
+            let message = format!("{what} needs the format 2");
+            findings.error_with_help(span, message, "not in format 1", help.to_owned());
+        };
+        if let Some(field) = units {
+            if !language.computes {
+                needs_format(field.span(), "`units`", findings);
+            }
+            language.bases = bases(&field, findings);
+        }
+        if let Some(field) = root.optional(section::PARAMETERS.name) {
+            if !language.computes {
+                needs_format(field.span(), "`[parameters]`", findings);
+                language.computes = true;
+            }
+            language.parameters(&field, findings);
+        }
+        language
+    }
+
+    /// Reads the parameters, each after those that it names.
+    fn parameters(&mut self, field: &Field, findings: &mut Findings) {
+        let Some(table) = field.table("one table `[parameters]`", findings) else {
+            return;
+        };
+        let mut list: Vec<Parameter> = Vec::new();
+        for (key, mut value) in table.all() {
+            value.subject = "`[parameters]`".into();
+            let name = value.key.to_string();
+            check_name(&name, key, findings);
+            self.parameters.insert(name.clone(), None);
+            list.push(Parameter { name, value });
+        }
+        let at: BTreeMap<&str, usize> = (0..).zip(&list).map(|(k, p)| (&*p.name, k)).collect();
+        let needs: Vec<Vec<(usize, Range<usize>)>> = list
+            .iter()
+            .map(|parameter| {
+                let text = parameter.value.value.get_ref().as_str().unwrap_or_default();
+                let names = expression::names(text).into_iter();
+                names
+                    .filter_map(|(name, span)| Some((*at.get(name)?, span)))
+                    .collect()
+            })
+            .collect();
+        let mut waits: Vec<usize> = needs.iter().map(Vec::len).collect();
+        let mut users = vec![Vec::new(); list.len()];
+        for (user, needed) in needs.iter().enumerate() {
+            needed.iter().for_each(|(k, _)| users[*k].push(user));
+        }
+        let mut ready: Vec<usize> = (0..list.len()).filter(|k| waits[*k] == 0).collect();
+        while let Some(k) = ready.pop() {
+            let value = list[k]
+                .value
+                .quantity("a number or an expression", self, findings);
+            self.parameters.insert(list[k].name.clone(), value);
+            for &user in &users[k] {
+                waits[user] -= 1;
+                if waits[user] == 0 {
+                    ready.push(user);
+                }
+            }
+        }
+        report_circles(&list, &needs, &waits, findings);
+    }
+}
+
+/// A parameter as it is written.
+struct Parameter<'t> {
+    name: String,
+    value: Field<'t>,
+}
+
+/// Reports each circle of parameters once; parameters that only name one of a circle are left out.
+fn report_circles(
+    list: &[Parameter],
+    needs: &[Vec<(usize, Range<usize>)>],
+    waits: &[usize],
+    findings: &mut Findings,
+) {
+    // 0: not yet seen; otherwise the number of the walk that came here.
+    let mut seen = vec![0; list.len()];
+    for first in (0..list.len()).filter(|k| waits[*k] > 0) {
+        let mut path: Vec<(usize, Range<usize>)> = Vec::new();
+        let mut here = first;
+        while seen[here] == 0 {
+            seen[here] = first + 1;
+            let next = needs[here].iter().find(|(k, _)| waits[*k] > 0);
+            let Some((next, span)) = next else { break };
+            path.push((here, span.clone()));
+            here = *next;
+        }
+        let Some(begin) = path.iter().position(|(k, _)| *k == here) else {
+            continue;
+        };
+        let circle = &path[begin..];
+        let names = circle.iter().map(|(k, _)| list[*k].name.as_str());
+        let names: Vec<&str> = names.chain([list[here].name.as_str()]).collect();
+        let (at, span) = &circle[0];
+        let value = &list[*at].value;
+        let message = match circle.len() {
+            1 => format!("the parameter `{}` depends on itself", names[0]),
+            _ => format!(
+                "the parameters {} depend on each other",
+                list_of(&names, " → ")
+            ),
+        };
+        findings.error_with_help(
+            value.part(span.clone(), findings),
+            message,
+            "closes the circle",
+            "give one of them a value without the others".to_owned(),
+        );
+    }
+}
+
+/// Names that a message about a circle shows.
+const SHOWN: usize = 8;
+
+fn list_of(names: &[&str], between: &str) -> String {
+    let mut shown: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    if shown.len() > SHOWN {
+        let last = shown.split_off(shown.len() - 1);
+        shown.truncate(SHOWN - 2);
+        shown.push("…".to_owned());
+        shown.extend(last);
+    }
+    shown.join(between)
+}
+
+/// Reports a name that expressions cannot say, or that means something else to them.
+fn check_name(name: &str, span: Range<usize>, findings: &mut Findings) {
+    if let Some(what) = reserved(name) {
+        findings.error_with_help(
+            span,
+            format!("the parameter `{name}` has the name of {what}"),
+            "choose another name",
+            format!("for example `{name}_1`"),
+        );
+    } else if !is_name(name) {
+        findings.error_with_help(
+            span,
+            format!("the parameter {name:?} has a name that expressions cannot contain"),
+            "choose another name",
+            "names have letters, digits and `_`, and begin with no digit".to_owned(),
+        );
+    }
+}
+
+/// A whole number that `format` takes.
+fn whole(field: &Field, findings: &mut Findings) -> Option<i64> {
+    let format = field.integer(FORMAT.expected, findings)?;
+    if (1..=COMPUTING).contains(&format) {
+        return Some(format);
+    }
+    findings.error(
+        field.span(),
+        format!("`[scene]`: `format` is {format}, need {}", FORMAT.expected),
+        "no such format",
+    );
+    None
+}
+
+/// The units of bare numbers.
+fn bases(field: &Field, findings: &mut Findings) -> Bases {
+    let Some(mut table) = field.table(UNITS.expected, findings) else {
+        return Bases::SI;
+    };
+    let mut base = |key: &Key, of: Dimension| {
+        let field = table.optional(key)?;
+        let name = field.text(key.expected, findings)?;
+        let mut fitting = units().filter(|(_, unit)| unit.dimension == Some(of));
+        let found = fitting.find(|(unit, _)| *unit == name);
+        if found.is_none() {
+            let names = names_of(of);
+            findings.error_with_help(
+                field.span(),
+                format!(
+                    "{}: `{}` must be {}, found `{name}`",
+                    field.subject, field.key, key.expected
+                ),
+                "no such unit",
+                did_you_mean(name, names.iter().copied())
+                    .or(Some(format!("there are {}", list(names.iter().copied())))),
+            );
+        }
+        found.map(|(_, unit)| unit.value)
+    };
+    let length = base(&LENGTH, Dimension::LENGTH).unwrap_or(Dd::ONE);
+    let angle = base(&ANGLE, Dimension::ANGLE).unwrap_or(Dd::ONE);
+    table.close(findings);
+    Bases { length, angle }
+}
