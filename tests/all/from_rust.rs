@@ -165,7 +165,7 @@ fn verdicts_are_the_same_to_the_last_bit() {
     let (text, code) = (document(&from_text()), document(&from_code()));
     assert_eq!(json(&text), json(&code));
     // One crank and one wheel are redundant.
-    assert_eq!((code.rows, code.redundancy), (18, 2));
+    assert_eq!((code.configuration.rows, code.ranks.redundancy), (18, 2));
     assert_eq!(code.groups[0].verdict.verdict, "unique");
     assert!(
         code.reactions

@@ -1,7 +1,7 @@
 //! The table of limits: every number of this crate that somebody chose. Each says what it is, in
 //! which unit, what breaks if it is wrong (`Less`: if it were smaller, `More`: if it were larger),
-//! and which test fails then; `none, work only` if only time or memory change, `none` if there is no
-//! test yet. `tests/all/limits.rs` reads it.
+//! and which test fails then; `none, work only` if only time or memory change, `none` if there is
+//! no test yet. `tests/all/limits.rs` reads it.
 //!
 //! Shares of pivots are shares of the *reference pivots*, those at which the rows were chosen.
 

@@ -261,8 +261,8 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// - [`StudyError::Motion`]: the run could not begin, or stopped; [`Study::run`] returns the rows
-    ///   up to there.
+    /// - [`StudyError::Motion`]: the run could not begin, or stopped; [`Study::run`] returns the
+    ///   rows up to there.
     /// - [`StudyError::Analysis`]: reactions cannot be analysed at the start.
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;

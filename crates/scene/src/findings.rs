@@ -143,8 +143,8 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(self.source, span, message, label).and(first));
     }
 
-    /// Whether something that may be named once is named for the first time, here; else reports both
-    /// places.
+    /// Whether something that may be named once is named for the first time, here; else reports
+    /// both places.
     pub(crate) fn is_first<T: Eq + Hash>(
         &mut self,
         named: &mut HashMap<T, Range<usize>>,

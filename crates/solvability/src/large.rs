@@ -45,13 +45,18 @@ pub(crate) fn judge_sparse(
         rows: (&all.found).into(),
         evidence: Box::new(evidence(&all.found)),
     };
-    let told = dependencies.len();
-    if told < all.found.redundancy && all.found.is_decided() {
-        warnings.push(format!(
-            "{told} of {} dependencies are listed: {} rows share cycles, and more than {ROWS_MAX} of them depend on each other",
-            all.found.redundancy,
-            layout.rows()
-        ));
+    let size = scene_size(mechanism, q);
+    let mut judged = Judged::new(mechanism, s.t, size, decision, ranks, verdict)?;
+    let redundancy = all.found.redundancy;
+    if all.found.is_decided() && redundancy > 0 {
+        judged.dependencies = dependencies(mechanism, s, q, &judged.reactions)?;
+        let told = judged.dependencies.len();
+        if told < redundancy {
+            judged.warnings.push(format!(
+                "{told} of {redundancy} dependencies are listed: {} rows share cycles, and more than {ROWS_MAX} of them depend on each other",
+                layout.rows()
+            ));
+        }
     }
     Ok(judged)
 }

@@ -255,9 +255,9 @@ impl Watch {
 mod tests {
     use super::*;
 
-    /// A row off its motion by the tolerance has reactions wrong by tolerance over pivot: those that
-    /// are told keep three digits, where the tolerance is neither rounding nor loose. Branches are
-    /// told apart with two.
+    /// A row off its motion by the tolerance has reactions wrong by tolerance over pivot: those
+    /// that are told keep three digits, where the tolerance is neither rounding nor loose. Branches
+    /// are told apart with two.
     #[test]
     fn pivots_are_compared_with_what_the_tolerance_leaves_of_them() {
         for (rtol, nearest, blind) in [

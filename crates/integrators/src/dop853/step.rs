@@ -114,7 +114,8 @@ struct Step<'a, O> {
 }
 
 impl<O: Ode> Step<'_, O> {
-    /// Writes `y0 + h·Σ a_sj·k_j` to y; `used` are the j with coefficients, `k` begins with stage 1.
+    /// Writes `y0 + h·Σ a_sj·k_j` to y; `used` are the j with coefficients, `k` begins with stage
+    /// 1.
     #[inline]
     fn argument<const N: usize>(&self, s: usize, used: [usize; N], k: &[Vec<f64>], y: &mut [f64]) {
         let of = |j: usize| if j == 0 { self.start.f0 } else { &k[j - 1][..] };

@@ -78,8 +78,8 @@ pub(super) enum Fuzz {
     /// Tests scenes of full rank near a lower rank, with tolerances below a third of their distance
     /// from it; exit code 1 if one is called redundant
     FullRank(Drawings),
-    /// Turns parallelograms through their flat poses at 1 … 10 rad/s; exit code 1 if one is wrong or
-    /// stops late, or if fewer than 97 of 100 pass
+    /// Turns parallelograms through their flat poses at 1 … 10 rad/s; exit code 1 if one is wrong
+    /// or stops late, or if fewer than 97 of 100 pass
     Passages {
         /// How many
         #[arg(long, default_value_t = 150, value_parser = clap::value_parser!(u64).range(1..))]

@@ -177,7 +177,7 @@ fn elsewhere(d: &AnalysisDocument) -> String {
         (g.redundancy, n)
     });
     match (d.evidence.permanent, compared) {
-        (_, Some((p, n))) if p > d.redundancy => format!(
+        (_, Some((p, n))) if p > d.ranks.redundancy => format!(
             "at {n} the redundancy is {p}, more than here: what is independent here depends on digits that the data may not have"
         ),
         (Some(true), Some((_, n))) => format!("permanent: the same redundancy at {n}"),

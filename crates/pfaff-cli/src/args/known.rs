@@ -35,8 +35,11 @@ impl FromStr for Setting {
     }
 }
 
+/// Other numbers in a scene, and other tolerances of its data.
 #[derive(Args, Clone, Default)]
 pub(crate) struct Known {
+    #[command(flatten)]
+    pub(crate) settings: Settings,
     /// Tolerance of points and lengths of the scene (m), in place of its `tolerance`
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = length)]
     pub(crate) tolerance: Option<f64>,

@@ -136,8 +136,8 @@ impl Basis {
         Mapped::new(self, map, self.list(rows)?)
     }
 
-    /// The rank of some of the rows, ascending, from the dependencies of all: those that need no other row,
-    /// `z = 0` there, are as many as `p − rank Z_other`. `None` if the rank of all is
+    /// The rank of some of the rows, ascending, from the dependencies of all: those that need no
+    /// other row, `z = 0` there, are as many as `p − rank Z_other`. `None` if the rank of all is
     /// undecided, or that of Z_other unclear.
     pub(crate) fn rank_of(&self, rows: &[usize]) -> Option<usize> {
         if self.known.status != RankStatus::Decided {
