@@ -200,7 +200,8 @@ impl<'a> Reactions<'a> {
             .and_then(|name| self.component_coefficients(id, name));
         let sign = named.map_or(1.0, |coefficients| coefficients[row].signum());
         let push = Direction::new([map[(0, row)], map[(1, row)]])?.xy();
-        Some(push.map(|x| sign * x))
+        // A zero has no sign.
+        Some(push.map(|x| sign * x + 0.0))
     }
 
     /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or
