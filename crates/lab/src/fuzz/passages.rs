@@ -55,7 +55,7 @@ pub enum Verdict {
     Stopped {
         /// What it says.
         error: String,
-        /// Whether it said so within [a second](PATIENCE).
+        /// Whether it said so within a second.
         in_time: bool,
     },
     /// A row contradicts the closed form.
