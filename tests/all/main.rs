@@ -24,6 +24,7 @@ mod invariance;
 mod large;
 mod limits;
 mod long_runs;
+mod misfits;
 mod nearly_redundant;
 mod oldest_compiler;
 mod parts;

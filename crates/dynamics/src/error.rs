@@ -106,6 +106,25 @@ pub enum MotionFault {
         /// The largest residual allowed.
         tolerance: f64,
     },
+    /// A row that is redundant within the stated tolerance misses by more than data within it
+    /// explain.
+    #[error(
+        "at t = {time} s row {row} would have to give {residual:.3e} ({level}), and data within the stated tolerance explain {bound:.3e}: within it          the mechanism moves to here only ({way} since the start). Correct the dimensions of its joint, state the tolerance that the joint has, or          end the run earlier"
+    )]
+    BeyondTolerance {
+        /// Time (s).
+        time: f64,
+        /// The row.
+        row: RowLabel,
+        /// "position" or "velocity".
+        level: &'static str,
+        /// Its residual.
+        residual: f64,
+        /// What data within the tolerance explain.
+        bound: f64,
+        /// How far the mechanism has moved since its start.
+        way: String,
+    },
     /// From a time after the start on, redundant drives prescribe different motions, or one of them
     /// prescribes what joints forbid.
     #[error("at t = {time} s redundant rows part: {contradiction}")]

@@ -41,3 +41,4 @@ pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{Plan, Wanted};
 pub use prepare::{Prepared, prepare, start_velocity};
 pub use run::{ComponentSummary, Failure, Reduced, Sample, Summary, simulate};
+pub use solve::Misfit;

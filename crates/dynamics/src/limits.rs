@@ -104,6 +104,11 @@ pub(crate) const CONVERGENCE: f64 = 0.1;
 /// `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
 pub(crate) const DROPPED_MISFIT: f64 = 1e-11;
 
+/// A misfit that grows by less than this share is the same one: its time is the first.
+/// Unit: share of the misfit. Less: rounding decides when a constant misfit occurs. More: the time
+/// of a growing one is early. Test: `a_door_on_two_hinges_misses_by_their_distance`.
+pub(crate) const SAME_MISFIT: f64 = 1e-9;
+
 /// The share of the size of the mechanism by which velocities may part in the time of a run,
 /// however slow it is: some hundred roundings.
 /// Unit: share of size. Less: mechanisms at rest are refused. More: slow contradictions are not

@@ -14,7 +14,7 @@ use crate::guards::GUARDED;
 use crate::manifold::{Correction, Manifold, Origin, inspect};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
-use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, State};
+use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, Misfits, State};
 use crate::watch::{Handover, Next, Watch, are_worn};
 
 /// A mechanism on kept rows. All storage is allocated here; accelerations and projections do not
@@ -67,10 +67,15 @@ impl<'m> KeptRowMotion<'m> {
         } else {
             f64::INFINITY
         };
+        let mut equations = KeptEquations::new(at, velocity, position);
+        if prepared.may_miss {
+            equations.at.pose(0.0, &prepared.q);
+            equations.misfits = Some(Box::new(Misfits::new(&equations.at)));
+        }
         Ok(Self {
-            manifold: Manifold::new(&at, options.stabilisation, horizon),
+            manifold: Manifold::new(&equations.at, options.stabilisation, horizon),
             watch: Watch::new(&prepared.choice, options),
-            equations: KeptEquations::new(at, velocity, position),
+            equations,
             code: None,
         })
     }

@@ -3,18 +3,20 @@
 
 use std::sync::Arc;
 
-use model::start::{StartVelocity, assemble, consistent_velocity};
-use model::{Assembly, Mechanism, StartError, StartOptions, System};
-use rank::RankStatus;
+use model::start::{Metric, StartVelocity, assemble, consistent_velocity, nearest_configuration};
+use model::{Assembly, Mechanism, Scratch, StartError, StartOptions, System};
+use rank::{KeptRowsError, RankStatus};
 use solvability::{
     ConstraintLevel, Contradiction, RowDecision, Rows, decide_rows_dropping, rows as rows_of,
+    rows_of_rank,
 };
 
 use crate::code::SceneCode;
 use crate::error::{DropError, MotionError};
 use crate::limits::TAKES_PART;
+use crate::motion::KeptRowMotion;
 use crate::options::{MotionOptions, RowChoice, Stabilisation};
-use crate::solve;
+use crate::solve::{self, Misfit};
 
 /// A mechanism with a consistent start and kept rows.
 #[derive(Clone)]
@@ -28,6 +30,11 @@ pub struct Prepared {
     pub v: Vec<f64>,
     /// The requested choice of rows.
     pub choice: RowChoice,
+    /// What the start keeps.
+    pub start: StartOptions,
+    /// Whether a tolerance is stated and rows are dropped: these may be redundant within it only.
+    /// Then they have misfits, and which rows are kept changes the motion by as much.
+    pub may_miss: bool,
     /// Rank and kept rows of C.
     pub decision: RowDecision,
     /// Rank and kept rows of Φq alone, which determine the configuration.
@@ -68,6 +75,37 @@ impl Prepared {
         solve::mass_spread(&self.mechanism, self.assembly.size)
     }
 
+    /// The same mechanism on other rows: those that have missed are kept, each instead of the row
+    /// that takes the largest part in its dependency at the start. Returns `None` if these rows
+    /// cannot be dropped together, or for a component of another mechanism.
+    ///
+    /// # Errors
+    /// As [`prepare`].
+    pub fn on_other_rows(&self, misfits: &[Misfit]) -> Result<Option<Self>, MotionError> {
+        let Some(found) = &self.decided else {
+            return Ok(None);
+        };
+        let mut dropped = self.decision.dropped.clone();
+        let mut motion = KeptRowMotion::new(self)?;
+        for misfit in misfits {
+            let Some(k) = dropped.iter().position(|&i| i == misfit.row) else {
+                return Ok(None);
+            };
+            let taken = dropped.clone();
+            match motion.equations.partner(&self.q, misfit.row, &taken)? {
+                Some(partner) => dropped[k] = partner,
+                None => return Ok(None),
+            }
+        }
+        dropped.sort_unstable();
+        let (mechanism, assembly) = (self.mechanism.clone(), self.assembly.clone());
+        let choice = RowChoice::Drop(dropped);
+        match on_rows(mechanism, assembly, Arc::clone(found), &self.start, &choice) {
+            Err(MotionError::Rows(_)) => Ok(None),
+            other => other.map(Some),
+        }
+    }
+
     /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is
     /// free, and states are projected.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
@@ -92,11 +130,6 @@ pub fn prepare(
     rows: &RowChoice,
 ) -> Result<Prepared, MotionError> {
     let assembly = assemble(&mut mechanism, start)?;
-    let layout = mechanism.layout();
-    let mut s = mechanism.scratch();
-    mechanism.pose(0.0, &assembly.q, &mut s);
-    mechanism.phi(&mut s);
-    mechanism.c(&mut s);
     let found = rows_of(&mechanism, 0.0, &assembly.q)?;
     if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
         // Report what prevents any motion first, since it is also an error of the analysis.
@@ -109,29 +142,78 @@ pub fn prepare(
             error
         });
     }
-    let decision = match rows {
-        RowChoice::Automatic => found.all.clone(),
-        RowChoice::Drop(dropped) => decide_rows_dropping(&mechanism, &s, &assembly.q, dropped)
-            .map_err(|e| DropError::new(e, &layout.labels, found.all.redundancy))?,
+    on_rows(mechanism, assembly, Arc::new(found), start, rows)
+}
+
+/// An assembled mechanism on a choice of rows.
+fn on_rows(
+    mechanism: Mechanism,
+    assembly: Assembly,
+    found: Arc<Rows>,
+    start: &StartOptions,
+    rows: &RowChoice,
+) -> Result<Prepared, MotionError> {
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &assembly.q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    let labels = &mechanism.layout().labels;
+    let refused = |e| DropError::new(e, labels, found.all.redundancy);
+    let may_miss = mechanism.has_tolerances() && found.all.redundancy > 0;
+    let (decision, position_decision) = match rows {
+        RowChoice::Automatic => (found.all.clone(), found.holonomic.clone()),
+        RowChoice::Drop(dropped) if may_miss => {
+            drop_within_tolerance(&mechanism, &found, &s, &assembly.q, dropped).map_err(refused)?
+        }
+        RowChoice::Drop(dropped) => {
+            let decision = decide_rows_dropping(&mechanism, &s, &assembly.q, dropped);
+            (decision.map_err(refused)?, found.holonomic.clone())
+        }
+    };
+    let q = if may_miss {
+        let kept = &position_decision.kept;
+        nearest_configuration(&mechanism, 0.0, kept, &assembly.q, Metric::Start(start))?
+    } else {
+        assembly.q.clone()
     };
     let (StartVelocity { v, correction }, against) =
-        start_velocity(&mechanism, start, &found, &assembly.q, &decision.kept)?;
+        start_velocity(&mechanism, start, &found, &q, &decision.kept)?;
     if let Some(contradiction) = against {
         return Err(contradiction.into());
     }
-    let q = assembly.q.clone();
     Ok(Prepared {
         mechanism,
         q,
         v,
         choice: rows.clone(),
+        start: start.clone(),
         decision,
-        position_decision: found.holonomic.clone(),
-        decided: Some(Arc::new(found)),
+        position_decision,
+        may_miss,
+        decided: Some(found),
         assembly,
         velocity_correction: correction,
         code: None,
     })
+}
+
+/// The requested rows to drop, of C and of Φq: the same ones, as far as they are holonomic.
+fn drop_within_tolerance(
+    mechanism: &Mechanism,
+    found: &Rows,
+    s: &Scratch,
+    q: &[f64],
+    dropped: &[usize],
+) -> Result<(RowDecision, RowDecision), KeptRowsError> {
+    let layout = mechanism.layout();
+    let of_all = (layout.rows(), found.all.rank);
+    let all = rows_of_rank(mechanism, s, q, of_all, Some(dropped))?;
+    let of_positions: Vec<usize> = dropped.iter().copied().filter(|i| *i < layout.m).collect();
+    let requested = Some(of_positions.as_slice());
+    let requested = requested.filter(|rows| rows.len() == found.holonomic.redundancy);
+    let of_holonomic = (layout.m, found.holonomic.rank);
+    let positions = rows_of_rank(mechanism, s, q, of_holonomic, requested)?;
+    Ok((all, positions))
 }
 
 /// Returns the reason why no rows can be kept, if none can.

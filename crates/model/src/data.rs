@@ -15,7 +15,7 @@ use crate::mechanism::{Mechanism, PlacedConstraint, twist_of};
 use crate::size::size_of;
 use crate::system::{Scratch, System};
 use crate::tolerance::Tolerance;
-use crate::uncertainty::{ROUNDING, has_tolerances};
+use crate::uncertainty::ROUNDING;
 
 pub use gradients::DataGradients;
 
@@ -116,7 +116,7 @@ impl<'m> Data<'m> {
     pub fn blocks(self, s: &Scratch) -> Vec<DataBlock> {
         let mut blocks = Vec::new();
         let mut numbers = Vec::new();
-        let stated = has_tolerances(self.0).then(|| size_of(self.0, s));
+        let stated = self.0.has_tolerances().then(|| size_of(self.0, s));
         for (group, (c, places)) in self.numbered().enumerate() {
             let element = &c.element;
             numbers.clear();

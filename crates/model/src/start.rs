@@ -19,7 +19,6 @@ use linalg::least_squares_step;
 
 use crate::mechanism::{Mechanism, N_BODY, initialise, unmet_requirement};
 use crate::system::{Scratch, System};
-use crate::uncertainty::has_tolerances;
 use metric::{DAMPING, ROUNDINGS, SMALL_CORRECTION, dense_rows, largest, weights};
 use options::kept_columns;
 
@@ -70,7 +69,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let rows = restricting_rows(mechanism);
     let weights = position_weights(mechanism, options, size)?;
     let mut s = mechanism.scratch();
-    let within = has_tolerances(mechanism);
+    let within = mechanism.has_tolerances();
     let q = nearest(
         mechanism,
         &mut s,
@@ -110,10 +109,12 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
 }
 
 /// Metric that defines the closest configuration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Metric {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Metric<'a> {
     /// Masses and inertias; used for the start.
     Mass,
+    /// The same; coordinates that these options keep do not move.
+    Start(&'a StartOptions),
     /// Lengths, with angles times the size of the mechanism. Masses do not determine where a
     /// mechanism can be: with a light body of large size, the mass metric would rather rotate this
     /// body far than move its heavy neighbour slightly.
@@ -129,11 +130,12 @@ pub fn nearest_configuration(
     t: f64,
     rows: &[usize],
     q: &[f64],
-    metric: Metric,
+    metric: Metric<'_>,
 ) -> Result<Vec<f64>, StartError> {
     let size = scene_size(mechanism, q);
     let weights = match metric {
         Metric::Mass => position_weights(mechanism, &StartOptions::default(), size)?,
+        Metric::Start(options) => position_weights(mechanism, options, size)?,
         Metric::Length => (0..mechanism.layout().n_v)
             .map(|k| {
                 if k % N_BODY == 2 {

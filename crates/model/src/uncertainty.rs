@@ -40,18 +40,18 @@ impl Known {
     }
 }
 
-/// Whether a tolerance is stated for any number of a mechanism.
-pub(crate) fn has_tolerances(mechanism: &Mechanism) -> bool {
-    mechanism.tolerance().is_stated()
-        || mechanism
-            .bodies()
-            .iter()
-            .any(|body| body.tolerance.is_some())
-        || mechanism
-            .elements
-            .constraints
-            .iter()
-            .any(|c| c.tolerance.is_some())
+impl Mechanism {
+    /// Whether a tolerance is stated for any number.
+    #[must_use]
+    pub fn has_tolerances(&self) -> bool {
+        self.tolerance().is_stated()
+            || self.bodies().iter().any(|body| body.tolerance.is_some())
+            || self
+                .elements
+                .constraints
+                .iter()
+                .any(|c| c.tolerance.is_some())
+    }
 }
 
 impl Scales<'_> {
@@ -87,7 +87,7 @@ impl Scales<'_> {
         let magnitudes = self.magnitudes();
         // Angle by which bodies may be rotated; a mechanism far from the origin is rotated about
         // itself.
-        let has_tolerances = has_tolerances(self.mechanism);
+        let has_tolerances = self.mechanism.has_tolerances();
         let opening = |i: usize| {
             let missed = self.s.phi.get(i).map_or(0.0, |phi| phi.abs());
             if has_tolerances {

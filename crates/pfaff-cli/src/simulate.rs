@@ -128,6 +128,12 @@ fn describe(name: &str, d: &RunDocument) -> String {
             d.start_correction, d.start_velocity_correction
         ));
     }
+    for misfit in d.misfits.iter().take(LISTED) {
+        text.push_str(&format!("within the tolerance: {misfit}\n"));
+    }
+    if let Some(spread) = &d.spread {
+        text.push_str(&format!("which rows are kept is a choice: {spread}\n"));
+    }
     for event in &d.events {
         text.push_str(&format!("t = {:.6} s: {}\n", event.time, event.text));
     }

@@ -28,6 +28,7 @@ pub mod error;
 pub mod memory;
 pub mod prelude;
 mod report_builder;
+mod spread;
 pub mod study;
 pub mod sweep;
 pub mod work_precision;

@@ -24,6 +24,7 @@ use crate::assembled::{AssembledScene, refused};
 use crate::configuration::{AskedRows, ConfigurationAnalysis};
 use crate::error::StudyError;
 use crate::report_builder::ReportBuilder;
+use crate::spread::Path;
 
 /// Largest number of rows of a mechanism for which an animation has additional rows between those
 /// of the tables.
@@ -271,7 +272,9 @@ impl Study {
         let freedoms = start.freedoms()?;
         let sensitivities = start.sensitivities()?;
         let mut rows = Vec::new();
+        let mut path = Path::default();
         let outcome = plan.simulate(|sample| {
+            path.take(&self.prepared, sample);
             let reactions = sample.reactions()?;
             rows.push(MomentDocument::new(
                 mechanism, sample.t, sample.q, sample.v, &reactions,
@@ -279,6 +282,7 @@ impl Study {
             Ok(ControlFlow::Continue(()))
         });
         let summary = outcome.map_err(|failure| failure.error)?;
+        let spread = path.spread(&plan, &summary, || ControlFlow::Continue(()));
         let run = Run {
             plan: &plan,
             reactions: &start.analysis.reactions,
@@ -286,6 +290,7 @@ impl Study {
             data: DataDocument::new(&start.analysis),
             freedoms: &freedoms,
             summary: &summary,
+            spread: spread.as_ref(),
             ending: Ending::Complete,
         };
         Ok(MotionDocument::new(RunDocument::new(&run), rows))
@@ -410,10 +415,12 @@ impl Study {
             Rows::Ends => go_on(t),
         };
         let mut unwritten = None;
+        let mut path = Path::default();
         let mut rows = 0;
         let outcome = plan.simulate_watched(&watch, |sample| {
             let in_tables = rows % between == 0 || sample.t >= t_end;
             rows += 1;
+            path.take(&self.prepared, sample);
             let written = write_row(
                 sample,
                 trajectory.as_mut().filter(|_| in_tables),
@@ -435,10 +442,14 @@ impl Study {
             Err(failure) if rows == 0 => return Err(failure.error.into()),
             Err(failure) => (failure.summary, Some(failure.error)),
         };
-        let ending = match (&error, interrupted.into_inner()) {
+        let ending = match (&error, interrupted.load(Ordering::Relaxed)) {
             (Some(error), _) => Ending::Stopped(error),
             (None, true) => Ending::Interrupted,
             (None, false) => Ending::Complete,
+        };
+        let spread = match ending {
+            Ending::Complete => path.spread(&plan, &summary, || go_on(t_end)),
+            _ => None,
         };
         let run = Run {
             plan: &plan,
@@ -447,6 +458,7 @@ impl Study {
             data: DataDocument::new(&start.analysis),
             freedoms: &freedoms,
             summary: &summary,
+            spread: spread.as_ref(),
             ending,
         };
         let document = RunDocument::new(&run);

@@ -42,7 +42,7 @@ pub use within::{RankReading, certify_rank, certify_within};
 
 pub(crate) use clear::{Size, independent, size};
 pub(crate) use coefficient::coefficient_noise;
-pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
+pub use explicit::{KeptRowsError, decide_dropping, decide_keeping, dropping_of_rank};
 
 /// Decides the rank of C, chooses the rows to keep, and expresses the others in terms of them.
 ///
@@ -75,13 +75,21 @@ pub fn decide<'a>(
     uncertainty: impl Into<Uncertainty<'a>>,
 ) -> Result<RankDecision, RankError> {
     let (scaling, scaled, reading) = read(c, uncertainty.into())?;
-    let kept = if reading.rank == c.nrows() {
-        (0..reading.rank).collect()
-    } else {
-        PivotedQr::of_rows(scaled.clone()).permutation()[..reading.rank].to_vec()
-    };
-    let basis = strong_basis::bounded(&scaled, kept);
-    Ok(reading.with_basis(scaling, basis))
+    Ok(reading.with_strong_basis(scaling, &scaled))
+}
+
+/// Like [`decide`], if the rank is known otherwise: data within a stated tolerance may have a lower
+/// rank than the matrix. Dropped rows then depend on the kept ones only nearly.
+///
+/// # Errors
+/// As [`decide`].
+pub fn decide_of_rank<'a>(
+    c: &Matrix,
+    uncertainty: impl Into<Uncertainty<'a>>,
+    rank: usize,
+) -> Result<RankDecision, RankError> {
+    let (scaling, scaled, reading) = read(c, uncertainty.into())?;
+    Ok(reading.of_rank(rank).with_strong_basis(scaling, &scaled))
 }
 
 /// Rows that appear independent by the pivots of one factorisation, ascending: a Newton iteration
@@ -139,6 +147,13 @@ pub(crate) fn tolerance(m: usize, n: usize, uncertainty: f64) -> f64 {
 /// Lower limit for the smallest singular value that counts as non-zero: max(10³·τ, 10⁻⁷).
 pub(crate) fn required(tolerance: f64) -> f64 {
     (CLEARANCE * tolerance).max(NEARLY_SINGULAR)
+}
+
+/// σ_r and σ_{r+1}; infinite for r = 0, and zero beyond the last.
+fn around(singular_values: &[f64], r: usize) -> [f64; 2] {
+    let before = r.checked_sub(1).map(|k| singular_values[k]);
+    let next = singular_values.get(r).copied();
+    [before.unwrap_or(f64::INFINITY), next.unwrap_or(0.0)]
 }
 
 /// σ_r / σ_{r+1}, infinite if σ_{r+1} = 0.
@@ -207,20 +222,15 @@ impl Reading {
             shown(hidden, tolerance)
         };
 
-        let sigma_r = |r: usize| {
-            if r == 0 {
-                f64::INFINITY
-            } else {
-                singular_values[r - 1]
-            }
-        };
-        let sigma_next = |r: usize| singular_values.get(r).copied().unwrap_or(0.0);
         // Below the tolerance there is only noise, which must not enlarge the gap.
-        let clear_gap = |r: usize| sigma_r(r).min(sigma_max) / sigma_next(r).max(tolerance);
+        let clear_gap = |r: usize| {
+            let [sigma_r, sigma_next] = around(&singular_values, r);
+            sigma_r.min(sigma_max) / sigma_next.max(tolerance)
+        };
         let rank = (lower..=upper)
             .max_by(|&a, &b| clear_gap(a).total_cmp(&clear_gap(b)))
             .unwrap_or(upper);
-        let (sigma_r, sigma_next) = (sigma_r(rank), sigma_next(rank));
+        let [sigma_r, sigma_next] = around(&singular_values, rank);
         Self {
             rank,
             evidence: Evidence {
@@ -235,6 +245,33 @@ impl Reading {
             },
             status,
         }
+    }
+
+    /// The same singular values for a rank that is known otherwise.
+    fn of_rank(self, rank: usize) -> Self {
+        let rank = rank.min(self.evidence.singular_values.len());
+        let [sigma_r, sigma_next] = around(&self.evidence.singular_values, rank);
+        Self {
+            rank,
+            evidence: Evidence {
+                sigma_r,
+                sigma_next,
+                gap: gap(sigma_r, sigma_next),
+                ..self.evidence
+            },
+            status: RankStatus::Decided,
+        }
+    }
+
+    /// The decision on the rows with the largest pivots, exchanged until no coefficient is large.
+    fn with_strong_basis(self, scaling: Scaling, scaled: &Matrix) -> RankDecision {
+        let kept = if self.rank == scaled.nrows() {
+            (0..self.rank).collect()
+        } else {
+            PivotedQr::of_rows(scaled.clone()).permutation()[..self.rank].to_vec()
+        };
+        let basis = strong_basis::bounded(scaled, kept);
+        self.with_basis(scaling, basis)
     }
 
     fn with_basis(self, scaling: Scaling, basis: Basis) -> RankDecision {

@@ -5,6 +5,7 @@
 mod analysis;
 mod answers;
 mod freedoms;
+mod misfits;
 mod motion;
 mod plan;
 mod run;
@@ -32,6 +33,7 @@ pub use answers::{
     NewDocument, RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
 };
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
+pub use misfits::{MisfitDocument, SpreadDocument};
 pub use motion::{BodyStateDocument, MomentDocument, MotionDocument};
 pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
 pub use run::{

@@ -293,6 +293,25 @@ pub fn inseparable(
         .filter(|weakest| weakest.sigma < NEARLY_SINGULAR)
 }
 
+/// Those of these rows that can hold together away from q, ascending: all of them, unless a
+/// tolerance is stated. Within it some may be redundant although they contradict each other at
+/// other configurations, as they do at q by their misfits; then those are returned that are kept.
+pub(crate) fn holding_together(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    rows: Vec<usize>,
+) -> Vec<usize> {
+    if !mechanism.has_tolerances() || mechanism.layout().rows() > ROWS_MAX {
+        return rows;
+    }
+    let s = evaluated(mechanism, t, q);
+    match Rows::in_double(mechanism, &s, q).select(&rows).decide() {
+        Ok(decision) if decision.is_decided() => decision.kept.iter().map(|&k| rows[k]).collect(),
+        _ => rows,
+    }
+}
+
 /// Decides the rank of C at time t and coordinates q, which satisfy the constraints. Uses
 /// double-double if possible (up to 600 rows); the evidence then has a certificate. Allocates.
 ///

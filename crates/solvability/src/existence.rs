@@ -248,6 +248,7 @@ pub fn contradictions(
             decision: ranks.holonomic,
             values: &s.phi,
             scale: &|i| mechanism.scales(&s).position(i),
+            v: None,
             share: 0.0,
         },
         Comparison {
@@ -256,6 +257,7 @@ pub fn contradictions(
             decision: ranks.all,
             values: &s.b,
             scale: &|i| mechanism.scales(&s).velocity(i, v) + prescribed(i),
+            v: Some(v),
             share: 0.0,
         },
         Comparison {
@@ -269,11 +271,15 @@ pub fn contradictions(
                 let rest = REST.powi(2) * mechanism.scales(&s).position(i);
                 terms + (blurred - terms + rest) / noise + prescribed(i)
             },
+            v: Some(v),
             share: 0.0,
         },
     ];
-    let mut found: Vec<Contradiction> = levels
+    // Rows that are redundant within a tolerance may part: then what they miss decides.
+    let compared = levels
         .iter()
+        .filter(|c| c.level != ConstraintLevel::Acceleration || !mechanism.has_tolerances());
+    let mut found: Vec<Contradiction> = compared
         .flat_map(|level| level.contradictions(mechanism, t))
         .collect();
     let excess = |c: &Contradiction| c.size / c.tolerance;
@@ -289,6 +295,8 @@ struct Comparison<'a> {
     decision: &'a RankDecision,
     values: &'a [f64],
     scale: &'a dyn Fn(usize) -> f64,
+    /// The velocities, if they are known: data within a stated tolerance change what rows ask for.
+    v: Option<&'a [f64]>,
     /// Contradictions below this fraction of the terms are not reported, even if above rounding.
     share: f64,
 }
@@ -388,22 +396,28 @@ impl Comparison<'_> {
         })
     }
 
-    /// How much data within a stated tolerance change the sum over a circuit of positions; zero if
-    /// no tolerance is stated.
+    /// How much data within a stated tolerance change the sum over a circuit; zero if no tolerance
+    /// is stated.
     fn within_data(&self, mechanism: &Mechanism, circuit: &Circuit) -> f64 {
-        let blocks = mechanism.data().blocks(self.prescribed);
-        if self.level != ConstraintLevel::Position || blocks.iter().all(|b| b.tolerance.is_none()) {
+        if !mechanism.has_tolerances() {
             return 0.0;
         }
         let mut weights = vec![0.0; mechanism.layout().rows()];
         for (&row, z) in circuit.rows.iter().zip(&circuit.coefficients) {
             weights[row] = *z;
         }
-        let moved = |block: &DataBlock| block.tolerance.unwrap_or(0.0);
-        SHARED
-            * mechanism
-                .data()
-                .phi_change(self.prescribed, &weights, &blocks, moved)
+        let (data, s) = (mechanism.data(), self.prescribed);
+        let mut gradient = vec![0.0; data.count()];
+        match (self.level, self.v) {
+            (ConstraintLevel::Position, _) => data.add_phi(s, &weights, 1.0, &mut gradient),
+            (ConstraintLevel::Velocity, Some(v)) => {
+                data.add_power(s, &weights, v, 1.0, &mut gradient);
+            }
+            _ => return 0.0,
+        }
+        let blocks = data.blocks(s);
+        let of_block = |b: &DataBlock| b.change(&gradient, b.tolerance.unwrap_or(0.0));
+        SHARED * blocks.iter().map(of_block).sum::<f64>()
     }
 
     /// Drives that move the bodies of these rows and, together with the joints, leave them no other

@@ -15,7 +15,7 @@ use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, System};
 use rank::RankDecision;
 
-use crate::certificate::Rows;
+use crate::certificate::{Rows, holding_together};
 
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +50,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     if mechanism.layout().rows() > ONE_PART {
         return None;
     }
-    let rows = lasting_rows(mechanism);
+    let rows = holding_together(mechanism, t, q, lasting_rows(mechanism));
     let size = scene_size(mechanism, q);
     let units = velocity_units(mechanism, size);
     let mut points: Vec<Elsewhere> = Vec::new();
@@ -165,8 +165,8 @@ fn has_lasting_function(mechanism: &Mechanism) -> bool {
 /// The rank at a point, if it is decided there.
 fn elsewhere(mechanism: &Mechanism, (t, q): &(f64, Vec<f64>), rows: &[usize]) -> Option<Elsewhere> {
     let mut s = crate::pose::evaluated(mechanism, *t, q);
-    // Drives were left out of the walk, so the residuals of their rows say nothing about the
-    // accuracy of this configuration.
+    // Drives and rows that are redundant within a tolerance were left out of the walk, so the
+    // residuals of their rows say nothing about the accuracy of this configuration.
     for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
         s.phi[i] = 0.0;
     }

@@ -102,7 +102,9 @@ pub use parts::{Extent, PartAnalysis, PartDecision};
 pub use pose::{decide, decide_dropping, decide_holonomic};
 pub use questions::{EliminationError, Numbers, Questions};
 pub use row_decision::RowDecision;
-pub use rows::{Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
+pub use rows::{
+    Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows, rows_of_rank,
+};
 pub use second_order::{Continuation, Undetermined, is_locked, second_order};
 pub use sensitivity::{Datum, Sensitivities, Sensitivity};
 pub use state::{State, StateError};

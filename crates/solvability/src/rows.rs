@@ -4,7 +4,9 @@
 
 use crate::error::AnalysisError;
 use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
-use crate::pose::{decide, decide_dropping, decide_holonomic, evaluated, uncertainty};
+use crate::pose::{
+    decide, decide_dropping, decide_holonomic, dimensionless, evaluated, uncertainty,
+};
 use model::start::scene_size;
 use model::{Known, Layout, Mechanism, Scratch, System};
 use rank::{
@@ -209,6 +211,30 @@ pub fn decide_rows_dropping(
         })
     });
     found.map_err(|e| told_of_whole(mechanism, s, q, dropped, e))
+}
+
+/// Rows kept at a rank that is known from the start, among the first `count` rows: within a stated
+/// tolerance more rows may be redundant than the matrix shows. `dropped` are given, or chosen. Not
+/// for sparse matrices.
+///
+/// # Errors
+/// As [`decide_dropping`].
+pub fn rows_of_rank(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    (count, rank): (usize, usize),
+    dropped: Option<&[usize]>,
+) -> Result<RowDecision, KeptRowsError> {
+    let size = scene_size(mechanism, q);
+    let first: Vec<usize> = (0..count).collect();
+    let c = dimensionless(mechanism, s, size).select_rows(&first);
+    let known = uncertainty(mechanism, s, size).select_rows(&first);
+    let found = match dropped {
+        Some(dropped) => rank::dropping_of_rank(&c, &known, dropped, rank)?,
+        None => rank::decide_of_rank(&c, &known, rank)?,
+    };
+    Ok((&found).into())
 }
 
 /// Converts an error with rows of one part to the numbers of the whole mechanism. If the number of

@@ -18,7 +18,7 @@ mod undetermined;
 
 use linalg::Matrix;
 use model::{Mechanism, System};
-use rank::RankDecision;
+use rank::{Grounds, RankDecision};
 
 use crate::state::{self, StateError};
 use forms::Forms;
@@ -113,7 +113,10 @@ pub fn is_locked(
 ) -> Result<bool, StateError> {
     let layout = mechanism.layout();
     let has_freedom = decision.is_decided() && decision.rank < layout.n_v;
-    if !has_freedom || decision.redundancy == 0 || layout.rheonomic {
+    // Rows that are redundant within a tolerance only block nothing within it.
+    let certificate = decision.evidence.certificate.as_ref();
+    let is_within = certificate.is_some_and(|c| c.grounds == Grounds::WithinTolerance);
+    if !has_freedom || decision.redundancy == 0 || layout.rheonomic || is_within {
         return Ok(false);
     }
     let n = layout.n_v;

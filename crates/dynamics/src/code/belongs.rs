@@ -107,6 +107,11 @@ pub enum NoCode {
     /// States are not projected.
     #[error("code is watched by its projections, the stabilisation is {0}")]
     Stabilisation(&'static str),
+    /// Rows may be redundant within a stated tolerance only, and what they miss is a result.
+    #[error(
+        "rows are redundant within the stated tolerance, and code does not compute what they miss"
+    )]
+    Misfits,
     /// Masses differ so much that solutions have to be refined, which generated code does not do.
     #[error(
         "masses and inertias differ by a factor of {spread:.1e}, from {GRADED_MASSES:.0e} on solutions are refined, which code does not do"
@@ -150,6 +155,9 @@ impl Prepared {
         match options.stabilisation {
             Stabilisation::Projection => {}
             other => return Err(NoCode::Stabilisation(other.name())),
+        }
+        if self.may_miss {
+            return Err(NoCode::Misfits);
         }
         let (spread, size) = (self.mass_spread(), self.assembly.size);
         match (spread >= GRADED_MASSES, self.is_far()) {

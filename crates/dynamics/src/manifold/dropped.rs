@@ -8,7 +8,7 @@ use crate::counts::{Counted, note};
 use crate::error::MotionFault;
 use crate::guards::GUARDED;
 use crate::limits::{AT_REST, DROPPED_MISFIT, NEAREST_PIVOT, POSITION_MISFIT, STALLED_ROUNDINGS};
-use crate::solve::{Evaluation, KeptEquations, KeptRows};
+use crate::solve::{Evaluation, KeptEquations, KeptRows, Misfits};
 
 /// Result of a projection.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,16 +42,20 @@ pub(super) fn monitor(
         position_residual: largest(&at.s.phi),
         velocity_residual: rows.dropped.iter().fold(left, |a, &i| a.max(residual(i))),
     };
+    if let Some(misfits) = &mut equations.misfits {
+        misfits.look_at(equations.at.s.t);
+    }
     check_positions(equations)?;
     let (at, rows) = (&equations.at, &mut equations.velocity);
     let residual = |i: usize| at.velocity_residual(i, v).abs();
     let scale = |i: usize| at.velocity_scale(i, v);
     let share = dropped_misfit(rows);
     // Most rows agree to the rounding of their own terms.
-    if rows
-        .dropped
-        .iter()
-        .all(|&i| residual(i) <= share * scale(i))
+    if equations.misfits.is_none()
+        && rows
+            .dropped
+            .iter()
+            .all(|&i| residual(i) <= share * scale(i))
     {
         return Ok(found);
     }
@@ -61,14 +65,14 @@ pub(super) fn monitor(
     let all = 0..at.mechanism.layout().rows();
     let fastest = all.map(scale).fold(0.0, f64::max);
     let level = Level {
-        name: "velocity",
+        v: Some(v),
         share: share.max(STALLED_ROUNDINGS * rounding),
-        residual,
+        residual: |i: usize| at.velocity_residual(i, v),
         scale: |_| fastest,
         most: f64::INFINITY,
         floor: || AT_REST * size_of_rows(at) / horizon,
     };
-    level.check(rows, at)?;
+    level.check(rows, at, &mut equations.misfits)?;
     Ok(found)
 }
 
@@ -77,14 +81,14 @@ pub(super) fn monitor(
 pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), MotionFault> {
     let (at, rows) = (&equations.at, &mut equations.position);
     let level = Level {
-        name: "position",
+        v: None,
         share: dropped_misfit(rows),
-        residual: |i: usize| at.s.phi[i].abs(),
+        residual: |i: usize| at.s.phi[i],
         scale: |i| at.position_scale(i),
         most: POSITION_MISFIT,
         floor: || 0.0,
     };
-    level.check(rows, at)
+    level.check(rows, at, &mut equations.misfits)
 }
 
 /// Allowed residual of rows that depend on these, as a fraction of their terms: rounding of the
@@ -96,18 +100,14 @@ fn dropped_misfit(rows: &KeptRows) -> f64 {
 
 /// The largest value of a row of C for motions of the size of the mechanism.
 fn size_of_rows(at: &Evaluation<'_>) -> f64 {
-    let layout = at.mechanism.layout();
-    let of_row = |i: usize| {
-        let row = layout.row(&at.s, i);
-        row.map(|(j, c)| c.abs() * model::space::unit(j, at.size))
-            .sum()
-    };
-    (0..layout.rows()).map(of_row).fold(0.0, f64::max)
+    let rows = 0..at.mechanism.layout().rows();
+    rows.map(|i| at.row_size(i)).fold(0.0, f64::max)
 }
 
 /// Residuals of rows at the level of positions or velocities, and the sizes of their terms.
-struct Level<R, S, F> {
-    name: &'static str,
+struct Level<'v, R, S, F> {
+    /// The velocities; `None` at the level of positions.
+    v: Option<&'v [f64]>,
     /// Allowed residual of dropped rows, as a fraction of the terms.
     share: f64,
     residual: R,
@@ -121,20 +121,37 @@ struct Level<R, S, F> {
     floor: F,
 }
 
-impl<R, S, F> Level<R, S, F>
+impl<R, S, F> Level<'_, R, S, F>
 where
     R: Fn(usize) -> f64,
     S: Fn(usize) -> f64,
     F: Fn() -> f64,
 {
-    /// Returns an error for the first dropped row that the kept ones do not imply.
-    fn check(&self, rows: &mut KeptRows, at: &Evaluation<'_>) -> Result<(), MotionFault> {
+    fn name(&self) -> &'static str {
+        match self.v {
+            None => "position",
+            Some(_) => "velocity",
+        }
+    }
+
+    /// Returns an error for the first dropped row that the kept ones do not imply, not even for
+    /// data within a stated tolerance.
+    fn check(
+        &self,
+        rows: &mut KeptRows,
+        at: &Evaluation<'_>,
+        misfits: &mut Option<Box<Misfits>>,
+    ) -> Result<(), MotionFault> {
         for k in 0..rows.dropped.len() {
             note(Counted::Monitors);
             let i = rows.dropped[k];
-            let residual = (self.residual)(i);
+            let value = (self.residual)(i);
+            let residual = value.abs();
             // Most rows agree to the rounding of their own terms.
             if residual <= self.share * (self.scale)(i) {
+                if let Some(misfits) = misfits {
+                    misfits.see(self.v.is_some(), i, value, None, at);
+                }
                 continue;
             }
             rows.factor(at)?;
@@ -143,11 +160,33 @@ where
             if residual > tolerance {
                 tolerance = tolerance.max((self.floor)());
             }
-            if residual > tolerance || residual.is_nan() || tolerance.is_nan() {
+            let is_rounding = residual <= tolerance;
+            if let Some(misfits) = misfits {
+                let bound = if is_rounding {
+                    None
+                } else {
+                    Some(misfits.bound((at, rows), i, self.v)?)
+                };
+                misfits.see(self.v.is_some(), i, value, bound, at);
+                if let Some(bound) = bound {
+                    if residual <= bound {
+                        continue;
+                    }
+                    return Err(MotionFault::BeyondTolerance {
+                        time: at.s.t,
+                        row: at.label(i),
+                        level: self.name(),
+                        residual,
+                        bound,
+                        way: misfits.way(at),
+                    });
+                }
+            }
+            if !is_rounding {
                 return Err(MotionFault::DroppedRow {
                     time: at.s.t,
                     row: at.label(i),
-                    level: self.name,
+                    level: self.name(),
                     residual,
                     tolerance,
                 });

@@ -85,6 +85,8 @@ fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
         q,
         v,
         choice,
+        start: whole.start.clone(),
+        may_miss: whole.may_miss && !decision.dropped.is_empty(),
         decision,
         position_decision,
         decided: None,

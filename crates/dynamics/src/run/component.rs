@@ -86,6 +86,7 @@ pub(super) fn run_component(
         projections: statistics.projections,
         factorisations: statistics.factorisations,
         wall_seconds,
+        misfits: run.equations.misfits(),
         ..run.equations.record.summary()
     };
     let error = match (outcome, run.stopped) {

@@ -18,6 +18,7 @@ use crate::limits::{COARSE, IMPLICIT_REACH};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
+use crate::solve::Misfit;
 use crate::watch::{Next, Now, are_delicate};
 
 /// Who leads over singular configurations.
@@ -90,6 +91,12 @@ impl<'m> RunEquations<'m> {
         equations.is_careful = equations.wants_care();
         equations.record.min_pivot_ratio = equations.motion.pivot_ratio();
         equations
+    }
+
+    /// The misfits of dropped rows so far.
+    pub(super) fn misfits(&self) -> Vec<Misfit> {
+        let misfits = self.motion.equations.misfits.as_ref();
+        misfits.map_or_else(Vec::new, |m| m.found().to_vec())
     }
 
     /// y at the start, before anything is evaluated.
@@ -195,6 +202,7 @@ impl<'m> RunEquations<'m> {
         let work = work(q, v, y);
         if let Some(found) = found {
             self.record.note(at.mechanism, (q, v, work), found);
+            self.motion.equations.accept_misfits(false);
         }
         let is_settled = self.motion.manifold.projects() && !self.motion.is_on_code();
         let source = OfMotion {
@@ -354,6 +362,7 @@ impl<'m> RunEquations<'m> {
             }
         }
         // From here on the step is accepted.
+        motion.equations.accept_misfits(true);
         self.record.note(mechanism, (q, v, work(q, v, y)), found);
         let now = now(mechanism, step.t, y, dy);
         if let Some(code) = motion.code.as_mut().filter(|_| on_code) {

@@ -6,6 +6,7 @@ use super::energy;
 use crate::error::MotionError;
 use crate::events::Event;
 use crate::options::Method;
+use crate::solve::Misfit;
 
 /// Numbers of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,6 +42,8 @@ pub struct Summary {
     /// Smallest pivot ratio of the kept rows at the start and at accepted steps evaluated without
     /// generated code.
     pub min_pivot_ratio: f64,
+    /// What rows miss at most that are redundant within a stated tolerance only, by row.
+    pub misfits: Vec<Misfit>,
     /// Events of the run.
     pub events: Vec<Event>,
     /// Components that were run separately; empty if the mechanism was not split.
@@ -102,10 +105,26 @@ impl Summary {
             energy_gap: gap,
             largest_kinetic_energy: kinetic,
             min_pivot_ratio: smallest(|s| s.min_pivot_ratio),
+            misfits: misfits(&components),
             events: events(&components, dropped),
             components,
         }
     }
+}
+
+/// Misfits of components with the rows of the whole mechanism.
+fn misfits(components: &[ComponentSummary]) -> Vec<Misfit> {
+    let of_component = |c: &ComponentSummary| {
+        let places = c.places.rows.clone();
+        let own = c.summary.misfits.clone().into_iter();
+        own.map(move |m| Misfit {
+            row: places[m.row],
+            ..m
+        })
+    };
+    let mut all: Vec<Misfit> = components.iter().flat_map(of_component).collect();
+    all.sort_by_key(|m| m.row);
+    all
 }
 
 /// Events of components in the order of time, with the rows and the degree of redundancy of the

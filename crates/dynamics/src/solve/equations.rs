@@ -8,6 +8,7 @@
 use model::System;
 
 use super::evaluation::Evaluation;
+use super::misfits::Misfits;
 use super::rows::KeptRows;
 use super::{Accelerations, State};
 use crate::counts::{Counted, note};
@@ -22,6 +23,8 @@ pub(crate) struct KeptEquations<'m> {
     pub(crate) position: KeptRows,
     /// Rows requested by the user, while they are nearly dependent and others are kept.
     pub(crate) requested_rows: Option<KeptRows>,
+    /// Misfits of dropped rows, if a tolerance is stated.
+    pub(crate) misfits: Option<Box<Misfits>>,
     /// Scratch: an acceleration, n_v.
     a: Vec<f64>,
 }
@@ -34,6 +37,7 @@ impl<'m> KeptEquations<'m> {
             velocity,
             position,
             requested_rows: None,
+            misfits: None,
             a,
         }
     }
@@ -71,6 +75,37 @@ impl<'m> KeptEquations<'m> {
             lambda[i] = l;
         }
         Ok(())
+    }
+
+    /// Accepts the misfits of the state last checked, if there are any: of the end of a step or of
+    /// a row of output.
+    pub(crate) fn accept_misfits(&mut self, is_end_of_step: bool) {
+        if let Some(misfits) = &mut self.misfits {
+            misfits.accept(&self.at, is_end_of_step);
+        }
+    }
+
+    /// Whether dropped rows have missed by more than rounding.
+    pub(crate) fn have_missed(&self) -> bool {
+        self.misfits.as_ref().is_some_and(|m| !m.found().is_empty())
+    }
+
+    /// The kept row with the largest part in the dependency of a dropped row at t = 0 and
+    /// coordinates q, among those that are not taken.
+    pub(crate) fn partner(
+        &mut self,
+        q: &[f64],
+        dropped: usize,
+        taken: &[usize],
+    ) -> Result<Option<usize>, MotionFault> {
+        self.factor_at(0.0, q)?;
+        let at = &self.at;
+        let mut z = vec![0.0; at.mechanism.layout().rows()];
+        self.velocity.dependency(at, dropped, &mut z)?;
+        let kept = (0..z.len()).filter(|i| *i != dropped && !taken.contains(i));
+        let part = |i: &usize| z[*i].abs() * at.row_size(*i);
+        let largest = kept.max_by(|i, k| part(i).total_cmp(&part(k)));
+        Ok(largest.filter(|i| part(i) > 0.0))
     }
 
     /// Exchanges the kept rows and the requested ones, if others are kept.

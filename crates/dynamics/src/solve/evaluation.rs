@@ -73,6 +73,13 @@ impl<'m> Evaluation<'m> {
         self.mechanism.scales(&self.s).velocity(i, v)
     }
 
+    /// The value of row i of C for a motion of the size of the mechanism.
+    pub(crate) fn row_size(&self, i: usize) -> f64 {
+        let row = self.mechanism.layout().row(&self.s, i);
+        row.map(|(j, c)| c.abs() * model::space::unit(j, self.size))
+            .sum()
+    }
+
     pub(crate) fn label(&self, i: usize) -> RowLabel {
         self.mechanism.layout().labels[i].clone()
     }

@@ -294,6 +294,23 @@ impl KeptRows {
         Ok(scale(i) + terms.sum::<f64>())
     }
 
+    /// Writes the dependency of a dropped row on the kept ones over all rows: 1 at the dropped row,
+    /// and minus the coefficients of the kept ones. The rows must be factored.
+    pub(crate) fn dependency(
+        &mut self,
+        at: &Evaluation<'_>,
+        dropped: usize,
+        z: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        self.imply(at, dropped).map_err(|e| self.fault(at, e))?;
+        z.fill(0.0);
+        z[dropped] = 1.0;
+        for (&k, coefficient) in self.kept.iter().zip(&self.lambda) {
+            z[k] = -coefficient;
+        }
+        Ok(())
+    }
+
     /// Stores the coefficients of the kept rows in a dropped one as multipliers: as a force, a row
     /// that the kept ones imply moves nothing, `M·0 + C_Kᵀ·λ = c_Dᵀ`.
     fn imply(&mut self, at: &Evaluation<'_>, dropped: usize) -> Result<(), SaddleError> {

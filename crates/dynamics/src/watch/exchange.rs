@@ -2,9 +2,9 @@
 //! accepted and polished points only. The motion does not change.
 
 use model::System;
-use solvability::{AnalysisError, RowDecision, decide_holonomic_rows, decide_rows};
+use solvability::{RowDecision, decide_holonomic_rows, decide_rows, rows_of_rank};
 
-use super::pivots::{are_recovered, are_sound, position_wants_exchange, want_exchange};
+use super::pivots::{are_lost, are_recovered, are_sound, position_wants_exchange, want_exchange};
 use crate::error::MotionFault;
 use crate::events::{Event, EventKind};
 use crate::guards::GUARDED;
@@ -32,6 +32,9 @@ impl Exchange {
         choice: &RowChoice,
         q: &[f64],
     ) -> Result<Option<Self>, MotionFault> {
+        if equations.have_missed() {
+            return Self::due_within_tolerance(equations, q);
+        }
         let mut position = None;
         if position_wants_exchange(equations) {
             let (at, old) = (&equations.at, &mut equations.position);
@@ -49,6 +52,36 @@ impl Exchange {
         };
         let is_due = position.is_some() || velocity.is_some();
         Ok(is_due.then_some(Self { position, velocity }))
+    }
+
+    /// The same after dropped rows have missed: other rows then move the mechanism by as much, so
+    /// rows are exchanged only if they are lost.
+    /// Without nonholonomic rows both levels keep the same ones.
+    fn due_within_tolerance(
+        equations: &mut KeptEquations<'_>,
+        q: &[f64],
+    ) -> Result<Option<Self>, MotionFault> {
+        if !are_lost(&equations.velocity) {
+            return Ok(None);
+        }
+        let KeptEquations {
+            at,
+            velocity,
+            position,
+            ..
+        } = equations;
+        let layout = at.mechanism.layout();
+        let of_rank =
+            |count: usize, rank: usize| rows_of_rank(at.mechanism, &at.s, q, (count, rank), None);
+        let found = of_rank(layout.rows(), velocity.kept.len());
+        let Some(rows) = better(at, found, velocity)? else {
+            return Ok(None);
+        };
+        let position = better(at, of_rank(layout.m, position.kept.len()), position)?;
+        Ok(Some(Self {
+            position,
+            velocity: Some(Velocity::Others(Box::new(rows), false)),
+        }))
     }
 
     /// Keeps the rows. Returns whether other rows determine the position, which then has to be
@@ -83,10 +116,15 @@ impl Exchange {
             .iter()
             .map(|&i| labels[i].number.to_string())
             .collect();
-        let text = format!(
-            "{why}; now dropped: {}. The motion is the same.",
-            numbers.join(", ")
-        );
+        let consequence = if equations.have_missed() {
+            "They are redundant within the stated tolerance: the mechanism moves by what they missed."
+        } else {
+            "The motion is the same."
+        };
+        if let Some(misfits) = &mut equations.misfits {
+            misfits.interrupt();
+        }
+        let text = format!("{why}; now dropped: {}. {consequence}", numbers.join(", "));
         let time = equations.at.s.t;
         let event = Event::at(time, EventKind::RowsExchanged, dropped, text);
         Ok((moves, Some(event)))
@@ -107,7 +145,8 @@ pub(super) fn better_for_row(
     choice: &RowChoice,
     q: &[f64],
 ) -> Result<Option<KeptRows>, MotionFault> {
-    if !GUARDED || are_sound(&equations.velocity) || !want_exchange(equations, choice) {
+    let stays = !GUARDED || equations.have_missed() || are_sound(&equations.velocity);
+    if stays || !want_exchange(equations, choice) {
         return Ok(None);
     }
     let (at, old) = (&equations.at, &mut equations.velocity);
@@ -122,9 +161,9 @@ fn requested_rows_recovered(equations: &mut KeptEquations<'_>) -> bool {
 /// Freshly factored kept rows of a new decision, if they have the same rank as the old ones and
 /// imply the dropped ones with smaller coefficients. A different rank belongs to a singular
 /// configuration nearby, not to the motion.
-fn better(
+fn better<E: std::fmt::Display>(
     at: &Evaluation<'_>,
-    decision: Result<RowDecision, AnalysisError>,
+    decision: Result<RowDecision, E>,
     old: &mut KeptRows,
 ) -> Result<Option<KeptRows>, MotionFault> {
     let decision = decision.map_err(|e| MotionFault::NoRows {

@@ -153,7 +153,11 @@ impl Watch {
 
     /// Records a step to t that was refused because of a dropped row.
     pub(crate) fn note_refused(&mut self, t: f64, fault: &MotionFault) {
-        if matches!(fault, MotionFault::DroppedRow { .. }) {
+        let is_of_dropped_row = matches!(
+            fault,
+            MotionFault::DroppedRow { .. } | MotionFault::BeyondTolerance { .. }
+        );
+        if is_of_dropped_row {
             self.contradicted = Some((t, fault.clone()));
         }
     }

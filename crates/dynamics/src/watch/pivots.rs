@@ -46,7 +46,7 @@ pub(super) fn position_wants_exchange(equations: &mut KeptEquations<'_>) -> bool
 }
 
 /// Whether the rows have become nearly dependent since they were chosen, and other rows exist.
-fn are_lost(rows: &KeptRows) -> bool {
+pub(super) fn are_lost(rows: &KeptRows) -> bool {
     !rows.dropped.is_empty() && rows.relative_pivot() < PIVOT_LOSS
 }
 

@@ -13,7 +13,7 @@ use crate::data::{DataBlock, DataUnit, SHARED};
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::size::size_of;
 use crate::system::{Scratch, System};
-use crate::uncertainty::{ROUNDING, has_tolerances};
+use crate::uncertainty::ROUNDING;
 
 /// If data within the tolerance move a body by more than this many tolerances, they do not
 /// determine its position, and residuals along that motion are left. Lever arms are determined by
@@ -96,7 +96,7 @@ fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
 /// Whether a tolerance is stated, and these coordinates are farther apart than the uncertainty of
 /// the positions.
 pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[f64]) -> bool {
-    has_tolerances(mechanism)
+    mechanism.has_tolerances()
         && farthest(
             mechanism,
             from,

@@ -81,7 +81,23 @@ pub fn decide_dropping<'a>(
     dropped: &[usize],
 ) -> Result<RankDecision, KeptRowsError> {
     let dropped = ascending(dropped, c.nrows())?;
-    decide_partition(c, uncertainty.into(), complement(c.nrows(), &dropped))
+    decide_partition(c, uncertainty.into(), complement(c.nrows(), &dropped), None)
+}
+
+/// Like [`decide_dropping`], if the rank is known otherwise: data within a stated tolerance may
+/// have a lower rank than the matrix. Dropped rows then depend on the kept ones only nearly.
+///
+/// # Errors
+/// As [`decide_dropping`].
+pub fn dropping_of_rank<'a>(
+    c: &Matrix,
+    uncertainty: impl Into<Uncertainty<'a>>,
+    dropped: &[usize],
+    rank: usize,
+) -> Result<RankDecision, KeptRowsError> {
+    let dropped = ascending(dropped, c.nrows())?;
+    let kept = complement(c.nrows(), &dropped);
+    decide_partition(c, uncertainty.into(), kept, Some(rank))
 }
 
 /// Like [`decide`](super::decide), with given kept rows; `|T̃_ji| ≤ 2` is then not guaranteed.
@@ -94,15 +110,20 @@ pub fn decide_keeping<'a>(
     kept: &[usize],
 ) -> Result<RankDecision, KeptRowsError> {
     let kept = ascending(kept, c.nrows())?;
-    decide_partition(c, uncertainty.into(), kept)
+    decide_partition(c, uncertainty.into(), kept, None)
 }
 
 fn decide_partition(
     c: &Matrix,
     uncertainty: Uncertainty<'_>,
     kept: Vec<usize>,
+    rank: Option<usize>,
 ) -> Result<RankDecision, KeptRowsError> {
     let (scaling, scaled, reading) = read(c, uncertainty)?;
+    let reading = match rank {
+        Some(rank) => reading.of_rank(rank),
+        None => reading,
+    };
     if kept.len() != reading.rank {
         return Err(KeptRowsError::WrongCount {
             dropped: c.nrows() - kept.len(),

@@ -13,7 +13,8 @@ use solvability::{Freedoms, ONE_PART, ReactionVerdict, Sensitivities};
 
 use super::plan::{short, short_of};
 use super::{
-    DataDocument, FreedomsDocument, Named, SensitivityDocument, VerdictDocument, from_one,
+    DataDocument, FreedomsDocument, MisfitDocument, Named, SensitivityDocument, SpreadDocument,
+    VerdictDocument, from_one,
 };
 
 /// A run and its results.
@@ -31,6 +32,8 @@ pub struct Run<'a> {
     pub freedoms: &'a Freedoms,
     /// Numbers of the run.
     pub summary: &'a Summary,
+    /// The same on other rows, if rows have missed.
+    pub spread: Option<&'a SpreadDocument>,
     /// How it ended.
     pub ending: Ending<'a>,
 }
@@ -90,6 +93,10 @@ pub struct RunDocument {
     pub freedoms: FreedomsDocument,
     /// Tolerances of the data, and what depends on them at the start.
     pub data: DataDocument,
+    /// What rows miss at most that are redundant within the stated tolerance only.
+    pub misfits: Vec<MisfitDocument>,
+    /// How far the motion on another choice of rows differs; `null` if no row misses.
+    pub spread: Option<SpreadDocument>,
     /// Events of the run.
     pub events: Vec<EventDocument>,
     /// Verdict of every joint and drive at the start, by name.
@@ -282,6 +289,8 @@ impl RunDocument {
             mobility: run.freedoms.mobility,
             freedoms: FreedomsDocument::new(run.freedoms, &prepared.mechanism),
             data: run.data,
+            misfits: summary.misfits.iter().map(Into::into).collect(),
+            spread: run.spread.cloned(),
             events: summary.events.iter().map(Into::into).collect(),
             reactions: Named(reactions.collect()),
             plan: short(run.plan),

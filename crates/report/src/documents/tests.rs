@@ -368,6 +368,7 @@ fn summary_has_the_keys_of_the_contract() {
         data: DataDocument::new(&analysis),
         freedoms: &freedoms,
         summary: &summary,
+        spread: None,
         ending: Ending::Complete,
     };
     let found = json(&RunDocument::new(&run));
@@ -419,6 +420,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
         data: DataDocument::new(&analysis),
         freedoms: &freedoms,
         summary: &summary,
+        spread: None,
         ending,
     };
     let document = RunDocument::new(&run(Ending::Stopped(&error)));

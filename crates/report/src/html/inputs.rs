@@ -8,6 +8,9 @@ use super::run_page::RunPage;
 use crate::documents::RunDocument;
 use crate::page::{add, duration, list, safe, short};
 
+/// Largest number of misfits that the page names; summary.json has all.
+const NAMED_MISFITS: usize = 12;
+
 /// Largest size of a scene included in a page (bytes).
 const SCENE_MOST: usize = 200_000;
 
@@ -94,6 +97,12 @@ fn numbers(out: &mut String, run: &RunDocument) {
     ];
     for (what, value) in numbers {
         pair(out, what, &safe(&value));
+    }
+    for misfit in run.misfits.iter().take(NAMED_MISFITS) {
+        pair(out, "Within the tolerance", &safe(&misfit.to_string()));
+    }
+    if let Some(spread) = &run.spread {
+        pair(out, "Another choice of rows", &safe(&spread.to_string()));
     }
 }
 

@@ -1,7 +1,7 @@
 //! States of a motion moved onto the constraints, and the samples taken of them.
 
 use crate::error::AnalysisError;
-use crate::limits::REGULAR_SAMPLE;
+use crate::limits::{REGULAR_SAMPLE, ROWS_MAX};
 use crate::pose::{dimensionless, evaluated, uncertainty};
 use linalg::{Matrix, Scaling};
 use model::start::{Metric, nearest_configuration, scene_size};
@@ -10,7 +10,7 @@ use rank::RankDecision;
 
 use super::data::AlongError;
 use crate::analysis::Analysis;
-use crate::certificate::Rows;
+use crate::certificate::{Rows, holding_together};
 use crate::mechanism::{Told, judge, judge_reactions};
 use crate::state::{self, State};
 
@@ -18,7 +18,7 @@ use crate::state::{self, State};
 pub(super) struct Path<'a, F> {
     pub(super) mechanism: &'a Mechanism,
     motion: F,
-    /// Numbers of the rows of Φ.
+    /// Numbers of the rows of Φ that hold along the motion.
     holonomic: Vec<usize>,
     /// Length that makes C dimensionless, the same along the motion.
     size: f64,
@@ -68,7 +68,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         let mut path = Self {
             mechanism,
             motion,
-            holonomic: (0..layout.m).collect(),
+            holonomic: holding_together(mechanism, times[0], &first.q, (0..layout.m).collect()),
             size: scene_size(mechanism, &first.q),
             rank: 0,
             scaling: Scaling::identity(layout.rows(), layout.n_v),
@@ -154,6 +154,12 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     /// Decides the rank at a point; `distance` bounds how far its C may be from the matrix whose
     /// rank is wanted.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
+        let layout = self.mechanism.layout();
+        if distance == 0.0 && self.mechanism.has_tolerances() && layout.rows() <= ROWS_MAX {
+            let at = (&p.s, p.q.as_slice(), self.size);
+            let rows = Rows::of_matrix(self.mechanism, at, &p.c, &p.known);
+            return Ok(rows.decide()?);
+        }
         let decision = match distance {
             0.0 => rank::decide(&p.c, &p.known),
             _ => {

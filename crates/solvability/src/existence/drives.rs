@@ -353,6 +353,7 @@ impl JointsFirst {
                 _ => &self.s.b,
             },
             scale: terms,
+            v: None,
             share,
         };
         comparison.among(of_drives, mechanism, self.s.t)

@@ -1,0 +1,265 @@
+//! Misfits of dropped rows. Rows that are redundant within a stated tolerance only hold up to what
+//! data within it explain: what such a row misses is a result of the motion, and it has a bound.
+//!
+//! With `z` = 1 at a dropped row and minus the coefficients of the kept rows that imply it, the
+//! bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j; for velocities
+//! `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`SHARED`]: the residual of rows that share a misfit,
+//! and the pose, which moves with the data.
+
+use model::{DataBlock, RowLabel, SHARED, System};
+
+use super::evaluation::Evaluation;
+use super::rows::KeptRows;
+use crate::error::MotionFault;
+use crate::limits::SAME_MISFIT;
+
+/// What a dropped row misses at most during a motion.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Misfit {
+    /// The row, from 0.
+    pub row: usize,
+    /// Its name.
+    pub label: RowLabel,
+    /// Unit of the misfit: m or rad, and per second for a nonholonomic row.
+    pub unit: &'static str,
+    /// The largest |Φ| of the row (|C·v − b| of a nonholonomic one), in its unit.
+    pub largest: f64,
+    /// When it occurs (s).
+    pub time: f64,
+    /// What data within their tolerances explain then, in the unit of the row.
+    pub bound: f64,
+    /// For a row of angles: its misfit times the size of the mechanism (m, or m/s).
+    pub at_size: Option<f64>,
+}
+
+/// Record of the misfits of a motion.
+#[derive(Clone)]
+pub(crate) struct Misfits {
+    blocks: Vec<DataBlock>,
+    /// With respect to all numbers of the constraints.
+    gradient: Vec<f64>,
+    /// Coefficients of all rows.
+    z: Vec<f64>,
+    /// The state last checked, and the accepted one before it.
+    here: Instant,
+    before: Option<Instant>,
+    found: Vec<Misfit>,
+    /// Poses of the bodies at the start: x, y (m), angle (rad).
+    start: Vec<[f64; 3]>,
+}
+
+/// Residuals of the dropped rows at one time.
+#[derive(Clone, Default)]
+struct Instant {
+    t: f64,
+    rows: Vec<Residual>,
+}
+
+/// The residual of a dropped row.
+#[derive(Clone, Copy)]
+struct Residual {
+    row: usize,
+    /// Φ, or `C·v − b` of a nonholonomic row.
+    value: f64,
+    /// dΦ/dt; `None` for a nonholonomic row.
+    rate: Option<f64>,
+    /// What the data explain, if the residual is above rounding.
+    bound: Option<f64>,
+}
+
+impl Misfits {
+    /// An empty record; `at` has been evaluated at the start.
+    pub(crate) fn new(at: &Evaluation<'_>) -> Self {
+        let data = at.mechanism.data();
+        Self {
+            blocks: data.blocks(&at.s),
+            gradient: vec![0.0; data.count()],
+            z: vec![0.0; at.mechanism.layout().rows()],
+            here: Instant::default(),
+            before: None,
+            found: Vec::new(),
+            start: at.s.poses.iter().map(|p| [p.x, p.y, p.angle]).collect(),
+        }
+    }
+
+    /// What data within their tolerances explain of the residual of the dropped row i, for
+    /// velocities v or, without them, for positions. The rows must be factored.
+    pub(crate) fn bound(
+        &mut self,
+        (at, rows): (&Evaluation<'_>, &mut KeptRows),
+        i: usize,
+        v: Option<&[f64]>,
+    ) -> Result<f64, MotionFault> {
+        rows.dependency(at, i, &mut self.z)?;
+        self.gradient.fill(0.0);
+        let data = at.mechanism.data();
+        match v {
+            None => data.add_phi(&at.s, &self.z, 1.0, &mut self.gradient),
+            Some(v) => data.add_power(&at.s, &self.z, v, 1.0, &mut self.gradient),
+        }
+        let of_block = |b: &DataBlock| b.change(&self.gradient, b.tolerance.unwrap_or(0.0));
+        Ok(SHARED * self.blocks.iter().map(of_block).sum::<f64>())
+    }
+
+    /// Begins the record of a state at time t.
+    pub(crate) fn look_at(&mut self, t: f64) {
+        self.here.t = t;
+        self.here.rows.clear();
+    }
+
+    /// Notes the residual of a dropped row at this state, at the level of velocities or of
+    /// positions.
+    pub(crate) fn see(
+        &mut self,
+        is_of_velocities: bool,
+        row: usize,
+        residual: f64,
+        bound: Option<f64>,
+        at: &Evaluation<'_>,
+    ) {
+        let is_holonomic = row < at.mechanism.layout().m;
+        let known = self.here.rows.iter_mut().find(|r| r.row == row);
+        match (is_of_velocities && is_holonomic, known) {
+            (true, Some(known)) => known.rate = Some(residual),
+            (true, None) => {}
+            (_, Some(known)) => (known.value, known.bound) = (residual, bound),
+            (_, None) => self.here.rows.push(Residual {
+                row,
+                value: residual,
+                rate: None,
+                bound,
+            }),
+        }
+    }
+
+    /// Accepts the state last checked as one of the motion: as the end of a step, whose largest
+    /// misfits may lie within it, or as a row of output.
+    pub(crate) fn accept(&mut self, at: &Evaluation<'_>, is_end_of_step: bool) {
+        for k in 0..self.here.rows.len() {
+            let now = self.here.rows[k];
+            let Some(bound) = now.bound else {
+                continue;
+            };
+            self.take(at, now.row, (self.here.t, now.value), bound);
+            let before = self.before.as_ref().filter(|_| is_end_of_step);
+            let Some(before) = before else { continue };
+            let start = before.rows.iter().find(|r| r.row == now.row);
+            let rates = start.and_then(|s| Some([s.rate?, now.rate?]));
+            if let (Some(start), Some(rates)) = (start, rates) {
+                let times = [before.t, self.here.t];
+                if let Some(peak) = peak(times, [start.value, now.value], rates) {
+                    self.take(at, now.row, peak, bound);
+                }
+            }
+        }
+        if is_end_of_step {
+            let before = self.before.get_or_insert_default();
+            std::mem::swap(before, &mut self.here);
+        }
+    }
+
+    /// Forgets the last step: from here on other rows are kept.
+    pub(crate) fn interrupt(&mut self) {
+        self.before = None;
+    }
+
+    fn take(&mut self, at: &Evaluation<'_>, row: usize, (time, value): (f64, f64), bound: f64) {
+        let layout = at.mechanism.layout();
+        let k = match self.found.binary_search_by_key(&row, |m| m.row) {
+            Ok(k) => k,
+            Err(k) => {
+                let unit = match (layout.is_angular(row), row < layout.m) {
+                    (false, true) => "m",
+                    (false, false) => "m/s",
+                    (true, true) => "rad",
+                    (true, false) => "rad/s",
+                };
+                let misfit = Misfit {
+                    row,
+                    label: at.label(row),
+                    unit,
+                    largest: 0.0,
+                    time,
+                    bound,
+                    at_size: None,
+                };
+                self.found.insert(k, misfit);
+                k
+            }
+        };
+        let misfit = &mut self.found[k];
+        // The first time of a misfit that stays the same.
+        if value.abs() > misfit.largest * (1.0 + SAME_MISFIT) {
+            misfit.largest = value.abs();
+            (misfit.time, misfit.bound) = (time, bound);
+            misfit.at_size = layout.is_angular(row).then(|| value.abs() * at.size);
+        }
+    }
+
+    /// The misfits so far, by row.
+    pub(crate) fn found(&self) -> &[Misfit] {
+        &self.found
+    }
+
+    /// How far the mechanism has moved since its start, in words: the body that has turned most, or
+    /// moved farthest relative to the size of the mechanism.
+    pub(crate) fn way(&self, at: &Evaluation<'_>) -> String {
+        let moved = self.start.iter().zip(&at.s.poses).map(|(from, to)| {
+            let [x, y, angle] = from;
+            [(to.x - x).hypot(to.y - y), (to.angle - angle).abs()]
+        });
+        let far = |[by, turned]: [f64; 2]| (by / at.size).max(turned);
+        let farthest = moved
+            .enumerate()
+            .max_by(|a, b| far(a.1).total_cmp(&far(b.1)));
+        let Some((body, [by, turned])) = farthest else {
+            return String::from("nothing moved");
+        };
+        let name = &at.mechanism.bodies()[body].name;
+        format!(
+            "`{name}` turned by {:.1}° and moved by {by:.3e} m",
+            turned.to_degrees()
+        )
+    }
+}
+
+/// Time and value of the extremum of a cubic between two times, given its values and rates there.
+/// Returns `None` if it has none inside.
+fn peak([t0, t1]: [f64; 2], [y0, y1]: [f64; 2], [r0, r1]: [f64; 2]) -> Option<(f64, f64)> {
+    let h = t1 - t0;
+    let (m0, m1, d) = (r0 * h, r1 * h, y1 - y0);
+    // y = y0 + m0·x + b·x² + a·x³, 0 ≤ x ≤ 1
+    let (a, b) = (m0 + m1 - 2.0 * d, 3.0 * d - 2.0 * m0 - m1);
+    let value = |x: f64| y0 + x * (m0 + x * (b + x * a));
+    // The stable form of both roots of 3·a·x² + 2·b·x + m0.
+    let discriminant = b * b - 3.0 * a * m0;
+    let w = -(b + discriminant.max(0.0).sqrt().copysign(b));
+    let roots = [w / (3.0 * a), m0 / w];
+    let inside = roots
+        .into_iter()
+        .filter(|x| discriminant >= 0.0 && *x > 0.0 && *x < 1.0);
+    inside
+        .map(|x| (t0 + x * h, value(x)))
+        .max_by(|p, q| p.1.abs().total_cmp(&q.1.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::peak;
+
+    /// 5·sin(t) between 1.3 and 1.9 s: the cubic is accurate to h⁴·5/384 = 1.7e-3.
+    #[test]
+    fn a_peak_within_a_step_is_found() {
+        let (y, rate) = (|t: f64| 5.0 * t.sin(), |t: f64| 5.0 * t.cos());
+        let (from, to) = (1.3, 1.9);
+        let found = peak([from, to], [y(from), y(to)], [rate(from), rate(to)]);
+        let (t, value) = found.expect("a maximum between");
+        assert!((value - 5.0).abs() < 1.7e-3, "{value}");
+        assert!((t - std::f64::consts::FRAC_PI_2).abs() < 1e-2, "{t}");
+        assert_eq!(peak([0.0, 1.0], [0.0, 1.0], [1.0, 1.0]), None);
+        // A parabola: its peak is exact.
+        let (t, value) = peak([0.0, 2.0], [0.0, 0.0], [2.0, -2.0]).expect("a parabola");
+        assert!((t - 1.0).abs() < 1e-12 && (value - 1.0).abs() < 1e-12);
+    }
+}

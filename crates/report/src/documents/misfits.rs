@@ -1,0 +1,137 @@
+//! What rows miss that are redundant within a stated tolerance only, and how far two choices of
+//! kept rows part.
+
+use std::fmt;
+
+use dynamics::{Misfit, MotionError};
+use serde::Serialize;
+
+use super::from_one;
+
+/// The largest misfit of a dropped row.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct MisfitDocument {
+    /// The row, from 1.
+    pub row: usize,
+    /// Its joint or drive.
+    pub joint: String,
+    /// The row within the joint.
+    pub component: String,
+    /// The largest misfit, in `unit`.
+    pub largest: f64,
+    /// When it occurs (s).
+    pub time: f64,
+    /// What data within their tolerances explain then, in `unit`.
+    pub bound: f64,
+    /// m or rad; m/s or rad/s for a nonholonomic row.
+    pub unit: &'static str,
+    /// For angles: the misfit times the size of the mechanism (m, or m/s).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_size: Option<f64>,
+}
+
+impl From<&Misfit> for MisfitDocument {
+    fn from(misfit: &Misfit) -> Self {
+        Self {
+            row: misfit.row + 1,
+            joint: misfit.label.joint.clone(),
+            component: misfit.label.row.to_owned(),
+            largest: misfit.largest,
+            time: misfit.time,
+            bound: misfit.bound,
+            unit: misfit.unit,
+            at_size: misfit.at_size,
+        }
+    }
+}
+
+impl fmt::Display for MisfitDocument {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            row,
+            joint,
+            component,
+            largest,
+            time,
+            bound,
+            unit,
+            ..
+        } = self;
+        write!(
+            f,
+            "`{joint}` would have to give {largest:.3e} {unit} at t = {time:.4} s (row {row}, {component}; the tolerance explains {bound:.3e})"
+        )
+    }
+}
+
+/// How far the motions on two choices of kept rows part.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SpreadDocument {
+    /// The rows deleted by the other choice, from 1.
+    pub deleted_rows: Vec<usize>,
+    /// Largest distance of a centre of mass (m).
+    pub position: f64,
+    /// Largest difference of an angle (rad).
+    pub angle: f64,
+    /// When the distance, or without one the angle, is largest (s).
+    pub time: f64,
+    /// Reason why the other run stopped; the numbers are those up to there.
+    pub error: Option<String>,
+}
+
+impl SpreadDocument {
+    /// No difference yet; the dropped rows of the other choice, from 0.
+    #[must_use]
+    pub fn new(dropped: &[usize]) -> Self {
+        Self {
+            deleted_rows: from_one(dropped),
+            position: 0.0,
+            angle: 0.0,
+            time: 0.0,
+            error: None,
+        }
+    }
+
+    /// A run on other rows that could not begin.
+    #[must_use]
+    pub fn stopped(deleted_rows: Vec<usize>, error: &MotionError) -> Self {
+        Self {
+            deleted_rows,
+            error: Some(error.to_string()),
+            ..Self::new(&[])
+        }
+    }
+
+    /// Takes the displacements between both runs at a time, three for each body.
+    pub fn take(&mut self, t: f64, apart: &[f64]) {
+        let before = (self.position, self.angle);
+        for body in apart.chunks_exact(3) {
+            self.position = self.position.max(body[0].hypot(body[1]));
+            self.angle = self.angle.max(body[2].abs());
+        }
+        if self.position > before.0 || self.position == 0.0 && self.angle > before.1 {
+            self.time = t;
+        }
+    }
+}
+
+impl fmt::Display for SpreadDocument {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rows: Vec<String> = self.deleted_rows.iter().map(usize::to_string).collect();
+        let rows = rows.join(", ");
+        match &self.error {
+            None => write!(
+                f,
+                "with rows {rows} deleted instead, the motion differs by up to {:.3e} m and {:.3e} rad (t = {:.4} s)",
+                self.position, self.angle, self.time
+            ),
+            Some(error) => write!(
+                f,
+                "with rows {rows} deleted instead, the run stops: {error}; up to there the motion differs by {:.3e} m and {:.3e} rad",
+                self.position, self.angle
+            ),
+        }
+    }
+}
