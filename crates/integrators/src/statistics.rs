@@ -1,6 +1,6 @@
 //! Cost of an integration.
 
-use std::ops::AddAssign;
+use std::ops::Add;
 
 /// Counts of one integration, complete also after a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -50,21 +50,25 @@ impl Statistics {
     }
 }
 
-/// Costs of one integration after another.
-impl AddAssign for Statistics {
-    fn add_assign(&mut self, next: Self) {
-        self.evaluations += next.evaluations;
-        self.output_evaluations += next.output_evaluations;
-        self.hook_evaluations += next.hook_evaluations;
-        self.jacobians += next.jacobians;
-        self.factorisations += next.factorisations;
-        self.solves += next.solves;
-        self.newton_iterations += next.newton_iterations;
-        self.accepted += next.accepted;
-        self.rejected_by_error += next.rejected_by_error;
-        self.rejected_by_failure += next.rejected_by_failure;
-        self.rejected_by_hook += next.rejected_by_hook;
-        self.projections += next.projections;
-        self.largest_correction = self.largest_correction.max(next.largest_correction);
+/// Costs of two integrations, one after the other.
+impl Add for Statistics {
+    type Output = Self;
+
+    fn add(self, next: Self) -> Self {
+        Self {
+            evaluations: self.evaluations + next.evaluations,
+            output_evaluations: self.output_evaluations + next.output_evaluations,
+            hook_evaluations: self.hook_evaluations + next.hook_evaluations,
+            jacobians: self.jacobians + next.jacobians,
+            factorisations: self.factorisations + next.factorisations,
+            solves: self.solves + next.solves,
+            newton_iterations: self.newton_iterations + next.newton_iterations,
+            accepted: self.accepted + next.accepted,
+            rejected_by_error: self.rejected_by_error + next.rejected_by_error,
+            rejected_by_failure: self.rejected_by_failure + next.rejected_by_failure,
+            rejected_by_hook: self.rejected_by_hook + next.rejected_by_hook,
+            projections: self.projections + next.projections,
+            largest_correction: self.largest_correction.max(next.largest_correction),
+        }
     }
 }

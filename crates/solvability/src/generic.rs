@@ -9,7 +9,7 @@
 use crate::limits::{
     GENERIC_HALVINGS, GENERIC_STEP, GENERIC_STEPS, ONE_PART, POINTS, POINTS_APART, WALKS,
 };
-use crate::pose::velocity_units;
+use crate::pose::{dimensionless, uncertainty, velocity_units};
 use linalg::{Matrix, PivotedQr};
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, System};
@@ -51,6 +51,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
         return None;
     }
     let rows = holding_together(mechanism, t, q, lasting_rows(mechanism));
+    let compared = compared_rows(mechanism, t, q)?;
     let size = scene_size(mechanism, q);
     let units = velocity_units(mechanism, size);
     let mut points: Vec<Elsewhere> = Vec::new();
@@ -65,7 +66,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
             there.0 != *t || length(moved, &units, size) >= POINTS_APART
         };
         if visited.iter().all(is_new) {
-            points.extend(elsewhere(mechanism, &there, &rows));
+            points.extend(elsewhere(mechanism, &there, (&rows, &compared)));
         }
         visited.push(there);
         if points.len() == POINTS {
@@ -162,20 +163,56 @@ fn has_lasting_function(mechanism: &Mechanism) -> bool {
     groups.any(|g| g.spec.rheonomic && !g.is_drive())
 }
 
-/// The rank at a point, if it is decided there.
-fn elsewhere(mechanism: &Mechanism, (t, q): &(f64, Vec<f64>), rows: &[usize]) -> Option<Elsewhere> {
+/// The rows whose rank is compared: all, but of the rows that are dropped at (t, q) only those that
+/// are dependent to rounding. The others are redundant within a stated tolerance, which has been
+/// found at several configurations.
+fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>> {
+    let all = (0..mechanism.layout().rows()).collect();
+    if !mechanism.has_tolerances() {
+        return Some(all);
+    }
+    let s = crate::pose::evaluated(mechanism, t, q);
+    let here = Rows::in_double(mechanism, &s, q).decide().ok()?;
+    let size = scene_size(mechanism, q);
+    let c = dimensionless(mechanism, &s, size);
+    let known = uncertainty(mechanism, &s, size);
+    let is_dependent = |row: usize| {
+        let mut rows = here.kept.clone();
+        rows.push(row);
+        let found = rank::decide(&c.select_rows(&rows), &known.select_rows(&rows));
+        found.is_ok_and(|found| found.rank == here.rank)
+    };
+    let dependent = here
+        .dropped
+        .iter()
+        .copied()
+        .filter(|&row| is_dependent(row));
+    let mut rows: Vec<usize> = here.kept.iter().copied().chain(dependent).collect();
+    rows.sort_unstable();
+    Some(rows)
+}
+
+/// The rank of the compared rows at a point that satisfies others, if it is decided there.
+fn elsewhere(
+    mechanism: &Mechanism,
+    (t, q): &(f64, Vec<f64>),
+    (rows, compared): (&[usize], &[usize]),
+) -> Option<Elsewhere> {
     let mut s = crate::pose::evaluated(mechanism, *t, q);
     // Drives and rows that are redundant within a tolerance were left out of the walk, so the
     // residuals of their rows say nothing about the accuracy of this configuration.
     for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
         s.phi[i] = 0.0;
     }
-    let decision = Rows::in_double(mechanism, &s, q).decide().ok()?;
+    let decision = Rows::in_double(mechanism, &s, q)
+        .select(compared)
+        .decide()
+        .ok()?;
     decision.is_decided().then(|| Elsewhere {
         time: *t,
         q: q.clone(),
         rank: decision.rank,
-        redundancy: decision.redundancy,
+        redundancy: mechanism.layout().rows() - decision.rank,
     })
 }
 

@@ -54,8 +54,14 @@ pub(super) struct RunEquations<'m> {
     by_time: Option<ByTime>,
     /// The last accepted step.
     last: Span,
-    /// Scratch: the state before a projection; a stage on the constraints.
+    scratch: States,
+}
+
+/// States that are used within one call.
+struct States {
+    /// The state before a projection.
     before: Vec<f64>,
+    /// A stage on the constraints.
     stage: Vec<f64>,
 }
 
@@ -82,8 +88,10 @@ impl<'m> RunEquations<'m> {
             is_void: false,
             by_time: ByTime::for_run(prepared, options),
             last: Span::default(),
-            before: y0.clone(),
-            stage: y0,
+            scratch: States {
+                before: y0.clone(),
+                stage: y0,
+            },
             motion,
         };
         let at = &equations.motion.equations.at;
@@ -101,7 +109,7 @@ impl<'m> RunEquations<'m> {
 
     /// y at the start, before anything is evaluated.
     pub(super) fn y0(&self) -> Vec<f64> {
-        self.stage.clone()
+        self.scratch.stage.clone()
     }
 
     /// Whether stages are functions of time. Near a singular configuration, at which branches meet,
@@ -159,9 +167,9 @@ impl<'m> RunEquations<'m> {
     /// component of the mean, which loosens the control by the factor √((n + 1)/n).
     pub(super) fn tolerance(&self, options: &MotionOptions) -> Tolerance {
         let (rtol, atol) = (options.rtol, options.atol);
-        let moving = self.motion.parts(&self.stage);
+        let moving = self.motion.parts(&self.scratch.stage);
         let moving = moving.0.len() + moving.1.len();
-        if moving == self.stage.len() {
+        if moving == self.scratch.stage.len() {
             return Tolerance::Uniform { rtol, atol };
         }
         let [mut rtol, mut atol] = [rtol, atol].map(|tolerance| vec![tolerance; moving]);
@@ -292,11 +300,11 @@ impl<'m> RunEquations<'m> {
                 None => Ok(()),
             };
         }
-        self.stage.copy_from_slice(y);
-        let (q, v, _) = self.motion.parts_mut(&mut self.stage);
+        self.scratch.stage.copy_from_slice(y);
+        let (q, v, _) = self.motion.parts_mut(&mut self.scratch.stage);
         let equations = &mut self.motion.equations;
         self.motion.manifold.approach(equations, t, (q, v))?;
-        self.motion.derivative(t, &self.stage, dy)
+        self.motion.derivative(t, &self.scratch.stage, dy)
     }
 
     fn is_break(&self, t: f64) -> bool {
@@ -306,7 +314,7 @@ impl<'m> RunEquations<'m> {
 
     /// Ends a step that passed its error test, if it can be accepted.
     fn end(&mut self, step: &StepInfo<'_>, y: &mut [f64], dy: &mut [f64]) -> Result<StepEnd, Next> {
-        self.before.copy_from_slice(y);
+        self.scratch.before.copy_from_slice(y);
         let known = self.by_time.as_mut();
         let is_known = known.is_some_and(|known| known.take(step.t_rhs, dy));
         if std::mem::take(&mut self.is_void) {
@@ -324,7 +332,7 @@ impl<'m> RunEquations<'m> {
             }
         }
         let pivot_ratio = motion.pivot_ratio();
-        for (before, y) in self.before.iter_mut().zip(&*y) {
+        for (before, y) in self.scratch.before.iter_mut().zip(&*y) {
             *before -= y;
         }
         let (q, v) = motion.parts(y);
@@ -342,9 +350,9 @@ impl<'m> RunEquations<'m> {
             let missed = motion
                 .manifold
                 .missed_correction(equations, step.t_rhs, (q, v))?;
-            self.before[..missed.len()].copy_from_slice(&missed);
+            self.scratch.before[..missed.len()].copy_from_slice(&missed);
         }
-        let correction = step.norm(&self.before);
+        let correction = step.norm(&self.scratch.before);
         if may_have_passed {
             let next = watch.judge_correction(equations, step.t, correction);
             next.stands()?;
@@ -439,7 +447,7 @@ impl Ode for RunEquations<'_> {
     type Error = MotionFault;
 
     fn dim(&self) -> usize {
-        self.stage.len()
+        self.scratch.stage.len()
     }
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {

@@ -88,11 +88,11 @@ impl<'r, 'm> Run<'r, 'm> {
             let mut outcome = match outcome {
                 Ok(outcome) => outcome,
                 Err(mut failure) => {
-                    failure.statistics += spent;
+                    failure.statistics = failure.statistics + spent;
                     return Err(failure);
                 }
             };
-            outcome.statistics += spent;
+            outcome.statistics = outcome.statistics + spent;
             if !hands_over {
                 return Ok(outcome);
             }
