@@ -10,7 +10,7 @@
 //! | `language` | what numbers mean: format, units, parameters |
 //! | `expression`, `dimension` | a text to a number with its dimension; what fits where |
 //! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
-//! | `body` | bodies, and their names elsewhere |
+//! | `body`, `marker`, `measure` | bodies and places on them, and their names elsewhere; quantities between places |
 //! | `element` | common parts of joints and forces: type, `connection`, `place`, `arguments` |
 //! | `joint`, `force` | joints and their drives; forces |
 //! | `function` | functions of time |
@@ -37,6 +37,8 @@ mod key;
 mod language;
 mod limits;
 mod locate;
+mod marker;
+mod measure;
 mod names;
 mod nearest;
 mod place;

@@ -4,7 +4,7 @@ mod syntax;
 
 use std::collections::{BTreeMap, HashMap};
 
-use model::{BuildError, Description, Mechanism, Registry, Stated, Tolerance};
+use model::{BuildError, Description, Mechanism, Observed, Registry, Stated, Tolerance};
 use serde_json::json;
 use toml::de::DeTable;
 
@@ -21,6 +21,8 @@ use crate::key::{Interval, Key, Takes};
 use crate::language::{self, Language};
 use crate::limits;
 use crate::locate;
+use crate::marker::Markers;
+use crate::measure::Measures;
 use crate::names::{Names, Use};
 use crate::reactions::{self, GroupRequest, components};
 use crate::scene::Scene;
@@ -160,6 +162,10 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         name: heading.name,
         gravity: heading.gravity,
         tolerance: heading.tolerance,
+        observed: Observed {
+            markers: parts.bodies.markers.list,
+            measures: parts.measures.list,
+        },
         bodies: parts.bodies.list,
         joints: parts.joints.list,
         drives: parts.drives.list,
@@ -167,6 +173,8 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     };
     let source = SourceMap {
         text: findings.source.clone(),
+        markers: parts.bodies.markers.entries,
+        measures: parts.measures.entries,
         bodies: parts.bodies.entries,
         joints: parts.joints.entries,
         drives: parts.drives.entries,
@@ -190,6 +198,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
 #[derive(Default)]
 struct Parts<'r> {
     bodies: Bodies,
+    measures: Measures,
     joints: Joints<'r>,
     drives: Drives,
     /// Names of all drives, complete or not.
@@ -204,6 +213,7 @@ impl<'r> Parts<'r> {
         let mut parts = Self::default();
         let Self {
             bodies,
+            measures,
             joints,
             drives,
             drive_names,
@@ -214,6 +224,15 @@ impl<'r> Parts<'r> {
         for (table, name) in list(root, &section::BODY, findings) {
             names.bodies.push(Use::of(&name, &table));
             bodies.read(table, &name, findings);
+        }
+        for (table, name) in list(root, &section::MARKER, findings) {
+            names.bodies.push(Use::of(&name, &table));
+            Markers::read(bodies, table, &name, findings);
+        }
+        for (table, name) in list(root, &section::MEASURE, findings) {
+            names.bodies.push(Use::of(&name, &table));
+            names.measures.push(Use::of(&name, &table));
+            measures.read(table, &name, &bodies.markers, findings);
         }
         let types = Types::of_joints(registry);
         for (table, name) in list(root, &section::JOINT, findings) {

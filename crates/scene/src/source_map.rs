@@ -66,6 +66,10 @@ pub struct SourceMap {
     pub text: SourceText,
     /// In the order of the bodies of the description.
     pub bodies: Vec<Entry>,
+    /// In the order of its markers.
+    pub markers: Vec<Entry>,
+    /// In the order of its measures.
+    pub measures: Vec<Entry>,
     /// In the order of its joints.
     pub joints: Vec<Entry>,
     /// In the order of its drives.
@@ -79,6 +83,14 @@ pub struct SourceMap {
 }
 
 impl SourceMap {
+    /// Bodies, markers and measures, which share one name space.
+    pub fn places(&self) -> impl Iterator<Item = &Entry> {
+        self.bodies
+            .iter()
+            .chain(&self.markers)
+            .chain(&self.measures)
+    }
+
     /// Joints, drives and forces, which share one name space.
     pub fn elements(&self) -> impl Iterator<Item = &Entry> {
         self.joints.iter().chain(&self.drives).chain(&self.forces)

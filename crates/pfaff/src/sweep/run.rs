@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use dynamics::{MotionFault, Prepared, Sample, Summary};
-use model::System;
+use model::Mechanism;
+use model::frame::COLUMNS;
 use report::sweep::{Extreme, SweepMotion};
 use report::{SweepRow, SweepStatus};
 use solvability::{Analysis, analyse};
@@ -12,9 +13,6 @@ use super::Sweep;
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::study::{Overrides, Study};
-
-/// Number of coordinates of a planar body, and of their rates, in tables.
-const N_BODY: usize = 3;
 
 /// A run that can begin: assembled, and analysed at its start.
 pub(super) struct Begun<'s> {
@@ -112,7 +110,8 @@ pub(super) fn reason(error: &StudyError) -> String {
 }
 
 /// Values kept from the rows of a run.
-struct Watch {
+struct Watch<'s> {
+    mechanism: &'s Mechanism,
     /// Time of the last state (s).
     t_state: f64,
     /// The last state, body by body in the order of trajectories.
@@ -122,15 +121,16 @@ struct Watch {
     extremes: Vec<Extreme>,
 }
 
-impl Watch {
-    fn new(reactions: &[usize], study: &Study, analysis: &Analysis) -> Self {
+impl<'s> Watch<'s> {
+    fn new(reactions: &[usize], study: &'s Study, analysis: &Analysis) -> Self {
         let is_unique = |k: usize| {
             let verdict = analysis.reactions.get(k).map(|r| &r.wrench.verdict);
             verdict.is_some_and(|v| v.is_unique())
         };
         Self {
             t_state: f64::NAN,
-            state: vec![f64::NAN; 2 * study.prepared.mechanism.layout().n_q],
+            state: vec![f64::NAN; COLUMNS.len() * study.prepared.mechanism.bodies().len()],
+            mechanism: &study.prepared.mechanism,
             reactions: reactions.iter().map(|&k| (k, is_unique(k))).collect(),
             extremes: vec![Extreme::UNKNOWN; reactions.len()],
         }
@@ -138,13 +138,9 @@ impl Watch {
 
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
         self.t_state = sample.t;
-        let bodies = sample
-            .q
-            .chunks_exact(N_BODY)
-            .zip(sample.v.chunks_exact(N_BODY));
-        for (state, (q, v)) in self.state.chunks_exact_mut(2 * N_BODY).zip(bodies) {
-            state[..N_BODY].copy_from_slice(q);
-            state[N_BODY..].copy_from_slice(v);
+        for (body, state) in self.state.chunks_exact_mut(COLUMNS.len()).enumerate() {
+            let frame = self.mechanism.frame(body, sample.q, sample.v);
+            state.copy_from_slice(&frame.numbers());
         }
         if !self.reactions.iter().any(|(_, is_unique)| *is_unique) {
             return Ok(());

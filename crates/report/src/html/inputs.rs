@@ -141,6 +141,13 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
             page.recording.rows()
         ));
     }
+    let measures = page.mechanism.observed().measures.len();
+    if measures > data::MEASURES_MAX {
+        told.push(format!(
+            "{} of {measures} measures are plotted; trajectory.csv has all.",
+            data::MEASURES_MAX
+        ));
+    }
     if page.drives.len() > data::DRIVES_MAX {
         told.push(format!(
             "{} of {} drives are plotted.",

@@ -98,6 +98,14 @@ pub(super) fn point() -> Value {
     point
 }
 
+/// A point of the plane, or the name of a marker.
+pub(super) fn place() -> Value {
+    json!({
+        "title": "Point [x, y] (m), or the name of a marker",
+        "anyOf": [reference("point"), { "type": "string" }],
+    })
+}
+
 /// Texts, each once.
 fn texts(least: usize) -> Value {
     json!({ "type": "array", "items": { "type": "string" }, "minItems": least, "uniqueItems": true })

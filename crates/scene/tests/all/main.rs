@@ -6,6 +6,7 @@ mod language;
 mod locate;
 mod mutations;
 mod own_joint;
+mod places;
 mod robot_trolley;
 mod schema;
 mod tolerance;
