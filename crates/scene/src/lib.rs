@@ -13,6 +13,7 @@
 //! | `body`, `marker`, `measure` | bodies and places on them, and their names elsewhere; quantities between places |
 //! | `element` | common parts of joints and forces: type, `connection`, `place`, `arguments` |
 //! | `joint`, `force` | joints and their drives; forces |
+//! | `active` | what is read and takes no part |
 //! | `function` | functions of time |
 //! | `start`, `simulate`, `reactions`, `combination` | requested computations |
 //! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
@@ -20,6 +21,7 @@
 //! | `schema` | the format as a JSON schema, from the same keys |
 //! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, suggested names |
 
+mod active;
 mod arguments;
 mod body;
 mod combination;
@@ -61,8 +63,9 @@ pub use diagnostic::{Diagnostic, Label, Severity};
 pub use nearest::nearest;
 pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
 pub use read::read;
-pub use scene::Scene;
+pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
 pub use template::{KeyError, Template};
 pub use text::SourceText;
+pub use units::WithUnit;

@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::Registry;
 use serde_json::{Map, Value, json};
 
+use crate::active::ACTIVE;
 use crate::function::{KINDS, STEP_KEYS};
 use crate::joint::{DRIVE_KEYS, MEASURE};
 use crate::key::{Interval, Key, TYPE};
@@ -138,7 +139,7 @@ fn named(title: &str, keys: &[Key]) -> Value {
 }
 
 fn drive(registry: &Registry) -> Value {
-    let mut table = named("Drive", &DRIVE_KEYS);
+    let mut table = named("Drive", &[&DRIVE_KEYS[..], &[ACTIVE]].concat());
     // Joints, grouped by the measures that can be prescribed.
     let mut measures: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for spec in registry.constraint_specs() {
@@ -172,7 +173,8 @@ fn require(table: &mut Value, key: &str) {
 
 /// A name and one of two kinds of content.
 fn group() -> Value {
-    let either = GROUP_KEYS.map(|key| table(&format!("Group with `{}`", key.name), &[NAME, key]));
+    let either =
+        GROUP_KEYS.map(|key| table(&format!("Group with `{}`", key.name), &[NAME, key, ACTIVE]));
     json!({ "title": "Group", "oneOf": either })
 }
 

@@ -16,6 +16,8 @@ pub struct Entry {
     pub header: Range<usize>,
     /// The values with their keys, in the order of the keys.
     pub keys: Box<[(Cow<'static, str>, Range<usize>)]>,
+    /// Whether what it describes takes part.
+    pub is_active: bool,
 }
 
 impl Entry {
@@ -24,6 +26,15 @@ impl Entry {
             name: name.to_owned(),
             header: table.header.clone(),
             keys: table.spans().collect(),
+            is_active: true,
+        }
+    }
+
+    /// That of a table that may take no part.
+    pub(crate) fn switched(name: &str, table: &Table, is_active: bool) -> Self {
+        Self {
+            is_active,
+            ..Self::of(name, table)
         }
     }
 

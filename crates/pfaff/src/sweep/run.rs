@@ -27,7 +27,9 @@ pub(super) struct Begun<'s> {
 impl Sweep<'_> {
     /// Assembles a run (from 1).
     pub(super) fn begin(&self, run: u64) -> Result<Begun<'_>, StudyError> {
-        let text = self.template.with(&self.point(run));
+        let written = self.grid.written((run - 1) as usize);
+        let written: Vec<&str> = written.iter().map(String::as_str).collect();
+        let text = self.template.with_expressions(&written);
         let assembled = AssembledScene::read(&self.plan.scene, &text, self.registry)?;
         let study = assembled.prepare(&Overrides::default())?;
         let options = study.options.as_ref().ok_or(StudyError::NoEnd)?;
@@ -71,7 +73,8 @@ impl Begun<'_> {
         let Some(options) = &study.options else {
             return sweep.refused(*run, &StudyError::NoEnd);
         };
-        let mut watch = Watch::new(&sweep.reactions, study, analysis);
+        let reactions = sweep.places(&study.prepared.mechanism);
+        let mut watch = Watch::new(&reactions, study, analysis);
         let outcome = study.run(options, |sample| {
             watch.see(sample)?;
             Ok(each(sample))
@@ -122,16 +125,18 @@ struct Watch<'s> {
 }
 
 impl<'s> Watch<'s> {
-    fn new(reactions: &[usize], study: &'s Study, analysis: &Analysis) -> Self {
+    fn new(reactions: &[Option<usize>], study: &'s Study, analysis: &Analysis) -> Self {
         let is_unique = |k: usize| {
             let verdict = analysis.reactions.get(k).map(|r| &r.wrench.verdict);
             verdict.is_some_and(|v| v.is_unique())
         };
+        // Nothing is unique of a reaction that this run does not have.
+        let known = |&k: &Option<usize>| k.map_or((0, false), |k| (k, is_unique(k)));
         Self {
             t_state: f64::NAN,
             state: vec![f64::NAN; COLUMNS.len() * study.prepared.mechanism.bodies().len()],
             mechanism: &study.prepared.mechanism,
-            reactions: reactions.iter().map(|&k| (k, is_unique(k))).collect(),
+            reactions: reactions.iter().map(known).collect(),
             extremes: vec![Extreme::UNKNOWN; reactions.len()],
         }
     }

@@ -91,6 +91,15 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         out,
         format_args!("<p class=\"answer\">{}</p>\n", answer(page)),
     );
+    if !page.scene.inactive.is_empty() {
+        let names = verdicts::marked(&page.scene.inactive.join(", "));
+        add(
+            out,
+            format_args!(
+                "<p class=\"grey\">Not active, so without any part in this: {names}.</p>\n"
+            ),
+        );
+    }
     let free = page
         .freedoms()
         .map(FreedomsDocument::sentences)

@@ -26,7 +26,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
     if let Some(run) = page.run {
         of_run(out, run);
     }
-    if let Some(text) = page.scene {
+    if let Some(text) = page.scene.text {
         scene(out, text);
     }
     out.push_str("<h3>What the page leaves out</h3>\n");

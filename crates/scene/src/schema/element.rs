@@ -6,6 +6,7 @@ use model::Registry;
 use serde_json::{Map, Value, json};
 
 use super::value::{described, number, reference, tuple};
+use crate::active::ACTIVE;
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
 use crate::key::{Interval, TYPE};
@@ -39,8 +40,8 @@ fn table(spec: &Spec, of: Kind, title: &str) -> Value {
     properties.insert(NAME.name.to_owned(), described(&NAME));
     let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
     properties.insert(TYPE.to_owned(), kind);
-    if let Kind::Joint = of {
-        let key = &tolerance::OF_JOINT;
+    let tolerance = matches!(of, Kind::Joint).then_some(&tolerance::OF_JOINT);
+    for key in tolerance.into_iter().chain([&ACTIVE]) {
         properties.insert(key.name.to_owned(), described(key));
     }
 

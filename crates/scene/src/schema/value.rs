@@ -20,6 +20,7 @@ pub(super) fn described(key: &Key) -> Value {
         Takes::Text => json!({ "type": "string" }),
         Takes::OneOf(names) => json!({ "enum": names() }),
         Takes::Flag => json!({ "type": "boolean" }),
+        Takes::Switch => json!({ "type": ["boolean", "number", "string"] }),
         Takes::Whole(least, most) => {
             json!({ "type": "integer", "minimum": least, "maximum": most })
         }

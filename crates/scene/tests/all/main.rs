@@ -1,5 +1,6 @@
 //! Tests of the scene reader through its public functions.
 
+mod active;
 mod diagnostics;
 mod elements;
 mod language;
