@@ -60,7 +60,7 @@ mod units;
 
 pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};
 pub use diagnostic::{Diagnostic, Label, Severity};
-pub use nearest::nearest;
+pub use nearest::{ELSEWHERE, nearest};
 pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
 pub use read::read;
 pub use scene::{Inactive, Scene};

@@ -12,6 +12,7 @@ mod robot_trolley;
 mod schema;
 mod tolerance;
 mod validator;
+mod words;
 
 use model::Registry;
 use scene::{Diagnostic, Scene};
