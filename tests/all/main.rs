@@ -13,6 +13,7 @@ mod examples;
 mod existence;
 mod first_bodies;
 mod formulations;
+mod frames;
 mod freedoms;
 mod from_rust;
 mod generated_code;

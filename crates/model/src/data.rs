@@ -141,8 +141,9 @@ impl<'m> Data<'m> {
                             (_, true) => 1.0,
                             (_, false) => largest.max(angle),
                         },
-                        tolerance: stated
-                            .and_then(|size| tolerance_of(self.0, c, datum.shape, unit, size)),
+                        tolerance: stated.and_then(|size| {
+                            tolerance_of(self.0, c, (datum.shape, own), unit, size)
+                        }),
                     }
                 };
                 match datum.shape {
@@ -286,13 +287,13 @@ fn moving_poses<'a>(
 }
 
 /// The uncertainty of data of this shape in a constraint, in their unit, in a mechanism of this
-/// size (m). Lengths: the tolerance stated for the constraint, or else for the body in whose frame
-/// they are, or else for the scene. Angles: the angle tolerance of the scene, or else that length
+/// size (m). Lengths: the tolerance stated for the constraint, or else for a marker at the point, or
+/// else for the body in whose frame they are, or else for the scene. Angles: the angle tolerance of the scene, or else that length
 /// divided by the size.
 fn tolerance_of(
     mechanism: &Mechanism,
     c: &PlacedConstraint,
-    shape: DatumShape,
+    (shape, numbers): (DatumShape, &[f64]),
     unit: DataUnit,
     size: f64,
 ) -> Option<f64> {
@@ -302,8 +303,14 @@ fn tolerance_of(
         | DatumShape::KeptVector { slot } => Some(slot),
         DatumShape::Line | DatumShape::Number(_) | DatumShape::Kept(_) => None,
     };
-    let body = slot.and_then(|slot| c.site.bodies.get(slot)?.moving());
-    let nearest = c.tolerance.or_else(|| mechanism.bodies()[body?].tolerance);
+    let body = slot.and_then(|slot| c.site.bodies.get(slot).copied());
+    let bodies = mechanism.bodies();
+    let of_marker = || match shape {
+        DatumShape::Point { .. } => mechanism.observed().tolerance_at(bodies, body?, numbers),
+        _ => None,
+    };
+    let of_body = || bodies[body?.moving()?].tolerance;
+    let nearest = c.tolerance.or_else(of_marker).or_else(of_body);
     let of_scene = mechanism.tolerance();
     let stated = Tolerance {
         length: nearest.or(of_scene.length),

@@ -1,9 +1,8 @@
 //! A mechanism as plain data: the result of reading a scene, or written directly by a program.
 //! Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
 
-use joints::Pose;
-
 use crate::function::Function;
+use crate::observed::Observed;
 use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::tolerance::Tolerance;
 
@@ -45,6 +44,8 @@ pub struct Description {
     pub forces: Vec<Force>,
     /// Tolerance of the numbers, unless one is stated for their joint or body.
     pub tolerance: Tolerance,
+    /// Markers and measures.
+    pub observed: Observed,
 }
 
 impl Description {
@@ -107,15 +108,16 @@ impl Description {
         })
     }
 
-    /// Coordinates of a global point (m) in the frame of a body as described; see
-    /// [`BodyRef::to_local`].
+    /// A global point (m) relative to the centre of mass of a body as described, as joints and
+    /// forces take it; see [`BodyRef::to_local`].
     #[must_use]
     pub fn local(&self, body: BodyRef, point: [f64; 2]) -> [f64; 2] {
         body.to_local(&self.bodies, point)
     }
 }
 
-/// A rigid body with its state at the start. The origin of its frame is its centre of mass.
+/// A rigid body with its state at the start. The origin of its frame is its centre of mass, unless
+/// `centre` says otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
     /// Its name.
@@ -124,12 +126,15 @@ pub struct Body {
     pub mass: f64,
     /// Moment of inertia about the centre of mass (kg·m²), ≥ 0.
     pub inertia: f64,
-    /// Position of the centre of mass (m).
+    /// The centre of mass in its frame (m). Points of joints and forces are relative to the centre
+    /// of mass: see [`Body::from_centre`] and [`Description::local`].
+    pub centre: [f64; 2],
+    /// Position of the origin of its frame (m).
     pub position: [f64; 2],
     /// Angle (rad).
     pub angle: f64,
-    /// Velocity of the centre of mass (m/s). `None`: it follows from the given velocities and the
-    /// prescribed motions, with the least kinetic energy.
+    /// Velocity of the origin of its frame (m/s). `None`: it follows from the given velocities and
+    /// the prescribed motions, with the least kinetic energy.
     pub velocity: Option<[f64; 2]>,
     /// Angular velocity (rad/s). `None`: it follows in the same way.
     pub angular_velocity: Option<f64>,
@@ -149,12 +154,6 @@ impl Body {
             inertia,
             ..Self::default()
         }
-    }
-
-    /// Its pose at the start.
-    #[must_use]
-    pub fn pose(&self) -> Pose {
-        Pose::new(self.position[0], self.position[1], self.angle)
     }
 }
 
@@ -177,8 +176,8 @@ impl BodyRef {
         }
     }
 
-    /// Coordinates of a global point (m) in the frame of this body, one of `bodies` as described:
-    /// `Rᵀ·(point − r)`. For the ground, and for a body that does not exist, the point itself.
+    /// A global point (m) relative to the centre of mass of this body, one of `bodies` as described,
+    /// in the axes of its frame: `Rᵀ·(point − r)`. For the ground, and for a body that does not exist, the point itself.
     #[must_use]
     pub fn to_local(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
         let described = self.moving().and_then(|at| bodies.get(at));

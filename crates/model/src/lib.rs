@@ -21,6 +21,7 @@
 //! | [`function`] | functions of time with their derivatives and break times |
 //! | [`registry`] | definitions by their scene type |
 //! | [`description`] | bodies, joints, drives and forces as plain data |
+//! | [`frame`] | frames whose origin is not the centre of mass, and states of points |
 //! | `data` | points, directions and numbers of constraints, and how rows change with them |
 //! | [`mechanism`] | the assembled equations |
 //! | [`system`] | the interface of the equations for solvers |
@@ -33,14 +34,17 @@
 //! | `uncertainty` | the uncertainty of the entries of C |
 //! | [`space`] | coordinates of bodies, and how a configuration moves along velocities |
 //! | [`start`] | a consistent start |
+//! | `observed` | markers, and measures between them |
 //! | [`reaction`] | multipliers to forces and torques |
 
 mod data;
 pub mod description;
 pub mod extended;
+pub mod frame;
 pub mod function;
 mod group;
 pub mod mechanism;
+mod observed;
 pub mod reaction;
 pub mod record;
 pub mod registry;
@@ -55,8 +59,10 @@ mod uncertainty;
 pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
+pub use frame::FrameState;
 pub use function::{Function, FunctionError};
 pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
+pub use observed::{Marker, Measure, MeasureKind, Observed};
 pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
 pub use record::RecordedEquations;
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};

@@ -15,6 +15,7 @@ use joints::{Pose, Ring, Twist};
 
 use crate::description::{Body, BodyRef};
 use crate::function::Function;
+use crate::observed::Observed;
 use crate::registry::{PlaneConstraint, PlaneForce};
 pub(crate) use crate::space::N_BODY;
 use crate::space::{Space, SpaceKind, in_space};
@@ -73,6 +74,7 @@ pub struct Mechanism {
     reach: Vec<f64>,
     /// Whether rows of angles keep the angle of each body constant.
     held: Vec<bool>,
+    observed: Observed,
     layout: Layout,
 }
 
@@ -205,6 +207,12 @@ impl Mechanism {
         &self.bodies
     }
 
+    /// Its markers and measures; a part of a mechanism has its markers with a tolerance only.
+    #[must_use]
+    pub fn observed(&self) -> &Observed {
+        &self.observed
+    }
+
     /// Coordinates and velocities as described, not corrected; velocities that are not given are
     /// zero.
     #[must_use]
@@ -215,18 +223,9 @@ impl Mechanism {
                 S::described(b, q);
             }
         });
-        let v = self.given_velocities().into_iter();
-        (q, v.map(Option::unwrap_or_default).collect())
-    }
-
-    /// Velocities that the description gives, n_v.
-    #[must_use]
-    pub fn given_velocities(&self) -> Vec<Option<f64>> {
-        let of = |b: &Body| {
-            let [vx, vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
-            [vx, vy, b.angular_velocity]
-        };
-        self.bodies.iter().flat_map(of).collect()
+        let v = self.given_velocities(&q).into_iter();
+        let v = v.map(Option::unwrap_or_default).collect();
+        (q, v)
     }
 
     /// Whether forces other than the weight are applied, which may add or remove energy.

@@ -138,7 +138,8 @@ impl Space for Plane {
     const COORDINATES: &'static [&'static str] = &["x", "y", "angle"];
 
     fn described(body: &Body, q: &mut [f64]) {
-        q.copy_from_slice(&[body.position[0], body.position[1], body.angle]);
+        let Pose { x, y, angle, .. } = body.pose();
+        q.copy_from_slice(&[x, y, angle]);
     }
 
     fn angle<T: Number>(q: &[T]) -> T {
@@ -191,8 +192,8 @@ impl Space for UnitCircle {
     const COORDINATES: &'static [&'static str] = &["x", "y", "cosine", "sine"];
 
     fn described(body: &Body, q: &mut [f64]) {
-        let (sin, cos) = body.angle.sin_cos();
-        q.copy_from_slice(&[body.position[0], body.position[1], cos, sin]);
+        let Pose { x, y, cos, sin, .. } = body.pose();
+        q.copy_from_slice(&[x, y, cos, sin]);
     }
 
     fn angle<T: Number>(q: &[T]) -> T {

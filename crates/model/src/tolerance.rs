@@ -53,6 +53,8 @@ pub enum Stated {
     Scene,
     /// For points of this body.
     Body(String),
+    /// For the point of this marker.
+    Marker(String),
     /// For the data of this joint.
     Joint(String),
     /// For the data of this drive.
@@ -64,6 +66,7 @@ impl fmt::Display for Stated {
         match self {
             Self::Scene => f.write_str("the scene"),
             Self::Body(name) => write!(f, "body `{name}`"),
+            Self::Marker(name) => write!(f, "marker `{name}`"),
             Self::Joint(name) => write!(f, "joint `{name}`"),
             Self::Drive(name) => write!(f, "drive `{name}`"),
         }

@@ -51,6 +51,7 @@ impl Mechanism {
                 .constraints
                 .iter()
                 .any(|c| c.tolerance.is_some())
+            || self.observed().has_tolerances()
     }
 }
 

@@ -46,6 +46,8 @@ pub(crate) struct Checked {
     warnings: Vec<String>,
     /// The freedoms; `None` if the rank was not computed because the mechanism is large.
     freedoms: Option<Freedoms>,
+    /// What is not active.
+    inactive: Vec<String>,
 }
 
 /// Mobility, with the drives and without them.
@@ -75,6 +77,7 @@ impl Checked {
             velocity: None,
             warnings: scene.cautions().collect(),
             freedoms: None,
+            inactive: scene.inactive.iter().map(ToString::to_string).collect(),
         };
         let assembled = resources.assembled(source)?;
         match source.prepare(assembled, &Overrides::default()) {
@@ -136,6 +139,7 @@ impl Checked {
             start_velocity_correction: self.velocity,
             mobility: freedoms.map(|f| f.mobility),
             mobility_without_drives: freedoms.and_then(|f| f.document.mobility_without_drives()),
+            inactive: &self.inactive,
             problems: [],
             warnings: &self.warnings,
         }
@@ -149,13 +153,17 @@ impl Checked {
         };
         let warnings = self.warnings.iter();
         let warnings: String = warnings.map(|w| wrapped("warning: ", w)).collect();
+        let inactive = match self.inactive.as_slice() {
+            [] => String::new(),
+            names => wrapped("not active: ", &names.join(", ")),
+        };
         let mobility = match &self.freedoms {
             Some(freedoms) => freedoms.document.summary(freedoms.mobility) + "\n",
             None => String::new(),
         };
         format!(
             "{}: {}, {}, {} ({} holonomic, {} nonholonomic)\n\
-             {mobility}assembled; the start was corrected by {:.1e} in position{velocity}\n{warnings}",
+             {mobility}assembled; the start was corrected by {:.1e} in position{velocity}\n{inactive}{warnings}",
             self.scene,
             count(self.bodies, "body", "bodies"),
             count(

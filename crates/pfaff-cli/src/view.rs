@@ -98,7 +98,7 @@ fn page(start: &Start) -> String {
         comparisons: &[],
         drives: &[],
         origin: &origin(),
-        scene: start.scene.text(),
+        scene: pfaff::written_scene(&start.scene),
         options: &[],
         left_out: &[],
         work_precision: None,

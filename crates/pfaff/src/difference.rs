@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use dynamics::{MotionOptions, Sample};
-use model::Mechanism;
+use model::{FrameState, Mechanism};
 use report::AnalysisDocument;
 use report::documents::{DependencyDocument, DiffBody, DiffMotion, ReactionDocument};
 
@@ -149,9 +149,6 @@ fn joints(dependency: &DependencyDocument) -> Vec<&str> {
 /// Times at which motions are compared, besides the start.
 const TIMES: f64 = 200.0;
 
-/// Number of coordinates of a planar body.
-const N_BODY: usize = 3;
-
 /// Runs both scenes with their own options and compares 201 states, body by body. Returns `None` if
 /// one of them has no `[simulate]`.
 ///
@@ -163,8 +160,14 @@ pub fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion>, Stud
     };
     let t_end = a.t_end.min(b.t_end);
     let pairs = common(&first.prepared.mechanism, &second.prepared.mechanism);
-    let mut expected: Vec<Vec<f64>> = Vec::new();
-    run(first, a, t_end, |sample| expected.push(sample.q.to_vec()))?;
+    let mut expected: Vec<Vec<FrameState>> = Vec::new();
+    let frame = |study: &Study, sample: &Sample<'_, '_>, body: usize| {
+        study.prepared.mechanism.frame(body, sample.q, sample.v)
+    };
+    run(first, a, t_end, |sample| {
+        let own = pairs.iter().map(|[i, _]| frame(first, sample, *i));
+        expected.push(own.collect());
+    })?;
     let names = first.prepared.mechanism.bodies();
     let mut bodies: Vec<DiffBody> = pairs
         .iter()
@@ -175,15 +178,18 @@ pub fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion>, Stud
         .collect();
     let mut row = 0;
     run(second, b, t_end, |sample| {
-        let Some(q) = expected.get(row) else { return };
+        let Some(states) = expected.get(row) else {
+            return;
+        };
         row += 1;
-        for (body, [i, j]) in bodies.iter_mut().zip(&pairs) {
-            let difference = |k: usize| q[N_BODY * i + k] - sample.q[N_BODY * j + k];
+        for ((body, [_, j]), a) in bodies.iter_mut().zip(&pairs).zip(states) {
+            let b = frame(second, sample, *j);
+            let difference = |k: usize| a.place[k] - b.place[k];
             let distance = difference(0).hypot(difference(1));
             if distance > body.distance {
                 (body.distance, body.t_distance) = (distance, sample.t);
             }
-            let angle = difference(2).abs();
+            let angle = (a.angle - b.angle).abs();
             if angle > body.angle {
                 (body.angle, body.t_angle) = (angle, sample.t);
             }

@@ -48,6 +48,12 @@ pub enum StudyError {
         /// The most similar name, if one is similar.
         nearest: Option<String>,
     },
+    /// A joint or drive is in the scene, but not active.
+    #[error("`{name}` is not active in this scene, so there is no reaction")]
+    InactiveReaction {
+        /// The name.
+        name: String,
+    },
     /// A row does not exist.
     #[error("there is no row {}; rows are 1 to {rows}", row + 1)]
     UnknownRow {
@@ -125,6 +131,7 @@ impl StudyError {
             | Self::NoEnd
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }
+            | Self::InactiveReaction { .. }
             | Self::UnknownRow { .. }
             | Self::Contradiction(_)
             | Self::Request(_) => true,

@@ -48,6 +48,7 @@ pub use assembled::AssembledScene;
 pub use configuration::ConfigurationAnalysis;
 pub use difference::Comparison;
 pub use error::StudyError;
+pub use report_builder::written_scene;
 pub use solvability::Numbers;
 pub use study::{Overrides, Study};
 

@@ -8,8 +8,8 @@ use model::{Mechanism, Reaction, System};
 use rank::Limits;
 use report::documents::MakeUniqueDocument;
 use report::{
-    AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, numbers_per_row,
-    run_page,
+    AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, WrittenScene,
+    numbers_per_row, run_page,
 };
 use scene::Scene;
 use solvability::{Allowed, Sensitivities, Verdict};
@@ -124,7 +124,7 @@ impl<'a> ReportBuilder<'a> {
             comparisons: &comparisons,
             drives: &self.drives(),
             origin,
-            scene: self.scene.text(),
+            scene: written_scene(self.scene),
             options: &self.options(),
             left_out: &left_out,
             work_precision,
@@ -219,6 +219,15 @@ impl<'a> ReportBuilder<'a> {
             .into_iter()
             .map(|(what, value)| (what.to_owned(), value))
             .collect()
+    }
+}
+
+/// What a page tells of the text of a scene.
+#[must_use]
+pub fn written_scene(scene: &Scene) -> WrittenScene<'_> {
+    WrittenScene {
+        text: scene.text(),
+        inactive: scene.inactive.iter().map(ToString::to_string).collect(),
     }
 }
 

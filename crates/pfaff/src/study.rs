@@ -515,7 +515,7 @@ fn wanted(output: &Output) -> Wanted {
 
 fn write_row(
     sample: &mut Sample<'_, '_>,
-    trajectory: Option<&mut TrajectoryTable<report::OutputFile>>,
+    trajectory: Option<&mut TrajectoryTable<'_, report::OutputFile>>,
     reactions: Option<&mut ReactionTable<report::OutputFile>>,
     in_tables: bool,
     report_builder: Option<&mut ReportBuilder<'_>>,

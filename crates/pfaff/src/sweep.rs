@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use model::{Registry, System};
+use model::{Mechanism, Registry, System};
 use rayon::prelude::*;
 use report::sweep::{Journal, Journals, SweepPlan, digest, write_sweep};
 use report::{OutputDirectory, SweepDocument, SweepRow, TrajectoryTable};
@@ -174,6 +174,21 @@ impl<'r> Sweep<'r> {
         assert!((1..=runs).contains(&run), "no run {run} of 1 to {runs}");
         // Fits, because the number of runs was a usize.
         self.grid.point((run - 1) as usize)
+    }
+
+    /// Indices of the requested reactions in the mechanism of a run, which may lack some of them if
+    /// it is varied what is active.
+    fn places(&self, mechanism: &Mechanism) -> Vec<Option<usize>> {
+        let groups = &mechanism.layout().groups;
+        let place = |(&k, name): (&usize, &String)| match groups.get(k) {
+            Some(group) if group.name == *name => Some(k),
+            _ => groups.iter().position(|group| group.name == *name),
+        };
+        self.reactions
+            .iter()
+            .zip(&self.plan.reactions)
+            .map(place)
+            .collect()
     }
 
     /// Makes a run without writing any file.

@@ -97,6 +97,12 @@ impl From<&Judgement> for VerdictDocument {
 pub struct Named<T>(pub Vec<(String, T)>);
 
 impl<T> Named<T> {
+    /// Whether there is nothing.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The value of a name, if there is one.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&T> {

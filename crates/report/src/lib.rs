@@ -28,7 +28,8 @@ pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, wr
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile};
 pub use html::{
-    ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, numbers_per_row, run_page,
+    ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, WrittenScene,
+    numbers_per_row, run_page,
 };
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};

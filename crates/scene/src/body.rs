@@ -11,6 +11,7 @@ use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
+use crate::marker::Markers;
 use crate::nearest::all;
 use crate::source_map::Entry;
 use crate::table::Table;
@@ -24,12 +25,16 @@ const INERTIA: Key = number("inertia", "a number ≥ 0", Interval::NotNegative)
     .needed()
     .unit(Dimension::INERTIA)
     .doc("Moment of inertia about the centre of mass");
+const CENTRE: Key = pair("centre")
+    .unit(Dimension::LENGTH)
+    .doc("Centre of mass [x, y] in the frame of the body; points of joints, `position` and `velocity` belong to the frame")
+    .or(|| json!([0.0, 0.0]));
 const POSITION: Key = pair("position")
     .unit(Dimension::LENGTH)
-    .doc("Centre of mass [x, y] at the start")
+    .doc("Origin [x, y] of the body's frame at the start: its centre of mass, unless `centre` says otherwise")
     .or(|| json!([0.0, 0.0]));
 const VELOCITY: Key = pair("velocity").unit(Dimension::VELOCITY).doc(
-    "Velocity [vx, vy] of the centre of mass at the start; it follows from what is given and driven, with the least kinetic energy, where it is left out",
+    "Velocity [vx, vy] of the origin of the body's frame at the start; it follows from what is given and driven, with the least kinetic energy, where it is left out",
 );
 const ANGLE: Key = number("angle", "a number", Interval::Any)
     .unit(Dimension::ANGLE)
@@ -43,9 +48,10 @@ const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::A
     .doc("Angular velocity at the start; it follows in the same way where it is left out");
 
 /// Keys of a body in addition to its name.
-pub(crate) const KEYS: [Key; 7] = [
+pub(crate) const KEYS: [Key; 8] = [
     MASS,
     INERTIA,
+    CENTRE,
     POSITION,
     ANGLE,
     VELOCITY,
@@ -72,6 +78,8 @@ pub(crate) struct Bodies {
     unnamed: usize,
     /// The names assumed for them.
     theirs: RefCell<BTreeSet<String>>,
+    /// Their places by name.
+    pub(crate) markers: Markers,
 }
 
 impl Bodies {
@@ -89,7 +97,9 @@ impl Bodies {
                 .optional(key)
                 .and_then(|field| field.pair(key.expected, key.unit, findings))
         };
-        let (position, velocity) = (pair(&POSITION).unwrap_or_default(), pair(&VELOCITY));
+        let mut place = |key: &Key| pair(key).unwrap_or_default();
+        let (centre, position) = (place(&CENTRE), place(&POSITION));
+        let velocity = pair(&VELOCITY);
         let mut number = |key: &Key| {
             let field = table.optional(key);
             field.and_then(|field| field.number(key.unit, findings))
@@ -109,6 +119,7 @@ impl Bodies {
             name: name.to_owned(),
             mass,
             inertia,
+            centre,
             position,
             angle,
             velocity,

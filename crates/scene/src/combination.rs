@@ -1,7 +1,7 @@
 //! Linear combinations of reactions: of components, such as `W3.N + W4.N` or `2*A.Fx - B.T`, or of
 //! whole wrenches, such as `W3 + W4`.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use crate::nearest::{list, nearest};
@@ -83,6 +83,12 @@ pub enum CombinationProblem {
         /// The most similar name.
         nearest: Option<String>,
     },
+    /// A joint or drive is not active.
+    #[error("`{name}` is not active, so there is no reaction")]
+    Inactive {
+        /// The name.
+        name: String,
+    },
     /// The reaction does not have a component.
     #[error("the reaction of `{reaction}` has no component `{component}`; it has {available}")]
     UnknownComponent {
@@ -126,6 +132,8 @@ pub(crate) struct Reactions<'a> {
     by_name: HashMap<&'a str, usize>,
     /// Length of the longest name (bytes).
     longest: usize,
+    /// Names of joints and drives that are not active.
+    inactive: HashSet<&'a str>,
 }
 
 impl<'a> Reactions<'a> {
@@ -139,7 +147,19 @@ impl<'a> Reactions<'a> {
             list,
             by_name,
             longest,
+            inactive: HashSet::new(),
         }
+    }
+
+    /// These, and others that are not active.
+    pub(crate) fn without(mut self, inactive: impl Iterator<Item = &'a str>) -> Self {
+        self.inactive.extend(inactive);
+        self
+    }
+
+    /// Whether a name is that of a joint or drive that is not active.
+    pub(crate) fn is_inactive(&self, name: &str) -> bool {
+        self.inactive.contains(name)
     }
 
     /// Their names, in the order of the file.
@@ -342,9 +362,15 @@ impl<'a> Scanner<'a> {
             }
             _ => {
                 let name = token.rsplit_once('.').map_or(token, |(name, _)| name);
-                CombinationProblem::UnknownReaction {
-                    name: name.to_owned(),
-                    nearest: nearest(name, all.names()).map(str::to_owned),
+                let whole = [token, name].into_iter().find(|name| all.is_inactive(name));
+                match whole {
+                    Some(name) => CombinationProblem::Inactive {
+                        name: name.to_owned(),
+                    },
+                    None => CombinationProblem::UnknownReaction {
+                        name: name.to_owned(),
+                        nearest: nearest(name, all.names()).map(str::to_owned),
+                    },
                 }
             }
         };

@@ -2,6 +2,7 @@
 
 use model::Force;
 
+use crate::active;
 use crate::body::Bodies;
 use crate::connection;
 use crate::element::{self, Types};
@@ -28,13 +29,18 @@ impl Forces {
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
+        let mut own = Vec::new();
         let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
             connection::check_names(&mut table, bodies, findings);
             return;
         };
         let definitions: Vec<_> = types.registry.forces(scene_type).collect();
-        let read = element::read(&mut table, &definitions, bodies, domains, findings);
-        let entry = Entry::of(name, &table);
+        let read = element::read(&mut table, &definitions, bodies, &mut own, findings);
+        let is_active = active::read(&mut table, findings);
+        if is_active {
+            domains.append(&mut own);
+        }
+        let entry = Entry::switched(name, &table, is_active);
         table.close(findings);
         if let Some(read) = read
             && let Some((bodies, element)) = read.element

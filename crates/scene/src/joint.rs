@@ -7,6 +7,7 @@ use joints::Argument;
 use model::registry::ConstraintDefinition;
 use model::{BodyRef, Drive, Function, Joint};
 
+use crate::active;
 use crate::body::Bodies;
 use crate::connection;
 use crate::dimension::Dimension;
@@ -42,6 +43,7 @@ pub(crate) struct Known<'r> {
     complete: Option<(Vec<BodyRef>, Vec<Argument>)>,
     /// Tolerance of its data (m).
     tolerance: Option<f64>,
+    pub(crate) is_active: bool,
 }
 
 /// The joints that were read.
@@ -69,6 +71,7 @@ impl<'r> Joints<'r> {
             definition: None,
             complete: None,
             tolerance: None,
+            is_active: true,
         };
         let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
             connection::check_names(&mut table, bodies, findings);
@@ -76,9 +79,14 @@ impl<'r> Joints<'r> {
             return;
         };
         let definitions: Vec<_> = types.registry.constraints(scene_type).collect();
-        let read = element::read(&mut table, &definitions, bodies, domains, findings);
+        let mut own = Vec::new();
+        let read = element::read(&mut table, &definitions, bodies, &mut own, findings);
         known.tolerance = tolerance::read(&mut table, &tolerance::OF_JOINT, findings);
-        let entry = Entry::of(name, &table);
+        known.is_active = active::read(&mut table, findings);
+        if known.is_active {
+            domains.append(&mut own);
+        }
+        let entry = Entry::switched(name, &table, known.is_active);
         table.close(findings);
         known.definition = read.as_ref().map(|read| read.definition);
         if let Some(read) = read
@@ -123,6 +131,8 @@ impl<'j, 'r> JointNames<'j, 'r> {
 /// The drives that were read.
 #[derive(Default)]
 pub(crate) struct Drives {
+    /// Names of all drives, complete or not, and whether they are active.
+    pub(crate) known: Vec<(String, bool)>,
     pub(crate) list: Vec<Drive>,
     pub(crate) entries: Vec<Entry>,
 }
@@ -137,6 +147,7 @@ impl Drives {
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
+        let mut own = Vec::new();
         let joint = joint(&mut table, joints, findings);
         let measure = table.needed(TYPE, MEASURE, findings);
         let motion = table.required(&MOTION, findings);
@@ -148,13 +159,19 @@ impl Drives {
         };
         let motion = motion.and_then(|field| {
             let of = of.unwrap_or(Dimension::UNKNOWN);
-            let function = function::read(&field, of, domains, findings)?;
+            let function = function::read(&field, of, &mut own, findings)?;
             if field.may_be_number() {
                 warn_if_held(&field, &function, findings);
             }
             Some(function)
         });
-        let entry = Entry::of(name, &table);
+        let is_active = active::read(&mut table, findings);
+        self.known.push((name.to_owned(), is_active));
+        if is_active {
+            domains.append(&mut own);
+            is_driven(&table, joint, findings);
+        }
+        let entry = Entry::switched(name, &table, is_active);
         table.close(findings);
         let (Some(joint), Some((measure, span))) = (joint, measure) else {
             return;
@@ -239,6 +256,24 @@ fn warn_if_held(motion: &Field, function: &Function, findings: &mut Findings) {
         format!(
             "for a constant speed write `motion = {{ type = \"constant-rate\", rate = {value} }}`, to hold the measure `motion = 0`"
         ),
+    );
+}
+
+/// Reports a joint that is to be driven and is not active.
+fn is_driven(table: &Table, joint: Option<&Known>, findings: &mut Findings) {
+    let Some(joint) = joint.filter(|joint| !joint.is_active) else {
+        return;
+    };
+    let message = format!(
+        "{} drives joint `{}`, which is not active",
+        table.subject, joint.name
+    );
+    findings.collision(
+        table.span_of(JOINT.name),
+        message,
+        "write `active = false` for the drive, too, or remove it from the joint",
+        joint.span.clone(),
+        "this joint is not active",
     );
 }
 

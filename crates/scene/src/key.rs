@@ -37,6 +37,8 @@ pub(crate) enum Takes {
     OneOf(fn() -> Vec<&'static str>),
     /// `true` or `false`
     Flag,
+    /// `true` or `false`, or a number that is not zero or zero.
+    Switch,
     /// A whole number between these.
     Whole(i64, i64),
     /// Units of bare numbers.

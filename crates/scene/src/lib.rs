@@ -10,9 +10,10 @@
 //! | `language` | what numbers mean: format, units, parameters |
 //! | `expression`, `dimension` | a text to a number with its dimension; what fits where |
 //! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
-//! | `body` | bodies, and their names elsewhere |
+//! | `body`, `marker`, `measure` | bodies and places on them, and their names elsewhere; quantities between places |
 //! | `element` | common parts of joints and forces: type, `connection`, `place`, `arguments` |
 //! | `joint`, `force` | joints and their drives; forces |
+//! | `active` | what is read and takes no part |
 //! | `function` | functions of time |
 //! | `start`, `simulate`, `reactions`, `combination` | requested computations |
 //! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
@@ -20,6 +21,7 @@
 //! | `schema` | the format as a JSON schema, from the same keys |
 //! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, suggested names |
 
+mod active;
 mod arguments;
 mod body;
 mod combination;
@@ -37,6 +39,8 @@ mod key;
 mod language;
 mod limits;
 mod locate;
+mod marker;
+mod measure;
 mod names;
 mod nearest;
 mod place;
@@ -56,11 +60,12 @@ mod units;
 
 pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};
 pub use diagnostic::{Diagnostic, Label, Severity};
-pub use nearest::nearest;
+pub use nearest::{ELSEWHERE, nearest};
 pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
 pub use read::read;
-pub use scene::Scene;
+pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
 pub use template::{KeyError, Template};
 pub use text::SourceText;
+pub use units::WithUnit;

@@ -25,7 +25,7 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
                 .unwrap_or_else(|| at(map, map.section("scene", ""), error, "in this scene"));
         }
         BuildError::Ground => {
-            let named = map.bodies.iter().chain(map.elements());
+            let named = map.places().chain(map.elements());
             let found = named.into_iter().find(|entry| entry.name == "ground");
             let span = found.map_or_else(|| map.section("scene", ""), Entry::name_span);
             (span, "choose another name")
@@ -38,6 +38,10 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
             body_key(map, d, body, field, |x| x < 0.0),
             "may not be negative",
         ),
+        BuildError::VelocityAlone { body } => (
+            body_key(map, d, body, "velocity", |_| true),
+            "needs `angular_velocity` too",
+        ),
         BuildError::Tolerance { of, field, value } => {
             let key = field.replace(' ', "_");
             let span = match of {
@@ -45,6 +49,7 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
                 Stated::Body(body) => {
                     body_key(map, d, body, field, |x| x.to_bits() == value.to_bits())
                 }
+                Stated::Marker(name) => place_key(map, name, &[&key]),
                 Stated::Joint(name) | Stated::Drive(name) => {
                     element_key(map, name, &[&key, "joint"])
                 }
@@ -65,6 +70,11 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
                 bodies.iter().all(|body| *body == BodyRef::Ground)
             }),
             "at least one body must be able to move",
+        ),
+        BuildError::Marker { name, .. } => (place_key(map, name, &["point"]), "not finite"),
+        BuildError::SameMarker { name } | BuildError::UnknownMarker { name, .. } => (
+            place_key(map, name, &["markers"]),
+            "give two different places",
         ),
         BuildError::FunctionCount { name, .. } => (element_key(map, name, &[]), "defined here"),
         _ => (map.section("scene", ""), "in this scene"),
@@ -90,6 +100,7 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
         StartError::Requirement { name, .. } => {
             (element_key(map, name, &PLACE_KEYS), "required here")
         }
+        StartError::KeptOrigin { .. } => (map.section("start", "keep"), "held here"),
         _ => (map.section("start", ""), "of this scene"),
     };
     at(map, span, error, label)
@@ -240,13 +251,19 @@ fn element_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
 }
 
-/// Places of a name in the two name spaces: bodies; joints, drives and forces.
+/// The place of the first of these keys that a body, marker or measure has, or of its name.
+fn place_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
+    let entry = map.places().find(|entry| entry.name == name);
+    entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
+}
+
+/// Places of a name in the two name spaces: bodies, markers and measures; joints, drives and forces.
 fn uses(map: &SourceMap, name: &str) -> [Vec<Range<usize>>; 2] {
     let of = |entries: &mut dyn Iterator<Item = &Entry>| {
         let same = entries.filter(|entry| entry.name == name);
         same.map(Entry::name_span).collect()
     };
-    [of(&mut map.bodies.iter()), of(&mut map.elements())]
+    [of(&mut map.places()), of(&mut map.elements())]
 }
 
 /// One diagnostic for each use of a name after the first, in the order of the file.
@@ -278,6 +295,7 @@ fn body_key(
         "mass" => vec![body.mass],
         "inertia" => vec![body.inertia],
         "position" => body.position.to_vec(),
+        "centre" => body.centre.to_vec(),
         "angle" => vec![body.angle],
         "velocity" => body.velocity.into_iter().flatten().collect(),
         "tolerance" => body.tolerance.into_iter().collect(),

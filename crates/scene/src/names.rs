@@ -1,10 +1,11 @@
-//! Names of bodies, of joints, drives and forces, and of groups: within each of these name spaces a
+//! Names of bodies, markers and measures, of joints, drives and forces, and of groups: within each of these name spaces a
 //! name occurs once.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
 
 use model::BuildError;
+use model::frame::COLUMNS;
 
 use crate::body::GROUND;
 use crate::findings::Findings;
@@ -15,7 +16,9 @@ use crate::table::Table;
 /// All names in their name spaces, including those of incomplete tables.
 #[derive(Default)]
 pub(crate) struct Names {
+    /// Bodies, markers and measures, which share the columns of one table.
     pub(crate) bodies: Vec<Use>,
+    pub(crate) measures: Vec<Use>,
     pub(crate) elements: Vec<Use>,
     pub(crate) groups: Vec<Use>,
 }
@@ -35,7 +38,26 @@ impl Use {
     }
 }
 
+/// The column of time.
+const TIME: &str = "t";
+
 impl Names {
+    /// Reports measures with the name of another column of the trajectory.
+    fn check_columns(&self, findings: &mut Findings) {
+        let measures: HashSet<&str> = self.measures.iter().map(|m| m.name.as_str()).collect();
+        let places = self.bodies.iter().map(|place| place.name.as_str());
+        let places: HashSet<&str> = places.filter(|name| !measures.contains(name)).collect();
+        for Use { name, span } in &self.measures {
+            let is_column =
+                |(place, column): (&str, &str)| places.contains(place) && COLUMNS.contains(&column);
+            if name == TIME || name.rsplit_once('.').is_some_and(is_column) {
+                let message =
+                    format!("measure `{name}` has the name of another column of `trajectory.csv`");
+                findings.error(span.clone(), message, "choose another name");
+            }
+        }
+    }
+
     /// Reports names that are used twice, and `ground`.
     pub(crate) fn check(&self, map: &SourceMap, findings: &mut Findings) {
         for used in self.bodies.iter().chain(&self.elements) {
@@ -47,6 +69,7 @@ impl Names {
                 );
             }
         }
+        self.check_columns(findings);
         for space in [&self.bodies, &self.elements, &self.groups] {
             let named = || space.iter().filter(|used| used.name != GROUND);
             let mut seen = HashSet::with_capacity(space.len());

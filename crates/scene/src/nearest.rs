@@ -3,9 +3,9 @@
 /// Longer names are not compared: the effort grows with the square of the length.
 const LONGEST: usize = 80;
 
-/// What other programs and books call something, and its name here. Words for suggestions only:
-/// those that are no candidates are passed over.
-const ELSEWHERE: [(&str, &str); 56] = [
+/// What other programs and books call something, and its name here, as the book lists them. Words
+/// for suggestions only: those that are no candidates are passed over.
+pub const ELSEWHERE: &[(&str, &str)] = &[
     ("pin", "revolute"),
     ("hinge", "revolute"),
     ("pivot", "revolute"),
@@ -37,6 +37,10 @@ const ELSEWHERE: [(&str, &str); 56] = [
     ("link", "body"),
     ("part", "body"),
     ("constraint", "joint"),
+    ("site", "marker"),
+    ("frame", "marker"),
+    ("sensor", "measure"),
+    ("request", "measure"),
     ("motor", "drive"),
     ("actuator", "drive"),
     ("load", "force"),
@@ -54,7 +58,13 @@ const ELSEWHERE: [(&str, &str); 56] = [
     ("theta", "angle"),
     ("orientation", "angle"),
     ("omega", "angular_velocity"),
-    ("com", "position"),
+    ("com", "centre"),
+    ("cog", "centre"),
+    ("center", "centre"),
+    ("center_of_mass", "centre"),
+    ("centre_of_mass", "centre"),
+    ("enabled", "active"),
+    ("suppressed", "active"),
     ("location", "at"),
     ("rest_length", "free_length"),
     ("k", "stiffness"),

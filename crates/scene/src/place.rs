@@ -1,10 +1,11 @@
 //! The place of a joint or force: `at`, a global point of the described configuration, or points in
-//! the frames of the bodies.
+//! the frames of the bodies; or markers instead of these points. Points are stored relative to the
+//! centres of mass.
 
 use std::ops::Range;
 
 use joints::spec::{Parameter, Shape, Spec};
-use model::BodyRef;
+use model::{BodyRef, Marker};
 
 use crate::body::Bodies;
 use crate::connection::listed;
@@ -78,7 +79,10 @@ pub(crate) fn read(
         },
         (None, Some(local)) => Place {
             points: match local_key {
-                "point" => same_body(&local, of.len(), findings),
+                "point" => {
+                    let body = slots.first().copied().flatten();
+                    of_body(&local, of.len(), body, bodies, findings)
+                }
                 _ => by_body(&local, &of, slots, bodies, findings),
             },
             span: local.span(),
@@ -111,19 +115,22 @@ fn global(
     bodies: &Bodies,
     findings: &mut Findings,
 ) -> Vec<Option<[f64; 2]>> {
-    let points = if spec.points_apart {
+    let fields = if spec.points_apart {
         let expected = format!("{} global points [[x, y], …]", of.len());
-        at.pairs(of.len(), &expected, findings)
+        several(at, of.len(), &expected, bodies, findings)
     } else {
-        at.pair("a global point [x, y]", Dimension::LENGTH, findings)
-            .map(|point| vec![point; of.len()])
+        Some(vec![at.clone()])
     };
-    let Some(points) = points else {
-        return vec![None; of.len()];
-    };
-    let mut local = |(&slot, point): (&usize, [f64; 2])| {
+    let fields = fields.unwrap_or_default();
+    let read = |field: &Field| point(field, "a global point [x, y]", bodies, findings);
+    let read: Vec<_> = fields.iter().map(read).collect();
+    let mut local = |(k, &slot): (usize, &usize)| {
         let body = slots.get(slot).copied().flatten()?;
-        let local = body.to_local(&bodies.list, point);
+        let local = match *read.get(k).or(read.first())?.as_ref()? {
+            Point::Of(marker) if marker.body == body => marker.from_centre(&bodies.list),
+            Point::Of(marker) => body.to_local(&bodies.list, bodies.global(marker)),
+            Point::At(point) => body.to_local(&bodies.list, point),
+        };
         if local.iter().any(|x| !x.is_finite()) {
             findings.error(
                 at.span(),
@@ -138,21 +145,80 @@ fn global(
         }
         Some(local)
     };
-    of.iter().zip(points).map(&mut local).collect()
+    of.iter().enumerate().map(&mut local).collect()
 }
 
-/// `point`: in the frame of the only body; a list if there are several points.
-fn same_body(field: &Field, n: usize, findings: &mut Findings) -> Vec<Option<[f64; 2]>> {
-    let points = match n {
-        1 => field
-            .pair(POINT, Dimension::LENGTH, findings)
-            .map(|point| vec![point]),
-        _ => field.pairs(n, &format!("{n} points [[x, y], …]"), findings),
-    };
-    match points {
-        Some(points) => points.into_iter().map(Some).collect(),
-        None => vec![None; n],
+/// A point as it is written.
+enum Point<'b> {
+    At([f64; 2]),
+    Of(&'b Marker),
+}
+
+/// A pair of numbers, or the name of a marker. Returns `None` and reports if it is neither.
+fn point<'b>(
+    field: &Field,
+    expected: &str,
+    bodies: &'b Bodies,
+    findings: &mut Findings,
+) -> Option<Point<'b>> {
+    if bodies.markers.may_be(field) {
+        return bodies.markers.find(field, findings).map(Point::Of);
     }
+    let pair = field.pair(expected, Dimension::LENGTH, findings);
+    pair.map(Point::At)
+}
+
+/// The fields of `n` points. Returns `None` and reports if there are not as many.
+fn several<'t>(
+    field: &Field<'t>,
+    n: usize,
+    expected: &str,
+    bodies: &Bodies,
+    findings: &mut Findings,
+) -> Option<Vec<Field<'t>>> {
+    let items = field.items(expected, findings)?;
+    let is_point = |item: &Field| item.value.get_ref().is_array() || bodies.markers.may_be(item);
+    if items.len() == n && items.iter().all(is_point) {
+        return Some(items);
+    }
+    field.mismatch(expected, findings);
+    None
+}
+
+/// Points in the frame of one body, relative to its centre of mass; a list if there are several.
+fn of_body(
+    field: &Field,
+    n: usize,
+    body: Option<BodyRef>,
+    bodies: &Bodies,
+    findings: &mut Findings,
+) -> Vec<Option<[f64; 2]>> {
+    let fields = match n {
+        1 => Some(vec![field.clone()]),
+        _ => several(
+            field,
+            n,
+            &format!("{n} points [[x, y], …]"),
+            bodies,
+            findings,
+        ),
+    };
+    let Some(fields) = fields else {
+        return vec![None; n];
+    };
+    let mut local = |field: &Field| {
+        let read = point(field, POINT, bodies, findings)?;
+        let body = body?;
+        match read {
+            Point::At(point) => Some(body.from_centre(&bodies.list, point)),
+            Point::Of(marker) if marker.body == body => Some(marker.from_centre(&bodies.list)),
+            Point::Of(marker) => {
+                bodies.foreign(marker, body, field, findings);
+                None
+            }
+        }
+    };
+    fields.iter().map(&mut local).collect()
 }
 
 /// `points`: a table whose keys are the names of the bodies that have points.
@@ -207,7 +273,9 @@ fn by_body(
             );
             continue;
         }
-        for (k, point) in mine.iter().zip(same_body(value, mine.len(), findings)) {
+        let body = mine.first().map(|k| owners[*k]);
+        let read = of_body(value, mine.len(), body, bodies, findings);
+        for (k, point) in mine.iter().zip(read) {
             points[*k] = point;
         }
     }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use joints::spec::ConstraintSpec;
 use model::reaction::COMPONENTS;
 
+use crate::active;
 use crate::combination::{self, Combination, Reactions};
 use crate::field::Field;
 use crate::findings::Findings;
@@ -189,7 +190,15 @@ fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
             right = false;
             continue;
         };
-        if names.find(name).is_none() {
+        if names.find(name).is_none() && names.is_inactive(name) {
+            right = false;
+            findings.error_with_help(
+                item.span(),
+                format!("{} refers to `{name}`, which is not active", item.subject),
+                "not active",
+                active::HELP.to_owned(),
+            );
+        } else if names.find(name).is_none() {
             right = false;
             let near = findings.suggest(name, names.names());
             findings.error_with_help(

@@ -4,10 +4,11 @@ mod syntax;
 
 use std::collections::{BTreeMap, HashMap};
 
-use model::{BuildError, Description, Mechanism, Registry, Stated, Tolerance};
+use model::{BuildError, Description, Mechanism, Observed, Registry, Stated, Tolerance};
 use serde_json::json;
 use toml::de::DeTable;
 
+use crate::active;
 use crate::body::Bodies;
 use crate::combination::{ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
@@ -21,6 +22,8 @@ use crate::key::{Interval, Key, Takes};
 use crate::language::{self, Language};
 use crate::limits;
 use crate::locate;
+use crate::marker::Markers;
+use crate::measure::Measures;
 use crate::names::{Names, Use};
 use crate::reactions::{self, GroupRequest, components};
 use crate::scene::Scene;
@@ -76,6 +79,7 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     if let Some(source) = &scene.source {
         check(&scene.description, source, &mut findings);
     }
+    active::take_out(&mut scene);
     let problems = findings.sorted();
     if problems.is_empty() {
         Ok(scene)
@@ -141,7 +145,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     let start = section(&mut root, &section::START, &mut sections, findings)
         .map(|table| start::read(table, &parts.bodies, findings));
     let output = section(&mut root, &section::OUTPUT, &mut sections, findings)
-        .map(|table| reactions::output(table, &parts.reactions(), findings));
+        .map(|table| reactions::output(table, &parts.reactions(Asked::Active), findings));
     let simulate = section(&mut root, &section::SIMULATE, &mut sections, findings)
         .and_then(|table| simulate::read(table, findings));
     if parts.bodies.list.is_empty() {
@@ -160,6 +164,10 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         name: heading.name,
         gravity: heading.gravity,
         tolerance: heading.tolerance,
+        observed: Observed {
+            markers: parts.bodies.markers.list,
+            measures: parts.measures.list,
+        },
         bodies: parts.bodies.list,
         joints: parts.joints.list,
         drives: parts.drives.list,
@@ -167,6 +175,8 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     };
     let source = SourceMap {
         text: findings.source.clone(),
+        markers: parts.bodies.markers.entries,
+        measures: parts.measures.entries,
         bodies: parts.bodies.entries,
         joints: parts.joints.entries,
         drives: parts.drives.entries,
@@ -182,6 +192,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         output: output.unwrap_or_default(),
         groups,
         source: Some(source),
+        inactive: Vec::new(),
         warnings: Vec::new(),
     }
 }
@@ -190,10 +201,9 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
 #[derive(Default)]
 struct Parts<'r> {
     bodies: Bodies,
+    measures: Measures,
     joints: Joints<'r>,
     drives: Drives,
-    /// Names of all drives, complete or not.
-    drive_names: Vec<String>,
     forces: Forces,
     names: Names,
     domains: Vec<Domain>,
@@ -204,9 +214,9 @@ impl<'r> Parts<'r> {
         let mut parts = Self::default();
         let Self {
             bodies,
+            measures,
             joints,
             drives,
-            drive_names,
             forces,
             names,
             domains,
@@ -214,6 +224,15 @@ impl<'r> Parts<'r> {
         for (table, name) in list(root, &section::BODY, findings) {
             names.bodies.push(Use::of(&name, &table));
             bodies.read(table, &name, findings);
+        }
+        for (table, name) in list(root, &section::MARKER, findings) {
+            names.bodies.push(Use::of(&name, &table));
+            Markers::read(bodies, table, &name, findings);
+        }
+        for (table, name) in list(root, &section::MEASURE, findings) {
+            names.bodies.push(Use::of(&name, &table));
+            names.measures.push(Use::of(&name, &table));
+            measures.read(table, &name, &bodies.markers, findings);
         }
         let types = Types::of_joints(registry);
         for (table, name) in list(root, &section::JOINT, findings) {
@@ -226,7 +245,6 @@ impl<'r> Parts<'r> {
             for (table, name) in driven {
                 names.elements.push(Use::of(&name, &table));
                 drives.read(table, &name, &joints, domains, findings);
-                drive_names.push(name);
             }
         }
         let types = Types::of_forces(registry);
@@ -237,31 +255,53 @@ impl<'r> Parts<'r> {
         parts
     }
 
-    /// Joints and drives by name, including those that could not be read.
-    fn reactions(&self) -> Reactions<'_> {
-        let joints = self.joints.known.iter().map(|joint| ReactionNames {
-            name: &joint.name,
-            components: joint.definition.map(|d| components(d.spec)),
+    /// Joints and drives by name, including those that could not be read: all, or those that take
+    /// part.
+    fn reactions(&self, of: Asked) -> Reactions<'_> {
+        let is_wanted = |is_active: bool| is_active || of == Asked::All;
+        let joints = self.joints.known.iter().map(|joint| {
+            let names = ReactionNames {
+                name: &joint.name,
+                components: joint.definition.map(|d| components(d.spec)),
+            };
+            (names, joint.is_active)
         });
         let complete = self.drives.list.iter();
         let complete: HashMap<&str, _> = complete
             .map(|drive| (drive.name.as_str(), drive.element.spec()))
             .collect();
-        let drives = self.drive_names.iter().map(|name| ReactionNames {
-            name,
-            components: complete.get(name.as_str()).map(|spec| components(spec)),
+        let drives = self.drives.known.iter().map(|(name, is_active)| {
+            let names = ReactionNames {
+                name,
+                components: complete.get(name.as_str()).map(|spec| components(spec)),
+            };
+            (names, *is_active)
         });
-        Reactions::new(joints.chain(drives).collect())
+        let (wanted, others): (Vec<_>, Vec<_>) = joints
+            .chain(drives)
+            .partition(|(_, is_active)| is_wanted(*is_active));
+        let wanted = wanted.into_iter().map(|(names, _)| names).collect();
+        Reactions::new(wanted).without(others.into_iter().map(|(names, _)| names.name))
     }
 
     /// Number of rows, if all joints and drives could be read.
     fn rows(&self) -> Option<usize> {
         let complete = self.joints.list.len() == self.joints.known.len()
-            && self.drives.list.len() == self.drive_names.len();
+            && self.drives.list.len() == self.drives.known.len();
         let joints = self.joints.list.iter().map(|joint| &joint.element);
-        let elements = joints.chain(self.drives.list.iter().map(|drive| &drive.element));
-        complete.then(|| elements.map(|e| e.spec().rows.len()).sum())
+        let joints = joints.zip(&self.joints.entries);
+        let drives = self.drives.list.iter().map(|drive| &drive.element);
+        let all = joints.chain(drives.zip(&self.drives.entries));
+        let active = all.filter(|(_, entry)| entry.is_active);
+        complete.then(|| active.map(|(e, _)| e.spec().rows.len()).sum())
     }
+}
+
+/// Which joints and drives may be named.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Asked {
+    All,
+    Active,
 }
 
 /// Groups with their places.
@@ -271,16 +311,20 @@ fn groups(
     findings: &mut Findings,
 ) -> (Vec<GroupRequest>, Vec<Entry>) {
     let tables = list(root, &section::GROUP, findings);
-    let entries: Vec<_> = tables.iter().map(|(t, name)| Entry::of(name, t)).collect();
+    let mut entries = Vec::with_capacity(tables.len());
     parts.names.groups = tables.iter().map(|(t, name)| Use::of(name, t)).collect();
     if tables.is_empty() {
         return (Vec::new(), entries);
     }
-    let reactions = parts.reactions();
-    let groups = tables
-        .into_iter()
-        .filter_map(|(table, name)| reactions::group(table, &name, &reactions, findings));
-    (groups.collect(), entries)
+    let (all, active) = (parts.reactions(Asked::All), parts.reactions(Asked::Active));
+    let mut groups = Vec::with_capacity(tables.len());
+    for (mut table, name) in tables {
+        let is_active = active::read(&mut table, findings);
+        entries.push(Entry::switched(&name, &table, is_active));
+        let names = if is_active { &active } else { &all };
+        groups.extend(reactions::group(table, &name, names, findings));
+    }
+    (groups, entries)
 }
 
 const PLANE: &str = "plane";

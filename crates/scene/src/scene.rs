@@ -40,8 +40,25 @@ pub struct Scene {
     pub groups: Vec<GroupRequest>,
     /// Places in the text; `None` if there is no text.
     pub source: Option<SourceMap>,
+    /// What the text says is not active: it was checked, and is in no list.
+    pub inactive: Vec<Inactive>,
     /// Parts of the text that can be used, but are probably not what was intended.
     pub warnings: Vec<Diagnostic>,
+}
+
+/// A part of a scene that is read and takes no part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Inactive {
+    /// `joint`, `drive`, `force` or `group`.
+    pub kind: &'static str,
+    /// Its name.
+    pub name: String,
+}
+
+impl std::fmt::Display for Inactive {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} `{}`", self.kind, self.name)
+    }
 }
 
 /// A scene with the mechanism only: everything else by default, and no run.
@@ -111,7 +128,15 @@ impl Scene {
             name,
             components: Some(components(spec)),
         });
-        combination::parse(text, &Reactions::new(names.collect()))
+        let inactive = self.inactive.iter().map(|x| x.name.as_str());
+        combination::parse(text, &Reactions::new(names.collect()).without(inactive))
+    }
+
+    /// Whether a joint or drive with this name is in the text, but not active.
+    #[must_use]
+    pub fn is_inactive(&self, name: &str) -> bool {
+        let mut all = self.inactive.iter();
+        all.any(|x| x.name == name && matches!(x.kind, "joint" | "drive"))
     }
 
     /// The joint or drive with the most similar name, if one is similar.

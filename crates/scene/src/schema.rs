@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::Registry;
 use serde_json::{Map, Value, json};
 
+use crate::active::ACTIVE;
 use crate::function::{KINDS, STEP_KEYS};
 use crate::joint::{DRIVE_KEYS, MEASURE};
 use crate::key::{Interval, Key, TYPE};
@@ -18,7 +19,7 @@ use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
-use crate::{body, simulate, start, tolerance};
+use crate::{body, marker, measure, simulate, start, tolerance};
 use element::{Kind, elements};
 use value::{described, reference};
 
@@ -36,7 +37,17 @@ pub fn schema(registry: &Registry) -> Value {
     let sections = [
         (&section::SCENE, Times::Once, scene_table()),
         (&section::PARAMETERS, Times::Once, value::parameters()),
-        (&section::BODY, Times::Many, body_table()),
+        (&section::BODY, Times::Many, named("Body", &body::KEYS)),
+        (
+            &section::MARKER,
+            Times::Many,
+            named("Marker", &marker::KEYS),
+        ),
+        (
+            &section::MEASURE,
+            Times::Many,
+            named("Measure", &measure::KEYS),
+        ),
         (
             &section::JOINT,
             Times::Many,
@@ -71,6 +82,7 @@ pub fn schema(registry: &Registry) -> Value {
     // A scene needs at least one body.
     properties[section::BODY.name]["minItems"] = 1.into();
     definitions.insert("point".to_owned(), value::point());
+    definitions.insert("place".to_owned(), value::place());
     definitions.insert("function".to_owned(), function());
     definitions.insert("units".to_owned(), table("Units", &UNIT_KEYS));
     definitions.insert("step".to_owned(), table("Step", &STEP_KEYS));
@@ -120,14 +132,14 @@ fn scene_table() -> Value {
     table("Scene", &keys)
 }
 
-fn body_table() -> Value {
-    let keys: Vec<Key> = [NAME].into_iter().chain(body::KEYS).collect();
-    table("Body", &keys)
+/// A table with a name and these keys.
+fn named(title: &str, keys: &[Key]) -> Value {
+    let keys: Vec<Key> = [&[NAME], keys].concat();
+    table(title, &keys)
 }
 
 fn drive(registry: &Registry) -> Value {
-    let keys: Vec<Key> = [NAME].into_iter().chain(DRIVE_KEYS).collect();
-    let mut table = table("Drive", &keys);
+    let mut table = named("Drive", &[&DRIVE_KEYS[..], &[ACTIVE]].concat());
     // Joints, grouped by the measures that can be prescribed.
     let mut measures: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for spec in registry.constraint_specs() {
@@ -161,7 +173,8 @@ fn require(table: &mut Value, key: &str) {
 
 /// A name and one of two kinds of content.
 fn group() -> Value {
-    let either = GROUP_KEYS.map(|key| table(&format!("Group with `{}`", key.name), &[NAME, key]));
+    let either =
+        GROUP_KEYS.map(|key| table(&format!("Group with `{}`", key.name), &[NAME, key, ACTIVE]));
     json!({ "title": "Group", "oneOf": either })
 }
 

@@ -30,6 +30,14 @@ pub(crate) const PARAMETERS: Section = Section::new(
 );
 pub(crate) const BODY: Section =
     Section::new("body", "Rigid bodies; the body `ground` is always there");
+pub(crate) const MARKER: Section = Section::new(
+    "marker",
+    "Places of bodies by name: for joints and forces, for measures, and with a curve of their own",
+);
+pub(crate) const MEASURE: Section = Section::new(
+    "measure",
+    "Distances, angles, coordinates and speeds between markers, written for every row",
+);
 pub(crate) const JOINT: Section = Section::new(
     "joint",
     "Joints between bodies, wheels and blades included; their rows are in the order of this list",
@@ -56,7 +64,7 @@ pub(crate) const OUTPUT: Section = Section::new(
 
 /// The name of the item that a table of a list describes.
 pub(crate) const NAME: Key = Key::required("name", "a text", Takes::Name)
-    .doc("Its name, once among things of its kind; joints, drives and forces share their names");
+    .doc("Its name, once among things of its kind; joints, drives and forces share their names, and so do bodies, markers and measures");
 
 /// A table that occurs once, if it is given.
 pub(crate) fn section<'t>(

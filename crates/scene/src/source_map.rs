@@ -16,6 +16,8 @@ pub struct Entry {
     pub header: Range<usize>,
     /// The values with their keys, in the order of the keys.
     pub keys: Box<[(Cow<'static, str>, Range<usize>)]>,
+    /// Whether what it describes takes part.
+    pub is_active: bool,
 }
 
 impl Entry {
@@ -24,6 +26,15 @@ impl Entry {
             name: name.to_owned(),
             header: table.header.clone(),
             keys: table.spans().collect(),
+            is_active: true,
+        }
+    }
+
+    /// That of a table that may take no part.
+    pub(crate) fn switched(name: &str, table: &Table, is_active: bool) -> Self {
+        Self {
+            is_active,
+            ..Self::of(name, table)
         }
     }
 
@@ -66,6 +77,10 @@ pub struct SourceMap {
     pub text: SourceText,
     /// In the order of the bodies of the description.
     pub bodies: Vec<Entry>,
+    /// In the order of its markers.
+    pub markers: Vec<Entry>,
+    /// In the order of its measures.
+    pub measures: Vec<Entry>,
     /// In the order of its joints.
     pub joints: Vec<Entry>,
     /// In the order of its drives.
@@ -79,6 +94,14 @@ pub struct SourceMap {
 }
 
 impl SourceMap {
+    /// Bodies, markers and measures, which share one name space.
+    pub fn places(&self) -> impl Iterator<Item = &Entry> {
+        self.bodies
+            .iter()
+            .chain(&self.markers)
+            .chain(&self.measures)
+    }
+
     /// Joints, drives and forces, which share one name space.
     pub fn elements(&self) -> impl Iterator<Item = &Entry> {
         self.joints.iter().chain(&self.drives).chain(&self.forces)

@@ -25,7 +25,8 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 /// A key is the name of a parameter, or written as people say it: `body.platform.mass`,
 /// `joint.H.axis[0]`, `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Things
 /// with names go by their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key
-/// that the text leaves out is added to its table, which must be there; a parameter is not.
+/// that the text leaves out is added to its table, which must be there; a parameter is not. `active`
+/// counts as a number: zero is false.
 ///
 /// ```
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";

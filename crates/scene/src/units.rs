@@ -1,6 +1,9 @@
 //! Numbers with units, as people write them where none are read: what is meant is said in the units
 //! of the format, so that advice can be followed as it is.
 
+use linalg::Dd;
+
+use crate::dimension::Dimension;
 use crate::expression::evaluate;
 use crate::language::Language;
 
@@ -19,6 +22,55 @@ const OTHERS: [(&str, &str); 12] = [
     ("rpm", "2*pi/min"),
     ("1/min", "2*pi/min"),
 ];
+
+/// A number with a unit, as `300 mm`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithUnit<'a> {
+    /// The number.
+    pub number: f64,
+    /// The unit, as it is written.
+    pub unit: &'a str,
+    /// The SI unit: what `number` times [`Self::factor`] is in.
+    dimension: Dimension,
+    factor: Dd,
+}
+
+impl<'a> WithUnit<'a> {
+    /// Reads a number and a unit of expressions. Returns `None` for other texts.
+    ///
+    /// ```
+    /// let length = scene::WithUnit::read("300mm").unwrap();
+    /// assert_eq!((length.number, length.unit, length.in_si(0.5)), (300.0, "mm", 0.0005));
+    /// assert!(scene::WithUnit::read("300").is_none() && scene::WithUnit::read("3 furlongs").is_none());
+    /// ```
+    #[must_use]
+    pub fn read(text: &'a str) -> Option<Self> {
+        let (number, _, unit) = split(text.trim())?;
+        let of = evaluate(&format!("1*({unit})"), &Language::PLAIN).ok()?;
+        Some(Self {
+            number: number
+                .replace('_', "")
+                .parse()
+                .ok()
+                .filter(|x: &f64| x.is_finite())?,
+            unit,
+            dimension: of.dimension?,
+            factor: of.value,
+        })
+    }
+
+    /// Another number with this unit, in SI.
+    #[must_use]
+    pub fn in_si(&self, number: f64) -> f64 {
+        (Dd::from(number) * self.factor).to_f64()
+    }
+
+    /// Whether both are of the same kind.
+    #[must_use]
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.dimension == other.dimension
+    }
+}
 
 /// Advice for a text that begins with a number and a unit: the number to write instead. `None` for
 /// other texts.

@@ -9,6 +9,7 @@ use super::{Elements, Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunc
 use crate::description::{Body, BodyRef, Description};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
+use crate::observed::{self, Observed};
 use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::space::SpaceKind;
 use crate::system::{Layout, RowLabel, Site};
@@ -39,6 +40,15 @@ pub enum BuildError {
         field: &'static str,
         /// The number.
         value: f64,
+    },
+    /// A velocity is that of a point other than the centre of mass, and the rotation that it needs
+    /// is not given.
+    #[error(
+        "body `{body}`: `velocity` is that of the origin of its frame, which is not its centre of mass, so `angular_velocity` is needed with it"
+    )]
+    VelocityAlone {
+        /// The body.
+        body: String,
     },
     /// A mass or an inertia is negative.
     #[error("body `{body}`: {field} is {value}, need a number ≥ 0")]
@@ -114,6 +124,36 @@ pub enum BuildError {
         /// Its y component.
         y: f64,
     },
+    /// A number of a marker is NaN or infinite.
+    #[error("marker `{name}` is at [{x}, {y}], turned by {angle}, need finite numbers")]
+    Marker {
+        /// The marker.
+        name: String,
+        /// Its x coordinate.
+        x: f64,
+        /// Its y coordinate.
+        y: f64,
+        /// Its angle.
+        angle: f64,
+    },
+    /// A marker does not exist.
+    #[error(
+        "measure `{name}` refers to marker number {marker}; there are {n_markers}, counted from 0"
+    )]
+    UnknownMarker {
+        /// The measure.
+        name: String,
+        /// Index of the marker.
+        marker: usize,
+        /// Number of markers.
+        n_markers: usize,
+    },
+    /// A measure is that of a marker relative to itself.
+    #[error("measure `{name}` is between a place and itself")]
+    SameMarker {
+        /// The measure.
+        name: String,
+    },
     /// A drive is in the list of joints, or a joint in the list of drives.
     #[error("`{name}` is in the list of {list}, but `{definition}` does not belong there")]
     Role {
@@ -150,6 +190,7 @@ impl Mechanism {
         check_names(d, &mut errors);
         check_places(d, &mut errors);
         check_tolerances(d, &mut errors);
+        observed::check(d, &mut errors);
         if !errors.is_empty() {
             return Err(errors);
         }
@@ -178,6 +219,7 @@ impl Mechanism {
             .collect();
         let mut mechanism = b.finish(&d.name, SpaceKind::Plane, d.bodies.clone(), weight);
         mechanism.tolerance = d.tolerance;
+        mechanism.observed = d.observed.clone();
         let (q, _) = mechanism.described_state();
         initialise(&mut mechanism, &q);
         Ok(mechanism)
@@ -226,7 +268,9 @@ fn check_tolerances(d: &Description, errors: &mut Vec<BuildError>) {
     let joints = joints.map(|j| (j.tolerance, Stated::Joint(j.name.clone())));
     let drives = d.drives.iter();
     let drives = drives.map(|x| (x.tolerance, Stated::Drive(x.name.clone())));
-    for (value, of) in bodies.chain(joints).chain(drives) {
+    let markers = d.observed.markers.iter();
+    let markers = markers.map(|m| (m.tolerance, Stated::Marker(m.name.clone())));
+    for (value, of) in bodies.chain(joints).chain(drives).chain(markers) {
         if let Some(value) = value.filter(is_wrong) {
             let field = "tolerance";
             errors.push(BuildError::Tolerance { of, field, value });
@@ -248,6 +292,8 @@ fn check_bodies(d: &Description, errors: &mut Vec<BuildError>) {
             ("inertia", b.inertia),
             ("position", b.position[0]),
             ("position", b.position[1]),
+            ("centre", b.centre[0]),
+            ("centre", b.centre[1]),
             ("angle", b.angle),
             ("velocity", b.velocity.unwrap_or_default()[0]),
             ("velocity", b.velocity.unwrap_or_default()[1]),
@@ -261,12 +307,22 @@ fn check_bodies(d: &Description, errors: &mut Vec<BuildError>) {
                 errors.push(BuildError::Negative { body, field, value });
             }
         }
+        if b.velocity.is_some() && b.angular_velocity.is_none() && !b.is_centred() {
+            let body = b.name.clone();
+            errors.push(BuildError::VelocityAlone { body });
+        }
     }
 }
 
 fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
     let mut seen = HashSet::new();
-    let bodies = d.bodies.iter().map(|b| (&b.name, "body"));
+    let bodies = d.bodies.iter().map(|b| &b.name);
+    let markers = d.observed.markers.iter().map(|m| &m.name);
+    let measures = d.observed.measures.iter().map(|m| &m.name);
+    let bodies = bodies
+        .chain(markers)
+        .chain(measures)
+        .map(|name| (name, "body"));
     let others = d
         .joints
         .iter()
@@ -550,6 +606,7 @@ impl Builder {
             mass: mass.flat_map(|b| [b.mass, b.mass, b.inertia]).collect(),
             weight,
             tolerance: Tolerance::default(),
+            observed: Observed::default(),
             reach: vec![0.0; bodies.len()],
             held: held_bodies(&self.elements, &self.layout, bodies.len()),
             elements: self.elements,

@@ -191,6 +191,7 @@ fn assembled<'a>(
     let weight = velocities.iter().map(|&j| whole.weight[j]).collect();
     let mut mechanism = b.finish(&whole.name, whole.space, own, weight);
     mechanism.tolerance = whole.tolerance;
+    mechanism.observed = whole.observed.stated_for(here);
     mechanism.reach = bodies.iter().map(|&k| whole.reach[k]).collect();
     let places = Places {
         bodies: bodies.to_vec(),

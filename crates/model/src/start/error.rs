@@ -4,6 +4,7 @@ use linalg::{SaddleError, SparseError, StepError};
 use rank::RankError;
 
 use super::conflict::VelocityConflict;
+use super::options::KeepLevel;
 use crate::system::RowLabel;
 
 /// Reason why no consistent start was found.
@@ -60,6 +61,17 @@ pub enum StartError {
         /// Number of bodies.
         bodies: usize,
     },
+    /// A coordinate of a frame that is not at the centre of mass is to be kept without its angle.
+    #[error(
+        "`keep` holds the origin of the frame of body `{body}`, which is not its centre of mass; {}",
+        needed(body, *level)
+    )]
+    KeptOrigin {
+        /// The body.
+        body: String,
+        /// Position or velocity.
+        level: KeepLevel,
+    },
     /// The rows allow no velocities, whatever velocities are given.
     #[error(
         "no velocities satisfy the constraints: row {worst} still misses by {residual:.3e}; the rows depend on each other, or nearly, and ask for \
@@ -105,6 +117,15 @@ pub struct Misfit {
     pub row: RowLabel,
     /// Its residual.
     pub residual: f64,
+}
+
+fn needed(body: &str, level: KeepLevel) -> String {
+    match level {
+        KeepLevel::Position => format!("hold `{body}.angle` too"),
+        KeepLevel::Velocity => {
+            format!("give its `velocity` and `angular_velocity`, and hold `{body}.omega` too")
+        }
+    }
 }
 
 fn list(rows: &[Misfit]) -> String {

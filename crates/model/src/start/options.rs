@@ -53,13 +53,23 @@ pub(super) fn kept_columns(
     level: KeepLevel,
 ) -> Result<Vec<usize>, StartError> {
     let bodies = mechanism.bodies().len();
-    let kept = options.keep.iter().filter(|c| c.level == level);
-    kept.map(|&Coordinate { body, dof, .. }| {
-        if body < bodies && dof < N_BODY {
+    let kept = || options.keep.iter().filter(|c| c.level == level);
+    kept()
+        .map(|&Coordinate { body, dof, .. }| {
+            if body >= bodies || dof >= N_BODY {
+                return Err(StartError::NoCoordinate { body, dof, bodies });
+            }
+            let described = &mechanism.bodies()[body];
+            let turns = |c: &Coordinate| (c.body, c.dof) == (body, 2);
+            let is_open = match level {
+                KeepLevel::Position => false,
+                KeepLevel::Velocity => described.velocity.is_none(),
+            };
+            if dof < 2 && !described.is_centred() && (is_open || !kept().any(turns)) {
+                let body = described.name.clone();
+                return Err(StartError::KeptOrigin { body, level });
+            }
             Ok(N_BODY * body + dof)
-        } else {
-            Err(StartError::NoCoordinate { body, dof, bodies })
-        }
-    })
-    .collect()
+        })
+        .collect()
 }

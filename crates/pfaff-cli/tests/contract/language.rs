@@ -334,3 +334,92 @@ fn a_parameter_is_swept_like_any_number() {
         "{said}"
     );
 }
+
+/// The first cells of a column of `sweep.csv`.
+fn column(table: &str, name: &str) -> Vec<String> {
+    let mut lines = table.lines();
+    let header = lines.next().expect("a header");
+    let at = header.split(',').position(|c| c == name);
+    let at = at.unwrap_or_else(|| panic!("no {name} in {header}"));
+    let cell = |line: &str| line.split(',').nth(at).unwrap_or_default().to_owned();
+    lines.map(cell).collect()
+}
+
+/// With a unit, the scene checks it, and the table has SI.
+#[test]
+fn a_range_may_have_units() {
+    let swept = |name: &str, vary: &str| {
+        let folder = Folder::new(name);
+        let arguments = [
+            "sweep",
+            "-",
+            "--vary",
+            vary,
+            "--set",
+            "phi=0",
+            "--set",
+            "r=10 cm",
+            "--out",
+            folder.text(),
+        ];
+        let output = with_scene(&arguments, DRAWING);
+        (folder, output)
+    };
+    let (folder, output) = swept("language-units", "L=20cm:40cm:3");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let table = folder.read("sweep.csv");
+    assert_eq!(column(&table, "L"), ["0.2", "0.3", "0.4"]);
+    // At φ = 0 the motor has turned by 45°: sin ψ = r·sin φ/L, x = r·cos φ + L·cos ψ.
+    for (found, l) in column(&table, "slider.x").iter().zip([0.2, 0.3, 0.4]) {
+        let found: f64 = found.parse().expect("a number");
+        let height = 0.1 * 0.5_f64.sqrt();
+        let expected = height + (l * l - height * height).sqrt();
+        assert!((found - expected).abs() < 1e-6, "{l}: {found} {expected}");
+    }
+    let (_, output) = swept("language-kind", "L=2kg:3kg:2");
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("found a quantity (m/kg), need a number"),
+        "{said}"
+    );
+    let (_, output) = swept("language-mixed", "L=200:300mm:2");
+    let said = stderr(&output);
+    assert!(
+        said.contains("both ends need the same unit, or none"),
+        "{said}"
+    );
+}
+
+/// What is active may be varied; a run without a reaction has none in its row.
+#[test]
+fn what_is_active_may_be_varied() {
+    let folder = Folder::new("language-active");
+    let second = "[[joint]]\nname = \"B2\"\ntype = \"revolute\"\nbodies = [\"crank\", \"rod\"]\n\
+                  at = [\"r*cos(phi)\", \"r*sin(phi)\"]\nactive = \"doubled\"\n\n[[joint]]\nname = \"C\"";
+    let scene = DRAWING
+        .replace("r = 100\n", "r = 100\ndoubled = 1\n")
+        .replace("[[joint]]\nname = \"C\"", second);
+    let arguments = [
+        "sweep",
+        "-",
+        "--vary",
+        "doubled=0,1",
+        "--out",
+        folder.text(),
+    ];
+    let output = with_scene(&arguments, &scene);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let table = folder.read("sweep.csv");
+    assert_eq!(column(&table, "redundancy"), ["0", "2"], "{table}");
+    let largest = |name: &str| column(&table, name);
+    let (of_second, of_c) = (largest("B2.F_max"), largest("C.F_max"));
+    assert!(
+        of_second
+            .iter()
+            .all(|cell| cell.parse::<f64>().is_ok_and(f64::is_nan) || cell.is_empty()),
+        "{table}"
+    );
+    let [free, doubled] = [0, 1].map(|k| of_c[k].parse::<f64>().expect("unique"));
+    assert!((free - doubled).abs() < 1e-6 * free, "{free} {doubled}");
+}

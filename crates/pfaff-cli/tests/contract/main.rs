@@ -20,6 +20,7 @@ mod library;
 mod man;
 mod new;
 mod own_joint;
+mod places;
 mod plan;
 mod report;
 mod resources;

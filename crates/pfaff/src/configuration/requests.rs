@@ -16,9 +16,14 @@ pub(super) fn reaction(
     let place = groups.iter().position(|g| g.name == name);
     place
         .map(ConstraintId)
-        .ok_or_else(|| StudyError::UnknownReaction {
-            name: name.to_owned(),
-            nearest: scene.nearest_reaction(name).map(str::to_owned),
+        .ok_or_else(|| match scene.is_inactive(name) {
+            true => StudyError::InactiveReaction {
+                name: name.to_owned(),
+            },
+            false => StudyError::UnknownReaction {
+                name: name.to_owned(),
+                nearest: scene.nearest_reaction(name).map(str::to_owned),
+            },
         })
 }
 

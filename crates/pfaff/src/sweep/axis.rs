@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use scene::WithUnit;
+
 /// Largest number of runs of a sweep: their rows are held in memory when tables are written.
 const RUNS_MAX: usize = 10_000_000;
 
@@ -10,7 +12,9 @@ const RUNS_MAX: usize = 10_000_000;
 /// `KEY=1,2,5`.
 ///
 /// `FROM:TO:N` are N ≥ 2 values including both ends, evenly spaced, or evenly spaced in their
-/// logarithms. Both ends are exact.
+/// logarithms. Both ends are exact. Numbers may have a unit, both ends of a range the same one, as
+/// `L=300mm:500mm:21`; then the values of the axis are in SI, and the scene gets them as written and
+/// checks the unit.
 ///
 /// ```
 /// use pfaff::sweep::Axis;
@@ -19,6 +23,7 @@ const RUNS_MAX: usize = 10_000_000;
 /// assert_eq!((axis.key(), axis.values()), ("simulate.rtol", &[1e-4, 1e-7, 1e-10][..]));
 /// assert_eq!("body.bob.mass=1,2,5".parse::<Axis>()?.values(), [1.0, 2.0, 5.0]);
 /// assert_eq!("body.bob.mass=0:1:11".parse::<Axis>()?.values()[3], 0.3);
+/// assert_eq!("L=300mm:500mm:21".parse::<Axis>()?.values()[1], 0.31);
 /// # Ok::<(), pfaff::sweep::AxisError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +32,8 @@ pub struct Axis {
     /// The text of the values.
     text: String,
     values: Vec<f64>,
+    /// The values as the scene gets them, if they have a unit.
+    written: Option<Vec<String>>,
 }
 
 /// Reason why an axis or grid is invalid.
@@ -40,12 +47,20 @@ pub enum AxisError {
         text: String,
     },
     /// A value is not a finite number.
-    #[error("`{text}`: `{value}` is not a finite number")]
+    #[error("`{text}`: `{value}` is not a finite number, with or without a unit")]
     Value {
         /// The text.
         text: String,
         /// The value.
         value: String,
+    },
+    /// Some values have a unit and others have none, or another one.
+    #[error("`{text}`: {problem}")]
+    Units {
+        /// The text.
+        text: String,
+        /// What does not go together.
+        problem: &'static str,
     },
     /// A range has fewer than two values, or too many.
     #[error(
@@ -112,21 +127,32 @@ impl FromStr for Axis {
         if key.is_empty() {
             return Err(form());
         }
-        let number = |value: &str| {
-            let read = value.trim().parse().ok().filter(|x: &f64| x.is_finite());
-            read.ok_or_else(|| AxisError::Value {
+        fn number<'t>(text: &str, value: &'t str) -> Result<Number<'t>, AxisError> {
+            Number::read(value).ok_or_else(|| AxisError::Value {
                 text: text.to_owned(),
                 value: value.to_owned(),
             })
+        }
+        let units = |problem: &'static str| AxisError::Units {
+            text: text.to_owned(),
+            problem,
         };
         let parts: Vec<&str> = values.split(':').collect();
         let (spacing, [from, to, n]) = match parts[..] {
             [list] => {
-                let values = list.split(',').map(number).collect::<Result<_, _>>()?;
+                let numbers = list
+                    .split(',')
+                    .map(|value| number(text, value))
+                    .collect::<Result<Vec<_>, _>>()?;
+                if numbers.iter().any(|other| !other.is_like(&numbers[0])) {
+                    return Err(units("all values need a unit of one kind, or none"));
+                }
+                let written = numbers[0].unit.is_some();
                 return Ok(Self {
                     key: key.to_owned(),
                     text: list.to_owned(),
-                    values,
+                    values: numbers.iter().map(|x| x.in_si(x.number)).collect(),
+                    written: written.then(|| numbers.iter().map(|x| x.text(x.number)).collect()),
                 });
             }
             [from, to, n] => (Spacing::Even, [from, to, n]),
@@ -139,18 +165,61 @@ impl FromStr for Axis {
             text: text.to_owned(),
             count: n.to_owned(),
         })?;
-        let (from, to) = (number(from)?, number(to)?);
+        let (first, last) = (number(text, from)?, number(text, to)?);
+        if first.unit.map(|u| u.unit) != last.unit.map(|u| u.unit) {
+            return Err(units("both ends need the same unit, or none"));
+        }
+        let (from, to) = (first.number, last.number);
         let has_logarithms = from != 0.0 && to != 0.0 && from.signum() == to.signum();
         if matches!(spacing, Spacing::Logarithmic) && !has_logarithms {
             return Err(AxisError::Logarithm {
                 text: text.to_owned(),
             });
         }
+        let numbers = (0..n).map(|k| spacing.value(from, to, k, n - 1));
+        let written = first.unit.is_some();
         Ok(Self {
             key: key.to_owned(),
             text: values.to_owned(),
-            values: (0..n).map(|k| spacing.value(from, to, k, n - 1)).collect(),
+            values: numbers.clone().map(|x| first.in_si(x)).collect(),
+            written: written.then(|| numbers.map(|x| first.text(x)).collect()),
         })
+    }
+}
+
+/// A number of an axis as it is written.
+#[derive(Clone, Copy)]
+struct Number<'a> {
+    number: f64,
+    unit: Option<WithUnit<'a>>,
+}
+
+impl<'a> Number<'a> {
+    fn read(text: &'a str) -> Option<Self> {
+        if let Some(unit) = WithUnit::read(text) {
+            let (number, unit) = (unit.number, Some(unit));
+            return Some(Self { number, unit });
+        }
+        let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite())?;
+        Some(Self { number, unit: None })
+    }
+
+    fn is_like(&self, other: &Self) -> bool {
+        match (&self.unit, &other.unit) {
+            (Some(a), Some(b)) => a.is_like(b),
+            (a, b) => a.is_none() && b.is_none(),
+        }
+    }
+
+    /// Another number with its unit, in SI; without a unit the number itself.
+    fn in_si(&self, number: f64) -> f64 {
+        self.unit.map_or(number, |unit| unit.in_si(number))
+    }
+
+    /// Another number with its unit, for a scene.
+    fn text(&self, number: f64) -> String {
+        let unit = self.unit.map_or("", |unit| unit.unit);
+        format!("{number:?} {unit}")
     }
 }
 
@@ -205,14 +274,27 @@ impl Grid {
 
     /// The values of a combination, from 0.
     pub(super) fn point(&self, run: usize) -> Vec<f64> {
+        self.each(run, |axis, k| axis.values[k])
+    }
+
+    /// The same values as a scene gets them.
+    pub(super) fn written(&self, run: usize) -> Vec<String> {
+        self.each(run, |axis, k| match &axis.written {
+            Some(written) => written[k].clone(),
+            None => format!("{:?}", axis.values[k]),
+        })
+    }
+
+    /// What belongs to the index of the value of each axis in a combination.
+    fn each<T>(&self, run: usize, of: impl Fn(&Axis, usize) -> T) -> Vec<T> {
         let mut rest = run;
-        let mut point: Vec<f64> = self
+        let mut point: Vec<T> = self
             .axes
             .iter()
             .rev()
             .map(|axis| {
                 let n = axis.values.len();
-                let value = axis.values[rest % n];
+                let value = of(axis, rest % n);
                 rest /= n;
                 value
             })
@@ -244,6 +326,13 @@ mod tests {
         assert_eq!(axis("k=-1.7e308:1.7e308:3").values()[1], 0.0);
         assert_eq!(axis("a=b.mass=2").key(), "a=b.mass");
         assert_eq!(axis("k=2:1:2").to_string(), "k=2:1:2");
+        let lengths = axis("L=300mm:500 mm:3");
+        assert_eq!(lengths.values(), [0.3, 0.4, 0.5]);
+        assert_eq!(lengths.to_string(), "L=300mm:500 mm:3");
+        let grid = Grid::new(vec![lengths]).expect("small");
+        assert_eq!(grid.written(1), ["400.0 mm"]);
+        assert_eq!(axis("k=2 kg,500g").values(), [2.0, 0.5]);
+        assert_eq!(axis("w=90 deg/s,1 rad/s").values()[1], 1.0);
         assert_eq!(
             Axis::list("k", &[0.1, -2.0]).map(|a| a.to_string()),
             Ok("k=0.1,-2.0".to_owned())
@@ -269,6 +358,14 @@ mod tests {
             ("k=1:0:3:log", "neither of them 0"),
             ("k=-1:-0.0:3:log", "neither of them 0"),
             ("k=-1:1:3:log", "neither of them 0"),
+            ("L=300mm:0.5m:3", "both ends need the same unit, or none"),
+            ("L=300:500mm:3", "both ends need the same unit, or none"),
+            ("L=300mm,2", "all values need a unit of one kind, or none"),
+            (
+                "L=300mm,2 kg",
+                "all values need a unit of one kind, or none",
+            ),
+            ("L=3 furlongs:4 furlongs:2", "with or without a unit"),
         ] {
             let error = text.parse::<Axis>().expect_err(text);
             assert!(error.to_string().contains(piece), "{error}");

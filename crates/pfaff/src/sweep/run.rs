@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use dynamics::{MotionFault, Prepared, Sample, Summary};
-use model::System;
+use model::Mechanism;
+use model::frame::COLUMNS;
 use report::sweep::{Extreme, SweepMotion};
 use report::{SweepRow, SweepStatus};
 use solvability::{Analysis, analyse};
@@ -12,9 +13,6 @@ use super::Sweep;
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::study::{Overrides, Study};
-
-/// Number of coordinates of a planar body, and of their rates, in tables.
-const N_BODY: usize = 3;
 
 /// A run that can begin: assembled, and analysed at its start.
 pub(super) struct Begun<'s> {
@@ -29,7 +27,9 @@ pub(super) struct Begun<'s> {
 impl Sweep<'_> {
     /// Assembles a run (from 1).
     pub(super) fn begin(&self, run: u64) -> Result<Begun<'_>, StudyError> {
-        let text = self.template.with(&self.point(run));
+        let written = self.grid.written((run - 1) as usize);
+        let written: Vec<&str> = written.iter().map(String::as_str).collect();
+        let text = self.template.with_expressions(&written);
         let assembled = AssembledScene::read(&self.plan.scene, &text, self.registry)?;
         let study = assembled.prepare(&Overrides::default())?;
         let options = study.options.as_ref().ok_or(StudyError::NoEnd)?;
@@ -73,7 +73,8 @@ impl Begun<'_> {
         let Some(options) = &study.options else {
             return sweep.refused(*run, &StudyError::NoEnd);
         };
-        let mut watch = Watch::new(&sweep.reactions, study, analysis);
+        let reactions = sweep.places(&study.prepared.mechanism);
+        let mut watch = Watch::new(&reactions, study, analysis);
         let outcome = study.run(options, |sample| {
             watch.see(sample)?;
             Ok(each(sample))
@@ -112,7 +113,8 @@ pub(super) fn reason(error: &StudyError) -> String {
 }
 
 /// Values kept from the rows of a run.
-struct Watch {
+struct Watch<'s> {
+    mechanism: &'s Mechanism,
     /// Time of the last state (s).
     t_state: f64,
     /// The last state, body by body in the order of trajectories.
@@ -122,29 +124,28 @@ struct Watch {
     extremes: Vec<Extreme>,
 }
 
-impl Watch {
-    fn new(reactions: &[usize], study: &Study, analysis: &Analysis) -> Self {
+impl<'s> Watch<'s> {
+    fn new(reactions: &[Option<usize>], study: &'s Study, analysis: &Analysis) -> Self {
         let is_unique = |k: usize| {
             let verdict = analysis.reactions.get(k).map(|r| &r.wrench.verdict);
             verdict.is_some_and(|v| v.is_unique())
         };
+        // Nothing is unique of a reaction that this run does not have.
+        let known = |&k: &Option<usize>| k.map_or((0, false), |k| (k, is_unique(k)));
         Self {
             t_state: f64::NAN,
-            state: vec![f64::NAN; 2 * study.prepared.mechanism.layout().n_q],
-            reactions: reactions.iter().map(|&k| (k, is_unique(k))).collect(),
+            state: vec![f64::NAN; COLUMNS.len() * study.prepared.mechanism.bodies().len()],
+            mechanism: &study.prepared.mechanism,
+            reactions: reactions.iter().map(known).collect(),
             extremes: vec![Extreme::UNKNOWN; reactions.len()],
         }
     }
 
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
         self.t_state = sample.t;
-        let bodies = sample
-            .q
-            .chunks_exact(N_BODY)
-            .zip(sample.v.chunks_exact(N_BODY));
-        for (state, (q, v)) in self.state.chunks_exact_mut(2 * N_BODY).zip(bodies) {
-            state[..N_BODY].copy_from_slice(q);
-            state[N_BODY..].copy_from_slice(v);
+        for (body, state) in self.state.chunks_exact_mut(COLUMNS.len()).enumerate() {
+            let frame = self.mechanism.frame(body, sample.q, sample.v);
+            state.copy_from_slice(&frame.numbers());
         }
         if !self.reactions.iter().any(|(_, is_unique)| *is_unique) {
             return Ok(());

@@ -39,6 +39,9 @@ pub struct CheckDocument<'a> {
     pub mobility: Option<usize>,
     /// Mobility without the drives.
     pub mobility_without_drives: Option<usize>,
+    /// Joints, drives, forces and groups that are in the scene, but not active.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    pub inactive: &'a [String],
     /// Always empty: a scene with problems is refused.
     pub problems: [(); 0],
     /// Other remarks for the reader.

@@ -2,7 +2,7 @@
 //! and `reactions.csv`.
 
 use model::reaction::COMPONENTS;
-use model::{Mechanism, Reaction, System};
+use model::{FrameState, Mechanism, Reaction, System};
 use serde::Serialize;
 
 use super::{Named, RunDocument};
@@ -33,19 +33,26 @@ pub struct MomentDocument {
     pub t: f64,
     /// Bodies by name, in the order of the coordinates.
     pub bodies: Named<BodyStateDocument>,
+    /// Markers by name.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub markers: Named<BodyStateDocument>,
+    /// Measures by name (m, rad, m/s, rad/s).
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub measures: Named<f64>,
     /// Force and torque on the first body of joints and drives, by name and in the order of their
     /// rows: `Fx`, `Fy` (N), `T` (N·m), and the named component of the definition, if it has one.
     /// Values that were not computed are NaN, `null` in JSON.
     pub reactions: Named<Named<f64>>,
 }
 
-/// Position and velocity of a body.
+/// Position and velocity of a body or marker.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct BodyStateDocument {
-    /// x of the centre of mass (m).
+    /// x of the origin of the body's frame, which is its centre of mass unless the scene says
+    /// otherwise, or of the marker (m).
     pub x: f64,
-    /// y of the centre of mass (m).
+    /// y of the same point (m).
     pub y: f64,
     /// Angle (rad), not reduced to one revolution.
     pub angle: f64,
@@ -57,9 +64,26 @@ pub struct BodyStateDocument {
     pub omega: f64,
 }
 
+impl From<FrameState> for BodyStateDocument {
+    fn from(state: FrameState) -> Self {
+        let [x, y, angle, vx, vy, omega] = state.numbers();
+        Self {
+            x,
+            y,
+            angle,
+            vx,
+            vy,
+            omega,
+        }
+    }
+}
+
 impl MomentDocument {
     /// State and reactions of a mechanism: q and v body by body, reactions of all joints and drives
-    /// in the order of their rows. Surplus and missing entries are ignored.
+    /// in the order of their rows.
+    ///
+    /// # Panics
+    /// If q and v are not those of the mechanism.
     #[must_use]
     pub fn new(
         mechanism: &Mechanism,
@@ -68,21 +92,13 @@ impl MomentDocument {
         v: &[f64],
         reactions: &[Reaction],
     ) -> Self {
-        let (positions, _) = q.as_chunks::<3>();
-        let (velocities, _) = v.as_chunks::<3>();
-        let states = positions.iter().zip(velocities);
-        let bodies = mechanism.bodies().iter().zip(states);
-        let bodies = bodies.map(|(body, (&[x, y, angle], &[vx, vy, omega]))| {
-            let state = BodyStateDocument {
-                x,
-                y,
-                angle,
-                vx,
-                vy,
-                omega,
-            };
-            (body.name.clone(), state)
-        });
+        let bodies = mechanism.bodies().iter().enumerate();
+        let bodies = bodies.map(|(k, b)| (b.name.clone(), mechanism.frame(k, q, v).into()));
+        let observed = mechanism.observed();
+        let markers = observed.markers.iter().enumerate();
+        let markers = markers.map(|(k, m)| (m.name.clone(), mechanism.marker(k, q, v).into()));
+        let measures = observed.measures.iter().enumerate();
+        let measures = measures.map(|(k, m)| (m.name.clone(), mechanism.measure(k, q, v)));
         let groups = mechanism.layout().groups.iter().zip(reactions);
         let reactions = groups.map(|(group, reaction)| {
             let names = COMPONENTS.into_iter().chain(group.spec.component);
@@ -95,6 +111,8 @@ impl MomentDocument {
         Self {
             t,
             bodies: Named(bodies.collect()),
+            markers: Named(markers.collect()),
+            measures: Named(measures.collect()),
             reactions: Named(reactions.collect()),
         }
     }

@@ -31,6 +31,9 @@ pub(crate) struct DrawnBody {
     pub(crate) name: String,
     /// Convex hull of its centre and of the points of joints and forces, in its frame (m).
     pub(crate) outline: Vec<[Rounded; 2]>,
+    /// Origin of the frame in which the scene describes it, if that is not its centre.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frame: Option<[Rounded; 2]>,
     pub(crate) x: Channel,
     pub(crate) y: Channel,
     pub(crate) angle: Channel,
@@ -85,12 +88,24 @@ pub(crate) struct DrawnForce {
     pub(crate) bodies: Vec<isize>,
 }
 
+/// A marker.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct DrawnMarker {
+    pub(crate) name: String,
+    pub(crate) b: isize,
+    /// Place relative to the centre of the body, in its axes (m).
+    pub(crate) p: [Rounded; 2],
+    /// Angle of its axes in the body (rad).
+    a: Rounded,
+}
+
 /// Everything that is drawn.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct DrawingModel {
     pub(crate) bodies: Vec<DrawnBody>,
     pub(crate) sites: Vec<DrawnSite>,
     pub(crate) forces: Vec<DrawnForce>,
+    pub(crate) markers: Vec<DrawnMarker>,
     /// Bodies in the order of drawing, the largest first.
     pub(crate) order: Vec<usize>,
     shapes: Shapes,
@@ -162,7 +177,9 @@ pub(crate) struct Stage<'a> {
 }
 
 impl Stage<'_> {
-    pub(crate) fn drawing(&self, forces: Vec<DrawnForce>) -> DrawingModel {
+    /// What is drawn of its bodies and joints, and of the forces and markers on them in `whole`.
+    pub(crate) fn drawing(&self, whole: &Mechanism) -> DrawingModel {
+        let forces = DrawnForce::all(whole, self.bodies);
         let probes = self.probes();
         let size = self.size();
         let outlines = self.outlines(&forces);
@@ -177,6 +194,7 @@ impl Stage<'_> {
                 .map(|(k, outline)| self.body(k, &outline))
                 .collect(),
             forces,
+            markers: DrawnMarker::all(whole, self.bodies),
             order,
             shapes: Shapes,
             spring: &SPRING,
@@ -248,8 +266,11 @@ impl Stage<'_> {
             |axis: usize| Channel::new(self.frames.iter().map(move |f| f.q[3 * at + axis]));
         let velocity =
             |axis: usize| Channel::new(self.frames.iter().map(move |f| f.v[3 * at + axis]));
+        let body = &self.mechanism.bodies()[k];
+        let origin = body.from_centre([0.0; 2]).map(Rounded);
         DrawnBody {
-            name: self.mechanism.bodies()[k].name.clone(),
+            name: body.name.clone(),
+            frame: (!body.is_centred()).then_some(origin),
             outline: outline.iter().map(|p| p.map(Rounded)).collect(),
             x: position(0),
             y: position(1),
@@ -374,10 +395,7 @@ struct Probe {
 impl DrawnForce {
     /// The applied forces of a mechanism on bodies that are drawn.
     pub(crate) fn all(mechanism: &Mechanism, bodies: &[usize]) -> Vec<Self> {
-        let place = |body: &BodyRef| match *body {
-            BodyRef::Ground => Some(GROUND),
-            BodyRef::Body(k) => bodies.binary_search(&k).ok().map(|k| k as isize),
-        };
+        let place = |body: &BodyRef| drawn(bodies, *body);
         let drawn = mechanism.applied_forces().filter_map(|f| {
             let points = f.points.iter();
             let held = points.map(|(body, [x, y])| Some((place(body)?, Rounded(*x), Rounded(*y))));
@@ -389,6 +407,30 @@ impl DrawnForce {
             })
         });
         drawn.collect()
+    }
+}
+
+impl DrawnMarker {
+    /// The markers of a mechanism on the ground and on bodies that are drawn.
+    fn all(mechanism: &Mechanism, bodies: &[usize]) -> Vec<Self> {
+        let markers = mechanism.observed().markers.iter();
+        let all = markers.filter_map(|marker| {
+            Some(Self {
+                name: marker.name.clone(),
+                b: drawn(bodies, marker.body)?,
+                p: marker.from_centre(mechanism.bodies()).map(Rounded),
+                a: Rounded(marker.angle.unwrap_or_default()),
+            })
+        });
+        all.collect()
+    }
+}
+
+/// Index of a body among those that are drawn.
+fn drawn(bodies: &[usize], body: BodyRef) -> Option<isize> {
+    match body {
+        BodyRef::Ground => Some(GROUND),
+        BodyRef::Body(k) => bodies.binary_search(&k).ok().map(|k| k as isize),
     }
 }
 

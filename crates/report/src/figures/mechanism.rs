@@ -9,7 +9,7 @@ use solvability::ReactionVerdict;
 
 use super::FigureError;
 use super::axis::{DRAWABLE, range, round_step};
-use super::drawing::{DrawingModel, DrawnForce, DrawnSite, Stage};
+use super::drawing::{DrawingModel, DrawnSite, Stage};
 use super::geometry::posed;
 use super::label::{Rect, Request, place};
 use super::svg::{Svg, number, text_width};
@@ -92,7 +92,7 @@ pub fn labelled_mechanism(
         bodies: &bodies,
         frames: &[Frame::at_rest(t, q, mechanism.layout().n_v)],
     };
-    let model = stage.drawing(DrawnForce::all(mechanism, &bodies));
+    let model = stage.drawing(mechanism);
     let view = View::around(&model);
     let legend = legend(mechanism, &model, marking);
     let lines = legend.last().map_or(0.0, |entry| entry.at[1] + 1.0);
@@ -201,6 +201,7 @@ impl View {
         for &(body, x, y) in model.forces.iter().flat_map(|f| &f.points) {
             points.push(model.held(body, [x, y]));
         }
+        points.extend(model.markers.iter().map(|m| model.held(m.b, m.p)));
         let [x, y] = [0, 1].map(|k| range(points.iter().map(|p| p[k])).unwrap_or([0.0, 0.0]));
         let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
         let room = [WIDTH - 2.0 * ROOM[0], LARGEST_HEIGHT - 2.0 * ROOM[1]];
@@ -259,6 +260,7 @@ impl Picture<'_> {
         self.bodies();
         self.joints();
         self.forces();
+        self.markers();
         self.names(labels);
         self.scale_bar();
         self.legend(legend);
@@ -429,6 +431,14 @@ impl Picture<'_> {
         }
     }
 
+    fn markers(&mut self) {
+        let model = self.model;
+        for marker in &model.markers {
+            let at = self.view.to_page(model.held(marker.b, marker.p));
+            self.symbol("marker", "", at, 0.0, &marker.name);
+        }
+    }
+
     fn spring(&mut self, a: [f64; 2], b: [f64; 2], title: &str) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let (length, angle) = (dx.hypot(dy), (-dy).atan2(dx));
@@ -442,10 +452,11 @@ impl Picture<'_> {
         self.svg.close();
     }
 
-    /// Names joints by the colours of their marks, then bodies.
+    /// Names joints by the colours of their marks, then bodies and markers.
     fn names(&mut self, labels: Labels) {
         let (model, view) = (self.model, &self.view);
-        if model.sites.len() + model.bodies.len() > MAX_LABELS {
+        let n = model.sites.len() + model.bodies.len() + model.markers.len();
+        if n > MAX_LABELS {
             return;
         }
         let texts: Vec<String> = self
@@ -476,7 +487,20 @@ impl Picture<'_> {
             size: BODY_SIZE,
             anchor: *at,
         });
-        let requests: Vec<Request<'_>> = joints.chain(bodies).collect();
+        let markers = model.markers.iter();
+        let marked: Vec<[f64; 2]> = markers
+            .map(|m| view.to_page(model.held(m.b, m.p)))
+            .collect();
+        let markers = model
+            .markers
+            .iter()
+            .zip(&marked)
+            .map(|(marker, at)| Request {
+                text: &marker.name,
+                size: BODY_SIZE,
+                anchor: *at,
+            });
+        let requests: Vec<Request<'_>> = joints.chain(bodies).chain(markers).collect();
         let mut symbols: Vec<Rect> = Vec::new();
         for (site, at) in model.sites.iter().zip(&shown) {
             symbols.push(Shape::named(site.symbol).around(*at, model.angle(site)));
@@ -489,6 +513,8 @@ impl Picture<'_> {
                 .iter()
                 .map(|at| Shape::named("centre").around(*at, 0.0)),
         );
+        let crosses = marked.iter();
+        symbols.extend(crosses.map(|at| Shape::named("marker").around(*at, 0.0)));
         let page = Rect {
             centre: [0.5 * WIDTH, TITLE + 0.5 * view.height],
             half: [0.5 * WIDTH - 4.0, 0.5 * view.height - 4.0],

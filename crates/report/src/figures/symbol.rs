@@ -119,7 +119,7 @@ const GROUND: &str = "M-15 14H15M-9 14l-5 6M-3 14l-5 6M3 14l-5 6M9 14l-5 6M15 14
 const CENTRE: &str = "M-4 0H4M0-4V4M-4 0a4 4 0 1 1 8 0a4 4 0 1 1-8 0";
 
 /// All symbols in the order in which they are drawn: first those that would hide others.
-pub(crate) const SHAPES: [Shape; 14] = [
+pub(crate) const SHAPES: [Shape; 15] = [
     shape("rod", [5.0, 5.0], 0.0, &[("mark", END)]),
     shape("block", [12.0, 7.5], 0.0, &[("mark", BLOCK)]),
     shape(
@@ -144,7 +144,8 @@ pub(crate) const SHAPES: [Shape; 14] = [
     shape("push", [19.0, 6.0], 19.0, &[("mark", PUSH)]),
     shape("turn", [18.0, 15.0], 0.0, &[("mark", TURN)]),
     shape("pin", [6.3, 6.3], 0.0, &[("mark", PIN)]),
-    // Not for joints: the ground below a place, centres of mass, applied forces and torques.
+    // Not for joints: the ground below a place, centres of mass, markers, applied forces and
+    // torques.
     shape(
         "foot",
         [16.0, 10.0],
@@ -152,6 +153,7 @@ pub(crate) const SHAPES: [Shape; 14] = [
         &[("foot", STAND), ("foot", GROUND)],
     ),
     shape("centre", [4.0, 4.0], 0.0, &[("centre", CENTRE)]),
+    shape("marker", [6.0, 6.0], 0.0, &[("marker", "M-6 0H6M0-6V6")]),
     shape("load", [8.0, 7.0], -2.0, &[("load", "M0-9L8 5H-8Z")]),
     shape("couple", [16.0, 15.0], 0.0, &[("load", COUPLE)]),
     shape(

@@ -1,18 +1,21 @@
 //! The data of a page as one JSON document for the scripts, limited so that the page stays small.
 
 use model::reaction::COMPONENTS;
-use model::{Mechanism, System};
+use model::{Measure, Mechanism, System};
 use serde::Serialize;
 
 use super::comparison::{Comparison, Freedom};
 use super::run_page::{DriveCurve, RunPage};
 use crate::channel::Channel;
 use crate::documents::{EventDocument, ReactionDocument};
-use crate::figures::drawing::{DrawingModel, DrawnForce, Stage};
+use crate::figures::drawing::{DrawingModel, Stage};
 use crate::recording::Frame;
 
 /// Largest number of joints and drives, and of bodies, that are drawn and plotted.
 pub(super) const DRAWN_MAX: usize = 400;
+
+/// Largest number of measures that are plotted.
+pub(super) const MEASURES_MAX: usize = 24;
 
 /// Largest number of drives that are plotted.
 pub(super) const DRIVES_MAX: usize = 12;
@@ -29,6 +32,7 @@ pub(super) struct Data<'a> {
     drawing: DrawingModel,
     joints: Vec<Joint<'a>>,
     comparisons: Vec<ComparisonData<'a>>,
+    measures: Vec<MeasureCurve<'a>>,
     drives: Vec<Drive<'a>>,
     energy: Energy,
     residuals: Residuals,
@@ -98,6 +102,14 @@ struct FreedomData {
     components: [bool; 3],
     /// Whether the force is free along the axes of the first body at some time.
     in_body: [bool; 2],
+}
+
+#[derive(Serialize)]
+struct MeasureCurve<'a> {
+    name: &'a str,
+    text: String,
+    unit: &'static str,
+    value: Channel,
 }
 
 #[derive(Serialize)]
@@ -194,7 +206,7 @@ impl<'a> Data<'a> {
         Self {
             name: page.mechanism.name(),
             t: frames.iter().map(|f| Time(f.t)).collect(),
-            drawing: stage.drawing(DrawnForce::all(page.mechanism, cast.bodies())),
+            drawing: stage.drawing(page.mechanism),
             joints: cast
                 .joints()
                 .iter()
@@ -205,6 +217,7 @@ impl<'a> Data<'a> {
                 .iter()
                 .filter_map(|c| comparison(c, cast, noise))
                 .collect(),
+            measures: measures(page),
             drives: page.drives.iter().take(DRIVES_MAX).map(drive).collect(),
             energy: measured.energy(),
             residuals: Residuals {
@@ -322,6 +335,24 @@ fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
             last
         })
         .collect()
+}
+
+/// The measures at the frames.
+fn measures<'a>(page: &RunPage<'a>) -> Vec<MeasureCurve<'a>> {
+    let (mechanism, frames) = (page.mechanism, &page.recording.frames);
+    let observed = mechanism.observed();
+    let name = |of: Option<usize>| of.map_or("ground", |k| observed.markers[k].name.as_str());
+    let measures = observed.measures.iter().take(MEASURES_MAX).enumerate();
+    let curve = |(k, measure): (usize, &'a Measure)| {
+        let [first, second] = measure.between.map(name);
+        MeasureCurve {
+            name: &measure.name,
+            text: format!("{} of {second} from {first}", measure.kind.name()),
+            unit: measure.kind.unit(),
+            value: Channel::new(frames.iter().map(|f| mechanism.measure(k, &f.q, &f.v))),
+        }
+    };
+    measures.map(curve).collect()
 }
 
 fn drive(curve: &DriveCurve) -> Drive<'_> {

@@ -91,6 +91,15 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         out,
         format_args!("<p class=\"answer\">{}</p>\n", answer(page)),
     );
+    if !page.scene.inactive.is_empty() {
+        let names = verdicts::marked(&page.scene.inactive.join(", "));
+        add(
+            out,
+            format_args!(
+                "<p class=\"grey\">Not active, so without any part in this: {names}.</p>\n"
+            ),
+        );
+    }
     let free = page
         .freedoms()
         .map(FreedomsDocument::sentences)
@@ -388,6 +397,11 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
          <div><div class=\"picker\"><select id=\"quantity-b\" aria-label=\"Second quantity\"></select></div>\
          <div id=\"motion-b\"></div></div></div>\n",
     );
+    if page.mechanism.observed().measures.is_empty() {
+        out.push_str("<div id=\"measure-curves\" hidden></div>\n");
+    } else {
+        out.push_str("<h2>Measures</h2>\n<div class=\"curves\" id=\"measure-curves\"></div>\n");
+    }
     if !page.drives.is_empty() {
         out.push_str("<h2>Drives</h2>\n<div class=\"curves\" id=\"drive-curves\"></div>\n");
     } else {

@@ -29,7 +29,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
     if let Some(run) = page.run {
         of_run(out, run);
     }
-    if let Some(text) = page.scene {
+    if let Some(text) = page.scene.text {
         scene(out, text);
     }
     out.push_str("<h3>What the page leaves out</h3>\n");
@@ -148,6 +148,13 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
             page.recording.stride,
             page.recording.frames.len(),
             page.recording.rows()
+        ));
+    }
+    let measures = page.mechanism.observed().measures.len();
+    if measures > data::MEASURES_MAX {
+        told.push(format!(
+            "{} of {measures} measures are plotted; trajectory.csv has all.",
+            data::MEASURES_MAX
         ));
     }
     if page.drives.len() > data::DRIVES_MAX {

@@ -24,14 +24,23 @@ pub struct RunPage<'a> {
     pub drives: &'a [DriveCurve],
     /// How to reproduce the run.
     pub origin: &'a Origin,
-    /// The text of the scene, if there is one.
-    pub scene: Option<&'a str>,
+    /// The scene as it is written.
+    pub scene: WrittenScene<'a>,
     /// Options of the run, as text.
     pub options: &'a [(String, String)],
     /// Sentences on what was left out.
     pub left_out: &'a [String],
     /// Error against run time, as an SVG figure, if there is one.
     pub work_precision: Option<&'a str>,
+}
+
+/// What a page tells of the text of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct WrittenScene<'a> {
+    /// The text, if there is one.
+    pub text: Option<&'a str>,
+    /// Joints, drives, forces and groups that are in it, but not active.
+    pub inactive: Vec<String>,
 }
 
 impl RunPage<'_> {

@@ -49,7 +49,8 @@ fn text(bytes: Vec<u8>) -> String {
 
 #[test]
 fn trajectory_has_the_header_of_the_contract() {
-    let mut table = TrajectoryTable::new(Vec::new(), &carrier()).expect("writes");
+    let carrier = carrier();
+    let mut table = TrajectoryTable::new(Vec::new(), &carrier).expect("writes");
     let (q, v) = ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [0.5; 6]);
     table.row(0.1, &q, &v).expect("writes");
     let expected = "t,base.x,base.y,base.angle,base.vx,base.vy,base.omega,\
@@ -99,7 +100,8 @@ fn unknown_names_and_foreign_rows_are_refused() {
         error.to_string(),
         "no joint or drive is called `wheel`; there are: pin, motor, blade"
     );
-    let mut table = TrajectoryTable::new(Vec::new(), &carrier()).expect("writes");
+    let carrier = carrier();
+    let mut table = TrajectoryTable::new(Vec::new(), &carrier).expect("writes");
     let error = table.row(2.5, &[0.0; 3], &[0.0; 6]).expect_err("too few");
     assert_eq!(
         error.to_string(),
@@ -125,7 +127,8 @@ fn numbers_read_back_to_the_same_bits() {
         f64::EPSILON,
         1e22,
     ];
-    let mut table = TrajectoryTable::new(Vec::new(), &carrier()).expect("writes");
+    let carrier = carrier();
+    let mut table = TrajectoryTable::new(Vec::new(), &carrier).expect("writes");
     table.row(9.0, &values[..6], &values[6..]).expect("writes");
     let written = text(table.finish().expect("writes"));
     let mut reader = csv::Reader::from_reader(written.as_bytes());
@@ -147,7 +150,8 @@ fn numbers_read_back_to_the_same_bits() {
 
 #[test]
 fn what_does_not_exist_is_nan() {
-    let mut table = TrajectoryTable::new(Vec::new(), &carrier()).expect("writes");
+    let carrier = carrier();
+    let mut table = TrajectoryTable::new(Vec::new(), &carrier).expect("writes");
     table.row(0.0, &[f64::NAN; 6], &[0.0; 6]).expect("writes");
     let written = text(table.finish().expect("writes"));
     let row = written.lines().nth(1).expect("one row");
@@ -168,7 +172,8 @@ impl std::io::Write for Full {
 
 #[test]
 fn a_full_disk_is_an_error_of_the_table() {
-    let mut table = TrajectoryTable::new(Full, &carrier()).expect("still in the buffer");
+    let carrier = carrier();
+    let mut table = TrajectoryTable::new(Full, &carrier).expect("still in the buffer");
     let mut written = Ok(());
     for k in 0..10_000 {
         written = table.row(f64::from(k), &[0.1; 6], &[0.1; 6]);

@@ -1,36 +1,41 @@
-//! `trajectory.csv`: coordinates and velocities of all bodies.
+//! `trajectory.csv`: positions and velocities of all bodies and markers, and measures.
 
 use std::io::Write;
 
-use model::{Mechanism, System};
+use model::frame::COLUMNS;
+use model::{Marker, Mechanism, System};
 
 use super::{Table, TableError};
 
-/// Number of coordinates of a planar body, and of its velocities.
-const N_BODY: usize = 3;
-
-/// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` (s, m, rad, m/s, rad/s).
-pub struct TrajectoryTable<W: Write> {
+/// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` of the origin of its frame (s,
+/// m, rad, m/s, rad/s); then for each marker that can move `<marker>.x, .y, .vx, .vy`, if it has an
+/// angle with `.angle` and `.omega` as a body; then each measure.
+pub struct TrajectoryTable<'m, W: Write> {
     table: Table<W>,
-    n_bodies: usize,
+    mechanism: &'m Mechanism,
     /// One row, reused.
     values: Vec<f64>,
 }
 
-impl<W: Write> TrajectoryTable<W> {
+impl<'m, W: Write> TrajectoryTable<'m, W> {
     /// Writes the header.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
-    pub fn new(out: W, mechanism: &Mechanism) -> Result<Self, TableError> {
+    pub fn new(out: W, mechanism: &'m Mechanism) -> Result<Self, TableError> {
         let mut header = vec!["t".to_owned()];
         for body in mechanism.bodies() {
-            let columns = ["x", "y", "angle", "vx", "vy", "omega"];
-            header.extend(columns.map(|c| format!("{}.{c}", body.name)));
+            header.extend(COLUMNS.map(|column| format!("{}.{column}", body.name)));
         }
+        let observed = mechanism.observed();
+        for marker in observed.markers.iter().filter(|m| is_written(m)) {
+            let own = (0..COLUMNS.len()).filter(|k| has_column(marker, *k));
+            header.extend(own.map(|k| format!("{}.{}", marker.name, COLUMNS[k])));
+        }
+        header.extend(observed.measures.iter().map(|m| m.name.clone()));
         Ok(Self {
             table: Table::new("trajectory.csv", out, &header)?,
-            n_bodies: mechanism.layout().n_q / N_BODY,
+            mechanism,
             values: Vec::with_capacity(header.len()),
         })
     }
@@ -41,15 +46,31 @@ impl<W: Write> TrajectoryTable<W> {
     /// - [`TableError::Length`]: q or v belong to another mechanism; nothing is written.
     /// - [`TableError::Write`]: the writer failed.
     pub fn row(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), TableError> {
-        let n = N_BODY * self.n_bodies;
-        self.table.check_length(t, "coordinates", q.len(), n)?;
-        self.table.check_length(t, "velocities", v.len(), n)?;
+        let layout = self.mechanism.layout();
+        self.table
+            .check_length(t, "coordinates", q.len(), layout.n_q)?;
+        self.table
+            .check_length(t, "velocities", v.len(), layout.n_v)?;
         self.values.clear();
         self.values.push(t);
-        for (q, v) in q.chunks_exact(N_BODY).zip(v.chunks_exact(N_BODY)) {
-            self.values.extend_from_slice(q);
-            self.values.extend_from_slice(v);
+        for body in 0..self.mechanism.bodies().len() {
+            self.values
+                .extend(self.mechanism.frame(body, q, v).numbers());
         }
+        let observed = self.mechanism.observed();
+        let markers = observed.markers.iter().enumerate();
+        for (k, marker) in markers.filter(|(_, m)| is_written(m)) {
+            let all = self
+                .mechanism
+                .marker(k, q, v)
+                .numbers()
+                .into_iter()
+                .enumerate();
+            let own = all.filter(|(k, _)| has_column(marker, *k));
+            self.values.extend(own.map(|(_, x)| x));
+        }
+        let measures = (0..observed.measures.len()).map(|k| self.mechanism.measure(k, q, v));
+        self.values.extend(measures);
         self.table.row(&self.values)
     }
 
@@ -60,4 +81,14 @@ impl<W: Write> TrajectoryTable<W> {
     pub fn finish(self) -> Result<W, TableError> {
         self.table.finish()
     }
+}
+
+/// Whether a marker has columns: one of the ground stands still.
+fn is_written(marker: &Marker) -> bool {
+    marker.body.moving().is_some()
+}
+
+/// Whether a marker has this one of [`COLUMNS`]; without an angle it is a point.
+fn has_column(marker: &Marker, k: usize) -> bool {
+    marker.angle.is_some() || !matches!(COLUMNS[k], "angle" | "omega")
 }

@@ -6,6 +6,7 @@ use model::Registry;
 use serde_json::{Map, Value, json};
 
 use super::value::{described, number, reference, tuple};
+use crate::active::ACTIVE;
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
 use crate::key::{Interval, TYPE};
@@ -39,8 +40,8 @@ fn table(spec: &Spec, of: Kind, title: &str) -> Value {
     properties.insert(NAME.name.to_owned(), described(&NAME));
     let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
     properties.insert(TYPE.to_owned(), kind);
-    if let Kind::Joint = of {
-        let key = &tolerance::OF_JOINT;
+    let tolerance = matches!(of, Kind::Joint).then_some(&tolerance::OF_JOINT);
+    for key in tolerance.into_iter().chain([&ACTIVE]) {
         properties.insert(key.name.to_owned(), described(key));
     }
 
@@ -114,9 +115,9 @@ fn connection(spec: &Spec) -> Value {
 /// `at`
 fn global(spec: &Spec, n: usize) -> Value {
     let mut place = if spec.points_apart {
-        tuple(vec![reference("point"); n])
+        tuple(vec![reference("place"); n])
     } else {
-        reference("point")
+        reference("place")
     };
     let words = if spec.points_apart {
         format!("{n} points [x, y] in global coordinates, at the described start (m)")
@@ -127,7 +128,7 @@ fn global(spec: &Spec, n: usize) -> Value {
     place
 }
 
-/// A place with the purpose of its points.
+/// A description with the purpose of its points.
 fn with_points(words: impl Into<String>, spec: &Spec) -> String {
     let is_point = |p: &&Parameter| matches!(p.shape, Shape::Point { .. }) && !p.doc.is_empty();
     let points = spec.parameters.iter().filter(is_point);
@@ -143,8 +144,8 @@ fn with_points(words: impl Into<String>, spec: &Spec) -> String {
 fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
     let on = |slot: usize| owners.iter().filter(|owner| **owner == slot).count();
     let points = |n: usize| match n {
-        1 => reference("point"),
-        n => tuple(vec![reference("point"); n]),
+        1 => reference("place"),
+        n => tuple(vec![reference("place"); n]),
     };
     if listed(spec) == 1 {
         let mut place = points(owners.len());

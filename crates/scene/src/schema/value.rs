@@ -20,6 +20,7 @@ pub(super) fn described(key: &Key) -> Value {
         Takes::Text => json!({ "type": "string" }),
         Takes::OneOf(names) => json!({ "enum": names() }),
         Takes::Flag => json!({ "type": "boolean" }),
+        Takes::Switch => json!({ "type": ["boolean", "number", "string"] }),
         Takes::Whole(least, most) => {
             json!({ "type": "integer", "minimum": least, "maximum": most })
         }
@@ -96,6 +97,14 @@ pub(super) fn point() -> Value {
     let mut point = tuple(vec![number(Interval::Any); 2]);
     point["title"] = "Point [x, y] (m)".into();
     point
+}
+
+/// A point of the plane, or the name of a marker.
+pub(super) fn place() -> Value {
+    json!({
+        "title": "Point [x, y] (m), or the name of a marker",
+        "anyOf": [reference("point"), { "type": "string" }],
+    })
 }
 
 /// Texts, each once.

@@ -4,6 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::Slot;
+use crate::active::ACTIVE;
 use crate::field::{as_number, found};
 use crate::language::read::{COMPUTING, FORMAT};
 use crate::nearest::{list, nearest};
@@ -230,10 +231,18 @@ impl<'k> Walk<'k> {
         }
     }
 
+    /// Whether a number may stand in the place of a value.
+    fn takes(&self, value: &DeValue) -> bool {
+        let is_switch = self.key.ends_with(&format!(".{}", ACTIVE.name));
+        as_number(value).is_some()
+            || self.computes && value.is_str()
+            || is_switch && value.is_bool()
+    }
+
     /// The number at the end of the key.
     fn number(&self, node: &Spanned<DeValue>) -> Result<Slot, KeyError> {
         match node.get_ref() {
-            value if as_number(value).is_some() || (self.computes && value.is_str()) => Ok(Slot {
+            value if self.takes(value) => Ok(Slot {
                 span: node.span(),
                 before: String::new(),
                 after: "",

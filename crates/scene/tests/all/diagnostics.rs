@@ -55,13 +55,18 @@ drop = [1]
 
 /// A case: a part of the scene, its replacement with «» around the place that must be marked, the
 /// message, and the label.
-type Case = (&'static str, &'static str, &'static str, &'static str);
+pub(crate) type Case = (&'static str, &'static str, &'static str, &'static str);
 
 fn check(cases: &[Case]) {
-    assert!(read(SCENE).is_ok(), "{:#?}", read(SCENE));
+    check_in(SCENE, cases);
+}
+
+/// Checks that each case has this one problem, in a scene without faults.
+pub(crate) fn check_in(scene: &str, cases: &[Case]) {
+    assert!(read(scene).is_ok(), "{:#?}", read(scene));
     for &(part, fault, message, label) in cases {
-        assert_eq!(SCENE.matches(part).count(), 1, "{part}");
-        let marked = SCENE.replace(part, fault);
+        assert_eq!(scene.matches(part).count(), 1, "{part}");
+        let marked = scene.replace(part, fault);
         let start = marked.find('«').expect("a mark");
         let text = marked.replace(['«', '»'], "");
         let end = marked.replace('«', "").find('»').expect("a mark");
@@ -644,7 +649,7 @@ fn help_lists_what_there_is() {
         (
             "at = [1.0, 0.0]",
             "at = [1.0, 0.0]\naxle = [1, 0]",
-            "its keys are `name`, `type`, `bodies`, `at`, `points`, `tolerance`",
+            "its keys are `name`, `type`, `bodies`, `at`, `points`, `tolerance`, `active`",
         ),
     ] {
         let problems = read(&SCENE.replace(part, fault)).expect_err(fault);

@@ -1,15 +1,18 @@
 //! Tests of the scene reader through its public functions.
 
+mod active;
 mod diagnostics;
 mod elements;
 mod language;
 mod locate;
 mod mutations;
 mod own_joint;
+mod places;
 mod robot_trolley;
 mod schema;
 mod tolerance;
 mod validator;
+mod words;
 
 use model::Registry;
 use scene::{Diagnostic, Scene};

@@ -74,7 +74,7 @@ fn outline_of_second(element: impl PlaneConstraint + 'static) -> Vec<[f64; 2]> {
         bodies: &[0, 1],
         frames: &[Frame::at_rest(0.0, &q, mechanism.layout().n_v)],
     };
-    let outline = &stage.drawing(Vec::new()).bodies[1].outline;
+    let outline = &stage.drawing(&mechanism).bodies[1].outline;
     outline.iter().map(|p| p.map(|x| x.0)).collect()
 }
 

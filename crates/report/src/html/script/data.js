@@ -76,6 +76,28 @@ const bodies = data.drawing.bodies.map((body, index) => ({
   omega: decode(body.omega),
 }));
 
+/**
+ * What is traced and plotted: the origins of the frames of bodies, then markers that can move. `b` is the body, `p` the place relative to its
+ * centre of mass.
+ */
+const tracks = [
+  ...bodies.map((body) => ({ name: body.name, b: body.index, p: data.drawing.bodies[body.index].frame ?? [0, 0], a: 0 })),
+  ...data.drawing.markers.filter((marker) => marker.b >= 0),
+].map(({ name, b, p: [px, py], a }, index) => {
+  const body = bodies[b];
+  const { x, y, angle, vx, vy, omega } = body;
+  if (!px && !py && !a) return { index, name, b, p: [px, py], x, y, angle, vx, vy, omega };
+  const arm = (k) => [Math.cos(angle[k]) * px - Math.sin(angle[k]) * py, Math.sin(angle[k]) * px + Math.cos(angle[k]) * py];
+  return {
+    index, name, b, p: [px, py], omega,
+    x: x.map((v, k) => v + arm(k)[0]),
+    y: y.map((v, k) => v + arm(k)[1]),
+    angle: angle.map((v) => v + a),
+    vx: vx.map((v, k) => v - omega[k] * arm(k)[1]),
+    vy: vy.map((v, k) => v + omega[k] * arm(k)[0]),
+  };
+});
+
 /** Pose of a body at an instant; body −1 is the ground. */
 function poseOf(index, instant) {
   if (index < 0) return { x: 0, y: 0, angle: 0 };

@@ -116,14 +116,14 @@ function setUpArrows(picture) {
   });
 }
 
-/** Bodies whose traces and curves are shown. */
-function setUpBodies(picture, refresh) {
+/** Bodies and markers whose paths and curves are shown: at first the markers, if there are any. */
+function setUpTracks(picture, refresh) {
   const list = byId("bodies");
-  const boxes = bodies.map((body) => {
+  const boxes = tracks.map(({ index, name }) => {
     const box = make(null, "input", { type: "checkbox" });
-    const swatch = make(null, "span", { className: `swatch c${body.index % 7}` });
-    make(list, "label", {}, box, swatch, body.name);
-    box.addEventListener("change", () => choose(body.index, box.checked));
+    const swatch = make(null, "span", { className: `swatch c${index % 7}` });
+    make(list, "label", {}, box, swatch, name);
+    box.addEventListener("change", () => choose(index, box.checked));
     return box;
   });
   const choose = (index, wanted) => {
@@ -131,20 +131,25 @@ function setUpBodies(picture, refresh) {
     picture.trace(index, wanted);
     refresh();
   };
-  [...new Set([0, bodies.length - 1])].filter((k) => k >= 0).forEach((k) => choose(k, true));
+  const markers = tracks.slice(bodies.length).map(({ index }) => index);
+  const first = markers.length ? markers.slice(0, 7) : [...new Set([0, bodies.length - 1])];
+  first.filter((k) => k >= 0).forEach((k) => choose(k, true));
   return (index) => choose(index, !boxes[index].checked);
 }
 
+/** What a position is of, where all are of the same. */
+const OF = tracks.some(({ p }) => p[0] || p[1]) ? "" : " of the centre of mass";
+
 const QUANTITIES = {
-  x: ["Position x of the centre of mass", "m"],
-  y: ["Position y of the centre of mass", "m"],
+  x: [`Position x${OF}`, "m"],
+  y: [`Position y${OF}`, "m"],
   angle: ["Angle", "rad"],
-  vx: ["Velocity x of the centre of mass", "m/s"],
-  vy: ["Velocity y of the centre of mass", "m/s"],
+  vx: [`Velocity x${OF}`, "m/s"],
+  vy: [`Velocity y${OF}`, "m/s"],
   omega: ["Angular velocity", "rad/s"],
 };
 
-/** Two charts of the motion of the bodies that are chosen. */
+/** Two charts of the motion of the bodies and markers that are chosen. */
 function setUpMotion(picture) {
   const panels = [["quantity-a", "x"], ["quantity-b", "angle"]].map(([id, first], k) => {
     const select = byId(id);
@@ -155,7 +160,7 @@ function setUpMotion(picture) {
     const refresh = () => {
       const [title, unit] = QUANTITIES[select.value];
       const series = [...picture.traced].sort((a, b) => a - b).map((index, place) => ({
-        label: bodies[index].name, values: bodies[index][select.value], colour: index % 7, dash: place,
+        label: tracks[index].name, values: tracks[index][select.value], colour: index % 7, dash: place,
       }));
       chart.show(series, { title, unit });
     };
@@ -265,8 +270,13 @@ function showComponent(chart, joint, name, k, { large, frame }) {
   chart.show(series, { ...options, band });
 }
 
-/** Drives, energy, residuals. */
+/** Measures, drives, energy, residuals. */
 function setUpChecks() {
+  const measures = byId("measure-curves");
+  data.measures.forEach((measure, k) => {
+    const chart = new Chart(measures, { title: `${measure.name}: ${measure.text}`, unit: measure.unit, onSeek: seek });
+    chart.show([{ label: measure.name, values: decode(measure.value), colour: k % 7 }]);
+  });
   const drives = byId("drive-curves");
   data.drives.forEach((drive, k) => {
     const chart = new Chart(drives, { title: `${drive.name}: ${drive.text}`, unit: drive.unit, onSeek: seek });
@@ -333,7 +343,7 @@ function showSymbols() {
 function setUpRun(picture, handlers) {
   setUpTransport();
   const refresh = setUpMotion(picture);
-  handlers.body = setUpBodies(picture, refresh);
+  handlers.body = setUpTracks(picture, refresh);
   handlers.joint = setUpReactions(picture);
   setUpArrows(picture);
   setUpChecks();

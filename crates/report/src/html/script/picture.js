@@ -11,7 +11,7 @@ class Picture {
   /** @param {SVGSVGElement} svg */
   constructor(svg, { onJoint, onBody }) {
     this.svg = svg;
-    this.show = { names: joints.length + bodies.length <= 60, forces: true, freedom: true, grid: true, centres: true, follow: true };
+    this.show = { names: joints.length + bodies.length + data.drawing.markers.length <= 60, forces: true, freedom: true, grid: true, centres: true, follow: true };
     this.arrowScale = 1;
     this.traced = new Set();
     this.zoom = 1;
@@ -26,7 +26,7 @@ class Picture {
     this.measure();
     defineHatches(svg);
     this.layers = Object.fromEntries(
-      ["grid", "traces", "bodies", "rails", "feet", "springs", "symbols", "freedom", "arrows", "names", "scale"]
+      ["grid", "traces", "bodies", "rails", "feet", "springs", "symbols", "markers", "freedom", "arrows", "names", "scale"]
         .map((name) => [name, draw(svg, "g", { class: name })]),
     );
     this.build(onJoint, onBody);
@@ -79,6 +79,7 @@ class Picture {
         [[x - r, y - r], [x + r, y + r]].forEach(take);
       }
     }
+    for (const { b, p } of data.drawing.markers) take(pointOn(poses.of(b), p));
     for (const { points } of data.drawing.forces) points.forEach(([b, ...p]) => take(pointOn(poses.of(b), p)));
     return box;
   }
@@ -125,6 +126,12 @@ class Picture {
       if (kind === "spring") f.path = draw(f.group, "path", { class: "spring" });
       else drawSymbol(f.group, kind);
     }
+    this.markers = data.drawing.markers.map((marker) => {
+      const group = draw(layers.markers, "g");
+      draw(group, "title", {}, marker.name);
+      drawSymbol(group, "marker");
+      return { marker, group, name: draw(layers.names, "text", { class: "name body-name" }, marker.name) };
+    });
     this.bodyNames = bodies.map((body) => draw(layers.names, "text", { class: "name body-name" }, body.name));
     this.large = this.largeLoads();
   }
@@ -241,7 +248,11 @@ class Picture {
     });
     for (const site of this.sites) this.moveSite(site, poses, instant, toPage);
     for (const f of this.forces) this.moveForce(f, poses, toPage);
-    for (const trace of this.traces) this.moveTrace(trace, instant, origin);
+    for (const { marker, group, name } of this.markers) {
+      const [x, y] = toPage(pointOn(poses.of(marker.b), marker.p));
+      for (const element of [group, name]) element.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+    }
+    for (const trace of this.traces) this.moveTrace(trace, poses, instant, origin);
   }
 
   moveSite(site, poses, instant, toPage) {
@@ -361,7 +372,7 @@ class Picture {
     return `${spoken(x / metres[0])} ${metres[1]}`;
   }
 
-  /** Shows or hides the trace of a body's centre of mass. */
+  /** Shows or hides the path of a track. */
   trace(index, wanted) {
     if (wanted) this.traced.add(index);
     else this.traced.delete(index);
@@ -379,21 +390,24 @@ class Picture {
       const [frame, part] = [Math.floor(k / parts), k % parts];
       return part ? times[frame] + (part / parts) * (times[frame + 1] - times[frame]) : times[frame];
     };
+    const instants = Array.from({ length: count }, (_, k) => instantAt(between(k)));
+    const { b, p } = tracks[index];
     return {
       index,
-      instants: Array.from({ length: count }, (_, k) => instantAt(between(k))),
+      instants,
+      points: instants.map((instant) => pointOn(poseOf(b, instant), p)),
       whole: draw(this.layers.traces, "path", { class: `trace whole ${colour}` }),
       past: draw(this.layers.traces, "path", { class: `trace ${colour}` }),
     };
   }
 
-  moveTrace(trace, instant, origin) {
-    const body = bodies[trace.index];
-    const at = (px, py) => `${(origin[0] + px * this.scale).toFixed(1)} ${(origin[1] - py * this.scale).toFixed(1)}`;
-    const points = trace.instants.map((i) => at(cubic(body.x, body.vx, i), cubic(body.y, body.vy, i)));
+  moveTrace(trace, poses, instant, origin) {
+    const { b, p } = tracks[trace.index];
+    const at = ([px, py]) => `${(origin[0] + px * this.scale).toFixed(1)} ${(origin[1] - py * this.scale).toFixed(1)}`;
+    const points = trace.points.map(at);
     trace.whole.setAttribute("d", `M${points.join("L")}`);
     const passed = trace.instants.findLastIndex((i) => i.t <= instant.t) + 1;
-    const now = at(cubic(body.x, body.vx, instant), cubic(body.y, body.vy, instant));
+    const now = at(pointOn(poses.of(b), p));
     trace.past.setAttribute("d", `M${[...points.slice(0, passed), now].join("L")}`);
   }
 
@@ -423,6 +437,7 @@ class Picture {
       const pose = poses.of(k);
       put(this.bodyNames[k], toPage([pose.x, pose.y]), 12);
     });
+    for (const { marker, name } of this.markers) put(name, toPage(pointOn(poses.of(marker.b), marker.p)), 12);
     this.svg.classList.toggle("no-centres", !this.show.centres);
   }
 

@@ -1,0 +1,153 @@
+//! Frames of bodies whose origin is not the centre of mass: the only place where positions and
+//! velocities of a description become those of the equations, and back.
+//!
+//! The equations are about centres of mass: q = (r, φ), and points of joints relative to them. A
+//! description, and everything that is written, is about the origin o of the body's frame, with
+//! c = [`Body::centre`]: `r = o + R·c`, `ṙ = ȯ + ω × R·c`.
+
+use joints::Pose;
+
+use crate::description::{Body, BodyRef};
+use crate::mechanism::{Mechanism, N_BODY};
+use crate::space::{Space, in_space};
+
+/// Names of the numbers of a [`FrameState`], in their order.
+pub const COLUMNS: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
+
+/// Position and velocity of a point of a body, or of its frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameState {
+    /// Global coordinates (m).
+    pub place: [f64; 2],
+    /// Angle of the axes (rad), not reduced to one revolution.
+    pub angle: f64,
+    /// Velocity (m/s).
+    pub velocity: [f64; 2],
+    /// Angular velocity (rad/s).
+    pub omega: f64,
+}
+
+impl FrameState {
+    /// Its numbers, in the order of [`COLUMNS`].
+    #[must_use]
+    pub fn numbers(&self) -> [f64; 6] {
+        let ([x, y], [vx, vy]) = (self.place, self.velocity);
+        [x, y, self.angle, vx, vy, self.omega]
+    }
+}
+
+impl Body {
+    /// Its pose at the start: that of the centre of mass, with the axes of its frame.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        let [x, y] = self.position;
+        let origin = Pose::new(x, y, self.angle);
+        if self.is_centred() {
+            return origin;
+        }
+        let [x, y] = origin.to_global(self.centre);
+        Pose { x, y, ..origin }
+    }
+
+    /// Whether the origin of its frame is its centre of mass.
+    #[must_use]
+    pub fn is_centred(&self) -> bool {
+        self.centre == [0.0; 2]
+    }
+
+    /// A point of its frame relative to its centre of mass (m), as joints and forces take it.
+    ///
+    /// ```
+    /// let rod = model::Body { centre: [0.5, 0.0], ..model::Body::new("rod", 1.0, 0.1) };
+    /// assert_eq!(rod.from_centre([1.0, 0.0]), [0.5, 0.0]);
+    /// assert_eq!((rod.pose().x, rod.pose().y), (0.5, 0.0));
+    /// ```
+    #[must_use]
+    pub fn from_centre(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [cx, cy] = self.centre;
+        [x - cx, y - cy]
+    }
+}
+
+impl BodyRef {
+    /// A point of the frame of this body, one of `bodies`, relative to its centre of mass; for the
+    /// ground the point itself.
+    #[must_use]
+    pub fn from_centre(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
+        let described = self.moving().and_then(|at| bodies.get(at));
+        described.map_or(point, |body| body.from_centre(point))
+    }
+}
+
+impl Mechanism {
+    /// The origin and the axes of the frame of a body at q and v: what is written of it. For a body
+    /// whose frame is at its centre of mass these are its coordinates and velocities, bit for bit.
+    ///
+    /// ```
+    /// use model::{Body, Description, Mechanism};
+    /// // A rod whose frame is at its lower end, upright, turning about its centre of mass.
+    /// let mut d = Description::new("rod");
+    /// d.body(Body { centre: [0.5, 0.0], ..Body::new("rod", 1.0, 0.1) });
+    /// let quarter = std::f64::consts::FRAC_PI_2;
+    /// let rod = Mechanism::build(&d).unwrap().frame(0, &[0.0, 0.5, quarter], &[0.0, 0.0, 2.0]);
+    /// assert!(rod.place.iter().all(|x| x.abs() < 1e-15));
+    /// assert!((rod.velocity[0] - 1.0).abs() < 1e-15 && rod.velocity[1].abs() < 1e-15);
+    /// ```
+    ///
+    /// # Panics
+    /// If there is no such body, or q and v are not those of the mechanism.
+    #[must_use]
+    pub fn frame(&self, body: usize, q: &[f64], v: &[f64]) -> FrameState {
+        self.state_of(body, [0.0; 2], q, v)
+    }
+
+    /// A point of the frame of a body at q and v.
+    ///
+    /// # Panics
+    /// As [`Self::frame`].
+    #[must_use]
+    pub fn state_of(&self, body: usize, point: [f64; 2], q: &[f64], v: &[f64]) -> FrameState {
+        let own = &q[self.space().coordinates(body)];
+        let [vx, vy, omega] = [0, 1, 2].map(|dof| v[N_BODY * body + dof]);
+        let arm = self.bodies()[body].from_centre(point);
+        let (mut place, mut velocity) = ([own[0], own[1]], [vx, vy]);
+        if arm != [0.0; 2] {
+            let [x, y] = turned(&self.pose_at(body, q), arm);
+            place = [place[0] + x, place[1] + y];
+            velocity = [vx - omega * y, vy + omega * x];
+        }
+        FrameState {
+            place,
+            angle: in_space!(self.space(), S => S::angle(own)),
+            velocity,
+            omega,
+        }
+    }
+
+    fn pose_at(&self, body: usize, q: &[f64]) -> Pose {
+        let own = &q[self.space().coordinates(body)];
+        in_space!(self.space(), S => S::pose(own))
+    }
+
+    /// Velocities that the description gives, n_v, at the configuration q: of the centres of mass,
+    /// with given velocities of frames that turn with the given angular velocity.
+    #[must_use]
+    pub fn given_velocities(&self, q: &[f64]) -> Vec<Option<f64>> {
+        let of = |(k, b): (usize, &Body)| {
+            let [mut vx, mut vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
+            if let (Some([x, y]), Some(omega), false) =
+                (b.velocity, b.angular_velocity, b.is_centred())
+            {
+                let [ax, ay] = turned(&self.pose_at(k, q), b.centre);
+                (vx, vy) = (Some(x - omega * ay), Some(y + omega * ax));
+            }
+            [vx, vy, b.angular_velocity]
+        };
+        self.bodies().iter().enumerate().flat_map(of).collect()
+    }
+}
+
+/// R·p
+fn turned(pose: &Pose, [x, y]: [f64; 2]) -> [f64; 2] {
+    [pose.cos * x - pose.sin * y, pose.sin * x + pose.cos * y]
+}

@@ -1,0 +1,69 @@
+//! `active`: joints, drives, forces and groups that are read and checked, but take no part.
+
+use crate::dimension::Dimension;
+use crate::findings::Findings;
+use crate::key::{Key, Takes};
+use crate::scene::{Inactive, Scene};
+use crate::source_map::Entry;
+use crate::table::Table;
+
+/// The key of joints, drives, forces and groups.
+pub(crate) const ACTIVE: Key = Key::optional("active", "true or false", Takes::Switch)
+    .doc("Whether it is there; what is not is read and checked only. A number or an expression is false where it is zero")
+    .or(|| true.into());
+
+/// Whether the item of a table takes part. What cannot be read is reported, and does.
+pub(crate) fn read(table: &mut Table, findings: &mut Findings) -> bool {
+    let Some(field) = table.optional(&ACTIVE) else {
+        return true;
+    };
+    let value = match field.value.get_ref().as_bool() {
+        Some(value) => Some(value),
+        None if field.may_be_number() => {
+            let number = field.number(Dimension::NONE, findings);
+            number.map(|number| number != 0.0)
+        }
+        None => field.boolean(findings),
+    };
+    value.unwrap_or(true)
+}
+
+/// Help for a reference to something that takes no part.
+pub(crate) const HELP: &str = "remove `active = false` there, or leave the name out here";
+
+/// Takes everything that is not active out of a scene that has been checked as a whole.
+pub(crate) fn take_out(scene: &mut Scene) {
+    let Some(source) = &mut scene.source else {
+        return;
+    };
+    let mut inactive = Vec::new();
+    let d = &mut scene.description;
+    retain("joint", &mut d.joints, &mut source.joints, &mut inactive);
+    retain("drive", &mut d.drives, &mut source.drives, &mut inactive);
+    retain("force", &mut d.forces, &mut source.forces, &mut inactive);
+    retain(
+        "group",
+        &mut scene.groups,
+        &mut source.groups,
+        &mut inactive,
+    );
+    scene.inactive = inactive;
+}
+
+/// Keeps the active items of a list, and their entries.
+fn retain<T>(
+    kind: &'static str,
+    items: &mut Vec<T>,
+    entries: &mut Vec<Entry>,
+    inactive: &mut Vec<Inactive>,
+) {
+    let mut is_active = entries.iter().map(|entry| entry.is_active);
+    items.retain(|_| is_active.next().unwrap_or(true));
+    entries.retain(|entry| {
+        if !entry.is_active {
+            let name = entry.name.clone();
+            inactive.push(Inactive { kind, name });
+        }
+        entry.is_active
+    });
+}

@@ -1,0 +1,104 @@
+//! `[[measure]]`: quantities between markers.
+
+use model::{Measure, MeasureKind};
+
+use crate::body::GROUND;
+use crate::findings::Findings;
+use crate::key::{Key, TYPE, Takes};
+use crate::marker::Markers;
+use crate::nearest::{did_you_mean, list};
+use crate::source_map::Entry;
+use crate::table::Table;
+
+const KIND: Key = Key::required(TYPE, "what is measured", Takes::OneOf(kinds))
+    .doc("What is measured, of the second marker relative to the first: `distance` (m); `angle` between their axes, not reduced to one revolution (rad); `x` and `y` in the axes of the first (m); `speed` as seen from the first (m/s); `angular-velocity` (rad/s)");
+const MARKERS: Key = Key::required(
+    "markers",
+    "one or two markers [\"a\", \"b\"]",
+    Takes::Texts(1),
+)
+.doc("Two markers, or one and `ground`; one alone is measured from the ground");
+
+/// Keys of a measure in addition to its name.
+pub(crate) const KEYS: [Key; 2] = [KIND, MARKERS];
+
+fn kinds() -> Vec<&'static str> {
+    MeasureKind::ALL.map(MeasureKind::name).to_vec()
+}
+
+/// The measures that were read, with their places.
+#[derive(Default)]
+pub(crate) struct Measures {
+    pub(crate) list: Vec<Measure>,
+    pub(crate) entries: Vec<Entry>,
+}
+
+impl Measures {
+    /// Reads one measure.
+    pub(crate) fn read(
+        &mut self,
+        mut table: Table,
+        name: &str,
+        markers: &Markers,
+        findings: &mut Findings,
+    ) {
+        let kind = kind(&mut table, findings);
+        let between = between(&mut table, markers, findings);
+        let entry = Entry::of(name, &table);
+        table.close(findings);
+        if let Some((kind, between)) = kind.zip(between) {
+            self.list.push(Measure {
+                name: name.to_owned(),
+                kind,
+                between,
+            });
+            self.entries.push(entry);
+        }
+    }
+}
+
+fn kind(table: &mut Table, findings: &mut Findings) -> Option<MeasureKind> {
+    let field = table.required(&KIND, findings)?;
+    let name = field.text(KIND.expected, findings)?;
+    let found = MeasureKind::ALL
+        .into_iter()
+        .find(|kind| kind.name() == name);
+    if found.is_none() {
+        findings.error_with_help(
+            field.span(),
+            format!("{} has the unknown type `{name}`", table.subject),
+            "unknown type",
+            did_you_mean(name, kinds()).or(Some(format!(
+                "the types of a measure are {}",
+                list(kinds())
+            ))),
+        );
+    }
+    found
+}
+
+/// Indices of the markers; `None` is the ground.
+fn between(
+    table: &mut Table,
+    markers: &Markers,
+    findings: &mut Findings,
+) -> Option<[Option<usize>; 2]> {
+    let field = table.required(&MARKERS, findings)?;
+    let items = field.items(MARKERS.expected, findings)?;
+    if !(1..=2).contains(&items.len()) {
+        field.mismatch(MARKERS.expected, findings);
+        return None;
+    }
+    let read = items
+        .iter()
+        .map(|item| match item.value.get_ref().as_str() {
+            Some(GROUND) => Some(None),
+            _ => markers.index(item, findings).map(Some),
+        });
+    let read: Vec<Option<Option<usize>>> = read.collect();
+    match read[..] {
+        [only] => Some([None, only?]),
+        [first, second] => Some([first?, second?]),
+        _ => None,
+    }
+}

@@ -1,0 +1,310 @@
+//! Frames away from the centre of mass, markers, measures: what they say, and their faults.
+
+use model::{BodyRef, MeasureKind, Stated};
+
+use crate::diagnostics::check_in;
+use crate::{assert_close, read};
+
+/// A crank whose frame is at its shaft, a slider, and places by name.
+const SCENE: &str = r#"[scene]
+name = "places"
+space = "plane"
+
+[[body]]
+name = "crank"
+mass = 1.0
+inertia = 0.1
+centre = [0.5, 0.0]
+position = [1.0, 2.0]
+angle = 1.5707963267948966
+
+[[body]]
+name = "slider"
+mass = 1.0
+inertia = 0.1
+
+[[marker]]
+name = "shaft"
+body = "ground"
+point = [1.0, 2.0]
+
+[[marker]]
+name = "tip"
+body = "crank"
+point = [1.0, 0.25]
+angle = 0.5
+tolerance = 1e-5
+
+[[marker]]
+name = "nose"
+body = "slider"
+point = [0.0, 1.0]
+
+[[measure]]
+name = "gap"
+type = "distance"
+markers = ["tip", "nose"]
+
+[[measure]]
+name = "turn"
+type = "angle"
+markers = ["tip"]
+
+[[joint]]
+name = "A"
+type = "revolute"
+bodies = ["ground", "crank"]
+at = "shaft"
+
+[[joint]]
+name = "B"
+type = "revolute"
+bodies = ["crank", "slider"]
+points = { crank = "tip", slider = [0.3, 0.0] }
+
+[[joint]]
+name = "W"
+type = "knife-edge"
+body = "slider"
+point = "nose"
+normal = [0.0, 1.0]
+
+[[joint]]
+name = "C"
+type = "distance"
+bodies = ["slider", "crank"]
+at = ["nose", [1.0, 3.0]]
+
+[[force]]
+name = "S"
+type = "spring-damper"
+bodies = ["ground", "crank"]
+points = { ground = [9.0, 9.0], crank = "tip" }
+stiffness = 1.0
+damping = 0.0
+"#;
+
+#[test]
+fn points_are_relative_to_the_centre_of_mass() {
+    let d = read(SCENE)
+        .unwrap_or_else(|problems| panic!("{problems:#?}"))
+        .description;
+    let crank = &d.bodies[0];
+    assert_eq!((crank.position, crank.centre), ([1.0, 2.0], [0.5, 0.0]));
+    let pose = crank.pose();
+    assert_close(&[pose.x, pose.y], &[1.0, 2.5]);
+    let points = |k: usize| d.joints[k].element.points().concat();
+    // The shaft is half a metre behind the centre of mass.
+    assert_close(&points(0), &[1.0, 2.0, -0.5, 0.0]);
+    assert_eq!(points(1), [0.5, 0.25, 0.3, 0.0]);
+    assert_eq!(points(2), [0.0, 1.0]);
+    // A marker is taken where it is, a global point where the body is.
+    assert_close(&points(3), &[0.0, 1.0, 0.5, 0.0]);
+    assert_eq!(d.forces[0].element.points(), [[9.0, 9.0], [0.5, 0.25]]);
+}
+
+#[test]
+fn a_marker_of_another_body_is_a_place() {
+    // The tip in the frame of the slider: (1, 2) + R·(1, 0.25).
+    let text = SCENE.replace(
+        "points = { crank = \"tip\", slider = [0.3, 0.0] }",
+        "at = \"tip\"",
+    );
+    let d = read(&text).expect("a scene").description;
+    assert_close(
+        &d.joints[1].element.points().concat(),
+        &[0.5, 0.25, 0.75, 3.0],
+    );
+}
+
+#[test]
+fn markers_and_measures_are_read() {
+    let scene = read(SCENE).expect("a scene");
+    let observed = &scene.description.observed;
+    let tip = &observed.markers[1];
+    assert_eq!((tip.name.as_str(), tip.body), ("tip", BodyRef::Body(0)));
+    assert_eq!(
+        (tip.point, tip.angle, tip.tolerance),
+        ([1.0, 0.25], Some(0.5), Some(1e-5))
+    );
+    assert_eq!(observed.markers[0].body, BodyRef::Ground);
+    let measures: Vec<_> = observed
+        .measures
+        .iter()
+        .map(|m| (m.kind, m.between))
+        .collect();
+    assert_eq!(
+        measures,
+        [
+            (MeasureKind::Distance, [Some(1), Some(2)]),
+            (MeasureKind::Angle, [None, Some(1)])
+        ]
+    );
+}
+
+/// The tolerance of a marker is that of the points that it places, before those of body and scene
+/// and after that of the joint.
+#[test]
+fn a_tolerance_of_a_marker_is_that_of_its_point() {
+    use model::{Mechanism, System};
+    let stated = |text: &str| -> Vec<(String, Option<f64>)> {
+        let d = read(text).expect("a scene").description;
+        let mechanism = Mechanism::build(&d).expect("a mechanism");
+        let mut s = mechanism.scratch();
+        mechanism.pose(0.0, &mechanism.described_state().0, &mut s);
+        let blocks = mechanism.data().blocks(&s).into_iter();
+        let name = |group: usize| mechanism.layout().groups[group].name.clone();
+        let all = blocks.map(|b| (format!("{}.{}", name(b.group), b.name), b.tolerance));
+        all.filter(|(name, _)| name.starts_with("B.")).collect()
+    };
+    let tolerances = |text: &str| -> Vec<Option<f64>> {
+        stated(text)
+            .into_iter()
+            .map(|(_, tolerance)| tolerance)
+            .collect()
+    };
+    assert_eq!(tolerances(SCENE), [Some(1e-5), None]);
+    let with_scene = SCENE.replace(
+        "space = \"plane\"\n",
+        "space = \"plane\"\ntolerance = 1e-3\n",
+    );
+    assert_eq!(tolerances(&with_scene), [Some(1e-5), Some(1e-3)]);
+    let with_joint = SCENE.replace("name = \"B\"\n", "name = \"B\"\ntolerance = 1e-2\n");
+    assert_eq!(tolerances(&with_joint), [Some(1e-2); 2]);
+    // Parts keep it.
+    let d = read(SCENE).expect("a scene").description;
+    let part = Mechanism::build(&d)
+        .expect("a mechanism")
+        .part_of_groups(&[1]);
+    assert_eq!(part.mechanism.observed().markers.len(), 1);
+    let of = Stated::Marker("tip".to_owned());
+    assert_eq!(of.to_string(), "marker `tip`");
+}
+
+#[test]
+fn faults_have_their_places() {
+    check_in(
+        SCENE,
+        &[
+            (
+                "at = \"shaft\"",
+                "at = «\"shaf\"»",
+                "joint `A` refers to the unknown marker `shaf`",
+                "no such marker",
+            ),
+            (
+                "slider = [0.3, 0.0]",
+                "slider = «\"tip\"»",
+                "joint `B`: `points`: marker `tip` belongs to `crank`, and a point of `slider` is needed; \
+                 `at = \"tip\"` takes the place where it is",
+                "not a marker of this body",
+            ),
+            (
+                "point = \"nose\"",
+                "point = «\"shaft\"»",
+                "joint `W`: marker `shaft` belongs to `ground`, and a point of `slider` is needed; \
+                 `at = \"shaft\"` takes the place where it is",
+                "not a marker of this body",
+            ),
+            (
+                "at = [\"nose\", [1.0, 3.0]]",
+                "at = «\"nose\"»",
+                "joint `C`: `at` must be 2 global points [[x, y], …], found the text \"nose\"",
+                "expected 2 global points [[x, y], …]",
+            ),
+            (
+                "body = \"slider\"\npoint = [0.0, 1.0]",
+                "body = «\"sliders\"»\npoint = [0.0, 1.0]",
+                "marker `nose` refers to the unknown body `sliders`",
+                "no such body; `slider` is defined on line 14",
+            ),
+            (
+                "point = [1.0, 0.25]",
+                "point = «[1.0]»",
+                "marker `tip`: `point` must be a point [x, y], found a list of 1 value",
+                "expected a point [x, y]",
+            ),
+            (
+                "tolerance = 1e-5",
+                "tolerance = «0.0»",
+                "marker `tip`: tolerance is 0, need a finite number > 0",
+                "expected a number > 0",
+            ),
+            (
+                "type = \"distance\"\nmarkers",
+                "type = «\"length\"»\nmarkers",
+                "measure `gap` has the unknown type `length`",
+                "unknown type",
+            ),
+            (
+                "[\"tip\", \"nose\"]",
+                "[\"tip\", «\"noes\"»]",
+                "measure `gap` refers to the unknown marker `noes`",
+                "no such marker",
+            ),
+            (
+                "[\"tip\", \"nose\"]",
+                "«[\"tip\", \"tip\"]»",
+                "measure `gap` is between a place and itself",
+                "give two different places",
+            ),
+            (
+                "[\"tip\", \"nose\"]",
+                "«[\"tip\", \"nose\", \"shaft\"]»",
+                "measure `gap`: `markers` must be one or two markers [\"a\", \"b\"], found a list of 3 values",
+                "expected one or two markers [\"a\", \"b\"]",
+            ),
+            (
+                "markers = [\"tip\"]",
+                "markers = «[\"ground\"]»",
+                "measure `turn` is between a place and itself",
+                "give two different places",
+            ),
+            (
+                "name = \"turn\"",
+                "name = «\"slider\"»",
+                "the name `slider` is used twice",
+                "used again here",
+            ),
+            (
+                "name = \"gap\"",
+                "name = «\"t\"»",
+                "measure `t` has the name of another column of `trajectory.csv`",
+                "choose another name",
+            ),
+            (
+                "name = \"gap\"",
+                "name = «\"crank.vx\"»",
+                "measure `crank.vx` has the name of another column of `trajectory.csv`",
+                "choose another name",
+            ),
+            (
+                "centre = [0.5, 0.0]",
+                "velocity = «[0.0, 0.0]»\ncentre = [0.5, 0.0]",
+                "body `crank`: `velocity` is that of the origin of its frame, which is not its centre of mass, \
+                 so `angular_velocity` is needed with it",
+                "needs `angular_velocity` too",
+            ),
+            (
+                "centre = [0.5, 0.0]",
+                "centre = «0.5»",
+                "body `crank`: `centre` must be a pair [x, y], found the number 0.5",
+                "expected a pair [x, y]",
+            ),
+        ],
+    );
+}
+
+/// Without markers a text is a text.
+#[test]
+fn numbers_with_units_are_no_markers() {
+    let text = "[scene]\nname = \"x\"\nspace = \"plane\"\n[[body]]\nname = \"a\"\nmass = 1\ninertia = 1\n\
+                [[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"a\"]\nat = \"500 mm\"\n";
+    let problems = read(text).expect_err("no point");
+    assert!(
+        problems[0]
+            .message
+            .contains("must be a global point [x, y]"),
+        "{problems:#?}"
+    );
+}
