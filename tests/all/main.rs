@@ -1,5 +1,6 @@
 //! All tests that need more than one crate, in one binary.
 
+mod actuators;
 mod allocations;
 mod along_motion;
 mod bad_matrices;

@@ -69,8 +69,8 @@ pub(crate) enum Component {
     None,
     /// The component of the force along the body's vector.
     Along,
-    /// The multiplier itself.
-    Multiplier,
+    /// The force along the measure that this motion moves: `−∂Φ/∂motion` for each multiplier.
+    Motion(Expr),
 }
 
 /// Derives the kernels of a constraint, or reports which row restricts no motion. Rows of Ψ are
@@ -107,7 +107,15 @@ pub(crate) fn constraint(
     let wrench = wrench(model, &c, place, body.rows.len());
     let component = match component {
         Component::None => Vec::new(),
-        Component::Multiplier => vec![model.g.number(1.0)],
+        Component::Motion(motion) => {
+            let along = Derivation::partial(&mut model.g, *motion);
+            let rows = body.rows.iter();
+            rows.map(|&row| {
+                let slope = along.apply(&mut model.g, row);
+                model.g.neg(slope)
+            })
+            .collect()
+        }
         Component::Along => {
             let (_, along) = body.component.as_ref().expect("the definition has one");
             let along = along.to_ground(&mut model.g, &model.turns);

@@ -21,7 +21,7 @@ use symbolic::{Expr, Graph};
 use crate::parse::{Definition, Kept, Param, ParamKind};
 pub(crate) use check::not_polynomial;
 pub(crate) use inputs::{Inputs, Source};
-pub(crate) use model::{Body, Comparison, Condition, ConstraintBody, KeptValue, Model};
+pub(crate) use model::{Body, Comparison, Condition, ConstraintBody, KeptValue, Measure, Model};
 use scope::Scope;
 use value::Value;
 

@@ -10,10 +10,10 @@ use symbolic::{Counts, Derivation, Expr, Scalar};
 
 use crate::data::{derivations, of_measure, stored};
 use crate::derive::{self, Component, ConstraintKernels, Sparse};
-use crate::elaborate::{Body, ConstraintBody, Model};
+use crate::elaborate::{Body, ConstraintBody, Measure, Model};
 use crate::kernel::kernel;
 use crate::parse::Definition;
-use parts::Type;
+use parts::{Driven, Type};
 
 /// The module of a constraint: its type and one type for the drive of each measure.
 pub(crate) fn constraint(
@@ -37,18 +37,25 @@ pub(crate) fn constraint(
     let by_data = derivations(&mut model, &data);
     let kernels = derive::constraint(&mut model, &body, &component, &by_data)
         .map_err(|row| idle(&body.at, row))?;
-    let drives: Vec<(Ident, Ident)> = body
-        .measures
-        .iter()
-        .map(|(name, _)| {
-            (
-                name.clone(),
-                format_ident!("{}{}Drive", d.name, parts::camel(name)),
-            )
-        })
-        .collect();
-    for (k, (measure, driver)) in drives.iter().enumerate() {
-        if drives[..k].iter().any(|(_, other)| other == driver) {
+    let drive = |(name, measure): &(Ident, Measure)| parts::Drive {
+        measure: name.clone(),
+        name: format_ident!("{}{}Drive", d.name, parts::camel(name)),
+        by: match measure {
+            Measure::Of(_) => Driven::Measure,
+            Measure::Kept(_) => Driven::Rows,
+        },
+    };
+    let drives: Vec<parts::Drive> = body.measures.iter().map(drive).collect();
+    for (
+        k,
+        parts::Drive {
+            measure,
+            name: driver,
+            ..
+        },
+    ) in drives.iter().enumerate()
+    {
+        if drives[..k].iter().any(|other| other.name == *driver) {
             return Err(syn::Error::new_spanned(
                 measure,
                 format!("two measures would have the drive `{driver}`: choose another name"),
@@ -61,42 +68,63 @@ pub(crate) fn constraint(
         doc: d.doc.clone(),
         component: body.component.as_ref().map(|(name, _)| name.to_string()),
         drives: drives.clone(),
-        driven: false,
+        driven: None,
         scene_type: parts::scene_type(d),
         data: data.clone(),
     };
-    let measure_0 = Derivation::partial(&mut model.g, model.inputs.measure_0);
-    let by_data = [by_data, vec![measure_0]].concat();
     let mut items = vec![constraint_type(d, &model, &main, &kernels, &body, text)];
-    for ((measure, driver), (_, value)) in drives.iter().zip(&body.measures) {
-        let row = model.g.sum(&[
-            (1.0, *value),
-            (-1.0, model.inputs.measure_0),
-            (-1.0, model.inputs.motion[0]),
-        ]);
+    let motion = model.inputs.motion[0];
+    for (drive, (measure, value)) in drives.iter().zip(&body.measures) {
+        let (rows, at) = match *value {
+            Measure::Of(value) => {
+                let terms = [(1.0, value), (-1.0, model.inputs.measure_0), (-1.0, motion)];
+                (vec![model.g.sum(&terms)], vec![quote!(#measure)])
+            }
+            Measure::Kept(kept) => {
+                let moved = model.g.add(kept, motion);
+                let of_joint = body.rows.iter();
+                let rows = of_joint.map(|&row| model.g.substitute(row, &[(kept, moved)]));
+                (rows.collect(), body.at.clone())
+            }
+        };
         let driven = ConstraintBody {
             holonomic: true,
-            rows: vec![row],
-            at: vec![quote!(#measure)],
+            rows,
+            at,
             place: body.place.clone(),
             component: None,
             measures: vec![(measure.clone(), *value)],
         };
-        let kernels = derive::constraint(&mut model, &driven, &Component::Multiplier, &by_data)
+        let mut by_data = by_data.clone();
+        if matches!(drive.by, Driven::Measure) {
+            by_data.push(Derivation::partial(&mut model.g, model.inputs.measure_0));
+        }
+        let component = Component::Motion(motion);
+        let kernels = derive::constraint(&mut model, &driven, &component, &by_data)
             .map_err(|row| idle(&driven.at, row))?;
-        let measure_0 = of_measure(&model, kernels.unit_of_measure());
+        let mut data = data.clone();
+        let (rows, doc) = match drive.by {
+            Driven::Measure => {
+                data.push(of_measure(&model, kernels.unit_of_measure()));
+                (
+                    vec![measure.to_string()],
+                    "a function of time: measure − initial measure − f(t) = 0",
+                )
+            }
+            Driven::Rows => (
+                main.rows.clone(),
+                "its initial value + f(t): the rows of the joint with this value, in their place",
+            ),
+        };
         let drive = Type {
-            name: driver.clone(),
-            rows: vec![measure.to_string()],
-            doc: vec![format!(
-                "The {measure} of `{}` follows a function of time: measure − initial measure − f(t) = 0.",
-                d.name
-            )],
+            name: drive.name.clone(),
+            rows,
+            doc: vec![format!("The {measure} of `{}` follows {doc}.", d.name)],
             component: Some("drive".to_owned()),
             drives: Vec::new(),
-            driven: true,
+            driven: Some(drive.by),
             scene_type: measure.to_string(),
-            data: [data.clone(), vec![measure_0]].concat(),
+            data,
         };
         items.push(constraint_type(d, &model, &drive, &kernels, &driven, text));
     }
@@ -116,7 +144,10 @@ fn constraint_type(
     let structure = parts::structure(d, model, name, &t.doc, t.driven);
     let spec = facts::constraint_spec(d, t, k, body, text);
     let from_arguments = parts::from_arguments(d, model, t.driven);
-    let measure = t.driven.then(|| body.measures[0].1);
+    let measure = t.driven.and_then(|_| match body.measures[0].1 {
+        Measure::Of(value) => Some(value),
+        Measure::Kept(_) => None,
+    });
     let initialise = parts::initialise(model, measure);
     let requirement = parts::requirement(model);
     let points = parts::points(d);
@@ -125,7 +156,7 @@ fn constraint_type(
     let visit = t
         .drives
         .iter()
-        .map(|(_, driver)| quote!(visitor.drive::<#driver>();));
+        .map(|parts::Drive { name, .. }| quote!(visitor.drive::<#name>();));
 
     let kernel_of = |name, what, outputs: &[Expr], s| method(name, what, model, outputs, s);
     let sparse = |name, what, block: &Sparse, s| method(name, what, model, &values(block), s);
@@ -223,9 +254,9 @@ pub(crate) fn force(
     };
     let k = derive::force(&mut model, &terms);
     let name = &d.name;
-    let structure = parts::structure(d, &model, name, &d.doc, false);
+    let structure = parts::structure(d, &model, name, &d.doc, None);
     let spec = facts::force_spec(d, &model, &k, text);
-    let from_arguments = parts::from_arguments(d, &model, false);
+    let from_arguments = parts::from_arguments(d, &model, None);
     let initialise = parts::initialise(&model, None);
     let requirement = parts::requirement(&model);
     let points = parts::points(d);

@@ -48,6 +48,9 @@ pub enum Property {
     Place,
     /// The named component is the force along a unit vector, or the torque.
     Component,
+    /// The component of a drive is the force that does the work: times the rate of the motion it is
+    /// b.
+    Power,
     /// Forces on the bodies add up to zero force and zero moment.
     Balance,
     /// Moving all bodies as one rigid body leaves the norm of each block unchanged.
@@ -89,6 +92,7 @@ impl fmt::Display for Property {
             Self::Wrench => "the wrench is −C of the first body, moved to the place",
             Self::Place => "the place is fixed in the first body",
             Self::Component => "the named component is not larger than the reaction",
+            Self::Power => "the component of a drive times the rate of its motion is b",
             Self::Balance => "forces and moments on all bodies add up to zero",
             Self::RigidMotion => "moving all bodies as one leaves the norm of each block unchanged",
             Self::Start => "rows that keep the start, and only these, are zero there",

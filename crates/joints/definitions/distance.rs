@@ -13,5 +13,6 @@ joint! { plane Distance(i, j) {
     require "the two points are apart (L > 0)": length > 0.0;
     rows: [distance];
     phi: (dot(d, d) - length * length) * half_inverse;
+    measure length, kept;
     place: point(i, s_i);
 } }

@@ -409,15 +409,31 @@ impl Entry {
 pub struct Measure {
     /// Value of a drive's `type` in a scene file.
     pub name: &'static str,
-    /// Name of the definition of the driven row.
+    /// Name of the definition of the driven rows.
     pub drive: &'static str,
+    /// Whether the rows of the joint keep it at its initial value, so that the driven rows take
+    /// their place.
+    pub is_kept: bool,
 }
 
 impl Measure {
     /// A measure and the definition of its drive.
     #[must_use]
     pub const fn new(name: &'static str, drive: &'static str) -> Self {
-        Self { name, drive }
+        Self {
+            name,
+            drive,
+            is_kept: false,
+        }
+    }
+
+    /// A measure that the rows of the joint keep, and the definition of its drive.
+    #[must_use]
+    pub const fn kept(name: &'static str, drive: &'static str) -> Self {
+        Self {
+            is_kept: true,
+            ..Self::new(name, drive)
+        }
     }
 }
 

@@ -104,6 +104,16 @@ impl<'r> Joints<'r> {
         }
         self.known.push(known);
     }
+
+    /// Leaves out joints in whose place a drive is.
+    pub(crate) fn leave_out(&mut self, replaced: &[String]) {
+        if !replaced.is_empty() {
+            let stays = |name: &String| !replaced.contains(name);
+            self.list.retain(|joint| stays(&joint.name));
+            self.entries.retain(|entry| stays(&entry.name));
+            self.known.retain(|joint| stays(&joint.name));
+        }
+    }
 }
 
 /// The joints by name, for drives.
@@ -135,6 +145,8 @@ pub(crate) struct Drives {
     pub(crate) known: Vec<(String, bool)>,
     pub(crate) list: Vec<Drive>,
     pub(crate) entries: Vec<Entry>,
+    /// Joints whose rows keep the driven measure: those of the drive take their place.
+    pub(crate) replaced: Vec<String>,
 }
 
 impl Drives {
@@ -220,6 +232,9 @@ impl Drives {
                     tolerance: joint.tolerance,
                 });
                 self.entries.push(entry);
+                if definition.spec.measures[at].is_kept && is_active {
+                    self.replaced.push(joint.name.clone());
+                }
             }
             Some(Err(error)) => {
                 findings.error(span, format!("drive `{name}`: {error}"), "not possible");

@@ -241,11 +241,12 @@ impl<'r> Parts<'r> {
         }
         let driven = list(root, &section::DRIVE, findings);
         if !driven.is_empty() {
-            let joints = JointNames::of(joints);
+            let by_name = JointNames::of(joints);
             for (table, name) in driven {
                 names.elements.push(Use::of(&name, &table));
-                drives.read(table, &name, &joints, domains, findings);
+                drives.read(table, &name, &by_name, domains, findings);
             }
+            joints.leave_out(&drives.replaced);
         }
         let types = Types::of_forces(registry);
         for (table, name) in list(root, &section::FORCE, findings) {

@@ -1,13 +1,14 @@
 //! The body of a definition: rows with their reaction, or laws with their coordinates.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
 use symbolic::Expr;
 
 use super::check;
-use super::model::ConstraintBody;
+use super::model::{ConstraintBody, Measure};
 use super::scope::Scope;
-use crate::parse::Definition;
+use crate::elaborate::Source;
+use crate::parse::{Definition, Kept};
 
 /// A scalar row with the source text of its expression.
 type Row<'a> = (Expr, &'a syn::Expr);
@@ -57,9 +58,15 @@ impl<'a> Scope<'a> {
         };
         let mut measures = Vec::new();
         for (name, e) in &d.measures {
-            let value = self.scalar(e)?;
-            self.refuse_all(e, check::MEASURE)?;
-            measures.push((name.clone(), value));
+            let measure = match e {
+                Some(e) => {
+                    let value = self.scalar(e)?;
+                    self.refuse_all(e, check::MEASURE)?;
+                    Measure::Of(value)
+                }
+                None => Measure::Kept(self.moved(name, &rows)?),
+            };
+            measures.push((name.clone(), measure));
         }
         let (rows, at): (Vec<Expr>, Vec<TokenStream>) = rows
             .into_iter()
@@ -73,6 +80,34 @@ impl<'a> Scope<'a> {
             component,
             measures,
         })
+    }
+
+    /// The kept number of this name, which the rows must contain.
+    fn moved(&self, name: &Ident, rows: &[Row<'_>]) -> syn::Result<Expr> {
+        let kept = self.model.kept.iter().find(|k| *name == k.field);
+        let number = kept.filter(|k| matches!(k.kind, Kept::Number(_)) && k.of_start);
+        let error = |why| Err(syn::Error::new_spanned(name, why));
+        if self.definition.phi.is_none() {
+            return error(format!(
+                "only `phi` keeps `{name}` where it is at the start"
+            ));
+        }
+        let Some(number) = number else {
+            return error(format!(
+                "no number of `initial` that depends on the start is called `{name}`: `kept` is for one of those"
+            ));
+        };
+        let reads = |s: &Source| matches!(s, Source::Kept { field, .. } if *field == number.field);
+        if rows
+            .iter()
+            .any(|(row, _)| self.model.depends_on(*row, reads))
+        {
+            Ok(number.symbols[0])
+        } else {
+            error(format!(
+                "no row contains `{name}`: a drive of it would move nothing"
+            ))
+        }
     }
 
     pub(super) fn forces(&mut self) -> syn::Result<Vec<(Expr, Expr)>> {

@@ -54,7 +54,17 @@ pub(crate) struct ConstraintBody {
     pub(crate) at: Vec<TokenStream>,
     pub(crate) place: Vector,
     pub(crate) component: Option<(Ident, Vector)>,
-    pub(crate) measures: Vec<(Ident, Expr)>,
+    pub(crate) measures: Vec<(Ident, Measure)>,
+}
+
+/// What a drive prescribes.
+#[derive(Clone, Copy)]
+pub(crate) enum Measure {
+    /// An expression: its row is measure − initial measure − motion.
+    Of(Expr),
+    /// A value kept from the start: the motion is added to it in the rows of the joint, and these
+    /// rows take the place of the joint's.
+    Kept(Expr),
 }
 
 /// A condition on the start.

@@ -257,6 +257,18 @@ fn each_part_depends_on_what_it_may() {
             "no quotient",
         ),
         (
+            "rows: [x]; phi: all; place: origin(i); measure l, kept;",
+            "no number of `initial` that depends on the start is called `l`",
+        ),
+        (
+            "initial { a: Angle = angle(i), b: Angle = a } rows: [x]; phi: all + b; place: origin(i); measure a, kept;",
+            "no row contains `a`",
+        ),
+        (
+            "initial { a: Angle = angle(i) } rows: [x]; psi: rate(all) + a; place: origin(i); measure a, kept;",
+            "only `phi` keeps",
+        ),
+        (
             "initial { a: Length = f } rows: [x]; phi: all + a; place: origin(i);",
             "not on functions of time",
         ),

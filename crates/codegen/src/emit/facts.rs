@@ -7,7 +7,7 @@ use super::{data, parts};
 use crate::derive::{ConstraintKernels, ForceKernels, N_DOF, Sparse};
 use crate::elaborate::{ConstraintBody, Model, Source};
 use crate::parse::{Definition, Param, ParamKind};
-use parts::{Type, index};
+use parts::{Driven, Type, index};
 
 pub(super) fn constraint_spec(
     d: &Definition,
@@ -16,9 +16,9 @@ pub(super) fn constraint_spec(
     body: &ConstraintBody,
     text: &str,
 ) -> TokenStream {
-    let motion = t.driven.then(|| k.unit_of_measure());
+    let motion = t.driven.map(|_| k.unit_of_measure());
     let common = common(d, &t.name.to_string(), &t.scene_type, &t.doc, motion, text);
-    let role = if t.driven {
+    let role = if t.driven.is_some() {
         quote!(Role::Drive)
     } else {
         quote!(Role::Joint)
@@ -53,12 +53,16 @@ pub(super) fn constraint_spec(
         None => quote!(None),
     };
     let note = match d.note.as_ref().map(syn::LitStr::value) {
-        Some(words) if !t.driven => quote!(Some(#words)),
+        Some(words) if t.driven.is_none() => quote!(Some(#words)),
         _ => quote!(None),
     };
-    let measures = t.drives.iter().map(|(measure, drive)| {
-        let (name, drive) = (measure.to_string(), drive.to_string());
-        quote!(Measure::new(#name, #drive))
+    let measures = t.drives.iter().map(|drive| {
+        let (name, by) = (drive.measure.to_string(), drive.by);
+        let drive = drive.name.to_string();
+        match by {
+            Driven::Measure => quote!(Measure::new(#name, #drive)),
+            Driven::Rows => quote!(Measure::kept(#name, #drive)),
+        }
     });
     let wrench = pattern(&k.wrench);
     let d_force_dx = pattern(&k.d_force_dx);

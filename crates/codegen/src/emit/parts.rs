@@ -16,11 +16,28 @@ pub(super) struct Type {
     pub(super) rows: Vec<String>,
     pub(super) doc: Vec<String>,
     pub(super) component: Option<String>,
-    /// Measure and type of its drive.
-    pub(super) drives: Vec<(Ident, Ident)>,
-    pub(super) driven: bool,
+    pub(super) drives: Vec<Drive>,
+    /// `None` for a joint.
+    pub(super) driven: Option<Driven>,
     pub(super) scene_type: String,
     pub(super) data: Vec<Datum>,
+}
+
+/// The type of a drive.
+#[derive(Clone)]
+pub(super) struct Drive {
+    pub(super) measure: Ident,
+    pub(super) name: Ident,
+    pub(super) by: Driven,
+}
+
+/// How a drive moves its measure.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Driven {
+    /// By a row of its own.
+    Measure,
+    /// By the rows of the joint, in their place.
+    Rows,
 }
 
 /// `displacement` → `Displacement`
@@ -87,7 +104,7 @@ pub(super) fn structure(
     model: &Model,
     name: &Ident,
     doc: &[String],
-    driven: bool,
+    driven: Option<Driven>,
 ) -> TokenStream {
     let doc: Vec<String> = doc.iter().map(|line| format!(" {line}")).collect();
     let params = d.params.iter().filter_map(|p| {
@@ -107,7 +124,7 @@ pub(super) fn structure(
         };
         quote!(#[doc = #doc] pub #name: #ty,)
     });
-    let measure = driven.then(|| {
+    let measure = (driven == Some(Driven::Measure)).then(|| {
         quote! {
             #[doc = " Value of the measure at the assembled start; set by `initialise`."]
             pub measure_0: f64,
@@ -130,21 +147,22 @@ pub(super) fn drives(
     d: &Definition,
     model: &Model,
     name: &Ident,
-    drives: &[(Ident, Ident)],
+    drives: &[Drive],
 ) -> Option<TokenStream> {
     let params = d.params.iter().filter(|p| field_type(p).is_some());
     let fields: Vec<Ident> = params
         .map(|p| p.name.clone())
         .chain(model.kept.iter().map(|k| format_ident!("{}", k.field)))
         .collect();
-    let methods = drives.iter().map(|(measure, drive)| {
+    let methods = drives.iter().map(|Drive { measure, name, by }| {
+        let measure_0 = (*by == Driven::Measure).then(|| quote!(measure_0: 0.0));
         let doc = format!(" The drive of its {measure}, with the same parameters.");
         let method = format_ident!("{measure}_drive");
         quote! {
             #[doc = #doc]
             #[must_use]
-            pub fn #method(&self) -> #drive {
-                #drive { #(#fields: self.#fields,)* measure_0: 0.0 }
+            pub fn #method(&self) -> #name {
+                #name { #(#fields: self.#fields,)* #measure_0 }
             }
         }
     });
@@ -204,7 +222,7 @@ pub(super) fn slot(d: &Definition, name: &Ident) -> proc_macro2::Literal {
 }
 
 /// The constructor from checked arguments.
-pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> TokenStream {
+pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Driven>) -> TokenStream {
     let mut reads: Vec<TokenStream> = d
         .params
         .iter()
@@ -223,7 +241,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> Tok
             }
         })
         .collect();
-    if driven {
+    if driven.is_some() {
         reads.push(quote!(reader.skip();));
     }
     let fields = d
@@ -238,7 +256,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> Tok
             Kept::Vector(_) => quote!(#name: [0.0; 2],),
         }
     });
-    let measure = driven.then(|| quote!(measure_0: 0.0,));
+    let measure = (driven == Some(Driven::Measure)).then(|| quote!(measure_0: 0.0,));
     // Without parameters only the number of arguments is checked.
     let reader = if reads.is_empty() {
         quote!(Reader::new(Self::SPEC.common.parameters, arguments)?;)

@@ -12,6 +12,7 @@ use crate::nearest::hint;
 mod kw {
     syn::custom_keyword!(apart);
     syn::custom_keyword!(default);
+    syn::custom_keyword!(kept);
     syn::custom_keyword!(on);
     syn::custom_keyword!(plane);
 }
@@ -192,8 +193,14 @@ fn constraint_item(word: &Ident, input: ParseStream<'_>, d: &mut Definition) -> 
         }
         "measure" => {
             let name = name(input)?;
-            input.parse::<Token![:]>()?;
-            d.measures.push((name, input.parse()?));
+            let value = if input.parse::<Option<Token![,]>>()?.is_some() {
+                input.parse::<kw::kept>()?;
+                None
+            } else {
+                input.parse::<Token![:]>()?;
+                Some(input.parse()?)
+            };
+            d.measures.push((name, value));
         }
         "place" => {
             input.parse::<Token![:]>()?;

@@ -34,8 +34,9 @@ pub struct Definition {
     pub phi: Option<Expr>,
     /// Velocity level constraint.
     pub psi: Option<Expr>,
-    /// The measures that drives may prescribe.
-    pub measures: Vec<(Ident, Expr)>,
+    /// The measures that drives may prescribe; `None` for a kept value, which a drive moves in the
+    /// rows of the joint.
+    pub measures: Vec<(Ident, Option<Expr>)>,
     /// The point at which the reaction is reported.
     pub place: Option<Expr>,
     /// A named direction of the reaction.

@@ -3,7 +3,7 @@
 
 use joints::Constraint;
 use joints::plane::{N_DOF, Pose};
-use joints::spec::Level;
+use joints::spec::{Level, Role};
 
 use super::{Kernel, OfConstraint};
 use crate::block::Block;
@@ -35,10 +35,17 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
         self.identity(Property::Wrench, &self.first(Kernel::Wrench), &expected)
     }
 
-    /// At most the force of each multiplier, or its torque where it has no force.
+    /// At most the force of each multiplier, or its torque where it has no force; for a drive the
+    /// force that does the work: `component·ḟ = b`.
     pub(super) fn component(&self) -> Result<(), Failure> {
         let wrench = self.first(Kernel::Wrench);
         let found = self.first(Kernel::Component);
+        if K::SPEC.role == Role::Drive {
+            let [_, rate, _] = self.case.f[self.case.f.len() - 1];
+            let power = (0..found.rows()).map(|row| found.get(row, 0) * rate);
+            let power = Block::column(power.collect());
+            return self.identity(Property::Power, &power, &self.first(Kernel::B));
+        }
         let bound = |row| match wrench.get(0, row).hypot(wrench.get(1, row)) {
             0.0 => wrench.get(2, row).abs(),
             force => force,

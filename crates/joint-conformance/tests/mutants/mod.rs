@@ -1,7 +1,9 @@
 //! Definitions with one wrong entry: the harness has to detect each of them and name the fault.
 
 use joint_conformance::{Failure, Property, check_constraint, check_force};
-use joints::generated::{Fixed, PinInSlotDisplacementDrive, SpringDamper, Velocity};
+use joints::generated::{
+    DistanceLengthDrive, Fixed, KnifeEdge, PinInSlotDisplacementDrive, SpringDamper, Velocity,
+};
 use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
 use joints::{
     Argument, ArgumentError, Constraint, Definition, Element, Force, ForceElement, Pose, Real,
@@ -279,6 +281,7 @@ fn found(result: Result<(), Failure>) -> Property {
 }
 
 type Drive<const WRONG: u8> = Mutant<PinInSlotDisplacementDrive, WRONG>;
+type Cylinder<const WRONG: u8> = Mutant<DistanceLengthDrive, WRONG>;
 
 #[test]
 fn a_definition_without_a_change_passes() {
@@ -310,6 +313,20 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
         ),
         (
             found(check_constraint::<Drive<{ wrong::COMPONENT }>>(SEED)),
+            P::Power,
+        ),
+        (
+            found(check_constraint::<Cylinder<{ wrong::COMPONENT }>>(SEED)),
+            P::Power,
+        ),
+        (
+            found(check_constraint::<Cylinder<{ wrong::B }>>(SEED)),
+            P::B,
+        ),
+        (
+            found(check_constraint::<Mutant<KnifeEdge, { wrong::COMPONENT }>>(
+                SEED,
+            )),
             P::Component,
         ),
         (

@@ -24,6 +24,18 @@ pub struct Distance {
     /// Kept from the assembled start; set by `initialise`.
     pub half_inverse: f64,
 }
+impl Distance {
+    /// The drive of its length, with the same parameters.
+    #[must_use]
+    pub fn length_drive(&self) -> DistanceLengthDrive {
+        DistanceLengthDrive {
+            s_i: self.s_i,
+            s_j: self.s_j,
+            length: self.length,
+            half_inverse: self.half_inverse,
+        }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint for Distance {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -32,7 +44,7 @@ impl Constraint for Distance {
             scene_type: "distance",
             variant: None,
             doc: "The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form `(d·d − L²)/(2L) = 0`, whose multiplier is a force.",
-            text: "joint! { plane Distance(i, j) {\n    /// The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form\n    /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j.\n        s_j: Point in j,\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    initial { length: Length = norm(d), half_inverse: PerLength = 0.5 / length }\n    require \"the two points are apart (L > 0)\": length > 0.0;\n    rows: [distance];\n    phi: (dot(d, d) - length * length) * half_inverse;\n    place: point(i, s_i);\n} }",
+            text: "joint! { plane Distance(i, j) {\n    /// The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form\n    /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j.\n        s_j: Point in j,\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    initial { length: Length = norm(d), half_inverse: PerLength = 0.5 / length }\n    require \"the two points are apart (L > 0)\": length > 0.0;\n    rows: [distance];\n    phi: (dot(d, d) - length * length) * half_inverse;\n    measure length, kept;\n    place: point(i, s_i);\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required("s_i", Shape::Point { slot: 0 }, "End on body i."),
@@ -56,7 +68,7 @@ impl Constraint for Distance {
         wrench: &[[0, 0], [1, 0]],
         component: None,
         note: None,
-        measures: &[],
+        measures: &[Measure::kept("length", "DistanceLengthDrive")],
         d_force_dx: &[
             [0, 0],
             [0, 2],
@@ -107,7 +119,9 @@ impl Constraint for Distance {
             half_inverse: 0.0,
         })
     }
-    fn visit_drives<V: Visitor>(visitor: &mut V) {}
+    fn visit_drives<V: Visitor>(visitor: &mut V) {
+        visitor.drive::<DistanceLengthDrive>();
+    }
     fn element<T: Ring>(&self) -> &dyn Element<T> {
         self
     }
@@ -680,5 +694,710 @@ impl<T: Ring> Element<T> for Distance {
                 * (a_i_x * t1 + a_i_y * t2 + alpha_i * (arm_i_x * t2 - arm_i_y * t1)
                     - a_j_x * t1 - a_j_y * t2 - alpha_j * (arm_j_x * t2 - arm_j_y * t1)
                     + (t4 * t4 - t7 * t2 + (t12 * t12 - t9 * t1))));
+    }
+}
+/// The length of `Distance` follows its initial value + f(t): the rows of the joint with this value, in their place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DistanceLengthDrive {
+    /// End on body i. Point in the frame of body i (m).
+    pub s_i: [f64; 2],
+    /// End on body j. Point in the frame of body j (m).
+    pub s_j: [f64; 2],
+    /// Kept from the assembled start; set by `initialise`.
+    pub length: f64,
+    /// Kept from the assembled start; set by `initialise`.
+    pub half_inverse: f64,
+}
+#[allow(unused_variables)]
+impl Constraint for DistanceLengthDrive {
+    const SPEC: ConstraintSpec = ConstraintSpec {
+        common: Spec {
+            name: "DistanceLengthDrive",
+            scene_type: "length",
+            variant: None,
+            doc: "The length of `Distance` follows its initial value + f(t): the rows of the joint with this value, in their place.",
+            text: "",
+            slots: &["i", "j"],
+            parameters: &[
+                Parameter::required("s_i", Shape::Point { slot: 0 }, "End on body i."),
+                Parameter::required("s_j", Shape::Point { slot: 1 }, "End on body j."),
+                Parameter::required(
+                    "motion",
+                    Shape::Functions(&[Unit::Length]),
+                    "The function of time that the measure follows.",
+                ),
+            ],
+            points_apart: true,
+            requirements: &["the two points are apart (L > 0)"],
+        },
+        role: Role::Drive,
+        level: Level::Holonomic,
+        rows: &[Row::keeping_start("distance")],
+        c: &[
+            Entry::varying(0, 0, 0),
+            Entry::varying(0, 0, 1),
+            Entry::varying(0, 0, 2),
+            Entry::varying(0, 1, 0),
+            Entry::varying(0, 1, 1),
+            Entry::varying(0, 1, 2),
+        ],
+        rheonomic: true,
+        wrench: &[[0, 0], [1, 0]],
+        component: Some("drive"),
+        note: None,
+        measures: &[],
+        d_force_dx: &[
+            [0, 0],
+            [0, 2],
+            [0, 3],
+            [0, 5],
+            [1, 1],
+            [1, 2],
+            [1, 4],
+            [1, 5],
+            [2, 0],
+            [2, 1],
+            [2, 2],
+            [2, 3],
+            [2, 4],
+            [2, 5],
+            [3, 0],
+            [3, 2],
+            [3, 3],
+            [3, 5],
+            [4, 1],
+            [4, 2],
+            [4, 4],
+            [4, 5],
+            [5, 0],
+            [5, 1],
+            [5, 2],
+            [5, 3],
+            [5, 4],
+            [5, 5],
+        ],
+        d_residual_dx: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
+        d_gamma_dv: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
+        d_velocity_dx: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 2),
+            Datum::new("length", DatumShape::Kept(Unit::Length), 4),
+        ],
+    };
+    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
+        let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
+        let s_i = reader.point()?;
+        let s_j = reader.point()?;
+        reader.skip();
+        Ok(Self {
+            s_i,
+            s_j,
+            length: 0.0,
+            half_inverse: 0.0,
+        })
+    }
+    fn visit_drives<V: Visitor>(visitor: &mut V) {}
+    fn element<T: Ring>(&self) -> &dyn Element<T> {
+        self
+    }
+}
+#[allow(unused_variables)]
+impl Definition for DistanceLengthDrive {
+    fn initialise(&mut self, x: &[Pose]) {
+        self.length = {
+            let r_i_x = x[0].x;
+            let r_i_y = x[0].y;
+            let cos_i = x[0].cos;
+            let sin_i = x[0].sin;
+            let r_j_x = x[1].x;
+            let r_j_y = x[1].y;
+            let cos_j = x[1].cos;
+            let sin_j = x[1].sin;
+            let s_i_x = self.s_i[0];
+            let s_i_y = self.s_i[1];
+            let s_j_x = self.s_j[0];
+            let s_j_y = self.s_j[1];
+            let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+            let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+            let t0 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+            let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+            let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+            let t1 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+            (t0 * t0 + t1 * t1).sqrt()
+        };
+        self.half_inverse = {
+            let length = self.length;
+            0.5 / length
+        };
+    }
+    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
+        match k {
+            0 => {
+                let length = self.length;
+                length > 0.0
+            }
+            _ => true,
+        }
+    }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_j[0];
+        out[3] = self.s_j[1];
+        out[4] = self.length;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1]];
+        self.s_j = [numbers[2], numbers[3]];
+        self.length = numbers[4];
+        self.half_inverse = {
+            let length = self.length;
+            0.5 / length
+        };
+    }
+}
+#[allow(unused_variables)]
+#[allow(clippy::too_many_arguments)]
+impl<T: Ring> Element<T> for DistanceLengthDrive {
+    fn spec(&self) -> &'static ConstraintSpec {
+        &Self::SPEC
+    }
+    /// Φ. Operations: 12 mul, 13 add, 1 neg.
+    fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let motion = f[0][0];
+        let length = T::from(self.length);
+        let half_inverse = T::from(self.half_inverse);
+        let t0 = motion + length;
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t1 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t2 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        out[0] = -(half_inverse * (t0 * t0 - (t1 * t1 + t2 * t2)));
+    }
+    /// Constant entries of C. Operations: none.
+    fn c_constant(&self, out: &mut [f64]) {}
+    /// Varying entries of C. Operations: 20 mul, 12 add, 3 neg.
+    fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let half_inverse = T::from(self.half_inverse);
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t0 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+        let t1 = T::from(2.0) * (half_inverse * t0);
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t2 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        let t3 = T::from(2.0) * (half_inverse * t2);
+        out[0] = t1;
+        out[1] = t3;
+        out[2] = T::from(2.0) * (half_inverse * (arm_i_x * t2 - arm_i_y * t0));
+        out[3] = -t1;
+        out[4] = -t3;
+        out[5] = -(T::from(2.0) * (half_inverse * (arm_j_x * t2 - arm_j_y * t0)));
+    }
+    /// b. Operations: 3 mul, 1 add.
+    fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let motion = f[0][0];
+        let motion_t = f[0][1];
+        let length = T::from(self.length);
+        let half_inverse = T::from(self.half_inverse);
+        out[0] = T::from(2.0) * (motion_t * half_inverse * (motion + length));
+    }
+    /// Γ. Operations: 26 mul, 24 add.
+    fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let v_i_y = v[0].y;
+        let omega_i = v[0].omega;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let v_j_x = v[1].x;
+        let v_j_y = v[1].y;
+        let omega_j = v[1].omega;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let motion = f[0][0];
+        let motion_t = f[0][1];
+        let motion_tt = f[0][2];
+        let length = T::from(self.length);
+        let half_inverse = T::from(self.half_inverse);
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t0 = omega_i * arm_i_x - omega_j * arm_j_x + (v_i_y - v_j_y);
+        let t1 = omega_i * omega_i;
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let t2 = omega_j * omega_j;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t3 = omega_i * arm_i_y - omega_j * arm_j_y - (v_i_x - v_j_x);
+        out[0] = T::from(2.0)
+            * (half_inverse
+                * (motion_t * motion_t + motion_tt * (motion + length)
+                    - (t0 * t0
+                        - (t1 * arm_i_y - t2 * arm_j_y)
+                            * (r_i_y - r_j_y + arm_i_y - arm_j_y)
+                        + (t3 * t3
+                            - (t1 * arm_i_x - t2 * arm_j_x)
+                                * (r_i_x - r_j_x + arm_i_x - arm_j_x)))));
+    }
+    /// Entries of the wrench map. Operations: 12 mul, 10 add, 2 neg.
+    fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let half_inverse = T::from(self.half_inverse);
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        out[0] = -(T::from(2.0) * (half_inverse * (r_i_x - r_j_x + arm_i_x - arm_j_x)));
+        out[1] = -(T::from(2.0) * (half_inverse * (r_i_y - r_j_y + arm_i_y - arm_j_y)));
+    }
+    /// Coefficients of the named component. Operations: 2 mul, 1 add.
+    fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let motion = f[0][0];
+        let length = T::from(self.length);
+        let half_inverse = T::from(self.half_inverse);
+        out[0] = T::from(2.0) * (half_inverse * (motion + length));
+    }
+    /// The place of the reaction. Operations: 4 mul, 4 add.
+    fn place(&self, x: &[Pose<T>]) -> [T; 2] {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        [r_i_x + arm_i_x, r_i_y + arm_i_y]
+    }
+    /// ∂(Cᵀλ)/∂x. Operations: 34 mul, 17 add, 7 neg.
+    fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let lambda_0 = lambda[0];
+        let half_inverse = T::from(self.half_inverse);
+        let t0 = lambda_0 * half_inverse;
+        let t1 = T::from(2.0) * t0;
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let t2 = T::from(2.0) * (t0 * arm_i_y);
+        let t3 = -t2;
+        let t4 = -t1;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t5 = T::from(2.0) * (t0 * arm_j_y);
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let t6 = T::from(2.0) * (t0 * arm_i_x);
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t7 = T::from(2.0) * (t0 * arm_j_x);
+        let t8 = -t7;
+        let t9 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+        let t10 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        let t11 = -t6;
+        let t12 = -(T::from(2.0) * (t0 * (arm_i_x * arm_j_x + arm_i_y * arm_j_y)));
+        let t13 = -t5;
+        out[0] = t1;
+        out[1] = t3;
+        out[2] = t4;
+        out[3] = t5;
+        out[4] = t1;
+        out[5] = t6;
+        out[6] = t4;
+        out[7] = t8;
+        out[8] = t3;
+        out[9] = t6;
+        out[10] = -(T::from(2.0)
+            * (t0
+                * (arm_i_x * t9 - arm_i_y * arm_i_y
+                    - (arm_i_x * arm_i_x - arm_i_y * t10))));
+        out[11] = t2;
+        out[12] = t11;
+        out[13] = t12;
+        out[14] = t4;
+        out[15] = t2;
+        out[16] = t1;
+        out[17] = t13;
+        out[18] = t4;
+        out[19] = t11;
+        out[20] = t1;
+        out[21] = t7;
+        out[22] = t5;
+        out[23] = t8;
+        out[24] = t12;
+        out[25] = t13;
+        out[26] = t7;
+        out[27] = T::from(2.0)
+            * (t0
+                * (arm_j_x * t9 + arm_j_y * arm_j_y
+                    + (arm_j_x * arm_j_x + arm_j_y * t10)));
+    }
+    /// ∂(C·a − Γ)/∂x. Operations: 70 mul, 55 add, 3 neg.
+    fn d_residual_dx(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        out: &mut [T],
+    ) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let a_i_x = a[0].x;
+        let v_i_y = v[0].y;
+        let a_i_y = a[0].y;
+        let omega_i = v[0].omega;
+        let alpha_i = a[0].omega;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let v_j_x = v[1].x;
+        let a_j_x = a[1].x;
+        let v_j_y = v[1].y;
+        let a_j_y = a[1].y;
+        let omega_j = v[1].omega;
+        let alpha_j = a[1].omega;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let half_inverse = T::from(self.half_inverse);
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t0 = omega_i * omega_i;
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let t1 = omega_j * omega_j;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t2 = t0 * arm_i_x - t1 * arm_j_x;
+        let t3 = T::from(2.0)
+            * (half_inverse
+                * (a_i_x - a_j_x - alpha_i * arm_i_y + alpha_j * arm_j_y - t2));
+        let t4 = t0 * arm_i_y - t1 * arm_j_y;
+        let t5 = T::from(2.0)
+            * (half_inverse
+                * (a_i_y - a_j_y + alpha_i * arm_i_x - alpha_j * arm_j_x - t4));
+        let t6 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+        let t7 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        let t8 = arm_i_x * arm_j_x + arm_i_y * arm_j_y;
+        let t9 = omega_i * arm_i_x;
+        let t10 = omega_i * arm_i_y;
+        let t11 = t10 - omega_j * arm_j_y - (v_i_x - v_j_x);
+        let t12 = t9 - omega_j * arm_j_x + (v_i_y - v_j_y);
+        out[0] = t3;
+        out[1] = t5;
+        out[2] = -(T::from(2.0)
+            * (half_inverse
+                * (a_i_x * arm_i_y - a_i_y * arm_i_x
+                    + alpha_i
+                        * (arm_i_x * t6 - arm_i_y * arm_i_y
+                            - (arm_i_x * arm_i_x - arm_i_y * t7)) - a_j_x * arm_i_y
+                    + a_j_y * arm_i_x + alpha_j * t8
+                    - (T::from(2.0) * (t9 * t11) + arm_i_y * (t0 * t6 + t2)
+                        - (T::from(2.0) * (t10 * t12) + arm_i_x * (t0 * t7 + t4))))));
+        out[3] = -t3;
+        out[4] = -t5;
+        out[5] = T::from(2.0)
+            * (half_inverse
+                * (a_i_x * arm_j_y - a_i_y * arm_j_x - alpha_i * t8 - a_j_x * arm_j_y
+                    + a_j_y * arm_j_x
+                    + alpha_j
+                        * (arm_j_x * t6 + arm_j_y * arm_j_y
+                            + (arm_j_x * arm_j_x + arm_j_y * t7))
+                    + (T::from(2.0) * (omega_j * t12 * arm_j_y)
+                        + arm_j_x * (t1 * t7 + t4)
+                        - (T::from(2.0) * (omega_j * t11 * arm_j_x)
+                            + arm_j_y * (t1 * t6 + t2)))));
+    }
+    /// ∂Γ/∂v. Operations: 28 mul, 22 add, 3 neg.
+    fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let v_i_y = v[0].y;
+        let omega_i = v[0].omega;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let v_j_x = v[1].x;
+        let v_j_y = v[1].y;
+        let omega_j = v[1].omega;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let half_inverse = T::from(self.half_inverse);
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let t0 = omega_i * arm_i_y;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t1 = omega_j * arm_j_y;
+        let t2 = t0 - t1 - (v_i_x - v_j_x);
+        let t3 = T::from(4.0) * (half_inverse * t2);
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let t4 = omega_i * arm_i_x;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t5 = omega_j * arm_j_x;
+        let t6 = t4 - t5 + (v_i_y - v_j_y);
+        let t7 = T::from(4.0) * (half_inverse * t6);
+        let t8 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+        let t9 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        out[0] = t3;
+        out[1] = -t7;
+        out[2] = T::from(4.0)
+            * (half_inverse * (t4 * t8 - arm_i_y * t2 + (t0 * t9 - arm_i_x * t6)));
+        out[3] = -t3;
+        out[4] = t7;
+        out[5] = -(T::from(4.0)
+            * (half_inverse * (t5 * t8 - t2 * arm_j_y + (t1 * t9 - t6 * arm_j_x))));
+    }
+    /// ∂(C·v − b)/∂x. Operations: 28 mul, 22 add, 3 neg.
+    fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let v_i_y = v[0].y;
+        let omega_i = v[0].omega;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let v_j_x = v[1].x;
+        let v_j_y = v[1].y;
+        let omega_j = v[1].omega;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let half_inverse = T::from(self.half_inverse);
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let t0 = omega_i * arm_i_y;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t1 = omega_j * arm_j_y;
+        let t2 = t0 - t1 - (v_i_x - v_j_x);
+        let t3 = T::from(2.0) * (half_inverse * t2);
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let t4 = omega_i * arm_i_x;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t5 = omega_j * arm_j_x;
+        let t6 = t4 - t5 + (v_i_y - v_j_y);
+        let t7 = T::from(2.0) * (half_inverse * t6);
+        let t8 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+        let t9 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        out[0] = -t3;
+        out[1] = t7;
+        out[2] = -(T::from(2.0)
+            * (half_inverse * (t4 * t8 - arm_i_y * t2 + (t0 * t9 - arm_i_x * t6))));
+        out[3] = t3;
+        out[4] = -t7;
+        out[5] = T::from(2.0)
+            * (half_inverse * (t5 * t8 - t2 * arm_j_y + (t1 * t9 - t6 * arm_j_x)));
+    }
+    /// ∂(λᵀΦ)/∂p. Operations: 32 mul, 18 add, 3 neg.
+    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let motion = f[0][0];
+        let lambda_0 = lambda[0];
+        let length = T::from(self.length);
+        let half_inverse = T::from(self.half_inverse);
+        let d_half_inverse_d_length = T::from({
+            let length = self.length;
+            -(0.5 / (length * length))
+        });
+        let t0 = lambda_0 * half_inverse;
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t1 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t2 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        let t3 = motion + length;
+        out[0] = T::from(2.0) * (t0 * (cos_i * t1 + sin_i * t2));
+        out[1] = T::from(2.0) * (t0 * (cos_i * t2 - sin_i * t1));
+        out[2] = -(T::from(2.0) * (t0 * (cos_j * t1 + sin_j * t2)));
+        out[3] = -(T::from(2.0) * (t0 * (cos_j * t2 - sin_j * t1)));
+        out[4] = -(lambda_0
+            * (T::from(2.0) * (half_inverse * t3)
+                + d_half_inverse_d_length * (t3 * t3 - (t1 * t1 + t2 * t2))));
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 127 mul, 89 add, 2 neg.
+    fn d_residual_dp(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let a_i_x = a[0].x;
+        let v_i_y = v[0].y;
+        let a_i_y = a[0].y;
+        let omega_i = v[0].omega;
+        let alpha_i = a[0].omega;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let v_j_x = v[1].x;
+        let a_j_x = a[1].x;
+        let v_j_y = v[1].y;
+        let a_j_y = a[1].y;
+        let omega_j = v[1].omega;
+        let alpha_j = a[1].omega;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let motion = f[0][0];
+        let motion_t = f[0][1];
+        let motion_tt = f[0][2];
+        let lambda_0 = lambda[0];
+        let length = T::from(self.length);
+        let half_inverse = T::from(self.half_inverse);
+        let d_half_inverse_d_length = T::from({
+            let length = self.length;
+            -(0.5 / (length * length))
+        });
+        let t0 = lambda_0 * half_inverse;
+        let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
+        let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t1 = r_i_x - r_j_x + arm_i_x - arm_j_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t2 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        let t3 = cos_i * omega_i;
+        let t4 = omega_i * arm_i_x - omega_j * arm_j_x + (v_i_y - v_j_y);
+        let t5 = omega_i * omega_i;
+        let t6 = omega_j * omega_j;
+        let t7 = t5 * arm_i_y - t6 * arm_j_y;
+        let t8 = t5 * t2 + t7;
+        let t9 = t5 * arm_i_x - t6 * arm_j_x;
+        let t10 = t5 * t1 + t9;
+        let t11 = sin_i * omega_i;
+        let t12 = omega_i * arm_i_y - omega_j * arm_j_y - (v_i_x - v_j_x);
+        let t13 = cos_j * omega_j;
+        let t14 = t6 * t2 + t7;
+        let t15 = t6 * t1 + t9;
+        let t16 = sin_j * omega_j;
+        out[0] = T::from(2.0)
+            * (t0
+                * (cos_i * a_i_x - cos_i * a_j_x + sin_i * a_i_y - sin_i * a_j_y
+                    - alpha_i
+                        * (cos_i * arm_i_y + sin_i * t1 - (cos_i * t2 + sin_i * arm_i_x))
+                    + alpha_j * (cos_i * arm_j_y - sin_i * arm_j_x)
+                    + (T::from(2.0) * (t3 * t4) - sin_i * t8
+                        - (cos_i * t10 - T::from(2.0) * (t11 * t12)))));
+        out[1] = T::from(2.0)
+            * (t0
+                * (cos_i * a_i_y - cos_i * a_j_y - sin_i * a_i_x + sin_i * a_j_x
+                    + alpha_i
+                        * (cos_i * arm_i_x - sin_i * t2 - (cos_i * t1 - sin_i * arm_i_y))
+                    - alpha_j * (cos_i * arm_j_x + sin_i * arm_j_y)
+                    + (T::from(2.0) * (t3 * t12) + sin_i * t10
+                        - (cos_i * t8 + T::from(2.0) * (t11 * t4)))));
+        out[2] = -(T::from(2.0)
+            * (t0
+                * (a_i_x * cos_j + a_i_y * sin_j
+                    - alpha_i * (cos_j * arm_i_y - sin_j * arm_i_x) - cos_j * a_j_x
+                    - sin_j * a_j_y
+                    + alpha_j
+                        * (cos_j * arm_j_y - sin_j * t1 + (cos_j * t2 - sin_j * arm_j_x))
+                    + (T::from(2.0) * (t13 * t4) - sin_j * t14
+                        - (cos_j * t15 - T::from(2.0) * (t16 * t12))))));
+        out[3] = T::from(2.0)
+            * (t0
+                * (a_i_x * sin_j - a_i_y * cos_j
+                    - alpha_i * (cos_j * arm_i_x + sin_j * arm_i_y) + cos_j * a_j_y
+                    - sin_j * a_j_x
+                    + alpha_j
+                        * (cos_j * arm_j_x + sin_j * t2 + (cos_j * t1 + sin_j * arm_j_y))
+                    - (T::from(2.0) * (t13 * t12) + sin_j * t15
+                        - (cos_j * t14 + T::from(2.0) * (t16 * t4)))));
+        out[4] = -(T::from(2.0)
+            * (lambda_0
+                * (motion_tt * half_inverse
+                    - d_half_inverse_d_length
+                        * (a_i_x * t1 + a_i_y * t2
+                            + alpha_i * (arm_i_x * t2 - arm_i_y * t1) - a_j_x * t1
+                            - a_j_y * t2 - alpha_j * (arm_j_x * t2 - arm_j_y * t1)
+                            - (motion_t * motion_t + motion_tt * (motion + length)
+                                - (t4 * t4 - t7 * t2 + (t12 * t12 - t9 * t1)))))));
     }
 }

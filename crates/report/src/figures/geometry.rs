@@ -86,13 +86,13 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
         _ => force.map_or(place, |f| f.point_nearest(place)),
     };
     let symbol = match (group.kind, spec.level, force) {
+        (_, Level::Holonomic, Some(_)) if spec.common.points_apart => Symbol::Rod,
         (ConstraintKind::Drive, ..) => Symbol::Drive {
             axis: force.map(|f| f.direction),
         },
         (_, Level::Nonholonomic, Some(f)) => Symbol::Edge {
             along: f.perpendicular(),
         },
-        (_, Level::Holonomic, Some(_)) if spec.common.points_apart => Symbol::Rod,
         (_, Level::Holonomic, Some(f)) if rows.torques > 0 => Symbol::Block {
             axis: f.perpendicular(),
         },

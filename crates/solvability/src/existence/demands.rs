@@ -11,8 +11,11 @@ use crate::words::short;
 pub struct Demand {
     /// The drive.
     pub drive: String,
-    /// The driven joint and the measure; `None` if no joint is at this place.
+    /// The driven joint and the measure; `None` if no joint is at this place, or the drive
+    /// is in the place of the joint.
     pub joint: Option<(String, &'static str)>,
+    /// The measure.
+    pub measure: &'static str,
     /// Whether the measure is an angle.
     pub angular: bool,
     /// Change of the measure since the start, its rate and acceleration.
@@ -33,6 +36,7 @@ impl Demand {
             joint: mechanism
                 .driven(id)
                 .map(|(joint, measure)| (groups[joint.0].name.clone(), measure)),
+            measure: group.spec.common.scene_type,
             angular: mechanism.layout().is_angular(group.rows.start),
             prescribed,
         })
@@ -42,7 +46,7 @@ impl Demand {
     pub(super) fn of_what(&self) -> String {
         match &self.joint {
             Some((joint, measure)) => format!("the {measure} of `{joint}`"),
-            None => "its measure".to_owned(),
+            None => format!("its {}", self.measure),
         }
     }
 
