@@ -7,6 +7,7 @@ use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, 
 use model::{Mechanism, System};
 
 use super::by_time::ByTime;
+use super::component::Stop;
 use super::impulse::cross_break;
 use super::record::Record;
 use super::reduced::Reduced;
@@ -39,7 +40,7 @@ pub(super) struct RunEquations<'m> {
     wanted: AtRows,
     /// Linear systems of implicit methods, allocated by their first step.
     reduced: Option<Reduced>,
-    t_end: f64,
+    until: Until<'m>,
     leader: Leader,
     /// Whether coordinates are so large relative to the mechanism that their rounding shows in
     /// stages on the way to a singular configuration.
@@ -53,8 +54,19 @@ pub(super) struct RunEquations<'m> {
     by_time: Option<ByTime>,
     /// The last accepted step.
     last: Span,
-    /// Scratch: the state before a projection; a stage on the constraints.
+    scratch: Scratch,
+}
+
+/// When the run ends.
+struct Until<'m> {
+    t_end: f64,
+    stop: &'m Stop<'m>,
+}
+
+struct Scratch {
+    /// The state before a projection.
     before: Vec<f64>,
+    /// A stage on the constraints.
     stage: Vec<f64>,
 }
 
@@ -65,6 +77,7 @@ impl<'m> RunEquations<'m> {
         prepared: &Prepared,
         options: &MotionOptions,
         wanted: AtRows,
+        stop: &'m Stop<'m>,
     ) -> Self {
         let (q, v, mechanism) = (&prepared.q, &prepared.v, motion.mechanism());
         let works = mechanism.layout().rheonomic || mechanism.has_applied_forces();
@@ -74,15 +87,20 @@ impl<'m> RunEquations<'m> {
             record: Record::new(mechanism, q, v),
             wanted,
             reduced: None,
-            t_end: options.t_end,
+            until: Until {
+                t_end: options.t_end,
+                stop,
+            },
             leader: Leader::Alone,
             is_coarse: false,
             is_careful: false,
             is_void: false,
             by_time: ByTime::for_run(prepared, options),
             last: Span::default(),
-            before: y0.clone(),
-            stage: y0,
+            scratch: Scratch {
+                before: y0.clone(),
+                stage: y0,
+            },
             motion,
         };
         let at = &equations.motion.equations.at;
@@ -94,7 +112,7 @@ impl<'m> RunEquations<'m> {
 
     /// y at the start, before anything is evaluated.
     pub(super) fn y0(&self) -> Vec<f64> {
-        self.stage.clone()
+        self.scratch.stage.clone()
     }
 
     /// Whether stages are functions of time. Near a singular configuration, at which branches meet,
@@ -152,9 +170,9 @@ impl<'m> RunEquations<'m> {
     /// component of the mean, which loosens the control by the factor √((n + 1)/n).
     pub(super) fn tolerance(&self, options: &MotionOptions) -> Tolerance {
         let (rtol, atol) = (options.rtol, options.atol);
-        let moving = self.motion.parts(&self.stage);
+        let moving = self.motion.parts(&self.scratch.stage);
         let moving = moving.0.len() + moving.1.len();
-        if moving == self.stage.len() {
+        if moving == self.scratch.stage.len() {
             return Tolerance::Uniform { rtol, atol };
         }
         let [mut rtol, mut atol] = [rtol, atol].map(|tolerance| vec![tolerance; moving]);
@@ -284,11 +302,11 @@ impl<'m> RunEquations<'m> {
                 None => Ok(()),
             };
         }
-        self.stage.copy_from_slice(y);
-        let (q, v, _) = self.motion.parts_mut(&mut self.stage);
+        self.scratch.stage.copy_from_slice(y);
+        let (q, v, _) = self.motion.parts_mut(&mut self.scratch.stage);
         let equations = &mut self.motion.equations;
         self.motion.manifold.approach(equations, t, (q, v))?;
-        self.motion.derivative(t, &self.stage, dy)
+        self.motion.derivative(t, &self.scratch.stage, dy)
     }
 
     fn is_break(&self, t: f64) -> bool {
@@ -298,13 +316,13 @@ impl<'m> RunEquations<'m> {
 
     /// Ends a step that passed its error test, if it can be accepted.
     fn end(&mut self, step: &StepInfo<'_>, y: &mut [f64], dy: &mut [f64]) -> Result<StepEnd, Next> {
-        self.before.copy_from_slice(y);
+        self.scratch.before.copy_from_slice(y);
         let known = self.by_time.as_mut();
         let is_known = known.is_some_and(|known| known.take(step.t_rhs, dy));
         if std::mem::take(&mut self.is_void) {
             return Err(Next::Reject);
         }
-        let has_to_end = step.t == self.t_end || self.is_break(step.t);
+        let has_to_end = step.t == self.until.t_end || self.is_break(step.t);
         let motion = &mut self.motion;
         let on_code = motion.is_on_code();
         let (q, v, _) = motion.parts_mut(y);
@@ -316,7 +334,7 @@ impl<'m> RunEquations<'m> {
             }
         }
         let pivot_ratio = motion.pivot_ratio();
-        for (before, y) in self.before.iter_mut().zip(&*y) {
+        for (before, y) in self.scratch.before.iter_mut().zip(&*y) {
             *before -= y;
         }
         let (q, v) = motion.parts(y);
@@ -334,9 +352,9 @@ impl<'m> RunEquations<'m> {
             let missed = motion
                 .manifold
                 .missed_correction(equations, step.t_rhs, (q, v))?;
-            self.before[..missed.len()].copy_from_slice(&missed);
+            self.scratch.before[..missed.len()].copy_from_slice(&missed);
         }
-        let correction = step.norm(&self.before);
+        let correction = step.norm(&self.scratch.before);
         if may_have_passed {
             let next = watch.judge_correction(equations, step.t, correction);
             next.stands()?;
@@ -430,10 +448,17 @@ impl Ode for RunEquations<'_> {
     type Error = MotionFault;
 
     fn dim(&self) -> usize {
-        self.stage.len()
+        self.scratch.stage.len()
+    }
+
+    fn is_stopped(&self) -> bool {
+        (self.until.stop)()
     }
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
+        if self.is_stopped() {
+            return Err(MotionFault::Interrupted { time: t });
+        }
         if self.motion.is_on_code() {
             let evaluated = self.motion.derivative(t, y, dy);
             self.note_departure();

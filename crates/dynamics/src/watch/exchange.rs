@@ -2,6 +2,7 @@
 //! accepted and polished points only. The motion does not change.
 
 use model::System;
+use model::words::listed;
 use solvability::{AnalysisError, RowDecision, decide_holonomic_rows, decide_rows};
 
 use super::pivots::{are_recovered, are_sound, position_wants_exchange, want_exchange};
@@ -85,7 +86,7 @@ impl Exchange {
             .collect();
         let text = format!(
             "{why}; now dropped: {}. The motion is the same.",
-            numbers.join(", ")
+            listed(&numbers)
         );
         let time = equations.at.s.t;
         let event = Event::at(time, EventKind::RowsExchanged, dropped, text);
