@@ -4,6 +4,7 @@ mod rows;
 
 use integrators::IntegrationError;
 use linalg::{SaddleError, SingularPivot};
+use model::words::{listed, rounded};
 use model::{RowLabel, StartError};
 use rank::Doubt;
 use solvability::{AnalysisError, Contradiction, StateError};
@@ -16,9 +17,8 @@ pub use rows::DropError;
 pub enum MotionFault {
     /// The kept rows became dependent.
     #[error(
-        "at t = {time} s the kept rows are no longer independent at row {row}: pivot {pivot:.3e} of {scale:.3e}; \
-         the mechanism passes a singular configuration"
-    )]
+        "at t = {t} s the kept rows are no longer independent at row {row}: pivot {pivot:.3e} of {scale:.3e}; \
+         the mechanism passes a singular configuration", t = rounded(*time))]
     RankLost {
         /// Time (s).
         time: f64,
@@ -31,9 +31,8 @@ pub enum MotionFault {
     },
     /// The independent coordinates no longer determine the others.
     #[error(
-        "at t = {time} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot:.3e} times the \
-         one at their choice"
-    )]
+        "at t = {t} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot:.3e} times the \
+         one at their choice", t = rounded(*time))]
     IndependentCoordinates {
         /// Time (s).
         time: f64,
@@ -43,7 +42,7 @@ pub enum MotionFault {
         pivot: f64,
     },
     /// The linear system of an implicit step has no solution.
-    #[error("at t = {time} s the iteration matrix of the step is singular: {source}")]
+    #[error("at t = {t} s the iteration matrix of the step is singular: {source}", t = rounded(*time))]
     IterationMatrix {
         /// Time (s).
         time: f64,
@@ -52,9 +51,8 @@ pub enum MotionFault {
     },
     /// A motion that moves no mass is possible.
     #[error(
-        "at t = {time} s a motion without mass or inertia is possible: body `{body}` can move its {coordinate} freely; \
-         give it mass or inertia, or constrain it"
-    )]
+        "at t = {t} s a motion without mass or inertia is possible: body `{body}` can move its {coordinate} freely; \
+         give it mass or inertia, or constrain it", t = rounded(*time))]
     Massless {
         /// Time (s).
         time: f64,
@@ -64,7 +62,7 @@ pub enum MotionFault {
         coordinate: &'static str,
     },
     /// A value is NaN or infinite.
-    #[error("at t = {time} s {what} is not finite")]
+    #[error("at t = {t} s {what} is not finite", t = rounded(*time))]
     NotFinite {
         /// Time (s).
         time: f64,
@@ -73,9 +71,8 @@ pub enum MotionFault {
     },
     /// Positions could not be moved back onto the constraints.
     #[error(
-        "at t = {time} s row {row} misses by {residual:.3e} after {iterations} corrections, {}",
-        above(*residual, *tolerance)
-    )]
+        "at t = {t} s row {row} misses by {residual:.3e} after {iterations} corrections, {}",
+        above(*residual, *tolerance), t = rounded(*time))]
     OffConstraints {
         /// Time (s).
         time: f64,
@@ -90,10 +87,9 @@ pub enum MotionFault {
     },
     /// A dropped row is no longer implied by the kept ones.
     #[error(
-        "at t = {time} s the dropped row {row} is violated by {residual:.3e} ({level}), {}: it \
+        "at t = {t} s the dropped row {row} is violated by {residual:.3e} ({level}), {}: it \
          contradicts the kept rows; it was redundant only at the start, or drives contradict each other",
-        above(*residual, *tolerance)
-    )]
+        above(*residual, *tolerance), t = rounded(*time))]
     DroppedRow {
         /// Time (s).
         time: f64,
@@ -127,7 +123,7 @@ pub enum MotionFault {
     },
     /// From a time after the start on, redundant drives prescribe different motions, or one of them
     /// prescribes what joints forbid.
-    #[error("at t = {time} s redundant rows part: {contradiction}")]
+    #[error("at t = {t} s redundant rows part: {contradiction}", t = rounded(*time))]
     Drives {
         /// Time at which the rows were found to differ (s).
         time: f64,
@@ -137,10 +133,9 @@ pub enum MotionFault {
     /// A row that was dropped because the start is singular does not hold at neighbouring
     /// configurations.
     #[error(
-        "at t = {time} s the dropped row {row} is violated by {residual:.3e}: it contradicts the kept rows. It is redundant at the start only, which \
+        "at t = {t} s the dropped row {row} is violated by {residual:.3e}: it contradicts the kept rows. It is redundant at the start only, which \
          is a singular configuration (its degree of redundancy is {redundancy}, elsewhere {elsewhere}): begin at another one, or correct the joint \
-         of the row"
-    )]
+         of the row", t = rounded(*time))]
     SingularStart {
         /// Degree of redundancy at the start.
         redundancy: usize,
@@ -156,9 +151,8 @@ pub enum MotionFault {
     /// Newton's method for dependent coordinates converged to a configuration far away: another
     /// branch, or another revolution.
     #[error(
-        "at t = {time} s the dependent coordinates could only be found {by:.2} (lengths of the mechanism, or radians) from where the \
-         step expects them, at the {coordinate} of `{body}`"
-    )]
+        "at t = {t} s the dependent coordinates could only be found {by:.2} (lengths of the mechanism, or radians) from where the \
+         step expects them, at the {coordinate} of `{body}`", t = rounded(*time))]
     FarCompletion {
         /// Time (s).
         time: f64,
@@ -171,10 +165,9 @@ pub enum MotionFault {
     },
     /// A row of output is far from the path of its step.
     #[error(
-        "the row at t = {time} s lies {by:.2} (lengths of the mechanism, or radians) from where the step around it leads, at the {coordinate} of \
+        "the row at t = {t} s lies {by:.2} (lengths of the mechanism, or radians) from where the step around it leads, at the {coordinate} of \
          `{body}`, or has other velocities: near a singular configuration the method's output between steps may lead to another branch; use another method, \
-         or a smaller max_step"
-    )]
+         or a smaller max_step", t = rounded(*time))]
     FarRow {
         /// Time (s).
         time: f64,
@@ -187,9 +180,8 @@ pub enum MotionFault {
     },
     /// A constraint jumps.
     #[error(
-        "at t = {time} s row {row} jumps by {jump:.3e}: positions cannot follow at once (an infinite force); use a function \
-         of time that is continuous, or a short ramp"
-    )]
+        "at t = {t} s row {row} jumps by {jump:.3e}: positions cannot follow at once (an infinite force); use a function \
+         of time that is continuous, or a short ramp", t = rounded(*time))]
     PositionJump {
         /// Time (s).
         time: f64,
@@ -200,9 +192,8 @@ pub enum MotionFault {
     },
     /// No step passes a singular configuration.
     #[error(
-        "between t = {from} s and t = {to} s the mechanism is in or passes a singular configuration that it does not leave \
-         smoothly: the constraints do not determine how it goes on"
-    )]
+        "between t = {t0} s and t = {t1} s the mechanism is in or passes a singular configuration that it does not leave \
+         smoothly: the constraints do not determine how it goes on", t0 = rounded(*from), t1 = rounded(*to))]
     SingularPassage {
         /// The last time reached before it (s).
         from: f64,
@@ -211,16 +202,21 @@ pub enum MotionFault {
     },
     /// The kept rows became dependent, and no others can be chosen.
     #[error(
-        "at t = {time} s the kept rows are nearly dependent and no others can be chosen: {what}"
-    )]
+        "at t = {t} s the kept rows are nearly dependent and no others can be chosen: {what}", t = rounded(*time))]
     NoRows {
         /// Time (s).
         time: f64,
         /// Cause.
         what: String,
     },
+    /// The caller wanted the run to end; the steps before are valid.
+    #[error("interrupted at t = {t} s", t = rounded(*time))]
+    Interrupted {
+        /// Time of the evaluation that was not made (s).
+        time: f64,
+    },
     /// The saddle equations were refused for another reason.
-    #[error("at t = {time} s: {source}")]
+    #[error("at t = {t} s: {source}", t = rounded(*time))]
     Saddle {
         /// Time (s).
         time: f64,
@@ -272,7 +268,7 @@ pub enum MotionError {
     #[error(
         "at the start the rows {} depend on each other but for {sigma:.1e}, need {required:.1e} to move: velocities would be known to {:.1e} of \
          their size only. Correct the misalignment, or delete one of them",
-        rows.join(", "), f64::EPSILON / sigma
+        listed(rows), f64::EPSILON / sigma
     )]
     Inseparable {
         /// The rows.
@@ -301,14 +297,6 @@ pub enum MotionError {
         component: String,
         /// Cause.
         source: Box<MotionError>,
-    },
-    /// The operating system refused a thread for a component.
-    #[error("no thread for {component}: {source}")]
-    Thread {
-        /// Its bodies.
-        component: String,
-        /// The error of the operating system.
-        source: std::io::Error,
     },
     /// The integration stopped.
     #[error("{0}")]

@@ -40,5 +40,7 @@ pub use motion::KeptRowMotion;
 pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{Plan, Wanted};
 pub use prepare::{Prepared, prepare, start_velocity};
-pub use run::{ComponentSummary, Failure, Reduced, Sample, Summary, simulate};
+pub use run::{
+    ComponentSummary, Failure, Reduced, Sample, Stop, Summary, simulate, simulate_until,
+};
 pub use solve::Misfit;

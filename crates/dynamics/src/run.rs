@@ -24,7 +24,7 @@ use crate::plan::{Plan, Wanted};
 use crate::prepare::Prepared;
 use component::run_component;
 
-pub use component::Watch;
+pub use component::{Stop, Watch};
 pub use reduced::Reduced;
 pub use sample::Sample;
 pub use summary::{ComponentSummary, Failure, Summary};
@@ -39,9 +39,23 @@ pub fn simulate(
     options: &MotionOptions,
     row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
 ) -> Result<Summary, Box<Failure>> {
+    simulate_until(prepared, options, &|| false, row)
+}
+
+/// Like [`simulate`]; `stop` is asked at each evaluation, and the run ends at the last accepted step
+/// once it returns true.
+///
+/// # Errors
+/// As [`simulate`].
+pub fn simulate_until(
+    prepared: &Prepared,
+    options: &MotionOptions,
+    stop: &Stop<'_>,
+    row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
+) -> Result<Summary, Box<Failure>> {
     Plan::new(prepared, options, &Wanted::default())
         .map_err(component::not_begun)?
-        .simulate(row)
+        .simulate_watched(&|_| ControlFlow::Continue(()), stop, row)
 }
 
 impl Plan<'_> {
@@ -54,21 +68,23 @@ impl Plan<'_> {
         &self,
         row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
-        self.simulate_watched(&|_| ControlFlow::Continue(()), row)
+        self.simulate_watched(&|_| ControlFlow::Continue(()), &|| false, row)
     }
 
-    /// Like [`Plan::simulate`]; `watch` is also called between rows, at each accepted step.
+    /// Like [`Plan::simulate`]; `watch` is also called between rows, at each accepted step, and
+    /// `stop` at each evaluation: once it returns true, the run ends at the last accepted step.
     ///
     /// # Errors
     /// As [`Plan::simulate`].
     pub fn simulate_watched(
         &self,
         watch: &Watch<'_>,
+        stop: &Stop<'_>,
         mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
         match self.components.len() {
-            1 => run_component(self, 0, watch, &mut row),
-            _ => several::run(self, watch, &mut row),
+            1 => run_component(self, 0, (watch, stop), &mut row),
+            _ => several::run(self, (watch, stop), &mut row),
         }
     }
 }

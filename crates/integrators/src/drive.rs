@@ -93,9 +93,15 @@ where
     let mut run = Run::new(interval.t0, y0, options);
     for leg in &legs {
         if let Err(error) = run.start(ode, stepper, leg) {
+            if ode.is_stopped() {
+                return Ok(run.finish(End::Stopped));
+            }
             return Err(run.fail(error));
         }
         while run.t != leg.end {
+            if ode.is_stopped() {
+                return Ok(run.finish(End::Stopped));
+            }
             match ode.delicate_time() {
                 Some(delicate) => run.step_over(delicate, stepper.widest_gap(), stepper.order()),
                 None => run.noise = Noise::None,

@@ -52,6 +52,13 @@ pub trait Ode {
         None
     }
 
+    /// Whether the caller wants the integration to end: asked before each trial step. It then ends
+    /// at the last accepted step, with [`End::Stopped`](crate::End::Stopped); an error of f is no
+    /// failure then, so that f need not finish what nobody waits for.
+    fn is_stopped(&self) -> bool {
+        false
+    }
+
     /// Called at each break time inside the interval, before the first evaluation after it, with
     /// the time just after it. May change `y` (length n), so that the solution jumps.
     ///

@@ -55,6 +55,7 @@ pub mod start;
 pub mod system;
 mod tolerance;
 mod uncertainty;
+pub mod words;
 
 pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};

@@ -159,9 +159,8 @@ pub(crate) struct Analyze {
 pub(crate) struct Simulate {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
-    /// Directory for the results
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) place: Place,
     /// Last time (s)
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
@@ -203,6 +202,17 @@ pub(crate) struct Plan {
     pub(crate) json: bool,
 }
 
+/// Where results are written.
+#[derive(Args)]
+pub(crate) struct Place {
+    /// Directory for the results
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Also replace files there that pfaff has not written
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
 /// How the motion is computed.
 #[derive(Args)]
 pub(crate) struct Way {
@@ -241,9 +251,8 @@ pub(crate) struct Sweep {
     /// KEY=A,B,C; may be given several times
     #[arg(long, value_name = "KEY=VALUES", required_unless_present = "merge")]
     pub(crate) vary: Vec<Axis>,
-    /// Directory for the results
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) place: Place,
     /// Every n-th run only, beginning with the i-th; shards may share a directory
     #[arg(long, value_name = "I/N", default_value = "1/1")]
     pub(crate) shard: Shard,
@@ -268,9 +277,8 @@ pub(crate) struct WorkPrecision {
     /// Scene files, or - for standard input
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
-    /// Directory for the results
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) place: Place,
     /// Three tolerances, for a quick overview
     #[arg(long, conflicts_with = "all")]
     pub(crate) quick: bool,
@@ -331,6 +339,9 @@ pub(crate) struct View {
     /// the scene file, in this directory
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    /// Also replace a file that pfaff has not written
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Do not open the file
     #[arg(long)]
     pub(crate) no_open: bool,

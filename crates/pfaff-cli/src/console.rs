@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use pfaff::model::Registry;
 use serde::Serialize;
 
+use crate::interrupt::note_answer;
 use crate::output::{Answer, Failure, Outcome, json};
 
 /// A stream for output, and whether it can show colours.
@@ -80,6 +81,7 @@ impl<'c> Console<'c> {
     /// As [`Console::print`].
     pub fn write(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Outcome {
         let out = &mut self.out.borrow_mut();
+        note_answer();
         let written = write(&mut *out.writer).and_then(|()| out.writer.flush());
         written.map_err(|e| match e.kind() {
             io::ErrorKind::BrokenPipe => Failure::Closed,
@@ -155,8 +157,9 @@ fn unprintable(e: &io::Error) -> Failure {
 }
 
 /// Whether the stream shows colours and the user wants them: an empty `NO_COLOR` counts as not set
-/// (no-color.org).
+/// (no-color.org), and a dumb terminal would show the codes of colours.
 fn is_coloured(stream: &Stream<'_>) -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    stream.is_terminal && !refused
+    let is_dumb = std::env::var_os("TERM").is_some_and(|value| value == "dumb");
+    stream.is_terminal && !refused && !is_dumb
 }

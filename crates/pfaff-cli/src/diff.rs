@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
     let Known { settings, .. } = &arguments.known;
     let read = |path| Ok(Source::read(path, settings, console)?.known(&arguments.known));
     let sources = [read(&arguments.a)?, read(&arguments.b)?];
-    arguments.resources.apply()?;
+    arguments.resources.apply();
     let [a, b] = &sources;
     let starts = [
         Start::of(a, arguments.resources)?,

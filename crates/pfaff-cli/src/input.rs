@@ -83,7 +83,7 @@ impl<'r> Source<'r> {
         overrides: &Overrides,
         resources: Resources,
     ) -> Result<Study, Failure> {
-        resources.apply()?;
+        resources.apply();
         let assembled = resources.assembled(self)?;
         let study = self.prepare(assembled, overrides);
         study.map_err(|e| self.failure(e))

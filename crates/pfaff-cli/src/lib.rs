@@ -91,6 +91,7 @@ where
         Ok(arguments) => arguments,
         Err(e) => return console.usage(&with_suggestion(e, C::command(), &words)),
     };
+    interrupt::answer_as(arguments.answer());
     match arguments.run(&console) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => console.report(failure, arguments.answer()),

@@ -1,8 +1,10 @@
 //! The form of answers and failures; the console decides where they are written.
 
+use std::path::Path;
+
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
 use pfaff::report::documents::RefusalDocument;
-use pfaff::report::write_json;
+use pfaff::report::{FileError, OutputDirectory, write_json};
 use pfaff::scene::{Diagnostic, Severity};
 use serde::Serialize;
 
@@ -79,6 +81,29 @@ impl Failure {
             error,
             problems,
         })
+    }
+}
+
+/// A directory for the results of one command: other processes are excluded from it. Files with
+/// these names that pfaff has not written are replaced only with `force`.
+///
+/// # Errors
+/// If it is not a place for results.
+pub fn directory(path: &Path, names: &[&str], force: bool) -> Result<OutputDirectory, Failure> {
+    let opened = OutputDirectory::create(path).and_then(OutputDirectory::exclusive);
+    let directory = opened.map_err(|e| unwritten(&e))?;
+    if !force {
+        directory.check_ours(names).map_err(|e| unwritten(&e))?;
+    }
+    Ok(directory)
+}
+
+/// A file that was not written: because of its place, or because writing failed.
+pub fn unwritten(error: &FileError) -> Failure {
+    if error.is_place() {
+        Failure::input(error.to_string())
+    } else {
+        Failure::stopped(error.to_string())
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::Duration;
 
@@ -27,11 +28,8 @@ pub(crate) struct Resources {
 
 impl Resources {
     /// Sets the number of threads for all parallel computations.
-    pub(crate) fn apply(self) -> Result<(), Failure> {
-        let Some(threads) = self.threads else {
-            return Ok(());
-        };
-        pfaff::limit_threads(threads).map_err(|e| Failure::stopped(e.to_string()))
+    pub(crate) fn apply(self) {
+        pfaff::start_threads(self.threads);
     }
 
     /// Reads the scene and builds its mechanism, if the memory suffices for the mechanism and its
@@ -123,21 +121,62 @@ impl std::fmt::Display for Bytes {
     }
 }
 
-/// The memory that is still available, if the system reports it: of the machine, and of the control
-/// group of this process.
+/// The memory that is still available, if the system reports it: of the machine, of the control
+/// groups of this process, and of its address space.
 fn available() -> Option<Bytes> {
-    let read = |path: &str| fs::read_to_string(path).ok();
-    let machine = read("/proc/meminfo").and_then(|text| {
-        let line = text.lines().find(|l| l.starts_with("MemAvailable:"))?;
-        let kibibytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
-        Some(kibibytes << 10)
+    let read = |path: &Path| fs::read_to_string(path).ok();
+    let machine =
+        read(Path::new("/proc/meminfo")).and_then(|text| kibibytes(&text, "MemAvailable:"));
+    let groups = read(Path::new("/proc/self/cgroup")).unwrap_or_default();
+    let groups = folders_of_groups(&groups).into_iter().filter_map(|folder| {
+        let number = |name: &str| read(&folder.join(name))?.trim().parse::<u64>().ok();
+        let left = |most: &str, used: &str| Some(number(most)?.saturating_sub(number(used)?));
+        left("memory.max", "memory.current")
+            .or_else(|| left("memory.limit_in_bytes", "memory.usage_in_bytes"))
     });
-    let number = |path: &str| read(path)?.trim().parse::<u64>().ok();
-    let group = number("/sys/fs/cgroup/memory.max").and_then(|most| {
-        let used = number("/sys/fs/cgroup/memory.current")?;
-        Some(most.saturating_sub(used))
+    let space = read(Path::new("/proc/self/limits")).and_then(|limits| {
+        let line = limits
+            .lines()
+            .find_map(|l| l.strip_prefix("Max address space"))?;
+        let most: u64 = line.split_whitespace().next()?.parse().ok()?;
+        let status = read(Path::new("/proc/self/status"))?;
+        Some(most.saturating_sub(kibibytes(&status, "VmSize:")?))
     });
-    machine.into_iter().chain(group).min().map(Bytes)
+    machine
+        .into_iter()
+        .chain(groups)
+        .chain(space)
+        .min()
+        .map(Bytes)
+}
+
+/// The number of bytes in a line of a table of the system in kB.
+fn kibibytes(text: &str, name: &str) -> Option<u64> {
+    let line = text.lines().find_map(|l| l.strip_prefix(name))?;
+    let number: u64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(number << 10)
+}
+
+/// Directories of the control groups that limit the memory of a process, from its `cgroup` file:
+/// its own group and all groups around it, of both versions.
+fn folders_of_groups(text: &str) -> Vec<PathBuf> {
+    let mut folders = Vec::new();
+    for line in text.lines() {
+        let mut parts = line.splitn(3, ':');
+        let (_, Some(controllers), Some(path)) = (parts.next(), parts.next(), parts.next()) else {
+            continue;
+        };
+        let root = match controllers {
+            "" => Path::new("/sys/fs/cgroup"),
+            _ if controllers.split(',').any(|c| c == "memory") => {
+                Path::new("/sys/fs/cgroup/memory")
+            }
+            _ => continue,
+        };
+        let own = Path::new(path.trim_start_matches('/'));
+        folders.extend(own.ancestors().map(|group| root.join(group)));
+    }
+    folders
 }
 
 /// Texts of at least this size (bytes) take long to read.
@@ -173,6 +212,24 @@ impl Drop for Stage {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn groups_around_a_group_count() {
+        let text = "12:cpu,cpuacct:/a\n5:memory:/x\n0::/user.slice/session\n";
+        let folders = folders_of_groups(text);
+        let expected = [
+            "/sys/fs/cgroup/memory/x",
+            "/sys/fs/cgroup/memory",
+            "/sys/fs/cgroup/user.slice/session",
+            "/sys/fs/cgroup/user.slice",
+            "/sys/fs/cgroup",
+        ];
+        assert_eq!(folders, expected.map(PathBuf::from));
+        assert_eq!(
+            kibibytes("VmPeak: 9 kB\nVmSize:\t  12 kB\n", "VmSize:"),
+            Some(12 << 10)
+        );
+    }
 
     #[test]
     fn sizes_are_read() {

@@ -2,6 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use pfaff::model::words::{listed, rounded};
+use pfaff::report::documents::{EndedDocument, MisfitDocument};
+use pfaff::study::FILES;
+
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument};
 use pfaff::{Overrides, StudyError};
@@ -10,7 +14,7 @@ use crate::args::Simulate;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, json};
+use crate::output::{Failure, Outcome, directory, json};
 use crate::work_precision::provenance;
 
 /// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
@@ -22,6 +26,7 @@ pub(crate) const TRUSTED_BALANCE: f64 = 1e-3;
 const TICKS: u64 = 1000;
 
 pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
+    Interrupt::ends_at_once()?;
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let overrides = overrides(arguments)?;
@@ -33,35 +38,31 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     let Some(options) = &study.options else {
         return Err(source.failure(StudyError::NoEnd));
     };
-    let directory =
-        OutputDirectory::create(&arguments.out).map_err(|e| Failure::stopped(e.to_string()))?;
-    let interrupt = Interrupt::listen()?;
+    let directory = directory(&arguments.place.out, &FILES, arguments.place.force)?;
+    let interrupt = Interrupt::listen_with(last_act(&directory, study.scene.name()))?;
     // It hides itself if standard error is not a terminal.
     let bar = ProgressBar::new(TICKS);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} t = {msg}, {eta} left") {
         bar.set_style(style);
     }
     let t_end = options.t_end;
-    let outcome = study.simulate_as(&origin(), &directory, |t| {
+    let stop = || interrupt.is_asked();
+    let outcome = study.simulate_as(&origin(), &directory, &stop, |t| {
         if !bar.is_hidden() {
             bar.set_position((t / t_end * TICKS as f64) as u64);
             let rate = t / bar.elapsed().as_secs_f64();
             bar.set_message(format!("{t:.3} s, {rate:.2} s of motion each second"));
         }
-        if interrupt.is_asked() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        ControlFlow::Continue(())
     });
     bar.finish_and_clear();
     let document = outcome.map_err(|e| source.failure(e))?;
     let text = if arguments.json {
         json(&document)?
     } else {
-        let mut text = describe(&study.scene.description.name, &document);
+        let mut text = describe(&study.scene.description.name, &document, t_end);
         text.push_str(&written(
-            &arguments.out.display().to_string(),
+            &arguments.place.out.display().to_string(),
             study.scene.output.report,
         ));
         text
@@ -70,6 +71,26 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
         Err(console.incomplete(&text))
     } else {
         console.print(&text)
+    }
+}
+
+/// The last act of a run that has to be ended: its tables and a summary.
+fn last_act(directory: &OutputDirectory, scene: &str) -> impl Fn() -> String + Send + Sync + use<> {
+    let directory = directory.clone();
+    let (error, kept) = ("interrupted", "kept: whole rows of the tables");
+    let document = json(&EndedDocument {
+        scene: scene.to_owned(),
+        partial: true,
+        error,
+    });
+    let summary = document.unwrap_or_default();
+    move || {
+        let place = directory.path().display().to_string();
+        if directory.abandon_as("summary.json", summary.as_bytes(), &FILES) {
+            format!("{error}; {kept} in `{place}`; summary.json says that they are partial")
+        } else {
+            format!("{error}; nothing was written into `{place}`")
+        }
     }
 }
 
@@ -93,17 +114,20 @@ fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
 }
 
 /// The summary in words.
-fn describe(name: &str, d: &RunDocument) -> String {
+fn describe(name: &str, d: &RunDocument, t_end: f64) -> String {
+    let ending = if d.partial {
+        format!(
+            "interrupted at t = {} s of {}",
+            rounded(d.t_end),
+            rounded(t_end)
+        )
+    } else {
+        format!("done to t = {} s", d.t_end)
+    };
     let mut text = format!(
-        "{name}: {} to t = {} s with {} ({}, {})\n\
+        "{name}: {ending} with {} ({}, {})\n\
          {} steps, {} rejected, {} evaluations in {:.2} ms\n\
          |Φ| ≤ {:.1e}, |C·v − b| ≤ {:.1e}, energy balance {:.1e}\n",
-        if d.partial {
-            "interrupted, partial"
-        } else {
-            "done"
-        },
-        d.t_end,
         d.method,
         d.formulation,
         d.stabilisation,
@@ -128,8 +152,12 @@ fn describe(name: &str, d: &RunDocument) -> String {
             d.start_correction, d.start_velocity_correction
         ));
     }
-    for misfit in d.misfits.iter().take(LISTED) {
-        text.push_str(&format!("within the tolerance: {misfit}\n"));
+    if d.partial {
+        text.push_str(&d.kept());
+        text.push('\n');
+    }
+    for line in MisfitDocument::lines(&d.misfits) {
+        text.push_str(&format!("within the tolerance: {line}\n"));
     }
     if let Some(spread) = &d.spread {
         text.push_str(&format!("which rows are kept is a choice: {spread}\n"));
@@ -174,15 +202,3 @@ fn written(out: &str, report: bool) -> String {
         format!("written to {out}\n")
     }
 }
-
-/// Names, at most as many as are readable; summary.json contains all.
-fn listed(names: &[&str]) -> String {
-    let few = &names[..names.len().min(LISTED)];
-    match names.len() - few.len() {
-        0 => few.join(", "),
-        more => format!("{} and {more} more", few.join(", ")),
-    }
-}
-
-/// Number of names that are listed.
-const LISTED: usize = 40;

@@ -4,24 +4,29 @@
 use std::num::NonZeroUsize;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::report::{SweepDocument, SweepStatus};
+use pfaff::report::sweep::FILES;
+use pfaff::report::{FileError, SweepDocument, SweepStatus, is_ours};
 use pfaff::sweep::{Sweep, SweepError, SweepProgress, SweepSettings, merge};
 
 use crate::args;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, count, json, wrapped};
+use crate::output::{Failure, Outcome, count, json, unwritten, wrapped};
 use crate::simulate::TRUSTED_BALANCE;
 
 pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
+    Interrupt::ends_at_once()?;
+    pfaff::start_threads(arguments.threads);
+    check_place(arguments)?;
     let (document, ending) = match &arguments.scene {
         Some(scene) => make(
             arguments,
             &Source::read(scene, &arguments.settings, console)?,
         )?,
         None => {
-            let document = merge(&arguments.merge, &arguments.out).map_err(|e| failure(&e))?;
+            let document =
+                merge(&arguments.merge, &arguments.place.out).map_err(|e| failure(&e))?;
             let ending = if document.partial {
                 Ending::Missing
             } else {
@@ -33,12 +38,26 @@ pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
     let text = if arguments.json {
         json(&document)?
     } else {
-        describe(&document, ending, &arguments.out.display().to_string())
+        describe(
+            &document,
+            ending,
+            &arguments.place.out.display().to_string(),
+        )
     };
     match ending {
         Ending::Whole if document.done == document.finished => console.print(&text),
         _ => Err(console.incomplete(&text)),
     }
+}
+
+/// Refuses a directory in which tables of somebody else would be replaced.
+fn check_place(arguments: &args::Sweep) -> Outcome {
+    let paths = FILES.map(|name| arguments.place.out.join(name));
+    let foreign: Vec<_> = paths.into_iter().filter(|path| !is_ours(path)).collect();
+    if arguments.place.force || foreign.is_empty() {
+        return Ok(());
+    }
+    Err(unwritten(&FileError::Foreign { paths: foreign }))
 }
 
 /// How a sweep ended.
@@ -71,7 +90,18 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
         shard: arguments.shard,
         threads: arguments.threads.map_or(0, NonZeroUsize::get),
     };
-    let interrupt = Interrupt::listen()?;
+    let out = arguments.place.out.clone();
+    let interrupt = Interrupt::listen_with(move || {
+        // Whatever is finished is in the journals, from which the tables are made.
+        let place = out.display();
+        match merge(&[out.as_path()], &out) {
+            Ok(document) => format!(
+                "interrupted; kept: {} of {} runs in `{place}`; the same command resumes the sweep",
+                document.finished, document.runs
+            ),
+            Err(_) => format!("interrupted; no run is finished in `{place}`"),
+        }
+    })?;
     let interrupted = || interrupt.is_asked();
     // It hides itself if standard error is not a terminal.
     let bar = ProgressBar::new(0);
@@ -80,25 +110,26 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
         bar.set_style(style);
     }
     let mut failed: u64 = 0;
-    let outcome = sweep.run_into(
-        &arguments.out,
-        &settings,
-        interrupted,
-        |progress| match progress {
-            SweepProgress::Begin { runs, finished } => {
-                bar.set_length(runs);
-                bar.set_position(finished);
-                bar.reset_eta();
-            }
-            SweepProgress::Finished(row) => {
-                bar.inc(1);
-                if row.status != SweepStatus::Done {
-                    failed += 1;
-                    bar.set_message(format!(", {failed} not done"));
+    let outcome =
+        sweep.run_into(
+            &arguments.place.out,
+            &settings,
+            interrupted,
+            |progress| match progress {
+                SweepProgress::Begin { runs, finished } => {
+                    bar.set_length(runs);
+                    bar.set_position(finished);
+                    bar.reset_eta();
                 }
-            }
-        },
-    );
+                SweepProgress::Finished(row) => {
+                    bar.inc(1);
+                    if row.status != SweepStatus::Done {
+                        failed += 1;
+                        bar.set_message(format!(", {failed} not done"));
+                    }
+                }
+            },
+        );
     bar.finish_and_clear();
     let ending = if interrupted() {
         Ending::Interrupted

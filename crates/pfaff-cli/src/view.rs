@@ -2,20 +2,19 @@
 //! system's viewer.
 
 use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use pfaff::model::System;
 use pfaff::report::documents::ViewDocument;
 use pfaff::report::figures::{Labels, Marking, labelled_mechanism};
-use pfaff::report::{Frame, Recording, RunPage, run_page};
+use pfaff::report::{FileError, Frame, Recording, RunPage, is_ours, replace_file, run_page};
 
 use crate::args::View;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, count};
+use crate::output::{Failure, Outcome, count, unwritten};
 use crate::simulate::origin;
 use crate::start::Start;
 
@@ -24,7 +23,10 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let path = place(arguments)?;
-    arguments.resources.apply()?;
+    if !arguments.force && !is_ours(&path) {
+        return Err(unwritten(&FileError::Foreign { paths: vec![path] }));
+    }
+    arguments.resources.apply();
     let start = Start::of(&source, arguments.resources)?;
     let picture = if is_svg(&path) {
         let marking = Marking::Verdicts(&start.reactions);
@@ -39,8 +41,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     } else {
         page(&start)
     };
-    fs::write(&path, &picture)
-        .map_err(|e| Failure::input(format!("cannot write `{}`: {e}", path.display())))?;
+    replace_file(&path, picture.as_bytes()).map_err(|e| unwritten(&e))?;
     let open = start
         .document
         .reactions

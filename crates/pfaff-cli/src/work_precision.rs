@@ -15,10 +15,12 @@ use crate::args::{Settings, WorkPrecision};
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, json, wrapped};
+use crate::output::{Failure, Outcome, directory, json, unwritten, wrapped};
 use crate::resources::Resources;
 
 pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
+    Interrupt::ends_at_once()?;
+    pfaff::start_threads(None);
     // All scenes are read before the first is run.
     let scenes = arguments.scenes.iter();
     let read = |path: &PathBuf| read(path, &arguments.settings, console);
@@ -27,7 +29,8 @@ pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
         subjects: &subjects?,
         rivals: &[],
         plan: plan(arguments.quick, arguments.all),
-        out: &arguments.out,
+        out: &arguments.place.out,
+        force: arguments.place.force,
         json: arguments.json,
     }
     .run(console)
@@ -58,6 +61,9 @@ fn read(path: &Path, settings: &Settings, console: &Console<'_>) -> Result<Subje
     Subject::of_study(study).map_err(|e| source.failure(e))
 }
 
+/// The files of a comparison.
+const FILES: [&str; 3] = ["work_precision.csv", "work_precision.svg", "report.html"];
+
 /// Scenes whose runs are compared, and the directory of the results.
 pub struct Request<'a> {
     /// The scenes.
@@ -68,6 +74,8 @@ pub struct Request<'a> {
     pub plan: Plan,
     /// Directory for table, figure and page.
     pub out: &'a Path,
+    /// Whether files there are replaced that pfaff has not written.
+    pub force: bool,
     /// Whether to answer with all results as one JSON document.
     pub json: bool,
 }
@@ -79,12 +87,11 @@ impl Request<'_> {
     /// If a scene cannot be run or a file cannot be written.
     pub fn run(&self, console: &Console<'_>) -> Outcome {
         let stopped = |e: &dyn std::error::Error| Failure::stopped(e.to_string());
-        let directory = OutputDirectory::create(self.out).map_err(|e| stopped(&e))?;
-        let file = directory
-            .file("work_precision.csv")
-            .map_err(|e| stopped(&e))?;
+        let directory = directory(self.out, &FILES, self.force)?;
+        let [csv, svg, page_name] = FILES;
+        let file = directory.file(csv).map_err(|e| unwritten(&e))?;
         let table = WorkPrecisionTable::new(file).map_err(|e| stopped(&e))?;
-        let (document, table) = self.compare(table)?;
+        let (document, table) = self.compare(&directory, table)?;
         let file = table.finish().map_err(|e| stopped(&e))?;
         let finished = if document.partial {
             file.finish_partial()
@@ -94,7 +101,7 @@ impl Request<'_> {
         finished.map_err(|e| stopped(&e))?;
         let figure = figures::work_precision(&document.scenes);
         let page = work_precision_page(&document, &figure);
-        for (name, text) in [("work_precision.svg", figure), ("report.html", page)] {
+        for (name, text) in [(svg, figure), (page_name, page)] {
             directory
                 .write(name, text.as_bytes())
                 .map_err(|e| stopped(&e))?;
@@ -114,9 +121,15 @@ impl Request<'_> {
     /// Makes all runs; if a stop is requested, returns the runs so far.
     fn compare(
         &self,
+        directory: &OutputDirectory,
         mut table: WorkPrecisionTable<OutputFile>,
     ) -> Result<(WorkPrecisionDocument, WorkPrecisionTable<OutputFile>), Failure> {
-        let interrupt = Interrupt::listen()?;
+        let ended = directory.clone();
+        let interrupt = Interrupt::listen_with(move || {
+            let place = ended.path().display();
+            ended.abandon();
+            format!("interrupted; kept: the finished runs in `{place}`")
+        })?;
         let interrupted = || interrupt.is_asked();
         let curves = self.plan.curves.len() + self.rivals.len();
         let runs = curves * self.plan.tolerances.len() * self.subjects.len();
@@ -193,8 +206,18 @@ fn command() -> String {
     let program = arguments.next().map(PathBuf::from).unwrap_or_default();
     let program = program.file_stem().map(OsStr::to_os_string);
     let words = program.into_iter().chain(arguments);
-    let words: Vec<String> = words.map(|a| a.to_string_lossy().into_owned()).collect();
+    let words: Vec<String> = words.map(|a| quoted(&a.to_string_lossy())).collect();
     words.join(" ")
+}
+
+/// A word of a command line as a shell reads it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
 }
 
 /// The summary in words.

@@ -3,7 +3,7 @@
 use dynamics::MotionError;
 use model::BuildError;
 use rank::DeletionError;
-use report::{FileError, TableError};
+use report::{FileError, RunDocument, TableError};
 use scene::{CombinationError, Diagnostic};
 use solvability::{
     AlongError, AnalysisError, ChoiceError, Contradiction, EliminationError, ExplanationError,
@@ -71,6 +71,17 @@ pub enum StudyError {
     /// A motion could not begin or continue.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// A run stopped on its way; what it had computed has been written.
+    #[error("{error}; {}", run.kept())]
+    Stopped {
+        /// Cause.
+        error: MotionError,
+        /// Its summary.
+        run: Box<RunDocument>,
+    },
+    /// A stop was requested before there was any result.
+    #[error("interrupted before the first row; nothing was written")]
+    Interrupted,
     /// A configuration could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
@@ -153,10 +164,12 @@ impl StudyError {
                 !matches!(e, ChoiceError::Undecided(_) | ChoiceError::Saddle(_))
             }
             Self::Along(e) => matches!(e, AlongError::Times { .. }),
+            Self::File(e) => e.is_place(),
             Self::State(_)
+            | Self::Stopped { .. }
+            | Self::Interrupted
             | Self::Explanation(_)
             | Self::Units(_)
-            | Self::File(_)
             | Self::Table(_) => false,
         }
     }

@@ -19,6 +19,8 @@
 //! | [`memory`] | estimated memory |
 //! | [`error`] | reasons why there are no results |
 
+use std::num::NonZeroUsize;
+
 pub mod along_motion;
 pub mod assembled;
 mod comparison;
@@ -52,14 +54,41 @@ pub use report_builder::written_scene;
 pub use solvability::Numbers;
 pub use study::{Overrides, Study};
 
-/// Limits the number of threads of all parallel computations of this program from now on. Runs with
+/// Most threads of parallel computations.
+pub const MOST_THREADS: usize = 256;
+
+/// Starts the threads of all parallel computations of this program: as many as given, up to
+/// [`MOST_THREADS`], or one for each core. If the system does not allow so many, everything is
+/// computed on the thread that calls. Does nothing if they have been started already. Runs with
 /// several components have a separate option, [`dynamics::MotionOptions::threads`].
-///
-/// # Errors
-/// If threads have already been started, or cannot be started.
-pub fn limit_threads(threads: std::num::NonZeroUsize) -> Result<(), rayon::ThreadPoolBuildError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
-    pool.build_global()
+pub fn start_threads(threads: Option<NonZeroUsize>) {
+    // rayon asks for its pool once: whether it can be had is tried before.
+    let pool = || rayon::ThreadPoolBuilder::new().num_threads(most(threads));
+    let global = match pool().build() {
+        Ok(_) => pool().build_global(),
+        Err(_) => alone().build_global(),
+    };
+    // It fails if there is a pool already.
+    drop(global);
+}
+
+/// A pool of its own for a part of a program, like that of [`start_threads`].
+pub(crate) fn pool(
+    threads: Option<NonZeroUsize>,
+) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(most(threads));
+    pool.build().or_else(|_| alone().build())
+}
+
+fn most(threads: Option<NonZeroUsize>) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    threads.map_or(cores, NonZeroUsize::get).min(MOST_THREADS)
+}
+
+fn alone() -> rayon::ThreadPoolBuilder {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .use_current_thread()
 }
 
 /// The results of two computations, run in parallel if there are threads for both, otherwise one

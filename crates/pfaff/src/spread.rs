@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use dynamics::plan::Reactions;
-use dynamics::{MotionError, Plan, Prepared, RowChoice, Sample, Summary, Wanted};
+use dynamics::{MotionError, Plan, Prepared, RowChoice, Sample, Stop, Summary, Wanted};
 use report::documents::SpreadDocument;
 
 /// Configurations of a run at its rows of output.
@@ -26,7 +26,7 @@ impl Path {
         &self,
         plan: &Plan<'_>,
         summary: &Summary,
-        go_on: impl Fn() -> ControlFlow<()> + Sync,
+        stop: &Stop<'_>,
     ) -> Option<SpreadDocument> {
         let prepared = plan.prepared();
         if summary.misfits.is_empty() {
@@ -40,7 +40,7 @@ impl Path {
             return None;
         };
         let mut spread = SpreadDocument::new(dropped);
-        match self.compare(plan, &other, &mut spread, go_on) {
+        match self.compare(plan, &other, &mut spread, stop) {
             Ok(()) => {}
             Err(error) => spread.error = Some(error.to_string()),
         }
@@ -52,7 +52,7 @@ impl Path {
         plan: &Plan<'_>,
         other: &Prepared,
         spread: &mut SpreadDocument,
-        go_on: impl Fn() -> ControlFlow<()> + Sync,
+        stop: &Stop<'_>,
     ) -> Result<(), MotionError> {
         let wanted = Wanted {
             rows: plan.rows.value,
@@ -62,12 +62,12 @@ impl Path {
         let other_plan = Plan::new(other, plan.options(), &wanted)?;
         let space = other.mechanism.space();
         let mut rows = self.0.iter();
-        let outcome = other_plan.simulate_watched(&|_| go_on(), |sample| {
+        let outcome = other_plan.simulate_watched(&|_| ControlFlow::Continue(()), stop, |sample| {
             let Some(q) = rows.next() else {
                 return Ok(ControlFlow::Break(()));
             };
             spread.take(sample.t, &space.difference_of(sample.q, q));
-            Ok(go_on())
+            Ok(ControlFlow::Continue(()))
         });
         outcome.map(drop).map_err(|failure| failure.error)
     }

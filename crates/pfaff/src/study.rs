@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
-    Failure, Method, MotionFault, MotionOptions, Plan, Prepared, Sample, Stabilisation, Summary,
-    Wanted, simulate,
+    Failure, Method, MotionFault, MotionOptions, Plan, Prepared, Sample, Stabilisation, Stop,
+    Summary, Wanted, simulate_until,
 };
 use model::{Known, Registry, System};
 use report::documents::{DataDocument, MomentDocument, MotionDocument};
@@ -241,7 +241,21 @@ impl Study {
         options: &MotionOptions,
         row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
-        simulate(&self.prepared, options, row)
+        self.run_until(options, &|| false, row)
+    }
+
+    /// Like [`Study::run`]; `stop` is asked at each evaluation, and the run ends once it returns
+    /// true.
+    ///
+    /// # Errors
+    /// As [`Study::run`].
+    pub fn run_until(
+        &self,
+        options: &MotionOptions,
+        stop: &Stop<'_>,
+        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
+    ) -> Result<Summary, Box<Failure>> {
+        simulate_until(&self.prepared, options, stop, row)
     }
 
     /// The motion as plain data: state and reactions at t = 0, at every output step and at the end,
@@ -282,7 +296,7 @@ impl Study {
             Ok(ControlFlow::Continue(()))
         });
         let summary = outcome.map_err(|failure| failure.error)?;
-        let spread = path.spread(&plan, &summary, || ControlFlow::Continue(()));
+        let spread = path.spread(&plan, &summary, &|| false);
         let run = Run {
             plan: &plan,
             reactions: &start.analysis.reactions,
@@ -292,6 +306,8 @@ impl Study {
             summary: &summary,
             spread: spread.as_ref(),
             ending: Ending::Complete,
+            rows: rows.len(),
+            files: &[],
         };
         Ok(MotionDocument::new(RunDocument::new(&run), rows))
     }
@@ -348,23 +364,27 @@ impl Study {
     }
 
     /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and
-    /// `report.html` into a directory, each if the scene requests it. `progress` is called with the
-    /// time of each row, or of each step if no rows are written, and may stop the run. The files of
-    /// a stopped run are kept, and its summary says `partial`.
+    /// `report.html` into a directory, each if the scene requests it; those that an earlier run has
+    /// left and this one does not write are removed. `progress` is called with the time of each
+    /// row, or of each step if no rows are written, and may stop the run. The files of a stopped run
+    /// are kept, and its summary says `partial`.
     ///
     /// # Errors
     /// - [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
-    /// - [`StudyError::Motion`]: the run stopped; everything up to there has been written.
+    /// - [`StudyError::Motion`]: the run could not begin; nothing has been written.
+    /// - [`StudyError::Stopped`]: the run stopped; everything up to there has been written.
+    /// - [`StudyError::Interrupted`]: a stop was requested before the first row.
     /// - [`StudyError::File`], [`StudyError::Table`]: something could not be written.
     pub fn simulate_into(
         &self,
         directory: &OutputDirectory,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RunDocument, StudyError> {
-        self.simulate_as(&Origin::default(), directory, progress)
+        self.simulate_as(&Origin::default(), directory, &|| false, progress)
     }
 
-    /// Like [`Study::simulate_into`], with information for the report on how the run was made.
+    /// Like [`Study::simulate_into`], with information for the report on how the run was made, and
+    /// with `stop`, which is asked at each evaluation: once it returns true, the run ends.
     ///
     /// # Errors
     /// As [`Study::simulate_into`].
@@ -372,6 +392,7 @@ impl Study {
         &self,
         origin: &Origin,
         directory: &OutputDirectory,
+        stop: &Stop<'_>,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RunDocument, StudyError> {
         // Checked before any file of an earlier run is changed.
@@ -414,12 +435,20 @@ impl Study {
             Rows::Every | Rows::Interpolated => ControlFlow::Continue(()),
             Rows::Ends => go_on(t),
         };
+        let stop = || {
+            let is_requested = stop();
+            if is_requested {
+                interrupted.store(true, Ordering::Relaxed);
+            }
+            is_requested
+        };
         let mut unwritten = None;
         let mut path = Path::default();
-        let mut rows = 0;
-        let outcome = plan.simulate_watched(&watch, |sample| {
+        let (mut rows, mut written_rows) = (0, 0);
+        let outcome = plan.simulate_watched(&watch, &stop, |sample| {
             let in_tables = rows % between == 0 || sample.t >= t_end;
             rows += 1;
+            written_rows += usize::from(in_tables);
             path.take(&self.prepared, sample);
             let written = write_row(
                 sample,
@@ -437,9 +466,10 @@ impl Study {
             })
         });
         let (summary, error) = match outcome {
-            Ok(summary) => (summary, None),
             // Files of an earlier run are not replaced if there is no row.
+            Ok(_) if rows == 0 => return Err(StudyError::Interrupted),
             Err(failure) if rows == 0 => return Err(failure.error.into()),
+            Ok(summary) => (summary, None),
             Err(failure) => (failure.summary, Some(failure.error)),
         };
         let ending = match (&error, interrupted.load(Ordering::Relaxed)) {
@@ -448,9 +478,10 @@ impl Study {
             (None, false) => Ending::Complete,
         };
         let spread = match ending {
-            Ending::Complete => path.spread(&plan, &summary, || go_on(t_end)),
+            Ending::Complete => path.spread(&plan, &summary, &stop),
             _ => None,
         };
+        let files = files_of(output);
         let run = Run {
             plan: &plan,
             reactions: &start.analysis.reactions,
@@ -460,6 +491,8 @@ impl Study {
             summary: &summary,
             spread: spread.as_ref(),
             ending,
+            rows: written_rows,
+            files: &files,
         };
         let document = RunDocument::new(&run);
         let whole = matches!(ending, Ending::Complete) && unwritten.is_none();
@@ -480,6 +513,9 @@ impl Study {
             source,
         })?;
         directory.write("summary.json", &text)?;
+        // The summary names its files, so that these mean nothing any more.
+        let stale = FILES.iter().filter(|name| !files.contains(name));
+        directory.remove_stale(&stale.copied().collect::<Vec<_>>())?;
         if let Some(report_builder) = report_builder {
             let figure = comparison_beside(directory);
             let page =
@@ -488,10 +524,29 @@ impl Study {
         }
         match (unwritten, error) {
             (Some(e), _) => Err(e.into()),
-            (None, Some(e)) => Err(e.into()),
+            (None, Some(error)) => Err(StudyError::Stopped {
+                error,
+                run: Box::new(document),
+            }),
             (None, None) => Ok(document),
         }
     }
+}
+
+/// Files that a run writes if its scene wants all of them.
+pub const FILES: [&str; 4] = [
+    "trajectory.csv",
+    "reactions.csv",
+    "summary.json",
+    "report.html",
+];
+
+/// The files of a run with this output.
+fn files_of(output: &Output) -> Vec<&'static str> {
+    let reactions = !matches!(output.reactions, WantedReactions::None);
+    let wanted = [output.trajectory, reactions, true, output.report];
+    let wanted = FILES.into_iter().zip(wanted);
+    wanted.filter_map(|(name, is)| is.then_some(name)).collect()
 }
 
 /// The output of a run that is needed for these files.

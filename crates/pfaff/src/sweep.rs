@@ -13,6 +13,7 @@ mod shard;
 #[cfg(test)]
 mod tests;
 
+use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -198,7 +199,7 @@ impl<'r> Sweep<'r> {
     #[must_use]
     pub fn row(&self, run: u64) -> SweepRow {
         match self.begin(run) {
-            Ok(begun) => begun.go(|_| ControlFlow::Continue(())),
+            Ok(begun) => begun.go(&|| false, |_| ControlFlow::Continue(())),
             Err(error) => self.refused(run, &error),
         }
     }
@@ -223,13 +224,10 @@ impl<'r> Sweep<'r> {
     ) -> Result<SweepDocument, SweepError> {
         // More threads than runs would be idle.
         let runs = usize::try_from(self.runs()).unwrap_or(usize::MAX);
-        let threads = settings.threads.min(runs);
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let pool = pool
-            .build()
-            .map_err(|source| SweepError::Threads { threads, source })?;
+        let threads = NonZeroUsize::new(settings.threads.min(runs));
+        let pool = crate::pool(threads).map_err(SweepError::Threads)?;
         pool.install(|| self.check(&interrupted))?;
-        let output = OutputDirectory::create(directory)?;
+        let output = OutputDirectory::create(directory)?.shared()?;
         let journal = Journal::open(directory, &settings.shard.journal(), &self.plan)?;
         let finished = Journals::read(&[directory])?.rows;
         let mine = (1..=self.runs()).filter(|run| settings.shard.has(*run));
@@ -266,7 +264,7 @@ impl<'r> Sweep<'r> {
         &self,
         run: u64,
         keep: Option<&Path>,
-        interrupted: &impl Fn() -> bool,
+        interrupted: &(impl Fn() -> bool + Sync),
     ) -> Result<Option<SweepRow>, SweepError> {
         if interrupted() {
             return Ok(None);
@@ -275,18 +273,20 @@ impl<'r> Sweep<'r> {
             Ok(begun) => begun,
             Err(error) => return Ok(Some(self.refused(run, &error))),
         };
+        if interrupted() {
+            return Ok(None);
+        }
         let table = |directory: &Path| {
             let file = OutputDirectory::create(directory)?.file("trajectory.csv")?;
             Ok::<_, SweepError>(TrajectoryTable::new(file, &begun.study.prepared.mechanism)?)
         };
         let mut table = keep.map(table).transpose()?;
-        let (mut unwritten, mut is_interrupted) = (None, false);
-        let row = begun.go(|sample| {
-            is_interrupted = interrupted();
+        let mut unwritten = None;
+        let row = begun.go(interrupted, |sample| {
             if let Some(table) = &mut table {
                 unwritten = table.row(sample.t, sample.q, sample.v).err();
             }
-            if is_interrupted || unwritten.is_some() {
+            if unwritten.is_some() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -295,7 +295,8 @@ impl<'r> Sweep<'r> {
         if let Some(error) = unwritten {
             return Err(error.into());
         }
-        if is_interrupted {
+        // The run may have ended just before the request; it is made again then.
+        if interrupted() {
             return Ok(None);
         }
         if let Some(table) = table {
@@ -336,9 +337,9 @@ impl<'r> Sweep<'r> {
 /// # Errors
 /// [`SweepError::Journal`]: they belong to different sweeps; [`SweepError::File`],
 /// [`SweepError::Table`]: something could not be written.
-pub fn merge(directories: &[PathBuf], into: &Path) -> Result<SweepDocument, SweepError> {
+pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<SweepDocument, SweepError> {
     let journals = Journals::read(directories)?;
-    write_sweep(&OutputDirectory::create(into)?, || Ok(journals))
+    write_sweep(&OutputDirectory::create(into)?.shared()?, || Ok(journals))
 }
 
 /// Directory of the files of a run; its number has as many digits as that of the last run.

@@ -148,7 +148,7 @@ impl Subject {
         &self,
         plan: &Plan,
         rivals: &[&dyn Rival],
-        interrupted: &impl Fn() -> bool,
+        interrupted: &(impl Fn() -> bool + Sync),
         mut row: impl FnMut(&WorkPrecisionRow) -> Result<(), E>,
     ) -> Result<Comparison, E> {
         let (standard, document) = self.standard(plan, interrupted)?;
@@ -193,7 +193,7 @@ impl Subject {
     }
 
     /// The method that is chosen automatically, found by a run with the loosest tolerance.
-    fn automatic(&self, plan: &Plan, interrupted: &impl Fn() -> bool) -> &'static str {
+    fn automatic(&self, plan: &Plan, interrupted: &(impl Fn() -> bool + Sync)) -> &'static str {
         let curve = Plan::usual(Method::Auto);
         let tolerance = plan.tolerances.first().copied().unwrap_or(self.base.rtol);
         let options = options(&self.base, curve, tolerance);
@@ -208,7 +208,7 @@ impl Subject {
         empty: WorkPrecisionRow,
         plan: &Plan,
         standard: Option<&Standard>,
-        interrupted: &impl Fn() -> bool,
+        interrupted: &(impl Fn() -> bool + Sync),
     ) -> Option<WorkPrecisionRow> {
         let options = options(&self.base, curve, empty.tolerance);
         let Look {
@@ -276,7 +276,7 @@ impl Subject {
     fn standard(
         &self,
         plan: &Plan,
-        interrupted: &impl Fn() -> bool,
+        interrupted: &(impl Fn() -> bool + Sync),
     ) -> Result<(Option<Standard>, ReferenceDocument), StudyError> {
         let known = self.reference();
         let pair = self.best_pair(plan, interrupted)?;
@@ -308,7 +308,7 @@ impl Subject {
     fn best_pair(
         &self,
         plan: &Plan,
-        interrupted: &impl Fn() -> bool,
+        interrupted: &(impl Fn() -> bool + Sync),
     ) -> Result<Option<Pair>, StudyError> {
         let accurate = |&method: &Method| {
             let curve = Plan::usual(method);

@@ -30,7 +30,7 @@ pub use analysis::{
 };
 pub use answers::{
     CheckDocument, DiffBody, DiffChange, DiffDocument, DiffMotion, DiffReaction, DiffSide,
-    NewDocument, RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
+    EndedDocument, NewDocument, RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
 };
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use misfits::{MisfitDocument, SpreadDocument};
@@ -42,12 +42,31 @@ pub use run::{
 };
 pub use sensitivity::SensitivityDocument;
 
-/// Writes a document, indented, with a line feed at the end.
+/// Number of the format of documents: it grows when an entry changes its meaning or disappears.
+pub const FORMAT: u32 = 1;
+
+/// A document with its head.
+#[derive(Serialize)]
+struct Headed<'d, D> {
+    format: u32,
+    /// The version of the program.
+    version: &'static str,
+    #[serde(flatten)]
+    document: &'d D,
+}
+
+/// Writes a document after the number of its format and the version of the program, indented, with
+/// a line feed at the end.
 ///
 /// # Errors
-/// If the writer fails.
+/// If the writer fails, or if the document is no object.
 pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut out, document)?;
+    let headed = Headed {
+        format: FORMAT,
+        version: env!("CARGO_PKG_VERSION"),
+        document,
+    };
+    serde_json::to_writer_pretty(&mut out, &headed)?;
     out.write_all(b"\n")?;
     out.flush()
 }

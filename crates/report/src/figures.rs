@@ -34,6 +34,7 @@ pub(crate) use mechanism::LOOKS;
 pub use mechanism::{Labels, Marking, labelled_mechanism, mechanism};
 pub use paths::{Path, PathRecorder, paths};
 pub use style::{Pattern, Style};
+pub(crate) use svg::GENERATOR;
 pub(crate) use svg::escape;
 pub use work_precision::work_precision;
 

@@ -2,11 +2,23 @@
 //! renamed when it is finished: a file with its final name is always complete. An abandoned file
 //! keeps the name `.part` and what has been written so far. If writing fails, it is cut off after
 //! the last complete line; an older file with the final name stays unchanged.
+//!
+//! Nothing is written through a symbolic link: a link at the place of a file is replaced by the
+//! file, and what it refers to stays as it is.
+
+mod lock;
+mod ours;
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::mem;
 use std::path::{Component, Path, PathBuf};
+use std::process;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
+use std::thread::sleep;
+use std::time::Duration;
+
+pub use ours::is_ours;
 
 /// Reason why a file cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -30,6 +42,21 @@ pub enum FileError {
         /// The directory.
         directory: PathBuf,
     },
+    /// Another process is writing into the directory.
+    #[error("another run of pfaff is writing into `{}`; wait for its end, or take another directory", directory.display())]
+    Busy {
+        /// The directory.
+        directory: PathBuf,
+    },
+    /// Files that pfaff has not written would be replaced.
+    #[error(
+        "`{}` has been written by something else than pfaff; --force replaces it, or take another place",
+        paths_of(paths)
+    )]
+    Foreign {
+        /// These files.
+        paths: Vec<PathBuf>,
+    },
 }
 
 impl FileError {
@@ -41,13 +68,64 @@ impl FileError {
             source,
         }
     }
+
+    /// Whether the place is wrong: no file can be made there, or one must not be replaced.
+    /// Otherwise writing has failed.
+    #[must_use]
+    pub fn is_place(&self) -> bool {
+        match self {
+            Self::Refused { action, source, .. } => {
+                let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
+                action.starts_with(MAKE) && !full.contains(&source.kind())
+            }
+            Self::Name { .. } | Self::Foreign { .. } => true,
+            Self::Busy { .. } => false,
+        }
+    }
+}
+
+/// The operation that begins a file or a directory.
+const MAKE: &str = "make";
+
+fn paths_of(paths: &[PathBuf]) -> String {
+    let names: Vec<String> = paths
+        .iter()
+        .map(|path| path.display().to_string())
+        .collect();
+    names.join("`, `")
 }
 
 /// A directory for results.
 #[derive(Clone, Debug)]
 pub struct OutputDirectory {
     path: PathBuf,
+    written: Arc<Mutex<Written>>,
+    /// Excludes other processes until the last clone is dropped.
+    _lock: Option<Arc<File>>,
 }
+
+/// What this process has written into a directory.
+#[derive(Debug, Default)]
+struct Written {
+    /// Files that were begun, with their names.
+    begun: Vec<(String, Weak<Mutex<Content>>)>,
+    /// Names of files that were written at once.
+    finished: Vec<String>,
+}
+
+impl Written {
+    /// Whether this process writes a file with this name, or has written it.
+    fn has(&self, name: &str) -> bool {
+        let begun = self.begun.iter().map(|(name, _)| name);
+        self.finished.iter().chain(begun).any(|own| own == name)
+    }
+}
+
+/// Time for which the end of a write is awaited when a run is ended at once.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// Time between two attempts.
+const PAUSE: Duration = Duration::from_millis(5);
 
 impl OutputDirectory {
     /// Opens a directory, and creates it if there is none.
@@ -57,7 +135,38 @@ impl OutputDirectory {
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let path = path.into();
         fs::create_dir_all(&path).map_err(FileError::refused("make the directory", &path))?;
-        Ok(Self { path })
+        Ok(Self {
+            path,
+            written: Arc::default(),
+            _lock: None,
+        })
+    }
+
+    /// Excludes all other processes from the directory, until this value and its clones are dropped
+    /// or the process ends, however it ends. Where the file system knows no locks, nobody is
+    /// excluded.
+    ///
+    /// # Errors
+    /// - [`FileError::Busy`]: another process has it.
+    pub fn exclusive(self) -> Result<Self, FileError> {
+        let lock = lock::of(&self.path, File::try_lock)?;
+        Ok(Self {
+            _lock: lock.map(Arc::new),
+            ..self
+        })
+    }
+
+    /// Like [`Self::exclusive`], but processes that share it do not exclude each other: they write
+    /// different files.
+    ///
+    /// # Errors
+    /// As [`Self::exclusive`].
+    pub fn shared(self) -> Result<Self, FileError> {
+        let lock = lock::of(&self.path, File::try_lock_shared)?;
+        Ok(Self {
+            _lock: lock.map(Arc::new),
+            ..self
+        })
     }
 
     /// Its path.
@@ -66,12 +175,121 @@ impl OutputDirectory {
         &self.path
     }
 
+    /// Returns an error if a file with one of these names was not written by pfaff.
+    ///
+    /// # Errors
+    /// - [`FileError::Foreign`]
+    pub fn check_ours(&self, names: &[&str]) -> Result<(), FileError> {
+        let paths = names.iter().map(|name| self.path.join(name));
+        let paths: Vec<PathBuf> = paths.filter(|path| !is_ours(path)).collect();
+        if paths.is_empty() {
+            Ok(())
+        } else {
+            Err(FileError::Foreign { paths })
+        }
+    }
+
     /// Begins a file; an older file with the same name is kept until this one is finished.
     ///
     /// # Errors
     /// - [`FileError::Name`]: the name is empty or has a directory in it.
     /// - [`FileError::Refused`]: the file cannot be created.
     pub fn file(&self, name: &str) -> Result<OutputFile, FileError> {
+        let mut written = self.written();
+        let file = self.begin(name)?;
+        let content = Arc::downgrade(&file.content);
+        written.begun.push((name.to_owned(), content));
+        Ok(file)
+    }
+
+    /// Writes a whole file.
+    ///
+    /// # Errors
+    /// As [`OutputDirectory::file`] and [`OutputFile::finish`].
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<PathBuf, FileError> {
+        let mut written = self.written();
+        let path = self.put(name, content)?;
+        written.finished.push(name.to_owned());
+        Ok(path)
+    }
+
+    fn put(&self, name: &str, content: &[u8]) -> Result<PathBuf, FileError> {
+        let file = self.begin(name)?;
+        let put = file.content().with(|buffer| buffer.write_all(content));
+        put.map_err(FileError::refused("write", &file.part()))?;
+        file.finish()
+    }
+
+    /// Removes files that an earlier run has left and this one does not write, also those with the
+    /// name `.part`: they would be taken for its results. Returns their names.
+    ///
+    /// # Errors
+    /// - [`FileError::Refused`]: one of them cannot be removed.
+    pub fn remove_stale(&self, names: &[&'static str]) -> Result<Vec<&'static str>, FileError> {
+        let mut removed = Vec::new();
+        for name in names {
+            for ending in ["", ".part"] {
+                let path = self.path.join(format!("{name}{ending}"));
+                if ending.is_empty() && !is_ours(&path) {
+                    continue;
+                }
+                match fs::remove_file(&path) {
+                    Ok(()) => removed.push(*name),
+                    Err(e) if e.kind() == ErrorKind::NotFound => {}
+                    Err(e) => return Err(FileError::refused("remove", &path)(e)),
+                }
+            }
+        }
+        Ok(removed)
+    }
+
+    /// Ends all writing because the process is about to end: open tables get their final names, cut
+    /// off after the last whole line. Nothing can be written afterwards. Returns false if nothing
+    /// had been begun.
+    pub fn abandon(&self) -> bool {
+        self.abandon_with(|_| ())
+    }
+
+    /// Like [`Self::abandon`]. In addition, `name` is written with this content unless it has been
+    /// written already, and those of `all` files that were not written are removed.
+    pub fn abandon_as(&self, name: &'static str, content: &[u8], all: &[&'static str]) -> bool {
+        self.abandon_with(|written| {
+            // The process ends, whether or not this can be done.
+            if !written.has(name) {
+                let _ = self.put(name, content);
+            }
+            let stale = all
+                .iter()
+                .filter(|file| **file != name && !written.has(file));
+            let _ = self.remove_stale(&stale.copied().collect::<Vec<_>>());
+        })
+    }
+
+    fn abandon_with(&self, last: impl FnOnce(&Written)) -> bool {
+        let Some(written) = patiently(&self.written) else {
+            return false;
+        };
+        if written.begun.is_empty() && written.finished.is_empty() {
+            return false;
+        }
+        for (_, content) in &written.begun {
+            let open = content.upgrade();
+            if let Some(mut open) = open.as_deref().and_then(patiently) {
+                open.abandon();
+            }
+        }
+        last(&written);
+        // Whoever writes waits here until the process ends.
+        mem::forget(written);
+        true
+    }
+
+    fn written(&self) -> MutexGuard<'_, Written> {
+        self.written.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Makes the file with the name `.part`.
+    fn begin(&self, name: &str) -> Result<OutputFile, FileError> {
         let mut parts = Path::new(name).components();
         let plain = matches!(
             (parts.next(), parts.next()),
@@ -84,34 +302,75 @@ impl OutputDirectory {
             });
         }
         let part = self.path.join(format!("{name}.part"));
-        let mut options = File::options();
-        // Readable as well, to find the last complete line.
-        let options = options.read(true).write(true).create(true).truncate(true);
-        let file = options
-            .open(&part)
-            .map_err(FileError::refused("make", &part))?;
+        let file = new_file(&part).map_err(FileError::refused(MAKE, &part))?;
         Ok(OutputFile {
-            buffer: Ok(BufWriter::new(file)),
-            part,
-            path: self.path.join(name),
+            content: Arc::new(Mutex::new(Content {
+                buffer: Ok(BufWriter::new(file)),
+                part,
+                path: self.path.join(name),
+            })),
         })
     }
+}
 
-    /// Writes a whole file.
-    ///
-    /// # Errors
-    /// As [`OutputDirectory::file`] and [`OutputFile::finish`].
-    pub fn write(&self, name: &str, content: &[u8]) -> Result<PathBuf, FileError> {
-        let mut file = self.file(name)?;
-        let written = file.with(|buffer| buffer.write_all(content));
-        written.map_err(FileError::refused("write", &file.part))?;
-        file.finish()
+/// A new file; what has this name, also a link, is removed before. Readable as well, to find the
+/// last complete line.
+fn new_file(path: &Path) -> io::Result<File> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != ErrorKind::NotFound => return Err(e),
+        _ => {}
+    }
+    let mut options = File::options();
+    options.read(true).write(true).create_new(true).open(path)
+}
+
+/// Writes a single file beside its place and renames it; a link at its place is replaced.
+///
+/// # Errors
+/// - [`FileError::Refused`]: it cannot be written; an older file stays as it is.
+pub fn replace_file(path: &Path, content: &[u8]) -> Result<(), FileError> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    // Another process may be writing the same file.
+    name.push(format!(".{}.part", process::id()));
+    let part = path.with_file_name(name);
+    let mut file = new_file(&part).map_err(FileError::refused(MAKE, path))?;
+    let written = file.write_all(content);
+    drop(file);
+    let renamed = written
+        .map_err(FileError::refused("write", path))
+        .and_then(|()| fs::rename(&part, path).map_err(FileError::refused("rename to", path)));
+    if renamed.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&part);
+    }
+    renamed
+}
+
+/// The value of a mutex, if it is free within a short time.
+fn patiently<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
+    let mut waited = Duration::ZERO;
+    loop {
+        match mutex.try_lock() {
+            Ok(guard) => return Some(guard),
+            Err(TryLockError::Poisoned(e)) => return Some(e.into_inner()),
+            Err(TryLockError::WouldBlock) if waited >= PATIENCE => return None,
+            Err(TryLockError::WouldBlock) => {
+                sleep(PAUSE);
+                waited += PAUSE;
+            }
+        }
     }
 }
 
 /// A file that is being written, buffered. Errors of writing name its path.
 #[derive(Debug)]
 pub struct OutputFile {
+    content: Arc<Mutex<Content>>,
+}
+
+/// The buffer of a file and its names.
+#[derive(Debug)]
+struct Content {
     /// The first error of the operating system, if any: later writes would leave a gap.
     buffer: Result<BufWriter<File>, io::Error>,
     part: PathBuf,
@@ -124,10 +383,11 @@ impl OutputFile {
     /// # Errors
     /// - [`FileError::Refused`]: not everything could be written, and the file keeps the name
     ///   `.part`; or it could not be renamed.
-    pub fn finish(mut self) -> Result<PathBuf, FileError> {
-        let flushed = self.with(Write::flush);
-        flushed.map_err(FileError::refused("write", &self.part))?;
-        self.rename()
+    pub fn finish(self) -> Result<PathBuf, FileError> {
+        let mut content = self.content();
+        let flushed = content.with(Write::flush);
+        flushed.map_err(FileError::refused("write", &content.part))?;
+        content.rename()
     }
 
     /// Like [`Self::finish`], for a run that stopped early: the part that has been written gets the
@@ -136,10 +396,11 @@ impl OutputFile {
     ///
     /// # Errors
     /// - [`FileError::Refused`]: the end is missing, or the file could not be renamed.
-    pub fn finish_partial(mut self) -> Result<PathBuf, FileError> {
-        let flushed = self.with(Write::flush);
-        let flushed = flushed.map_err(FileError::refused("write the end of", &self.path));
-        let renamed = self.rename();
+    pub fn finish_partial(self) -> Result<PathBuf, FileError> {
+        let mut content = self.content();
+        let flushed = content.with(Write::flush);
+        let flushed = flushed.map_err(FileError::refused("write the end of", &content.path));
+        let renamed = content.rename();
         flushed.and(renamed)
     }
 
@@ -149,23 +410,44 @@ impl OutputFile {
     /// # Errors
     /// - [`FileError::Refused`]: not everything could be written.
     pub fn sync(&mut self) -> Result<(), FileError> {
-        let synced = self.with(|buffer| {
+        let mut content = self.content();
+        let synced = content.with(|buffer| {
             buffer.flush()?;
             buffer.get_ref().sync_data()
         });
-        synced.map_err(FileError::refused("write", &self.part))
+        synced.map_err(FileError::refused("write", &content.part))
     }
 
-    fn rename(self) -> Result<PathBuf, FileError> {
-        let Self { buffer, part, path } = self;
+    fn part(&self) -> PathBuf {
+        self.content().part.clone()
+    }
+
+    fn content(&self) -> MutexGuard<'_, Content> {
+        self.content.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Content {
+    fn rename(&mut self) -> Result<PathBuf, FileError> {
         // Closed before renaming, because some systems do not rename open files. A failed flush is
         // not tried again.
+        let buffer = mem::replace(&mut self.buffer, Err(ErrorKind::BrokenPipe.into()));
         drop(buffer.map(BufWriter::into_parts));
-        fs::rename(&part, &path).map_err(FileError::refused("rename to", &path))?;
-        Ok(path)
+        let renamed = fs::rename(&self.part, &self.path);
+        renamed.map_err(FileError::refused("rename to", &self.path))?;
+        Ok(self.path.clone())
     }
 
-    /// Applies `f` to the buffer; after the first error nothing is written any more.
+    /// Keeps the whole lines under the final name, if the file is still being written.
+    fn abandon(&mut self) {
+        if self.with(Write::flush).is_ok() {
+            self.close(ErrorKind::BrokenPipe.into());
+            // Its `.part` name is sufficient if this fails.
+            let _ = fs::rename(&self.part, &self.path);
+        }
+    }
+
+    /// Applies `action` to the buffer; after the first error nothing is written any more.
     fn with<T>(
         &mut self,
         action: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
@@ -203,13 +485,15 @@ impl OutputFile {
 
 impl Write for OutputFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = self.with(|buffer| buffer.write(bytes));
-        written.map_err(|e| self.named(e))
+        let mut content = self.content();
+        let written = content.with(|buffer| buffer.write(bytes));
+        written.map_err(|e| content.named(e))
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        let flushed = self.with(Write::flush);
-        flushed.map_err(|e| self.named(e))
+        let mut content = self.content();
+        let flushed = content.with(Write::flush);
+        flushed.map_err(|e| content.named(e))
     }
 }
 

@@ -27,7 +27,7 @@ pub use cell::{Cell, Column, Kind};
 pub use document::{SweepDocument, SweepFailure};
 pub use journal::{Journal, JournalError, Journals, digest};
 pub use row::{Extreme, SweepMotion, SweepRow, SweepStatus};
-pub use tables::write_sweep;
+pub use tables::{FILES, write_sweep};
 
 /// Description of a sweep: everything on which its rows depend, and the names in them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -88,35 +88,162 @@ fn names_do_not_leave_the_directory() {
     }
 }
 
+/// The variable that says that this process may not write any byte into a file.
+#[cfg(target_os = "linux")]
+const FULL: &str = "PFAFF_TEST_FULL";
+
+/// Runs in a process of its own under a limit for the size of files: no file takes a byte.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_names_the_file() {
+    use std::process::Command;
+
+    if std::env::var_os(FULL).is_some() {
+        return on_a_full_disk();
+    }
+    let script = "trap '' XFSZ; ulimit -f 0; exec \"$0\" --exact a_full_disk_names_the_file";
+    let test = std::env::current_exe().expect("it runs");
+    let mut command = Command::new("sh");
+    command.args(["-c", script]).arg(test).env(FULL, "1");
+    let output = command.output().expect("it starts");
+    assert!(output.status.success(), "{output:?}");
+}
+
+#[cfg(target_os = "linux")]
+fn on_a_full_disk() {
+    use std::io::ErrorKind::FileTooLarge;
+
     let path = place("full");
     let directory = OutputDirectory::create(&path).expect("makes it");
-    let full = || {
-        std::os::unix::fs::symlink("/dev/full", path.join("x.csv.part")).expect("links");
-        directory.file("x.csv").expect("opens")
-    };
-    let mut file = full();
+    let mut file = directory.file("x.csv").expect("opens");
     file.write_all(b"0").expect("still in the buffer");
     let error = file.finish().expect_err("the disk is full");
     assert!(error.to_string().contains("x.csv.part"), "{error}");
     assert!(!path.join("x.csv").exists());
-    fs::remove_file(path.join("x.csv.part")).expect("removes the link");
 
-    let mut file = full();
+    let mut file = directory.file("x.csv").expect("opens");
     let error = file
         .write_all(&[0; 1 << 20])
         .expect_err("more than the buffer takes");
-    assert_eq!(error.kind(), std::io::ErrorKind::StorageFull);
+    assert_eq!(error.kind(), FileTooLarge);
     assert!(error.to_string().contains("x.csv.part"), "{error}");
     // Bytes after a gap would appear to belong to the end.
     let again = file.write_all(b"0").expect_err("it was refused");
-    assert_eq!(again.kind(), std::io::ErrorKind::StorageFull);
+    assert_eq!(again.kind(), FileTooLarge);
     let error = file.finish_partial().expect_err("the end is missing");
     assert!(error.to_string().contains("the end of"), "{error}");
     // The written part has the final name nevertheless.
-    assert!(path.join("x.csv").is_symlink());
+    assert!(path.join("x.csv").exists());
+}
+
+#[test]
+fn one_process_at_a_time_has_a_directory() {
+    let path = place("locked");
+    let open = || OutputDirectory::create(&path).expect("makes it");
+    let first = open().exclusive().expect("free");
+    let error = open().exclusive().expect_err("taken").to_string();
+    assert!(
+        error.starts_with("another run of pfaff is writing into"),
+        "{error}"
+    );
+    open().shared().expect_err("taken");
+    let kept = first.clone();
+    drop(first);
+    open().exclusive().expect_err("a clone has it");
+    drop(kept);
+    let shards = [open().shared(), open().shared()];
+    assert!(shards.iter().all(Result::is_ok), "{shards:?}");
+    open().exclusive().expect_err("shared");
+    drop(shards);
+    open().exclusive().expect("free again");
+    assert_eq!(fs::read_dir(&path).expect("readable").count(), 0);
+}
+
+#[test]
+fn a_process_that_is_ended_leaves_whole_lines_and_a_summary() {
+    let path = place("ended");
+    let directory = OutputDirectory::create(&path).expect("makes it");
+    assert!(!directory.abandon(), "nothing has begun");
+    directory.write("b.csv", b"t,b.x\n0,0\n").expect("writes");
+    let earlier = OutputDirectory::create(&path).expect("makes it");
+    let mut table = earlier.file("a.csv").expect("begins");
+    table.write_all(b"t,a.x\n0,1\n0.1,").expect("writes");
+    assert!(earlier.abandon_as("summary.json", b"{}", &["a.csv", "b.csv", "summary.json"]));
+    let read = |name: &str| fs::read_to_string(path.join(name)).unwrap_or_default();
+    assert_eq!(read("a.csv"), "t,a.x\n0,1\n");
+    assert_eq!(read("summary.json"), "{}");
+    // It belongs to an earlier run.
+    assert!(!path.join("b.csv").exists());
+    table.write_all(b"2\n").expect_err("it is over");
+    assert_eq!(read("a.csv"), "t,a.x\n0,1\n");
+}
+
+#[test]
+fn what_somebody_else_has_written_is_recognised() {
+    let path = place("foreign");
+    let directory = OutputDirectory::create(&path).expect("makes it");
+    for (name, content, is_own) in [
+        ("trajectory.csv", "t,bob.x,bob.y\n0,1,2\n", true),
+        ("trajectory.csv", "t,x,y\n0,1,2\n", false),
+        ("trajectory.csv", "", true),
+        ("work_precision.csv", "scene,formulation,method,x\n", true),
+        ("sweep.csv", "run,body.bob.mass,status,error\n", true),
+        ("sweep.csv", "run,distance\n", false),
+        (
+            "summary.json",
+            "{\n  \"format\": 1,\n  \"version\": \"0.1.0\",\n",
+            true,
+        ),
+        (
+            "summary.json",
+            "{\"name\": \"package\", \"version\": \"0.1.0\"}",
+            false,
+        ),
+        (
+            "report.html",
+            "<html><meta name=\"generator\" content=\"pfaff 0.1.0\">",
+            true,
+        ),
+        (
+            "report.html",
+            "<html><meta name=\"generator\" content=\"mdBook\">",
+            false,
+        ),
+        ("scene.toml", "[scene]", false),
+        ("binary.svg", "\u{0}\u{1}", false),
+    ] {
+        fs::write(path.join(name), content).expect("writable");
+        let found = directory.check_ours(&[name, "missing.csv"]);
+        assert_eq!(found.is_ok(), is_own, "{name}: {content}");
+        if let Err(error) = found {
+            assert!(
+                error.to_string().contains(name) && error.is_place(),
+                "{error}"
+            );
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn nothing_is_written_through_a_link() {
+    use std::os::unix::fs::symlink;
+
+    let path = place("links");
+    let directory = OutputDirectory::create(&path).expect("makes it");
+    let precious = path.join("precious");
+    fs::write(&precious, "mine").expect("writable");
+    for name in ["x.csv", "x.csv.part"] {
+        symlink(&precious, path.join(name)).expect("links");
+    }
+    directory.write("x.csv", b"1\n").expect("writes");
+    assert!(!path.join("x.csv").is_symlink() && !path.join("x.csv.part").exists());
+    let single = path.join("y.html");
+    symlink(&precious, &single).expect("links");
+    report::replace_file(&single, b"page").expect("writes");
+    assert!(!single.is_symlink());
+    assert_eq!(fs::read_to_string(single).expect("readable"), "page");
+    assert_eq!(fs::read_to_string(precious).expect("readable"), "mine");
 }
 
 #[cfg(target_os = "linux")]

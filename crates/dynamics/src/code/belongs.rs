@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use linalg::GRADED_MASSES;
+use model::words::listed;
 use model::{Mechanism, System};
 
 use super::SceneCode;
@@ -91,7 +92,7 @@ pub enum CodeMismatch {
 
 fn from_one(rows: &[usize]) -> String {
     let rows: Vec<String> = rows.iter().map(|i| (i + 1).to_string()).collect();
-    rows.join(", ")
+    listed(&rows)
 }
 
 /// Reason why a run does not use generated code.

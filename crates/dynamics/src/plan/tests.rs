@@ -223,6 +223,7 @@ fn rows_that_nobody_wants_are_not_computed() {
                     ControlFlow::Break(())
                 }
             },
+            &|| false,
             |_| {
                 rows += 1;
                 Ok(ControlFlow::Continue(()))

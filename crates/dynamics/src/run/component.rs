@@ -25,6 +25,10 @@ pub(super) type ShowRow<'r> =
 /// Receives the time (s) of each accepted step of each component, and may end the run.
 pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
 
+/// Whether the caller wants a run to end. Asked at each evaluation, by all threads of a run, so that
+/// it is heard within a step; it should cost no more than reading a flag.
+pub type Stop<'w> = dyn Fn() -> bool + Sync + 'w;
+
 /// The failure of a run that has not begun.
 pub(super) fn not_begun(error: MotionError) -> Box<Failure> {
     let summary = Summary::default();
@@ -35,9 +39,12 @@ pub(super) fn not_begun(error: MotionError) -> Box<Failure> {
 pub(super) fn run_component(
     plan: &Plan<'_>,
     component: usize,
-    watch: &Watch<'_>,
+    (watch, stop): (&Watch<'_>, &Stop<'_>),
     row: &mut ShowRow<'_>,
 ) -> Result<Summary, Box<Failure>> {
+    if stop() {
+        return Ok(Summary::default());
+    }
     let component = &plan.components[component];
     let prepared = component.prepared();
     let method = component.decisions.method.value;
@@ -55,7 +62,7 @@ pub(super) fn run_component(
         accelerations: plan.accelerations.value,
         reactions: component.decisions.reactions.value.clone(),
     };
-    let equations = RunEquations::new(motion, prepared, options, wanted);
+    let equations = RunEquations::new(motion, prepared, options, wanted, stop);
     let y0 = equations.y0();
     let interval = Interval {
         t0: 0.0,

@@ -7,6 +7,7 @@ use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, 
 use model::{Mechanism, System};
 
 use super::by_time::ByTime;
+use super::component::Stop;
 use super::impulse::cross_break;
 use super::record::Record;
 use super::reduced::Reduced;
@@ -40,7 +41,7 @@ pub(super) struct RunEquations<'m> {
     wanted: AtRows,
     /// Linear systems of implicit methods, allocated by their first step.
     reduced: Option<Reduced>,
-    t_end: f64,
+    until: Until<'m>,
     leader: Leader,
     /// Whether coordinates are so large relative to the mechanism that their rounding shows in
     /// stages on the way to a singular configuration.
@@ -54,11 +55,16 @@ pub(super) struct RunEquations<'m> {
     by_time: Option<ByTime>,
     /// The last accepted step.
     last: Span,
-    scratch: States,
+    scratch: Scratch,
 }
 
-/// States that are used within one call.
-struct States {
+/// When the run ends.
+struct Until<'m> {
+    t_end: f64,
+    stop: &'m Stop<'m>,
+}
+
+struct Scratch {
     /// The state before a projection.
     before: Vec<f64>,
     /// A stage on the constraints.
@@ -72,6 +78,7 @@ impl<'m> RunEquations<'m> {
         prepared: &Prepared,
         options: &MotionOptions,
         wanted: AtRows,
+        stop: &'m Stop<'m>,
     ) -> Self {
         let (q, v, mechanism) = (&prepared.q, &prepared.v, motion.mechanism());
         let works = mechanism.layout().rheonomic || mechanism.has_applied_forces();
@@ -81,14 +88,17 @@ impl<'m> RunEquations<'m> {
             record: Record::new(mechanism, q, v),
             wanted,
             reduced: None,
-            t_end: options.t_end,
+            until: Until {
+                t_end: options.t_end,
+                stop,
+            },
             leader: Leader::Alone,
             is_coarse: false,
             is_careful: false,
             is_void: false,
             by_time: ByTime::for_run(prepared, options),
             last: Span::default(),
-            scratch: States {
+            scratch: Scratch {
                 before: y0.clone(),
                 stage: y0,
             },
@@ -320,7 +330,7 @@ impl<'m> RunEquations<'m> {
         if std::mem::take(&mut self.is_void) {
             return Err(Next::Reject);
         }
-        let has_to_end = step.t == self.t_end || self.is_break(step.t);
+        let has_to_end = step.t == self.until.t_end || self.is_break(step.t);
         let motion = &mut self.motion;
         let on_code = motion.is_on_code();
         let (q, v, _) = motion.parts_mut(y);
@@ -450,7 +460,14 @@ impl Ode for RunEquations<'_> {
         self.scratch.stage.len()
     }
 
+    fn is_stopped(&self) -> bool {
+        (self.until.stop)()
+    }
+
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
+        if self.is_stopped() {
+            return Err(MotionFault::Interrupted { time: t });
+        }
         if self.motion.is_on_code() {
             let evaluated = self.motion.derivative(t, y, dy);
             self.note_departure();

@@ -9,8 +9,8 @@
 use std::ops::ControlFlow;
 
 use integrators::{
-    Dop853, Dopri5, End, InitialStep, Interval, Options, Outcome, Radau5, Rows, Statistics, Tsit5,
-    integrate,
+    Dop853, Dopri5, End, InitialStep, Interval, Ode, Options, Outcome, Radau5, Rows, Statistics,
+    Tsit5, integrate,
 };
 
 use super::component::{ShowRow, Watch, named};
@@ -154,7 +154,9 @@ impl<'r, 'm> Run<'r, 'm> {
                 ControlFlow::Continue(())
             }
         });
-        if let Some(error) = refused {
+        if let Some(error) = refused
+            && !equations.is_stopped()
+        {
             *stopped = Some(named(error));
         }
         (hands_over, outcome)

@@ -4,13 +4,13 @@
 //! bodies are assigned to components is decided in `plan::split`.
 
 use std::ops::ControlFlow;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, channel, sync_channel};
 use std::thread::{self, ScopedJoinHandle};
 use std::time::Instant;
 
 use model::{Places, Reaction, System};
 
-use super::component::{ShowRow, Watch, run_component};
+use super::component::{ShowRow, Stop, Watch, run_component};
 use super::permits::Permits;
 use super::sample::{Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary};
@@ -36,41 +36,50 @@ struct Link<'p> {
 type Integrated = Result<Summary, Box<Failure>>;
 
 /// Runs all components of a plan and passes on their combined rows.
-pub(super) fn run(plan: &Plan<'_>, watch: &Watch<'_>, row: &mut ShowRow<'_>) -> Integrated {
+pub(super) fn run(
+    plan: &Plan<'_>,
+    watched: (&Watch<'_>, &Stop<'_>),
+    row: &mut ShowRow<'_>,
+) -> Integrated {
     let clock = Instant::now();
     let whole = Places::default();
     let permits = Permits::new(plan.options().threads);
     let (outcomes, stopped) = thread::scope(|scope| {
         let mut links = Vec::with_capacity(plan.components.len());
         let mut handles = Vec::with_capacity(plan.components.len());
-        let mut refused = None;
         for (k, component) in plan.components.iter().enumerate() {
             let (told, rows) = sync_channel(AHEAD);
             let permits = &permits;
             let work = move || {
                 let mut permit = permits.take();
-                let mut row =
-                    |sample: &mut Sample<'_, '_>| Ok(permit.leave_for(|| tell(sample, &told)));
-                run_component(plan, k, watch, &mut row)
+                let mut row = |sample: &mut Sample<'_, '_>| {
+                    Ok(permit.leave_for(|| tell(sample, |row| told.send(row).is_ok())))
+                };
+                run_component(plan, k, watched, &mut row)
             };
-            match thread::Builder::new().spawn_scoped(scope, work) {
-                Ok(handle) => handles.push(handle),
-                Err(source) => {
-                    let component = component.name.clone();
-                    refused = Some(MotionError::Thread { component, source });
-                    break;
-                }
-            }
             let places = component.places().unwrap_or(&whole);
+            let (rows, handle) = match thread::Builder::new().spawn_scoped(scope, work) {
+                Ok(handle) => (rows, Ok(handle)),
+                // The system has no more threads: this one runs the component before it collects
+                // rows, and so has to store them.
+                Err(_) => {
+                    let (told, rows) = channel();
+                    let send = |own| told.send(own).is_ok();
+                    let mut row = |sample: &mut Sample<'_, '_>| Ok(tell(sample, send));
+                    let outcome = run_component(plan, k, watched, &mut row);
+                    (rows, Err(outcome))
+                }
+            };
+            handles.push(handle);
             links.push(Link { places, rows });
         }
-        let stopped = match refused {
-            Some(error) => Some(error),
-            None => show(plan, &links, row).map(Into::into),
-        };
+        let stopped = show(plan, &links, row).map(Into::into);
         // Closes the channels: components that are ahead stop at their next row.
         drop(links);
-        (handles.into_iter().map(joined).collect::<Vec<_>>(), stopped)
+        let outcomes = handles
+            .into_iter()
+            .map(|handle| handle.map_or_else(|own| own, joined));
+        (outcomes.collect::<Vec<_>>(), stopped)
     });
     conclude(plan, outcomes, stopped, clock.elapsed().as_secs_f64())
 }
@@ -83,7 +92,7 @@ fn joined(handle: ScopedJoinHandle<'_, Integrated>) -> Integrated {
 }
 
 /// Sends a row, as long as the receiver exists.
-fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> {
+fn tell(sample: &mut Sample<'_, '_>, send: impl Fn(Row) -> bool) -> ControlFlow<()> {
     let row = Row {
         t: sample.t,
         q: sample.q.to_vec(),
@@ -91,9 +100,10 @@ fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> 
         work: sample.work,
         values: sample.values(),
     };
-    match told.send(row) {
-        Ok(()) => ControlFlow::Continue(()),
-        Err(_) => ControlFlow::Break(()),
+    if send(row) {
+        ControlFlow::Continue(())
+    } else {
+        ControlFlow::Break(())
     }
 }
 
@@ -186,7 +196,6 @@ fn conclude(
             let component = component.name.clone();
             earliest = Some((summary.t, MotionError::Component { component, source }));
         }
-        // If a thread was refused, there are fewer outcomes than components.
         components.push(ComponentSummary {
             name: component.name.clone(),
             places: component.places().cloned().unwrap_or_default(),

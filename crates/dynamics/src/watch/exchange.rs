@@ -2,6 +2,7 @@
 //! accepted and polished points only. The motion does not change.
 
 use model::System;
+use model::words::listed;
 use solvability::{RowDecision, decide_holonomic_rows, decide_rows, rows_of_rank};
 
 use super::pivots::{are_lost, are_recovered, are_sound, position_wants_exchange, want_exchange};
@@ -124,7 +125,7 @@ impl Exchange {
         if let Some(misfits) = &mut equations.misfits {
             misfits.interrupt();
         }
-        let text = format!("{why}; now dropped: {}. {consequence}", numbers.join(", "));
+        let text = format!("{why}; now dropped: {}. {consequence}", listed(&numbers));
         let time = equations.at.s.t;
         let event = Event::at(time, EventKind::RowsExchanged, dropped, text);
         Ok((moves, Some(event)))

@@ -42,6 +42,7 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
         rivals: &rivals,
         plan: plan(arguments.quick, arguments.all),
         out: &arguments.out,
+        force: true,
         json: arguments.json,
     }
     .run(console)

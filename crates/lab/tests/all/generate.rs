@@ -201,12 +201,16 @@ mod on_linux {
         let folder = place("generate-full");
         let file = folder.0.join("scene.toml");
         fs::write(&file, "older").expect("writable");
-        symlink("/dev/full", folder.0.join("scene.toml.part")).expect("links");
         let path = file.to_str().expect("UTF-8");
-        let output = lab(&["generate", "fleet", "--n", "200", "--out", path]);
+        // No file takes a byte.
+        let script = "trap '' XFSZ; ulimit -f 0; exec \"$0\" \"$@\"";
+        let mut limited = Command::new("sh");
+        limited.args(["-c", script, env!("CARGO_BIN_EXE_lab")]);
+        limited.args(["generate", "fleet", "--n", "200", "--out", path]);
+        let output = limited.output().expect("it starts");
         assert_eq!(output.status.code(), Some(1));
         assert!(
-            stderr(&output).contains("scene.toml.part`: No space left"),
+            stderr(&output).contains("scene.toml.part`: File too large"),
             "{output:?}"
         );
         assert_eq!(names(&folder), ["scene.toml"]);

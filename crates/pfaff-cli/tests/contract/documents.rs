@@ -211,7 +211,7 @@ fn results_that_cannot_be_written_are_named() {
     let file = folder.0.join("file");
     std::fs::write(&file, "here first").expect("writable");
     let output = pfaff(&["simulate", ROBOT, "--out", file.to_str().expect("UTF-8")]);
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.status.code(), Some(2));
     assert!(super::stderr(&output).contains("file"), "{output:?}");
 }
 

@@ -114,12 +114,12 @@ fn what_can_be_judged_but_not_moved_is_checked_analysed_and_not_simulated() {
 }
 
 #[test]
-fn results_that_cannot_be_written_have_code_1() {
+fn a_place_that_takes_no_results_is_wrong_input() {
     let folder = Folder::new("json-occupied");
     std::fs::create_dir_all(&folder.0).expect("writable");
     let file = folder.0.join("file");
     std::fs::write(&file, "here first").expect("writable");
     let out = file.to_str().expect("UTF-8");
-    let d = failure(&pfaff(&["simulate", ROBOT, "--json", "--out", out]), 1);
+    let d = failure(&pfaff(&["simulate", ROBOT, "--json", "--out", out]), 2);
     assert_eq!(d["problems"], json!([]));
 }

@@ -4,9 +4,8 @@
 
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader};
-use std::os::unix::fs::symlink;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
@@ -16,6 +15,9 @@ use super::{Folder, ROBOT, pfaff, stderr, stdout};
 
 /// How long a test waits for an event that must occur.
 const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Longest time from a request to the end of the command.
+const AT_ONCE: Duration = Duration::from_secs(1);
 
 /// A directory with the scene of a pendulum in it, which runs up to `t_end`.
 fn place(name: &str, t_end: &str) -> (Folder, String) {
@@ -76,6 +78,14 @@ fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
         assert!(begin.elapsed() < PATIENCE, "{what}");
         std::thread::sleep(Duration::from_millis(2));
     }
+}
+
+/// The command under a limit of the shell: of the size of files (then no signal ends it), of memory.
+fn with_limit(limit: &str, arguments: &[&str]) -> Output {
+    let script = format!("trap '' XFSZ; ulimit {limit}; exec \"$0\" \"$@\"");
+    let mut command = Command::new("sh");
+    command.args(["-c", &script, env!("CARGO_BIN_EXE_pfaff")]);
+    command.args(arguments).output().expect("it starts")
 }
 
 fn send(signal: &str, child: &Child) {
@@ -177,19 +187,22 @@ fn a_full_disk_leaves_older_results_alone() {
     let before = contents(&out);
     assert_eq!(before.len(), 4);
     // Each of its files meets the full disk when the first bytes are written.
-    for name in ["trajectory.csv", "reactions.csv"] {
-        let part = out.0.join(format!("{name}.part"));
-        // The other table of the previous run.
-        let _ = fs::remove_file(&part);
-        symlink("/dev/full", &part).expect("links");
-        let output = pfaff(&simulate);
+    for (name, output) in [
+        ("trajectory.csv", "reactions = false"),
+        ("reactions.csv", "trajectory = false"),
+        ("summary.json", "trajectory = false\nreactions = false"),
+    ] {
+        let text = fs::read_to_string(&scene).expect("readable");
+        let other = folder.0.join("other.toml");
+        fs::write(&other, format!("{text}\n[output]\n{output}\n")).expect("writable");
+        let other = other.to_str().expect("UTF-8");
+        let output = with_limit("-f 0", &["simulate", other, "--out", out.text()]);
         let text = stderr(&output);
         assert_eq!(output.status.code(), Some(1), "{text}");
         assert!(
-            text.contains(&format!("{name}.part`: No space left")),
+            text.contains(&format!("{name}.part`: File too large")),
             "{text}"
         );
-        fs::remove_file(part).expect("removes the link");
         let whole: Vec<_> = contents(&out)
             .into_iter()
             .filter(|(name, _)| !name.ends_with(".part"))
@@ -213,21 +226,8 @@ fn a_full_disk_leaves_older_results_alone() {
 fn a_disk_that_fills_up_leaves_whole_rows() {
     let (folder, scene) = place("faults-filling", "10.0");
     let out = Folder(folder.0.join("out"));
-    // At most 8 blocks of 512 or 1024 bytes for each file; without the trap the signal would end
-    // the program.
-    let script = "trap '' XFSZ; ulimit -f 8; exec \"$0\" \"$@\"";
-    let output = Command::new("sh")
-        .args([
-            "-c",
-            script,
-            env!("CARGO_BIN_EXE_pfaff"),
-            "simulate",
-            &scene,
-            "--out",
-            out.text(),
-        ])
-        .output()
-        .expect("it starts");
+    // At most 8 blocks of 512 or 1024 bytes for each file.
+    let output = with_limit("-f 8", &["simulate", &scene, "--out", out.text()]);
     let text = stderr(&output);
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(text.contains(".csv.part`: File too large"), "{text}");
@@ -250,18 +250,32 @@ fn a_sweep_without_a_disk_says_so_and_goes_on_later() {
         "--out",
         out.text(),
     ];
-    fs::create_dir_all(&out.0).expect("writable");
-    for name in ["sweep.csv.part", "summary.json.part"] {
-        let path = out.0.join(name);
-        let _ = fs::remove_file(&path);
-        symlink("/dev/full", &path).expect("links");
-        let output = pfaff(&sweep);
-        let text = stderr(&output);
-        assert_eq!(output.status.code(), Some(1), "{name}: {text}");
-        assert!(text.contains(name), "{name}: {text}");
-        assert!(!text.contains("panicked"), "{text}");
-        fs::remove_file(&path).expect("removes the link");
-    }
+    // The journal cannot be written.
+    let output = with_limit("-f 0", &sweep);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains(".journal`: File too large"), "{text}");
+    assert_eq!(pfaff(&sweep).status.code(), Some(0));
+    let before = contents(&out);
+    // All runs are in the journal; the first table cannot be written.
+    let output = with_limit("-f 0", &sweep);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("sweep.csv.part`: File too large"), "{text}");
+    assert!(!text.contains("panicked"), "{text}");
+    let whole: Vec<_> = contents(&out)
+        .into_iter()
+        .filter(|(name, _)| !name.ends_with(".part"))
+        .collect();
+    assert_eq!(whole, before);
+    // Something else is where the summary begins.
+    let path = out.0.join("summary.json.part");
+    fs::create_dir(&path).expect("writable");
+    let output = pfaff(&sweep);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(text.contains("summary.json.part"), "{text}");
+    fs::remove_dir(&path).expect("removable");
     assert_eq!(pfaff(&sweep).status.code(), Some(0));
     assert_eq!(out.read("sweep.csv").lines().count(), 4);
 }
@@ -288,7 +302,7 @@ fn places_that_take_no_files_are_named() {
             command.extend(["--out", out]);
             let output = pfaff(&command);
             let text = stderr(&output);
-            assert_eq!(output.status.code(), Some(1), "{command:?}: {text}");
+            assert_eq!(output.status.code(), Some(2), "{command:?}: {text}");
             assert!(
                 text.starts_with("error: cannot ") && text.contains(out),
                 "{text}"
@@ -354,32 +368,23 @@ fn a_second_request_ends_the_program_at_once() {
     let (folder, scene) = place("faults-second", "50000.0");
     let out = Folder(folder.0.join("out"));
     fs::create_dir_all(&out.0).expect("writable");
-    // Nobody reads from this pipe: once it is full, the run blocks for ever and cannot notice the
-    // request to stop.
     let part = out.0.join("trajectory.csv.part");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&part)
-            .status()
-            .is_ok_and(|s| s.success())
+    let mut child = begun(
+        &["simulate", &scene, "--out", out.text(), "--json"],
+        Stdio::piped(),
     );
-    let mut child = begun(&["simulate", &scene, "--out", out.text()], Stdio::piped());
-    let state = format!("/proc/{}/wchan", child.id());
-    wait_until("the run waits for the pipe", || {
-        fs::read_to_string(&state).is_ok_and(|s| s.contains("pipe_w"))
+    wait_until("rows are written", || {
+        fs::metadata(&part).is_ok_and(|m| m.len() > 100_000)
     });
+    // The second one arrives while the command puts its files in order, or has ended already.
     send("-INT", &child);
-    std::thread::sleep(Duration::from_millis(100));
-    assert!(
-        child.try_wait().expect("it can be asked").is_none(),
-        "the first request is for the computation"
-    );
-    wait_until("it ends", || {
-        send("-INT", &child);
-        child.try_wait().expect("it can be asked").is_some()
-    });
-    assert_eq!(child.wait().expect("it ended").code(), Some(1));
-    assert!(!out.0.join("trajectory.csv").exists());
+    send("-INT", &child);
+    let begin = Instant::now();
+    child.wait().expect("it ends");
+    assert!(begin.elapsed() < AT_ONCE, "{:?}", begin.elapsed());
+    let summary: Value = serde_json::from_str(&out.read("summary.json")).expect("JSON");
+    assert_eq!(summary["partial"], true);
+    assert!(rows(&out.0.join("trajectory.csv")).0 > 100);
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn wrong_places_and_wrong_scenes_are_refused() {
         ),
         (
             &["view", ROBOT, "--no-open", "--out", &nowhere],
-            "cannot write",
+            "cannot make",
         ),
         (
             &["view", "no-such.toml", "--no-open"],

@@ -106,7 +106,7 @@ fn wrong_input_is_refused_before_anything_is_run() {
 }
 
 #[test]
-fn a_place_that_cannot_be_written_has_code_1() {
+fn a_place_that_takes_no_results_is_wrong_input() {
     let folder = Folder::new("work-precision-occupied");
     std::fs::create_dir_all(&folder.0).expect("writable");
     let file = folder.0.join("file");
@@ -118,7 +118,7 @@ fn a_place_that_cannot_be_written_has_code_1() {
         "--out",
         file.to_str().expect("UTF-8"),
     ]);
-    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
     assert!(
         stderr(&output).contains("cannot make the directory"),
         "{}",

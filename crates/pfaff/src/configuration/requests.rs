@@ -14,17 +14,18 @@ pub(super) fn reaction(
 ) -> Result<ConstraintId, StudyError> {
     let groups = &mechanism.layout().groups;
     let place = groups.iter().position(|g| g.name == name);
-    place
-        .map(ConstraintId)
-        .ok_or_else(|| match scene.is_inactive(name) {
-            true => StudyError::InactiveReaction {
+    place.map(ConstraintId).ok_or_else(|| {
+        if scene.is_inactive(name) {
+            StudyError::InactiveReaction {
                 name: name.to_owned(),
-            },
-            false => StudyError::UnknownReaction {
+            }
+        } else {
+            StudyError::UnknownReaction {
                 name: name.to_owned(),
                 nearest: scene.nearest_reaction(name).map(str::to_owned),
-            },
-        })
+            }
+        }
+    })
 }
 
 /// Groups with their names: those of the scene, then the requested combinations.

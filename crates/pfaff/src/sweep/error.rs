@@ -35,13 +35,8 @@ pub enum SweepError {
     #[error(transparent)]
     Journal(#[from] JournalError),
     /// The threads could not be started.
-    #[error("cannot start {threads} threads: {source}")]
-    Threads {
-        /// Number of threads requested; 0 means one for each core.
-        threads: usize,
-        /// Cause.
-        source: rayon::ThreadPoolBuildError,
-    },
+    #[error("cannot start threads: {0}")]
+    Threads(rayon::ThreadPoolBuildError),
     /// A file could not be written.
     #[error(transparent)]
     File(#[from] FileError),
@@ -57,13 +52,16 @@ impl SweepError {
         match self {
             Self::Study(e) => e.is_input(),
             Self::Key(_) | Self::Axis(_) | Self::NoneBegins { .. } => true,
-            Self::Journal(e) => matches!(
-                e,
-                JournalError::Changed { .. }
-                    | JournalError::Damaged { .. }
-                    | JournalError::Missing { .. }
-            ),
-            Self::Threads { .. } | Self::File(_) | Self::Table(_) => false,
+            Self::Journal(e) => {
+                matches!(
+                    e,
+                    JournalError::Changed { .. }
+                        | JournalError::Damaged { .. }
+                        | JournalError::Missing { .. }
+                ) || matches!(e, JournalError::File(e) if e.is_place())
+            }
+            Self::File(e) => e.is_place(),
+            Self::Threads(_) | Self::Table(_) => false,
         }
     }
 }

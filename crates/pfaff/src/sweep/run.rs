@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{MotionFault, Prepared, Sample, Summary};
+use dynamics::{MotionFault, Prepared, Sample, Stop, Summary};
 use model::Mechanism;
 use model::frame::COLUMNS;
 use report::sweep::{Extreme, SweepMotion};
@@ -61,8 +61,13 @@ impl Sweep<'_> {
 }
 
 impl Begun<'_> {
-    /// Moves it to its end, or until `each`, which is called with every written row, stops it.
-    pub(super) fn go(&self, mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>) -> SweepRow {
+    /// Moves it to its end, or until `each`, which is called with every written row, or `stop`,
+    /// which is called at each evaluation, stops it.
+    pub(super) fn go(
+        &self,
+        stop: &Stop<'_>,
+        mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>,
+    ) -> SweepRow {
         let Self {
             sweep,
             run,
@@ -75,7 +80,7 @@ impl Begun<'_> {
         };
         let reactions = sweep.places(&study.prepared.mechanism);
         let mut watch = Watch::new(&reactions, study, analysis);
-        let outcome = study.run(options, |sample| {
+        let outcome = study.run_until(options, stop, |sample| {
             watch.see(sample)?;
             Ok(each(sample))
         });

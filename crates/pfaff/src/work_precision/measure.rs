@@ -85,7 +85,7 @@ pub(super) fn look(
     options: &MotionOptions,
     times: &Times,
     budget: f64,
-    interrupted: &impl Fn() -> bool,
+    interrupted: &(impl Fn() -> bool + Sync),
 ) -> Look {
     let options = MotionOptions {
         output_step: times.step(options.t_end, budget),
@@ -93,23 +93,19 @@ pub(super) fn look(
     };
     let clock = Instant::now();
     let (mut observations, mut early) = (Vec::new(), None);
-    let outcome = study.run(&options, |sample| {
+    let outcome = study.run_until(&options, interrupted, |sample| {
         if times.has(sample.t) {
             observations.push(Observation::of(sample)?);
         }
-        early = if interrupted() {
-            Some(Ending::Interrupted)
-        } else if clock.elapsed().as_secs_f64() > budget {
-            Some(Ending::GivenUp(sample.t))
-        } else {
-            None
-        };
+        let is_late = clock.elapsed().as_secs_f64() > budget;
+        early = is_late.then_some(Ending::GivenUp(sample.t));
         Ok(match early {
             Some(_) => ControlFlow::Break(()),
             None => ControlFlow::Continue(()),
         })
     });
     let (summary, ending) = match outcome {
+        Ok(summary) if interrupted() => (summary, Ending::Interrupted),
         Ok(summary) => (summary, early.unwrap_or(Ending::Reached)),
         Err(failure) => (failure.summary, Ending::Failed(failure.error)),
     };
@@ -126,7 +122,7 @@ pub(super) fn clock(
     study: &Study,
     options: &MotionOptions,
     plan: &Plan,
-    interrupted: &impl Fn() -> bool,
+    interrupted: &(impl Fn() -> bool + Sync),
 ) -> Option<(Summary, u32)> {
     let options = MotionOptions {
         output_step: options.t_end,
@@ -134,12 +130,12 @@ pub(super) fn clock(
     };
     let (mut best, mut runs, mut total) = (None::<Summary>, 0, 0.0);
     while runs < plan.repetitions || total < plan.seconds {
+        let summary = study
+            .run_until(&options, interrupted, |_| Ok(ControlFlow::Continue(())))
+            .ok()?;
         if interrupted() {
             return None;
         }
-        let summary = study
-            .run(&options, |_| Ok(ControlFlow::Continue(())))
-            .ok()?;
         (runs, total) = (runs + 1, total + summary.wall_seconds);
         if best
             .as_ref()

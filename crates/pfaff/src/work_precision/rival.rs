@@ -62,7 +62,7 @@ pub(super) fn row(
     empty: WorkPrecisionRow,
     plan: &Plan,
     standard: Option<&Standard>,
-    interrupted: &impl Fn() -> bool,
+    interrupted: &(impl Fn() -> bool + Sync),
 ) -> Option<WorkPrecisionRow> {
     let empty = WorkPrecisionRow {
         reference_limit: standard.map_or(f64::NAN, Standard::motion_limit),

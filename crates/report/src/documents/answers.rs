@@ -16,6 +16,17 @@ pub struct RefusalDocument<'a, P> {
     pub problems: &'a [P],
 }
 
+/// The summary of a run whose process was ended before it could write its own.
+#[derive(Clone, Debug, Serialize)]
+pub struct EndedDocument {
+    /// Name of the scene.
+    pub scene: String,
+    /// `true`
+    pub partial: bool,
+    /// Why it ended.
+    pub error: &'static str,
+}
+
 /// A scene that was read and assembled.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheckDocument<'a> {

@@ -31,6 +31,22 @@ pub struct MisfitDocument {
     pub at_size: Option<f64>,
 }
 
+/// Largest number of misfits that are told in words; summary.json has all.
+const TOLD: usize = 12;
+
+impl MisfitDocument {
+    /// The misfits in words, a line each; of many the first.
+    #[must_use]
+    pub fn lines(misfits: &[Self]) -> Vec<String> {
+        let mut lines: Vec<String> = misfits.iter().take(TOLD).map(Self::to_string).collect();
+        match misfits.len().saturating_sub(TOLD) {
+            0 => {}
+            more => lines.push(format!("{more} more rows miss, see summary.json")),
+        }
+        lines
+    }
+}
+
 impl From<&Misfit> for MisfitDocument {
     fn from(misfit: &Misfit) -> Self {
         Self {

@@ -7,6 +7,7 @@ use dynamics::{
     Summary,
 };
 use model::System;
+use model::words::{listed, rounded};
 use serde::Serialize;
 use solvability::parts::parts;
 use solvability::{Freedoms, ONE_PART, ReactionVerdict, Sensitivities};
@@ -36,6 +37,10 @@ pub struct Run<'a> {
     pub spread: Option<&'a SpreadDocument>,
     /// How it ended.
     pub ending: Ending<'a>,
+    /// Number of rows in its tables.
+    pub rows: usize,
+    /// Names of its files.
+    pub files: &'a [&'static str],
 }
 
 /// How a run ended.
@@ -65,6 +70,10 @@ pub struct RunDocument {
     pub error: Option<String>,
     /// Last time reached (s).
     pub t_end: f64,
+    /// Number of rows in the tables.
+    pub rows: usize,
+    /// Names of the files of the run.
+    pub files: Vec<&'static str>,
     /// Accepted steps.
     pub steps: u64,
     /// Rejected steps.
@@ -228,27 +237,35 @@ fn dropped_by_group(prepared: &Prepared) -> Option<Vec<Vec<usize>>> {
     Some(of_group)
 }
 
-/// Largest number of deleted rows listed in texts; the document has all of them.
-const LISTED: usize = 24;
-
 impl fmt::Display for ChoiceDocument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::KeptRows { deleted_rows, .. } => {
-                let listed = deleted_rows.iter().take(LISTED);
-                let rows: Vec<String> = listed.map(usize::to_string).collect();
+                let rows: Vec<String> = deleted_rows.iter().map(usize::to_string).collect();
                 let word = if rows.len() == 1 { "row" } else { "rows" };
-                write!(f, "kept-rows, {word} {}", rows.join(", "))?;
-                match deleted_rows.len().checked_sub(LISTED) {
-                    Some(more @ 1..) => write!(f, " and {more} more deleted"),
-                    _ => f.write_str(" deleted"),
-                }
+                write!(f, "kept-rows, {word} {} deleted", listed(&rows))
             }
         }
     }
 }
 
 impl RunDocument {
+    /// What a run that ended early has kept, in words.
+    #[must_use]
+    pub fn kept(&self) -> String {
+        let tables = self.files.iter().filter(|name| name.ends_with(".csv"));
+        let tables: Vec<&str> = tables.copied().collect();
+        let rows = match (self.rows, tables.as_slice()) {
+            (_, []) => "summary.json".to_owned(),
+            (1, tables) => format!("1 row in {}", tables.join(" and ")),
+            (n, tables) => format!("{n} rows in {}", tables.join(" and ")),
+        };
+        format!(
+            "kept: {rows}, up to t = {} s; summary.json says that they are partial",
+            rounded(self.t_end)
+        )
+    }
+
     /// The document of a run.
     #[must_use]
     pub fn new(run: &Run<'_>) -> Self {
@@ -276,6 +293,8 @@ impl RunDocument {
             partial,
             error,
             t_end: summary.t,
+            rows: run.rows,
+            files: run.files.to_vec(),
             steps: summary.steps,
             rejected: summary.rejected,
             evaluations: summary.evaluations,

@@ -125,7 +125,15 @@ fn reaction(name: &str, row: usize) -> ReactionVerdict {
 fn json(document: &impl serde::Serialize) -> String {
     let mut bytes = Vec::new();
     write_json(&mut bytes, document).expect("memory takes everything");
-    String::from_utf8(bytes).expect("JSON is UTF-8")
+    let text = String::from_utf8(bytes).expect("JSON is UTF-8");
+    // Every document has this head; what follows is compared.
+    let head = concat!(
+        "{\n  \"format\": 1,\n  \"version\": \"",
+        env!("CARGO_PKG_VERSION"),
+        "\",\n"
+    );
+    let rest = text.strip_prefix(head).expect("a head");
+    format!("{{\n{rest}")
 }
 
 /// The golden text without the white space of indentation, which keeps it readable here.
@@ -362,6 +370,8 @@ fn summary_has_the_keys_of_the_contract() {
         left_out: Vec::new(),
     };
     let run = Run {
+        rows: 3,
+        files: &["trajectory.csv", "summary.json"],
         plan: &plan,
         reactions: &analysis.reactions,
         sensitivities: &sensitivities,
@@ -374,7 +384,7 @@ fn summary_has_the_keys_of_the_contract() {
     let found = json(&RunDocument::new(&run));
     let expected = r#"{
         "method": "dopri5", "formulation": "kept-rows", "stabilisation": "projection", "partial": false, "error": null,
-        "t_end": 2.0, "steps": 10, "rejected": 1, "evaluations": 70, "projections": 10,
+        "t_end": 2.0, "rows": 3, "files": ["trajectory.csv", "summary.json"], "steps": 10, "rejected": 1, "evaluations": 70, "projections": 10,
         "wall_seconds": 0.125, "max_position_residual": 0.0, "max_velocity_residual": null,
         "energy_balance": 0.0, "start_correction": 0.0, "start_velocity_correction": 0.0,
         "mobility": 0, "without_drives": null, "free_motions": [], "cannot_move": true,
@@ -414,6 +424,8 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     let error = MotionError::from(DropError::NotRedundant);
     let sensitivities = Sensitivities::default();
     let run = |ending| Run {
+        rows: 3,
+        files: &["trajectory.csv", "summary.json"],
         plan: &plan,
         reactions: &analysis.reactions,
         sensitivities: &sensitivities,

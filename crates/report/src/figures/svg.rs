@@ -5,6 +5,9 @@ use std::fmt::Write;
 /// Fonts in the order of preference; the sizes of labels are estimated for the widest of them.
 const FONTS: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
+/// Part of the first element of every figure, and of no other program's.
+pub(crate) const GENERATOR: &str = "'Liberation Sans', 'DejaVu Sans', sans-serif\" role=\"img\"";
+
 /// Mean width of a character relative to the size of the font, on the safe side.
 const CHARACTER: f64 = 0.62;
 

@@ -5,11 +5,8 @@ use model::System;
 
 use super::data::{self, Cast};
 use super::run_page::RunPage;
-use crate::documents::RunDocument;
+use crate::documents::{MisfitDocument, RunDocument};
 use crate::page::{add, duration, list, safe, short};
-
-/// Largest number of misfits that the page names; summary.json has all.
-const NAMED_MISFITS: usize = 12;
 
 /// Largest size of a scene included in a page (bytes).
 const SCENE_MOST: usize = 200_000;
@@ -98,8 +95,8 @@ fn numbers(out: &mut String, run: &RunDocument) {
     for (what, value) in numbers {
         pair(out, what, &safe(&value));
     }
-    for misfit in run.misfits.iter().take(NAMED_MISFITS) {
-        pair(out, "Within the tolerance", &safe(&misfit.to_string()));
+    for line in MisfitDocument::lines(&run.misfits) {
+        pair(out, "Within the tolerance", &safe(&line));
     }
     if let Some(spread) = &run.spread {
         pair(out, "Another choice of rows", &safe(&spread.to_string()));

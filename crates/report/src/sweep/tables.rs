@@ -11,6 +11,9 @@ use crate::tables::{Table, TableError};
 /// Lock file held while tables are written, by one process at a time.
 const LOCK: &str = "tables.lock";
 
+/// The tables of a sweep.
+pub const FILES: [&str; 3] = ["sweep.csv", "sweep.parquet", "summary.json"];
+
 /// Writes `sweep.csv`, `sweep.parquet` if this is compiled in, and `summary.json`. `read` is called
 /// to read the journals when no other process is writing tables: if several shards end at the same
 /// time, the last one has all rows.

@@ -52,7 +52,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
             ControlFlow::Break(())
         }
     };
-    let outcome = plan.simulate_watched(&watch, |sample| {
+    let outcome = plan.simulate_watched(&watch, &|| false, |sample| {
         rows += 1;
         checked.row(sample);
         trajectory

@@ -1,0 +1,53 @@
+//! Whether a file was written by this program, as far as its beginning shows. Whatever is not
+//! recognised is somebody else's and is not replaced.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+/// Bytes that are read to recognise a file.
+const HEAD: u64 = 1 << 12;
+
+/// Whether nothing is lost if a file is replaced: it does not exist, is empty, or was written by
+/// this program. What cannot be read is not ours.
+#[must_use]
+pub fn is_ours(path: &Path) -> bool {
+    let mut head = Vec::new();
+    match File::open(path) {
+        Ok(file) => {
+            if file.take(HEAD).read_to_end(&mut head).is_err() {
+                return false;
+            }
+        }
+        // A link that leads nowhere has nothing to lose.
+        Err(e) => return matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory),
+    }
+    if head.is_empty() {
+        return true;
+    }
+    let text = String::from_utf8_lossy(&head);
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    match ending.map(str::to_ascii_lowercase).as_deref() {
+        Some("csv") => is_table(text.lines().next().unwrap_or_default()),
+        Some("json") => {
+            let bare: String = text.split_whitespace().collect();
+            bare.starts_with("{\"format\":") && bare.contains(",\"version\":\"")
+        }
+        Some("html") => text.contains("<meta name=\"generator\" content=\"pfaff"),
+        Some("svg") => text.contains(crate::figures::GENERATOR),
+        Some("parquet") => text.starts_with("PAR1"),
+        _ => false,
+    }
+}
+
+/// Whether this is the header of one of our tables: quantities of bodies, joints and drives over
+/// time, runs of a sweep, or runs of a comparison.
+fn is_table(header: &str) -> bool {
+    let mut names = header.split(',');
+    match names.next() {
+        Some("t") => names.all(|name| name.trim_matches('"').contains('.')),
+        Some("run") => names.any(|name| name == "status"),
+        Some("scene") => header.starts_with("scene,formulation,method,"),
+        _ => false,
+    }
+}
