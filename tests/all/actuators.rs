@@ -112,6 +112,6 @@ fn a_cylinder_that_cannot_get_shorter_is_named() {
     // ℓ ≥ b − a = 1 is reached at t = √5 − 1.
     let study = study(&text);
     let failure = study.run(&options(2.0), |_| Ok(ControlFlow::Continue(())));
-    let error = failure.err().expect("stops").error.to_string();
+    let error = failure.expect_err("stops").error.to_string();
     assert!(error.contains("pump") || error.contains("1.23"), "{error}");
 }

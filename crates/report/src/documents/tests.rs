@@ -347,6 +347,7 @@ fn summary_has_the_keys_of_the_contract() {
         energy_gap: 0.0,
         largest_kinetic_energy: 0.0,
         min_pivot_ratio: 1.0,
+        misfits: Vec::new(),
         events: Vec::new(),
         components: Vec::new(),
     };
@@ -389,7 +390,7 @@ fn summary_has_the_keys_of_the_contract() {
         "energy_balance": 0.0, "start_correction": 0.0, "start_velocity_correction": 0.0,
         "mobility": 0, "without_drives": null, "free_motions": [], "cannot_move": true,
         "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_from_angle": null, "lower_rank_here": null },
-        "events": [],
+        "misfits": [], "spread": null, "events": [],
         "reactions": {
             "upper": { "verdict": "unique", "margin": 0.0, "within_tolerance": false, "sensitivity": 0.25, "fragile": true,
                 "hangs_on": "`upper` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm" },
