@@ -22,6 +22,7 @@
 //! | [`registry`] | definitions by their scene type |
 //! | [`description`] | bodies, joints, drives and forces as plain data |
 //! | `data` | points, directions and numbers of constraints, and how rows change with them |
+//! | [`law`] | forces of drives as functions of a measure and its rate |
 //! | [`mechanism`] | the assembled equations |
 //! | [`system`] | the interface of the equations for solvers |
 //! | [`extended`] | constraints in double-double, for certificates |
@@ -40,6 +41,7 @@ pub mod description;
 pub mod extended;
 pub mod function;
 mod group;
+pub mod law;
 pub mod mechanism;
 pub mod reaction;
 pub mod record;
@@ -56,6 +58,7 @@ pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
 pub use function::{Function, FunctionError};
+pub use law::Law;
 pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
 pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
 pub use record::RecordedEquations;

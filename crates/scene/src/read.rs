@@ -16,7 +16,7 @@ use crate::element::Types;
 use crate::findings::Findings;
 use crate::force::Forces;
 use crate::function::Domain;
-use crate::joint::{Drives, JointNames, Joints};
+use crate::joint::{self, Drives, JointNames, Joints};
 use crate::key::{Interval, Key, Takes};
 use crate::language::{self, Language};
 use crate::limits;
@@ -225,10 +225,14 @@ impl<'r> Parts<'r> {
             let by_name = JointNames::of(joints);
             for (table, name) in driven {
                 names.elements.push(Use::of(&name, &table));
+                let has_law = joint::has_law(&table);
                 drives.read(table, &name, &by_name, domains, findings);
-                drive_names.push(name);
+                if !has_law {
+                    drive_names.push(name);
+                }
             }
             joints.leave_out(&drives.replaced);
+            *forces = std::mem::take(&mut drives.laws);
         }
         let types = Types::of_forces(registry);
         for (table, name) in list(root, &section::FORCE, findings) {

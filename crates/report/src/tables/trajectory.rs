@@ -9,10 +9,13 @@ use super::{Table, TableError};
 /// Number of coordinates of a planar body, and of its velocities.
 const N_BODY: usize = 3;
 
-/// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` (s, m, rad, m/s, rad/s).
+/// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` (s, m, rad, m/s, rad/s), then for
+/// each drive by a law `<drive>.force` (N) or `<drive>.torque` (N·m), on the second body of its joint.
 pub struct TrajectoryTable<W: Write> {
     table: Table<W>,
     n_bodies: usize,
+    /// The mechanism, if it has drives by laws.
+    laws: Option<Box<Mechanism>>,
     /// One row, reused.
     values: Vec<f64>,
 }
@@ -28,7 +31,11 @@ impl<W: Write> TrajectoryTable<W> {
             let columns = ["x", "y", "angle", "vx", "vy", "omega"];
             header.extend(columns.map(|c| format!("{}.{c}", body.name)));
         }
+        let laws = mechanism.law_drives();
+        header.extend(laws.map(|(name, load)| format!("{name}.{load}")));
+        let has_laws = mechanism.law_drives().next().is_some();
         Ok(Self {
+            laws: has_laws.then(|| Box::new(mechanism.clone())),
             table: Table::new("trajectory.csv", out, &header)?,
             n_bodies: mechanism.layout().n_q / N_BODY,
             values: Vec::with_capacity(header.len()),
@@ -49,6 +56,9 @@ impl<W: Write> TrajectoryTable<W> {
         for (q, v) in q.chunks_exact(N_BODY).zip(v.chunks_exact(N_BODY)) {
             self.values.extend_from_slice(q);
             self.values.extend_from_slice(v);
+        }
+        if let Some(mechanism) = &self.laws {
+            self.values.extend(mechanism.law_forces(t, q, v));
         }
         self.table.row(&self.values)
     }
