@@ -1,11 +1,11 @@
-//! A law on a measure as an applied force: `Q = law(measure, rate, t)·∂measure/∂x`, from the kernels
-//! of the drive of that measure, so that any measure of any joint has it.
+//! A law on a measure as an applied force: `Q = law(measure, rate, t)·∂measure/∂x`, from the
+//! kernels of the drive of that measure, so that any measure of any joint has it.
 //!
 //! A drive states its measure by a row Φ(x, m) = 0, m the change since the start. Where the row is
 //! measure − measure₀ − m, the gradient of the measure is C. Where the row of the joint takes m, it
 //! is at most quadratic in it, Φ(x, m) = Φ(x, 0) − s₀·m − ½·s₁·m² with s = −∂Φ/∂m = s₀ + s₁·m, the
-//! component of the drive; then m = 2Φ/(s₀ + s), s = √(s₀² + 2·s₁·Φ), Φ at m = 0, and the gradient is
-//! C/s. For a distance, s = |d|/L.
+//! component of the drive; then m = 2Φ/(s₀ + s), s = √(s₀² + 2·s₁·Φ), Φ at m = 0, and the gradient
+//! is C/s. For a distance, s = |d|/L.
 
 use joints::plane::N_DOF;
 use joints::spec::{ConstraintSpec, ForceSpec};

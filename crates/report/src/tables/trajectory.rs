@@ -9,8 +9,9 @@ use super::{Table, TableError};
 /// Number of coordinates of a planar body, and of its velocities.
 const N_BODY: usize = 3;
 
-/// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` (s, m, rad, m/s, rad/s), then for
-/// each drive by a law `<drive>.force` (N) or `<drive>.torque` (N·m), on the second body of its joint.
+/// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` (s, m, rad, m/s, rad/s), then
+/// for each drive by a law `<drive>.force` (N) or `<drive>.torque` (N·m), on the second body of its
+/// joint.
 pub struct TrajectoryTable<W: Write> {
     table: Table<W>,
     n_bodies: usize,
