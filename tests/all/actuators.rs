@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{MotionOptions, Summary};
-use model::{Reaction, Registry};
+use dynamics::{Method, MotionOptions, Summary};
+use model::{Reaction, Registry, System};
 use pfaff::{Overrides, Study};
 
 /// Time, coordinates, velocities and reactions of one row.
@@ -114,4 +114,219 @@ fn a_cylinder_that_cannot_get_shorter_is_named() {
     let failure = study.run(&options(2.0), |_| Ok(ControlFlow::Continue(())));
     let error = failure.expect_err("stops").error.to_string();
     assert!(error.contains("pump") || error.contains("1.23"), "{error}");
+}
+
+/// A motor with the torque a − b·rate on a wheel: ω = (a/b)·(1 − exp(−b·t/J)).
+const MOTOR: &str = r#"
+scene = { name = "motor", space = "plane" }
+body = [{ name = "wheel", mass = 1.0, inertia = 0.4 }]
+joint = [{ name = "shaft", type = "revolute", bodies = ["ground", "wheel"], at = [0, 0] }]
+drive = [{ name = "motor", joint = "shaft", type = "angle", torque = "20 - 0.5*rate" }]
+"#;
+
+#[test]
+fn a_motor_runs_up_exponentially() {
+    let study = study(MOTOR);
+    assert_eq!(study.prepared.mechanism.layout().rows(), 2);
+    for method in [Method::Dop853, Method::Radau5] {
+        let options = MotionOptions {
+            method,
+            ..options(3.0)
+        };
+        let (rows, summary) = run(&study, &options);
+        for row in rows {
+            let omega = 40.0 * (1.0 - (-0.5 * row.t / 0.4).exp());
+            close(row.v[2], omega, 40.0, "angular velocity");
+            let law = study.prepared.mechanism.law_forces(row.t, &row.q, &row.v);
+            close(law[0], 20.0 - 0.5 * omega, 20.0, "torque");
+        }
+        // Radau IIA integrates the work less accurately than the motion.
+        let bound = if method == Method::Radau5 { 1e-5 } else { 1e-8 };
+        assert!(summary.energy_balance < bound, "{}", summary.energy_balance);
+    }
+}
+
+/// A law of a length with the numbers of a spring-damper is that spring-damper; in millimetres too.
+#[test]
+fn a_law_of_a_length_is_a_spring_damper() {
+    let head = r#"
+scene = { name = "spring", space = "plane", gravity = [0.0, -9.81], format = 2 }
+body = [{ name = "bob", mass = 2.0, inertia = 0.1, position = [0.5, -1.0] }]
+"#;
+    let spring = format!(
+        "{head}force = [{{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"bob\"], at = [[0, 0], [0.5, -1]],
+         stiffness = 200, damping = 3, free_length = 0.9 }}]"
+    );
+    let by_law = |law: &str| {
+        format!(
+            "{head}parameters = {{ k = \"200 N/m\" }}
+joint = [{{ name = \"strut\", type = \"distance\", bodies = [\"ground\", \"bob\"], at = [[0, 0], [0.5, -1]] }}]
+drive = [{{ name = \"law\", joint = \"strut\", type = \"length\", force = \"{law}\" }}]"
+        )
+    };
+    let reference = run(&study(&spring), &options(2.0)).0;
+    let millimetres = by_law("-k*(measure - 900) - 3e-3*rate")
+        .replace("format = 2", "format = 2, units = { length = \"mm\" }")
+        .replace("-9.81", "\"-9.81 m/s^2\"")
+        .replace("[0.5, -1.0]", "[500, -1000]")
+        .replace("[0.5, -1]", "[500, -1000]")
+        .replace("0.1,", "1e5,");
+    let metres = by_law("-k*(measure - 0.9) - 3*rate");
+    for text in [metres, millimetres] {
+        let text = text.replace("\"-9.81 m/s^2\"", "\"-9.81*m/s^2\"");
+        let rows = run(&study(&text), &options(2.0)).0;
+        assert_eq!(rows.len(), reference.len());
+        for (row, reference) in rows.iter().zip(&reference) {
+            for (found, expected) in row.q.iter().zip(&reference.q) {
+                close(*found, *expected, 1.0, "coordinate");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_law_without_a_value_stops_by_name() {
+    // ω = t/0.4, so the angle is 0.5 at t = √0.4.
+    let text = MOTOR.replace("20 - 0.5*rate", "1 + 0*log((0.5 - measure)/(1 rad))");
+    let study = study(&text);
+    let mut last = 0.0;
+    let failure = study.run(&options(3.0), |sample| {
+        assert!(sample.v[2].is_finite());
+        last = sample.t;
+        Ok(ControlFlow::Continue(()))
+    });
+    let error = failure.err().expect("stops").error.to_string();
+    assert!(error.contains("the law of drive `motor` (log("), "{error}");
+    assert!(last > 0.55 && last < 0.4_f64.sqrt(), "{last}");
+}
+
+#[test]
+fn units_of_laws_are_checked() {
+    let refused = |law: &str| {
+        let text = MOTOR
+            .replace("20 - 0.5*rate", law)
+            .replace("\"plane\"", "\"plane\", format = 2");
+        let read = Study::read(
+            "test.toml",
+            &text,
+            &Registry::planar(),
+            &Overrides::default(),
+        );
+        read.err().expect(law).to_string()
+    };
+    for (law, part) in [
+        ("20 N + 1", "found a force (N)"),
+        ("2 N*m - rate", "have no sum, difference or order"),
+        ("5*sin(rate)", "found an angular velocity"),
+        ("1/(0*2) + measure", "division by zero"),
+        ("20 - speed", "no parameter `speed`"),
+    ] {
+        let error = refused(law);
+        assert!(error.contains(part), "{law}: {error}");
+    }
+    for fits in [
+        "2 N*m - 3 N*m*s/rad*rate",
+        "20*exp(-rate/40)",
+        "-5*sin(measure)",
+    ] {
+        study(&MOTOR.replace("20 - 0.5*rate", fits));
+    }
+}
+
+/// A rod between bearings, a viscous slider: v = v₀·exp(−c·t/m).
+#[test]
+fn a_damped_slider_slows_exponentially() {
+    let text = r#"
+scene = { name = "slider", space = "plane" }
+body = [{ name = "slider", mass = 2.0, inertia = 1.0, position = [1.0, 0.0], velocity = [3.0, 0.0] }]
+joint = [{ name = "guide", type = "translational", bodies = ["ground", "slider"], at = [1, 0], axis = [1, 0] }]
+force = [{ name = "oil", type = "damper", bodies = ["ground", "slider"], at = [[0, 0], [1, 0]], damping = 0.8 }]
+"#;
+    let (rows, summary) = run(&study(text), &options(4.0));
+    for row in rows {
+        close(row.v[0], 3.0 * (-0.4 * row.t).exp(), 3.0, "velocity");
+    }
+    assert!(summary.energy_balance < 1e-8, "{}", summary.energy_balance);
+}
+
+/// A train of two wheels on fixed axes, driven by a torque on the first: the motion is that of
+/// `gear`, and the teeth carry F = J₂·α₂/(r₂·cos α) along the line of action, which the bearings
+/// take.
+#[test]
+fn teeth_load_the_bearings() {
+    let train = |joint: &str| {
+        let text = format!(
+            r#"
+scene = {{ name = "train", space = "plane" }}
+body = [
+    {{ name = "a", mass = 1.0, inertia = 0.5 }},
+    {{ name = "b", mass = 2.0, inertia = 3.0, position = [3.0, 0.0] }},
+]
+joint = [
+    {{ name = "A", type = "revolute", bodies = ["ground", "a"], at = [0, 0] }},
+    {{ name = "B", type = "revolute", bodies = ["ground", "b"], at = [3, 0] }},
+    {{ name = "teeth", bodies = ["a", "b"], ratio = -0.5, {joint} }},
+]
+force = [{{ name = "motor", type = "torque", body = "a", torque = 7.0 }}]
+"#
+        );
+        run(&study(&text), &options(1.0)).0
+    };
+    let gear = train(r#"type = "gear""#);
+    let mesh = train(
+        r#"type = "mesh", points = { a = [0, 0], b = [0, 0] }, pressure_angle = 0.6435011087932844"#,
+    );
+    // J = J₁ + J₂·ratio².
+    let alpha = 7.0 / (0.5 + 3.0 * 0.25);
+    // r₂ = 2 and cos α = 0.8: F·r₂·cos α = J₂·|α₂|.
+    let along = 3.0 * 0.5 * alpha / (2.0 * 0.8);
+    for (row, gear) in mesh.iter().zip(&gear) {
+        close(row.v[2], alpha * row.t, 10.0, "angular velocity");
+        for (found, expected) in row.q.iter().zip(&gear.q) {
+            close(*found, *expected, 10.0, "coordinate");
+        }
+        // n = 0.8·(0, 1) + 0.6·(1, 0): the teeth push the first wheel back and away.
+        let [fx, fy] = row.reactions[2].force;
+        close(fx, -0.6 * along, 10.0, "radial force");
+        close(fy, -0.8 * along, 10.0, "circumferential force");
+        close(
+            row.reactions[2].torque,
+            -0.8 * along,
+            10.0,
+            "torque about the centre",
+        );
+        // On the ground, the first body of its bearing, acts what the teeth push.
+        close(row.reactions[0].force[0], -0.6 * along, 10.0, "bearing");
+        close(row.reactions[0].force[1], -0.8 * along, 10.0, "bearing");
+        close(gear.reactions[0].force[0], 0.0, 10.0, "bearing of a gear");
+    }
+}
+
+/// The single-track vehicle in a steady turn at the speed V with the steering angle δ:
+/// yaw rate = V·δ/(L + K·V²), K = m/L·(b/C_f − a/C_r) (Pacejka, 2012, chapter 1; Rajamani, Vehicle
+/// Dynamics and Control, 2012, chapter 3).
+#[test]
+fn a_single_track_vehicle_turns_as_the_textbook_says() {
+    let (mass, a, b, front, rear, speed) = (1500.0, 1.2, 1.6, 6e4, 8e4, 20.0);
+    // Errors of the linear theory are δ² of the yaw rate.
+    let delta: f64 = 1e-4;
+    let text = format!(
+        r#"
+scene = {{ name = "car", space = "plane" }}
+body = [{{ name = "car", mass = {mass}, inertia = 2500.0, velocity = [{speed}, 0.0] }}]
+joint = [{{ name = "cruise", type = "velocity", body = "car", point = [0, 0], direction = [1, 0], rate = {speed} }}]
+force = [
+    {{ name = "front", type = "tyre", body = "car", point = [{a}, 0], normal = [{}, {}], stiffness = {front}, low_speed = 1e-3 }},
+    {{ name = "rear", type = "tyre", body = "car", point = [-{b}, 0], normal = [0, 1], stiffness = {rear}, low_speed = 1e-3 }},
+]
+"#,
+        -delta.sin(),
+        delta.cos(),
+    );
+    let rows = run(&study(&text), &options(10.0)).0;
+    let wheelbase = a + b;
+    let understeer = mass / wheelbase * (b / front - a / rear);
+    let expected = speed * delta / (wheelbase + understeer * speed * speed);
+    let found = rows.last().expect("rows").v[2];
+    assert!((found / expected - 1.0).abs() < 1e-6, "{found}, {expected}");
 }

@@ -100,7 +100,8 @@ fn q_pattern<K: Force>() -> Vec<[usize; 2]> {
 }
 
 impl<K: Force> Check<'_, OfForce<K>> {
-    /// `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0`.
+    /// `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0` at rest. Away from rest a force may fall with a
+    /// velocity and still take energy: the side force of a tyre with its speed along.
     fn dissipation(&self, m: &Motion) -> Result<(), Failure> {
         let rest = Motion {
             v: vec![Twist::zero(); m.v.len()],
@@ -108,7 +109,7 @@ impl<K: Force> Check<'_, OfForce<K>> {
         };
         let (still, q) = (self.at(Kernel::Q, &rest), self.at(Kernel::Q, m));
         let (v, a) = (stacked(&m.v), stacked(&m.a));
-        let slope = self.at(Kernel::DqDv, m);
+        let slope = self.at(Kernel::DqDv, &rest);
         let power = dot(q.zip(&still, |q, s| q - s).entries(), &v);
         let curvature = dot(slope.times(&a).entries(), &a);
         let found = Block::column(vec![power, curvature]);

@@ -173,6 +173,8 @@ pub enum Unit {
     Damping,
     /// N·m·s/rad, not negative
     TorsionDamping,
+    /// N/rad, not negative
+    CorneringStiffness,
     /// 1/m, only for values stored at the start
     PerLength,
 }
@@ -183,7 +185,11 @@ impl Unit {
     pub fn may_be_negative(self) -> bool {
         !matches!(
             self,
-            Self::Stiffness | Self::TorsionStiffness | Self::Damping | Self::TorsionDamping
+            Self::Stiffness
+                | Self::TorsionStiffness
+                | Self::Damping
+                | Self::TorsionDamping
+                | Self::CorneringStiffness
         )
     }
 }
@@ -202,6 +208,7 @@ impl fmt::Display for Unit {
             Self::TorsionStiffness => "N·m/rad",
             Self::Damping => "N·s/m",
             Self::TorsionDamping => "N·m·s/rad",
+            Self::CorneringStiffness => "N/rad",
             Self::PerLength => "1/m",
         })
     }

@@ -23,6 +23,7 @@
 //! | [`description`] | bodies, joints, drives and forces as plain data |
 //! | [`frame`] | frames whose origin is not the centre of mass, and states of points |
 //! | `data` | points, directions and numbers of constraints, and how rows change with them |
+//! | [`law`] | forces of drives as functions of a measure and its rate |
 //! | [`mechanism`] | the assembled equations |
 //! | [`system`] | the interface of the equations for solvers |
 //! | [`extended`] | constraints in double-double, for certificates |
@@ -43,6 +44,7 @@ pub mod extended;
 pub mod frame;
 pub mod function;
 mod group;
+pub mod law;
 pub mod mechanism;
 mod observed;
 pub mod reaction;
@@ -62,6 +64,7 @@ pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
 pub use frame::FrameState;
 pub use function::{Function, FunctionError};
+pub use law::Law;
 pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
 pub use observed::{Marker, Measure, MeasureKind, Observed};
 pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};

@@ -3,9 +3,12 @@
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
 use joints::{
-    Argument, ArgumentError, Constraint, Element, Force, ForceElement, Magnitude, Recorded, Visitor,
+    Argument, ArgumentError, Constraint, Element, Force, ForceElement, Magnitude, Pose, Recorded,
+    Twist, Visitor,
 };
 use linalg::Dd;
+
+use crate::law::{DriveForce, Law, LawError, build_law};
 
 /// A planar constraint as a trait object: kernels in `f64` for motion, and in other number types.
 pub trait PlaneConstraint: Element {
@@ -46,6 +49,14 @@ pub trait PlaneForce: ForceElement {
     fn recorded(&self) -> &dyn ForceElement<Recorded>;
     /// A copy.
     fn boxed(&self) -> Box<dyn PlaneForce>;
+    /// Whether this is a drive by a law.
+    fn is_law(&self) -> bool {
+        false
+    }
+    /// The force along the measure of a drive by a law.
+    fn drive(&self, _x: &[Pose], _v: &[Twist], _f: &[[f64; 3]]) -> Option<DriveForce> {
+        None
+    }
 }
 
 impl<K: Force> PlaneForce for K {
@@ -69,6 +80,9 @@ pub type BuildConstraint = fn(&[Argument]) -> Result<Box<dyn PlaneConstraint>, A
 /// Builds a force from the values of its parameters.
 pub type BuildForce = fn(&[Argument]) -> Result<Box<dyn PlaneForce>, ArgumentError>;
 
+/// Builds a force along a measure from the values of the parameters of its joint.
+pub type BuildLaw = fn(&[Argument], Law) -> Result<Box<dyn PlaneForce>, LawError>;
+
 /// A constraint definition.
 #[derive(Clone, Debug)]
 pub struct ConstraintDefinition {
@@ -87,6 +101,8 @@ pub struct DriveDefinition {
     pub spec: &'static ConstraintSpec,
     /// Its constructor.
     pub build: BuildConstraint,
+    /// Constructor of a law in place of the motion: a force with one function, the time.
+    pub law: BuildLaw,
 }
 
 /// A force definition.
@@ -178,6 +194,7 @@ impl Visitor for Drives {
         self.0.push(DriveDefinition {
             spec: &K::SPEC,
             build: build_constraint::<K>,
+            law: build_law::<K>,
         });
     }
 }

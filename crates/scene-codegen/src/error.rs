@@ -30,6 +30,14 @@ pub enum CodeError {
         /// Rows that are not yet eliminated.
         left: usize,
     },
+    /// Laws of drives stop a run where they have no value, which generated code does not.
+    #[error(
+        "drive `{drive}` has a law, which generated code cannot stop by name; run this scene interpreted"
+    )]
+    Law {
+        /// The drive.
+        drive: String,
+    },
     /// A free motion has no mass.
     #[error(
         "the motion of velocity {} has no mass, so its acceleration is not determined; give its body mass or inertia",

@@ -136,6 +136,10 @@ impl Functions {
     /// All functions, with the equations solved in the frame of the ground or of the body whose
     /// angle has this index in q.
     fn seen_from(subject: &Subject<'_>, angle: Option<usize>) -> Result<Self, CodeError> {
+        if let Some((drive, _)) = subject.prepared.mechanism.law_drives().next() {
+            let drive = drive.to_owned();
+            return Err(CodeError::Law { drive });
+        }
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
         let mechanism = &prepared.mechanism;

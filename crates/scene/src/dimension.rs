@@ -130,6 +130,7 @@ impl From<Unit> for Dimension {
             Unit::TorsionStiffness => [0, 1, 1, 0, -1],
             Unit::Damping => [0, 1, -1, 1, 0],
             Unit::TorsionDamping => [0, 1, 1, 1, -1],
+            Unit::CorneringStiffness => [0, 1, 0, 0, -1],
             Unit::PerLength => [0, 0, -1, 0, 0],
         })
     }
@@ -153,6 +154,7 @@ mod tests {
             Unit::TorsionStiffness,
             Unit::Damping,
             Unit::TorsionDamping,
+            Unit::CorneringStiffness,
             Unit::PerLength,
         ] {
             assert_eq!(Dimension::from(unit).to_string(), unit.to_string());

@@ -9,6 +9,7 @@
 
 mod problem;
 mod quantity;
+mod term;
 mod token;
 mod unit;
 
@@ -16,6 +17,7 @@ use std::ops::Range;
 
 pub(crate) use problem::{Fault, Problem};
 pub(crate) use quantity::{Bases, Quantity};
+pub(crate) use term::law;
 use token::{Token, tokens};
 pub(crate) use token::{decimal, is_name};
 pub(crate) use unit::names_of;
@@ -103,12 +105,34 @@ pub(crate) trait Scope {
 /// The value of an expression, or everything that is wrong with it; nothing if only a parameter is
 /// wrong that it names.
 pub(crate) fn evaluate(text: &str, scope: &impl Scope) -> Result<Quantity, Vec<Fault>> {
+    parse(text, scope, &[])
+}
+
+/// What expressions are made of: numbers, or terms with variables.
+trait Value: Clone + From<Quantity> {
+    fn negated(self) -> Self;
+
+    /// A result of this and another value for the sign `+ - * / ^` between them.
+    fn joined(self, sign: u8, other: Self, bases: Bases) -> Result<Self, Problem>;
+
+    /// A function of as many values as it takes; the problem comes with whether its first argument
+    /// is at fault.
+    fn call(name: &'static str, values: &[Self], bases: Bases) -> Result<Self, (bool, Problem)>;
+}
+
+/// The value of an expression that may name these variables.
+fn parse<V: Value>(
+    text: &str,
+    scope: &impl Scope,
+    variables: &[(&'static str, V)],
+) -> Result<V, Vec<Fault>> {
     let tokens = tokens(text).map_err(|fault| vec![fault])?;
     let mut parser = Parser {
         text,
         tokens,
         at: 0,
         scope,
+        variables,
         faults: Vec::new(),
     };
     let value = match parser.whole() {
@@ -130,19 +154,20 @@ const PRODUCT: u8 = 2;
 const SIGNED: u8 = 3;
 const POWER: u8 = 4;
 
-struct Parser<'s, S> {
+struct Parser<'s, S, V> {
     text: &'s str,
     tokens: Vec<(Token<'s>, Range<usize>)>,
     at: usize,
     scope: &'s S,
+    variables: &'s [(&'static str, V)],
     /// What is wrong with names and values; the text is read on after it.
     faults: Vec<Fault>,
 }
 
 /// A value, `None` after a fault, with its place.
-type Part = (Option<Quantity>, Range<usize>);
+type Part<V> = (Option<V>, Range<usize>);
 
-impl<'s, S: Scope> Parser<'s, S> {
+impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
     /// The next word with its place; the last one is always the end.
     fn peek(&self) -> (Token<'s>, Range<usize>) {
         self.tokens[self.at.min(self.tokens.len() - 1)].clone()
@@ -157,13 +182,13 @@ impl<'s, S: Scope> Parser<'s, S> {
     }
 
     /// Keeps a fault of names or values.
-    fn judge(&mut self, span: Range<usize>, q: Result<Quantity, Problem>) -> Option<Quantity> {
+    fn judge(&mut self, span: Range<usize>, q: Result<V, Problem>) -> Option<V> {
         let keep = |problem| self.faults.push(Fault { span, problem });
         q.map_err(keep).ok()
     }
 
     /// The whole text.
-    fn whole(&mut self) -> Result<Option<Quantity>, Fault> {
+    fn whole(&mut self) -> Result<Option<V>, Fault> {
         if let (Token::End, span) = self.peek() {
             let problem = Problem::Empty;
             return Err(Fault { span, problem });
@@ -188,7 +213,7 @@ impl<'s, S: Scope> Parser<'s, S> {
     }
 
     /// Operands between signs that bind at least so strongly.
-    fn sum(&mut self, least: u8, depth: usize) -> Result<Part, Fault> {
+    fn sum(&mut self, least: u8, depth: usize) -> Result<Part<V>, Fault> {
         let (mut left, mut span) = self.operand(depth)?;
         loop {
             let Token::Sign(sign) = self.peek().0 else {
@@ -211,19 +236,12 @@ impl<'s, S: Scope> Parser<'s, S> {
                 None => None,
                 Some((a, b)) => {
                     let bases = self.scope.bases();
-                    let (at, q) = match sign {
-                        b'+' => (whole.clone(), a.plus(b, bases)),
-                        b'-' => (whole.clone(), a.plus(b.negated(), bases)),
-                        b'*' => (whole.clone(), a.times(b)),
-                        b'/' => match a.over(b) {
-                            Err(Problem::DivisionByZero) => (of, Err(Problem::DivisionByZero)),
-                            q => (whole.clone(), q),
-                        },
-                        _ => match a.power(b) {
-                            Err(e @ Problem::Exponent { .. }) => (of, Err(e)),
-                            q => (whole.clone(), q),
-                        },
-                    };
+                    let q = a.joined(sign, b, bases);
+                    let of_right = matches!(
+                        (sign, &q),
+                        (b'/', Err(Problem::DivisionByZero)) | (_, Err(Problem::Exponent { .. }))
+                    );
+                    let at = if of_right { of } else { whole.clone() };
                     self.judge(at, q)
                 }
             };
@@ -232,7 +250,7 @@ impl<'s, S: Scope> Parser<'s, S> {
     }
 
     /// A number, a name, a bracket or a sign before them.
-    fn operand(&mut self, depth: usize) -> Result<Part, Fault> {
+    fn operand(&mut self, depth: usize) -> Result<Part<V>, Fault> {
         let (token, span) = self.peek();
         if depth > DEEPEST {
             let problem = Problem::Deep { most: DEEPEST };
@@ -240,7 +258,7 @@ impl<'s, S: Scope> Parser<'s, S> {
         }
         self.at += 1;
         match token {
-            Token::Number(value) => self.number(Quantity::bare(value), span, depth),
+            Token::Number(value) => self.number(Quantity::bare(value).into(), span, depth),
             Token::Name(name) if self.is_next(b'(') => self.call(name, span, depth),
             Token::Name(name) => Ok((self.name(name, &span), span)),
             Token::Sign(b'(') => {
@@ -250,7 +268,7 @@ impl<'s, S: Scope> Parser<'s, S> {
             }
             Token::Sign(sign @ (b'-' | b'+')) => {
                 let (value, of) = self.sum(SIGNED, depth + 1)?;
-                let negate = |q: Quantity| if sign == b'-' { q.negated() } else { q };
+                let negate = |q: V| if sign == b'-' { q.negated() } else { q };
                 Ok((value.map(negate), span.start..of.end))
             }
             Token::Sign(_) | Token::End => Err(Fault {
@@ -263,12 +281,13 @@ impl<'s, S: Scope> Parser<'s, S> {
     }
 
     /// A number, with its unit if one follows; `2 mm^2` is twice a square of 1 mm.
-    fn number(&mut self, q: Quantity, span: Range<usize>, depth: usize) -> Result<Part, Fault> {
+    fn number(&mut self, q: V, span: Range<usize>, depth: usize) -> Result<Part<V>, Fault> {
         match self.peek().0 {
             Token::Name(unit) if is_unit(unit) => {
                 let (unit, of) = self.sum(POWER, depth + 1)?;
                 let span = span.start..of.end;
-                let q = unit.and_then(|unit| self.judge(span.clone(), q.times(unit)));
+                let bases = self.scope.bases();
+                let q = unit.and_then(|unit| self.judge(span.clone(), q.joined(b'*', unit, bases)));
                 Ok((q, span))
             }
             _ => Ok((Some(q), span)),
@@ -292,12 +311,19 @@ impl<'s, S: Scope> Parser<'s, S> {
     }
 
     /// A constant, a unit or a parameter.
-    fn name(&mut self, name: &str, span: &Range<usize>) -> Option<Quantity> {
+    fn name(&mut self, name: &str, span: &Range<usize>) -> Option<V> {
         if let Some(q) = constant(name) {
-            return Some(q);
+            return Some(q.into());
         }
-        let problem = match (self.scope.parameter(name), function(name)) {
-            (Some(value), _) => return value,
+        let parameter = self.scope.parameter(name);
+        let mut variables = self.variables.iter();
+        if let Some((name, variable)) = variables.find(|(variable, _)| *variable == name) {
+            let is_free = parameter.is_none();
+            let value = is_free.then(|| variable.clone());
+            return self.judge(span.clone(), value.ok_or(Problem::Twice { name }));
+        }
+        let problem = match (parameter, function(name)) {
+            (Some(value), _) => return value.map(V::from),
             (None, Some((name, _))) => Problem::NoBrackets { name },
             (None, None) => Problem::UnknownName {
                 name: name.to_owned(),
@@ -307,7 +333,7 @@ impl<'s, S: Scope> Parser<'s, S> {
     }
 
     /// `name(value, …)`
-    fn call(&mut self, name: &str, span: Range<usize>, depth: usize) -> Result<Part, Fault> {
+    fn call(&mut self, name: &str, span: Range<usize>, depth: usize) -> Result<Part<V>, Fault> {
         let (_, open) = self.peek();
         self.at += 1;
         let mut values = vec![self.sum(SUM, depth + 1)?];
@@ -331,9 +357,9 @@ impl<'s, S: Scope> Parser<'s, S> {
         &mut self,
         name: &'static str,
         expected: &'static str,
-        values: Vec<Part>,
+        values: Vec<Part<V>>,
         whole: &Range<usize>,
-    ) -> Option<Quantity> {
+    ) -> Option<V> {
         let wanted = match name {
             "atan2" | "min" | "max" => 2,
             _ => 1,
@@ -347,25 +373,54 @@ impl<'s, S: Scope> Parser<'s, S> {
             };
             return self.judge(whole.clone(), Err(problem));
         }
-        let bases = self.scope.bases();
-        let place = values[0].1.clone();
-        let values: Option<Vec<Quantity>> = values.into_iter().map(|(q, _)| q).collect();
-        let q = values?;
+        let first = values[0].1.clone();
+        let values: Option<Vec<V>> = values.into_iter().map(|(q, _)| q).collect();
+        match V::call(name, &values?, self.scope.bases()) {
+            Ok(value) => Some(value),
+            Err((of_first, problem)) => {
+                let at = if of_first { first } else { whole.clone() };
+                self.judge(at, Err(problem))
+            }
+        }
+    }
+}
+
+/// What a function takes in its place.
+fn taken(name: &str) -> Option<Dimension> {
+    match name {
+        "sin" | "cos" | "tan" => Some(Dimension::ANGLE),
+        "asin" | "acos" | "atan" | "exp" | "log" => Some(Dimension::NONE),
+        _ => None,
+    }
+}
+
+impl Value for Quantity {
+    fn negated(self) -> Self {
+        Quantity::negated(self)
+    }
+
+    fn joined(self, sign: u8, other: Self, bases: Bases) -> Result<Self, Problem> {
+        match sign {
+            b'+' => self.plus(other, bases),
+            b'-' => self.plus(other.negated(), bases),
+            b'*' => self.times(other),
+            b'/' => self.over(other),
+            _ => self.power(other),
+        }
+    }
+
+    fn call(name: &'static str, q: &[Self], bases: Bases) -> Result<Self, (bool, Problem)> {
         // Functions of numbers and angles say what they need at the value, others at the whole.
-        let argument = |of| q[0].at(of, bases);
-        let (angle, number) = (Dimension::ANGLE, Dimension::NONE);
-        let (at, result) = match name {
-            "sin" | "cos" | "tan" => (place, argument(angle)),
-            "asin" | "acos" | "atan" | "exp" | "log" => (place, argument(number)),
-            "sqrt" => (whole.clone(), q[0].root()),
-            "abs" => (whole.clone(), Ok(q[0].abs())),
-            "atan2" => (whole.clone(), q[0].angle(q[1], bases)),
-            "min" => (whole.clone(), q[0].least(q[1], 1.0, bases)),
-            _ => (whole.clone(), q[0].least(q[1], -1.0, bases)),
+        let x = match taken(name) {
+            Some(of) => q[0].at(of, bases).map_err(|e| (true, e))?,
+            None => q[0],
         };
-        let x = self.judge(at, result)?;
         let steep = |x: f64| 1.0 / (1.0 - x * x).max(x_error(q[0])).sqrt();
         let value = match name {
+            "sqrt" => x.root(),
+            "atan2" => x.angle(q[1], bases),
+            "min" => x.least(q[1], 1.0, bases),
+            "max" => x.least(q[1], -1.0, bases),
             "sin" => sine(x),
             "cos" => cosine(x),
             "tan" => tangent(x),
@@ -380,9 +435,10 @@ impl<'s, S: Scope> Parser<'s, S> {
                 .map(Quantity::in_radians),
             "exp" => x.smooth("`exp`", f64::exp, f64::exp),
             "log" => x.smooth("`log`", f64::ln, |x| 1.0 / x),
-            _ => Ok(x),
+            // "abs"
+            _ => Ok(x.abs()),
         };
-        self.judge(whole.clone(), value)
+        value.map_err(|e| (false, e))
     }
 }
 

@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::rc::Rc;
 
+use model::Law;
+use model::law::Operation;
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
@@ -149,6 +151,29 @@ impl<'t> Field<'t> {
             DeValue::Float(x) if language.computes => decimal(x.as_str()),
             _ => value.into(),
         }))
+    }
+
+    /// A law along a measure of dimension `of`, with a force or torque of dimension `result`.
+    pub(crate) fn law(
+        &self,
+        expected: &str,
+        of: Dimension,
+        result: Dimension,
+        findings: &mut Findings,
+    ) -> Option<Law> {
+        let Some(text) = self.value.get_ref().as_str() else {
+            let value = self.number_expected(expected, result, findings)?;
+            return Law::new(&[Operation::Number(value)]).ok();
+        };
+        match expression::law(text, of, result, self.language) {
+            Ok(law) => Some(law),
+            Err(faults) => {
+                for fault in faults {
+                    self.report(fault, self.language, findings);
+                }
+                None
+            }
+        }
     }
 
     /// Reports what is wrong with an expression, at its place.

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use joints::Argument;
+use joints::spec::Unit;
 use model::registry::ConstraintDefinition;
-use model::{BodyRef, Drive, Function, Joint};
+use model::{BodyRef, Drive, Force, Function, Joint, Law};
 
 use crate::active;
 use crate::body::Bodies;
@@ -14,6 +15,7 @@ use crate::dimension::Dimension;
 use crate::element::{self, Types};
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::force::Forces;
 use crate::function::{self, Domain};
 use crate::key::{Key, TYPE, Takes};
 use crate::nearest::{all, list, nearest};
@@ -23,11 +25,23 @@ use crate::tolerance;
 
 const JOINT: Key =
     Key::required("joint", "the name of a joint", Takes::Text).doc("The joint that is driven");
-const MOTION: Key = Key::required("motion", "a function of time", Takes::Function)
+const MOTION: Key = Key::optional("motion", "a function of time", Takes::Function)
     .doc("The measure is its initial value + f(t) − f(0); a number holds it (rad or m)");
+const FORCE: Key = Key::optional("force", LAW, Takes::Law)
+    .doc("A law in place of `motion`: the force (N) along a length, of `measure`, `rate` and `t`");
+const TORQUE: Key = Key::optional("torque", LAW, Takes::Law).doc(
+    "A law in place of `motion`: the torque (N·m) along an angle, of `measure`, `rate` and `t`",
+);
+const LAW: &str = "a number or an expression of `measure`, `rate` and `t`";
 
-/// Keys of a drive in addition to its name and its type.
-pub(crate) const DRIVE_KEYS: [Key; 2] = [JOINT, MOTION];
+/// Keys of a drive in addition to its name and its type: a motion, or one of the laws.
+pub(crate) const DRIVE_KEYS: [Key; 4] = [JOINT, MOTION, FORCE, TORQUE];
+
+/// What a drive does to its measure.
+enum Action {
+    Motion(Function),
+    Law(Law),
+}
 
 /// Description of the type of a drive.
 pub(crate) const MEASURE: &str = "a measure of the joint";
@@ -145,6 +159,8 @@ pub(crate) struct Drives {
     pub(crate) known: Vec<(String, bool)>,
     pub(crate) list: Vec<Drive>,
     pub(crate) entries: Vec<Entry>,
+    /// Drives by laws, which are applied forces.
+    pub(crate) laws: Forces,
     /// Joints whose rows keep the driven measure: those of the drive take their place.
     pub(crate) replaced: Vec<String>,
 }
@@ -162,23 +178,47 @@ impl Drives {
         let mut own = Vec::new();
         let joint = joint(&mut table, joints, findings);
         let measure = table.needed(TYPE, MEASURE, findings);
-        let motion = table.required(&MOTION, findings);
+        let law = [FORCE, TORQUE].map(|key| table.optional(&key));
+        let motion = match &law {
+            [None, None] => table.required(&MOTION, findings),
+            _ => table.optional(&MOTION),
+        };
         let measure =
             measure.and_then(|field| Some((field.text(MEASURE, findings)?, field.span())));
         let of = match (joint, measure.as_ref()) {
             (Some(joint), Some((measure, _))) => dimension(joint, measure),
             _ => None,
         };
-        let motion = motion.and_then(|field| {
-            let of = of.unwrap_or(Dimension::UNKNOWN);
-            let function = function::read(&field, of, &mut own, findings)?;
-            if field.may_be_number() {
-                warn_if_held(&field, &function, findings);
+        let is_law = law.iter().any(Option::is_some);
+        let action = match (motion, law) {
+            (Some(field), [None, None]) => {
+                let of = of.unwrap_or(Dimension::UNKNOWN);
+                let function = function::read(&field, of, &mut own, findings);
+                if field.may_be_number()
+                    && let Some(function) = &function
+                {
+                    warn_if_held(&field, function, findings);
+                }
+                function.map(Action::Motion)
             }
-            Some(function)
-        });
+            (None, [Some(field), None] | [None, Some(field)]) => {
+                read_law(&field, of, findings).map(Action::Law)
+            }
+            (None, [None, None]) => None,
+            _ => {
+                let message = format!(
+                    "{} has several of `motion`, `force` and `torque`",
+                    table.subject
+                );
+                let label = "a drive does one of them";
+                findings.error(table.header.clone(), message, label);
+                None
+            }
+        };
         let is_active = active::read(&mut table, findings);
-        self.known.push((name.to_owned(), is_active));
+        if !is_law {
+            self.known.push((name.to_owned(), is_active));
+        }
         if is_active {
             domains.append(&mut own);
             is_driven(&table, joint, findings);
@@ -212,42 +252,84 @@ impl Drives {
             );
             return;
         };
-        let (Some((bodies, arguments)), Some(motion)) = (&joint.complete, motion) else {
+        let (Some((bodies, arguments)), Some(action)) = (&joint.complete, action) else {
             return;
         };
         let mut arguments = arguments.clone();
         arguments.push(Argument::Absent);
-        // The joint accepted these arguments, and its drive differs only in the motion.
-        match definition
-            .drives
-            .get(at)
-            .map(|drive| (drive.build)(&arguments))
-        {
-            Some(Ok(element)) => {
-                self.list.push(Drive {
-                    name: name.to_owned(),
-                    bodies: bodies.clone(),
-                    element,
-                    motion,
-                    tolerance: joint.tolerance,
-                });
-                self.entries.push(entry);
-                if definition.spec.measures[at].is_kept && is_active {
-                    self.replaced.push(joint.name.clone());
-                }
-            }
-            Some(Err(error)) => {
-                findings.error(span, format!("drive `{name}`: {error}"), "not possible");
-            }
-            None => findings.error(
+        let Some(drive) = definition.drives.get(at) else {
+            return findings.error(
                 span,
                 format!(
                     "drive `{name}`: the definition of the drive of `{measure}` is not registered"
                 ),
                 "no such definition",
-            ),
+            );
+        };
+        // The joint accepted these arguments, and its drive differs only in the motion.
+        let refused = match action {
+            Action::Motion(motion) => match (drive.build)(&arguments) {
+                Ok(element) => {
+                    self.list.push(Drive {
+                        name: name.to_owned(),
+                        bodies: bodies.clone(),
+                        element,
+                        motion,
+                        tolerance: joint.tolerance,
+                    });
+                    self.entries.push(entry);
+                    None
+                }
+                Err(error) => Some(error.to_string()),
+            },
+            Action::Law(law) => {
+                match ((drive.law)(&arguments, law), Function::constant_rate(1.0)) {
+                    (Ok(element), Ok(time)) => {
+                        self.laws.list.push(Force {
+                            name: name.to_owned(),
+                            bodies: bodies.clone(),
+                            element,
+                            functions: vec![time],
+                        });
+                        self.laws.entries.push(entry);
+                        None
+                    }
+                    (Err(error), _) => Some(error.to_string()),
+                    (_, Err(error)) => Some(error.to_string()),
+                }
+            }
+        };
+        if let Some(error) = refused {
+            findings.error(span, format!("drive `{name}`: {error}"), "not possible");
+        } else if definition.spec.measures[at].is_kept && is_active {
+            self.replaced.push(joint.name.clone());
         }
     }
+}
+
+/// Reads a law along a measure of this dimension.
+fn read_law(field: &Field, of: Option<Dimension>, findings: &mut Findings) -> Option<Law> {
+    let of = of?;
+    let (result, key) = if of == Dimension::ANGLE {
+        (Unit::Torque.into(), TORQUE.name)
+    } else {
+        (Unit::Force.into(), FORCE.name)
+    };
+    if field.key != key {
+        findings.error_with_help(
+            field.span(),
+            format!(
+                "{}: `{}` does not act along {}",
+                field.subject,
+                field.key,
+                of.words()
+            ),
+            "another kind of load is needed",
+            format!("write `{key} = …`"),
+        );
+        return None;
+    }
+    field.law(LAW, of, result, findings)
 }
 
 /// Warns of a motion that is a number other than zero: whoever writes one may expect a speed or a

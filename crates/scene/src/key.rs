@@ -57,6 +57,8 @@ pub(crate) enum Takes {
     Rows,
     /// A number or a function of time.
     Function,
+    /// A number or an expression of a measure, its rate and time.
+    Law,
     /// Steps of a function of time, at least one.
     Steps,
 }

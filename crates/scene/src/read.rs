@@ -247,6 +247,7 @@ impl<'r> Parts<'r> {
                 drives.read(table, &name, &by_name, domains, findings);
             }
             joints.leave_out(&drives.replaced);
+            *forces = std::mem::take(&mut drives.laws);
         }
         let types = Types::of_forces(registry);
         for (table, name) in list(root, &section::FORCE, findings) {

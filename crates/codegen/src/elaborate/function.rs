@@ -11,7 +11,7 @@ use crate::nearest::{hint, list};
 use crate::vector::{Frame, Vector};
 
 /// Names of the functions with their numbers of arguments.
-const FUNCTIONS: [(&str, usize); 13] = [
+const FUNCTIONS: [(&str, usize); 15] = [
     ("point", 2),
     ("direction", 2),
     ("vector", 2),
@@ -24,6 +24,8 @@ const FUNCTIONS: [(&str, usize); 13] = [
     ("rate", 1),
     ("perp", 1),
     ("norm", 1),
+    ("sin", 1),
+    ("cos", 1),
     ("dot", 2),
 ];
 
@@ -96,6 +98,14 @@ impl<'a> Scope<'a> {
                 let model = &mut self.model;
                 let square = v.dot(&mut model.g, &v, &model.turns);
                 Ok(Value::Scalar(model.g.call(Function::Sqrt, square)))
+            }
+            "sin" | "cos" => {
+                let angle = self.scalar(args[0])?;
+                let function = match function {
+                    "sin" => Function::Sin,
+                    _ => Function::Cos,
+                };
+                Ok(Value::Scalar(self.model.g.call(function, angle)))
             }
             // "velocity" | "rate"
             _ => {

@@ -8,7 +8,7 @@ use super::tree::{Binding, Kept, Param, ParamKind, name};
 use crate::nearest::hint;
 
 /// Units that a parameter may have: the variants of `joints::spec::Unit` except `PerLength`.
-pub const UNITS: [&str; 11] = [
+pub const UNITS: [&str; 12] = [
     "Length",
     "Angle",
     "Ratio",
@@ -20,6 +20,7 @@ pub const UNITS: [&str; 11] = [
     "TorsionStiffness",
     "Damping",
     "TorsionDamping",
+    "CorneringStiffness",
 ];
 
 /// Kinds of parameters in addition to units.

@@ -89,7 +89,7 @@ impl<'m> Evaluation<'m> {
         match fault {
             MotionFault::NotFinite { time, what } => {
                 let force = self.mechanism.undefined_force(&mut self.s);
-                let what = force.map_or(what, |name| format!("the force `{name}`"));
+                let what = force.unwrap_or(what);
                 MotionFault::NotFinite { time, what }
             }
             other => other,

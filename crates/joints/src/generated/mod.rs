@@ -12,6 +12,9 @@ pub use body_point_force::*;
 pub mod bushing;
 pub use bushing::*;
 #[rustfmt::skip]
+pub mod damper;
+pub use damper::*;
+#[rustfmt::skip]
 pub mod distance;
 pub use distance::*;
 #[rustfmt::skip]
@@ -23,6 +26,9 @@ pub use gear::*;
 #[rustfmt::skip]
 pub mod knife_edge;
 pub use knife_edge::*;
+#[rustfmt::skip]
+pub mod mesh;
+pub use mesh::*;
 #[rustfmt::skip]
 pub mod pin_in_slot;
 pub use pin_in_slot::*;
@@ -57,6 +63,9 @@ pub use torsion_spring_damper::*;
 pub mod translational;
 pub use translational::*;
 #[rustfmt::skip]
+pub mod tyre;
+pub use tyre::*;
+#[rustfmt::skip]
 pub mod velocity;
 pub use velocity::*;
 /// Shows all planar constraints to a visitor, in alphabetical order.
@@ -66,6 +75,7 @@ pub fn plane_constraints<V: Visitor>(visitor: &mut V) {
     visitor.constraint::<Fixed>();
     visitor.constraint::<Gear>();
     visitor.constraint::<KnifeEdge>();
+    visitor.constraint::<Mesh>();
     visitor.constraint::<PinInSlot>();
     visitor.constraint::<PointOnLine>();
     visitor.constraint::<RackAndPinion>();
@@ -78,9 +88,11 @@ pub fn plane_constraints<V: Visitor>(visitor: &mut V) {
 pub fn plane_forces<V: Visitor>(visitor: &mut V) {
     visitor.force::<BodyPointForce>();
     visitor.force::<Bushing>();
+    visitor.force::<Damper>();
     visitor.force::<PointForce>();
     visitor.force::<SpringDamper>();
     visitor.force::<Torque>();
     visitor.force::<TorqueBetween>();
     visitor.force::<TorsionSpringDamper>();
+    visitor.force::<Tyre>();
 }

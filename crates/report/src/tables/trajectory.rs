@@ -9,10 +9,13 @@ use super::{Table, TableError};
 
 /// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` of the origin of its frame (s,
 /// m, rad, m/s, rad/s); then for each marker that can move `<marker>.x, .y, .vx, .vy`, if it has an
-/// angle with `.angle` and `.omega` as a body; then each measure.
+/// angle with `.angle` and `.omega` as a body; then each measure; then
+/// for each drive by a law `<drive>.force` (N) or `<drive>.torque` (N·m), on the second body of its
+/// joint.
 pub struct TrajectoryTable<'m, W: Write> {
     table: Table<W>,
     mechanism: &'m Mechanism,
+    has_laws: bool,
     /// One row, reused.
     values: Vec<f64>,
 }
@@ -33,9 +36,12 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
             header.extend(own.map(|k| format!("{}.{}", marker.name, COLUMNS[k])));
         }
         header.extend(observed.measures.iter().map(|m| m.name.clone()));
+        let laws = mechanism.law_drives();
+        header.extend(laws.map(|(name, load)| format!("{name}.{load}")));
         Ok(Self {
             table: Table::new("trajectory.csv", out, &header)?,
             mechanism,
+            has_laws: mechanism.law_drives().next().is_some(),
             values: Vec::with_capacity(header.len()),
         })
     }
@@ -71,6 +77,9 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
         }
         let measures = (0..observed.measures.len()).map(|k| self.mechanism.measure(k, q, v));
         self.values.extend(measures);
+        if self.has_laws {
+            self.values.extend(self.mechanism.law_forces(t, q, v));
+        }
         self.table.row(&self.values)
     }
 

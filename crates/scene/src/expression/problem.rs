@@ -35,6 +35,8 @@ pub(crate) enum Problem {
     Deep { most: usize },
     #[error("there is no parameter `{name}`")]
     UnknownName { name: String },
+    #[error("`{name}` is a parameter and the {name} of a drive")]
+    Twice { name: &'static str },
     #[error("there is no function `{name}`")]
     UnknownFunction { name: String },
     #[error("`{name}` is a function")]
@@ -89,6 +91,7 @@ impl Problem {
             Self::Deep { .. } => "too deep",
             Self::UnknownName { .. } => "no such parameter",
             Self::UnknownFunction { .. } => "no such function",
+            Self::Twice { .. } => "two meanings",
             Self::NoBrackets { .. } => "needs brackets",
             Self::Count { .. } => "not so many values",
             Self::Dimension { .. } => "another unit is needed",
@@ -116,6 +119,7 @@ impl Problem {
             Self::Deep { .. } | Self::Long { .. } => {
                 "give parts of it names in `[parameters]`".to_owned()
             }
+            Self::Twice { .. } => "give the parameter another name".to_owned(),
             Self::NoBrackets { name } => format!("write `{name}(…)`"),
             Self::Dimension { expected, .. } => suffixes(*expected)?,
             Self::Mixed { .. } => "write both with units of one kind".to_owned(),

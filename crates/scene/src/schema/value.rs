@@ -38,6 +38,7 @@ pub(super) fn described(key: &Key) -> Value {
             "uniqueItems": true,
         }),
         Takes::Function => reference("function"),
+        Takes::Law => json!({ "type": ["number", "string"] }),
         Takes::Steps => json!({ "type": "array", "items": reference("step"), "minItems": 1 }),
     };
     schema["description"] = in_unit(key.doc, key.unit).into();

@@ -1,0 +1,207 @@
+//! Numbers on which laws are evaluated: doubles, dual numbers, and numbers that record their
+//! operations.
+
+use joints::{Real, Recorded};
+
+use super::{Function, Join};
+
+/// A number on which a law is evaluated.
+pub(crate) trait Number: Copy + From<f64> {
+    /// Its value, if it has one.
+    fn number(self) -> Option<f64>;
+
+    /// A function of it.
+    fn apply(self, f: Function) -> Self;
+
+    /// A function of it and another number.
+    fn join(self, j: Join, b: Self) -> Self;
+}
+
+/// A number with the derivatives of the same functions.
+pub(crate) trait Smooth: Number + Real {
+    /// The derivative of a function at it.
+    fn slope(self, f: Function) -> Self;
+
+    /// The derivatives of a function of it and another number by both.
+    fn slopes(self, j: Join, b: Self) -> [Self; 2];
+}
+
+/// Functions and derivatives that a ring with roots has.
+fn arithmetic<T: Real>(a: T, f: Function) -> Option<T> {
+    Some(match f {
+        Function::Negate => -a,
+        Function::Whole(n) => whole_power(a, n),
+        Function::Root => a.sqrt(),
+        _ => return None,
+    })
+}
+
+fn arithmetic_slope<T: Real>(a: T, f: Function) -> Option<T> {
+    Some(match f {
+        Function::Negate => T::from(-1.0),
+        Function::Whole(0) => T::from(0.0),
+        Function::Whole(n) => T::from(f64::from(n)) * whole_power(a, n - 1),
+        Function::Root => T::from(0.5) / a.sqrt(),
+        _ => return None,
+    })
+}
+
+fn arithmetic_join<T: Real>(a: T, j: Join, b: T) -> Option<T> {
+    Some(match j {
+        Join::Add => a + b,
+        Join::Subtract => a - b,
+        Join::Multiply => a * b,
+        Join::Divide => a / b,
+        _ => return None,
+    })
+}
+
+fn arithmetic_slopes<T: Real>(a: T, j: Join, b: T) -> Option<[T; 2]> {
+    let one = T::from(1.0);
+    Some(match j {
+        Join::Add => [one, one],
+        Join::Subtract => [one, -one],
+        Join::Multiply => [b, a],
+        Join::Divide => [one / b, -(a / (b * b))],
+        _ => return None,
+    })
+}
+
+/// `aⁿ` as a product.
+fn whole_power<T: Real>(a: T, n: i32) -> T {
+    let one = T::from(1.0);
+    let power = (1..n.unsigned_abs()).fold(a, |power, _| power * a);
+    match n {
+        0 => one,
+        1.. => power,
+        _ => one / power,
+    }
+}
+
+impl Number for f64 {
+    fn number(self) -> Option<f64> {
+        Some(self)
+    }
+
+    fn apply(self, f: Function) -> Self {
+        match f {
+            Function::Abs => self.abs(),
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Tan => self.tan(),
+            Function::Asin => self.asin(),
+            Function::Acos => self.acos(),
+            Function::Atan => self.atan(),
+            Function::Exp => self.exp(),
+            Function::Log => self.ln(),
+            f => arithmetic(self, f).unwrap_or(f64::NAN),
+        }
+    }
+
+    fn join(self, j: Join, b: Self) -> Self {
+        match j {
+            Join::Power => self.powf(b),
+            Join::Angle if self == 0.0 && b == 0.0 => f64::NAN,
+            Join::Angle => self.atan2(b),
+            Join::Least => self.min(b),
+            Join::Largest => self.max(b),
+            j => arithmetic_join(self, j, b).unwrap_or(f64::NAN),
+        }
+    }
+}
+
+impl Smooth for f64 {
+    fn slope(self, f: Function) -> Self {
+        match f {
+            Function::Abs if self == 0.0 => 0.0,
+            Function::Abs => self.signum(),
+            Function::Sin => self.cos(),
+            Function::Cos => -self.sin(),
+            Function::Tan => 1.0 + self.tan().powi(2),
+            Function::Asin => 1.0 / (1.0 - self * self).sqrt(),
+            Function::Acos => -1.0 / (1.0 - self * self).sqrt(),
+            Function::Atan => 1.0 / (1.0 + self * self),
+            Function::Exp => self.exp(),
+            Function::Log => 1.0 / self,
+            f => arithmetic_slope(self, f).unwrap_or(f64::NAN),
+        }
+    }
+
+    fn slopes(self, j: Join, b: Self) -> [Self; 2] {
+        let chosen = |is_first: bool| if is_first { [1.0, 0.0] } else { [0.0, 1.0] };
+        match j {
+            Join::Power => [b * self.powf(b - 1.0), self.powf(b) * self.ln()],
+            Join::Angle => {
+                let square = self * self + b * b;
+                [b / square, -self / square]
+            }
+            Join::Least => chosen(self < b),
+            Join::Largest => chosen(self > b),
+            j => arithmetic_slopes(self, j, b).unwrap_or([f64::NAN; 2]),
+        }
+    }
+}
+
+/// Records arithmetic and roots; all else is NaN: generators of code refuse laws.
+impl Number for Recorded {
+    fn number(self) -> Option<f64> {
+        None
+    }
+
+    fn apply(self, f: Function) -> Self {
+        arithmetic(self, f).unwrap_or_else(|| Self::from(f64::NAN))
+    }
+
+    fn join(self, j: Join, b: Self) -> Self {
+        arithmetic_join(self, j, b).unwrap_or_else(|| Self::from(f64::NAN))
+    }
+}
+
+impl Smooth for Recorded {
+    fn slope(self, f: Function) -> Self {
+        arithmetic_slope(self, f).unwrap_or_else(|| Self::from(f64::NAN))
+    }
+
+    fn slopes(self, j: Join, b: Self) -> [Self; 2] {
+        arithmetic_slopes(self, j, b).unwrap_or_else(|| [Self::from(f64::NAN); 2])
+    }
+}
+
+/// A number with its derivatives by the measure and by its rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Slope<T> {
+    pub(crate) value: T,
+    pub(crate) by: [T; 2],
+}
+
+impl<T: Smooth> From<f64> for Slope<T> {
+    fn from(x: f64) -> Self {
+        let by = [T::from(0.0); 2];
+        Self {
+            value: x.into(),
+            by,
+        }
+    }
+}
+
+impl<T: Smooth> Number for Slope<T> {
+    fn number(self) -> Option<f64> {
+        self.value.number()
+    }
+
+    fn apply(self, f: Function) -> Self {
+        let slope = self.value.slope(f);
+        Self {
+            value: self.value.apply(f),
+            by: self.by.map(|d| slope * d),
+        }
+    }
+
+    fn join(self, j: Join, b: Self) -> Self {
+        let [by_a, by_b] = self.value.slopes(j, b.value);
+        Self {
+            value: self.value.join(j, b.value),
+            by: [0, 1].map(|k| by_a * self.by[k] + by_b * b.by[k]),
+        }
+    }
+}
