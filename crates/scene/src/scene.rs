@@ -6,6 +6,7 @@ use model::{BuildError, Description, StartError, StartOptions};
 
 use crate::combination::{self, Combination, CombinationError, ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
+use crate::language::Units;
 use crate::locate;
 use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
@@ -40,6 +41,8 @@ pub struct Scene {
     pub groups: Vec<GroupRequest>,
     /// Places in the text; `None` if there is no text.
     pub source: Option<SourceMap>,
+    /// Units of the numbers of the text that have none.
+    pub units: Units,
     /// What the text says is not active: it was checked, and is in no list.
     pub inactive: Vec<Inactive>,
     /// Parts of the text that can be used, but are probably not what was intended.

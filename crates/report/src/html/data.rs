@@ -1,5 +1,7 @@
 //! The data of a page as one JSON document for the scripts, limited so that the page stays small.
 
+use std::collections::BTreeMap;
+
 use model::reaction::COMPONENTS;
 use model::{Measure, Mechanism, System};
 use serde::Serialize;
@@ -37,6 +39,8 @@ pub(super) struct Data<'a> {
     energy: Energy,
     residuals: Residuals,
     events: &'a [EventDocument],
+    /// Units of the scene for those of curves, with how many of them one SI unit is.
+    units: BTreeMap<&'static str, (String, f64)>,
 }
 
 /// A time with ten digits.
@@ -224,6 +228,10 @@ impl<'a> Data<'a> {
                 position: logarithmic(measured.position.iter().copied()),
                 velocity: logarithmic(measured.velocity.iter().copied()),
             },
+            units: ["m", "rad", "m/s", "rad/s"]
+                .into_iter()
+                .filter_map(|si| Some((si, page.scene.unit(si)?)))
+                .collect(),
             events: page.run.map_or(&[], |run| &run.events),
         }
     }
