@@ -306,7 +306,7 @@ fn tolerance_of(
     let body = slot.and_then(|slot| c.site.bodies.get(slot).copied());
     let bodies = mechanism.bodies();
     let of_marker = || match shape {
-        DatumShape::Point { .. } => mechanism.observed().tolerance_at(bodies, body?, numbers),
+        DatumShape::Point { .. } => mechanism.observed.tolerance_at(bodies, body?, numbers),
         _ => None,
     };
     let of_body = || bodies[body?.moving()?].tolerance;

@@ -52,7 +52,7 @@ pub(crate) fn has_tolerances(mechanism: &Mechanism) -> bool {
             .constraints
             .iter()
             .any(|c| c.tolerance.is_some())
-        || mechanism.observed().has_tolerances()
+        || mechanism.observed.has_tolerances()
 }
 
 impl Scales<'_> {

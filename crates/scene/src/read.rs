@@ -80,7 +80,7 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     if let Some(source) = &scene.source {
         check(&scene.description, source, &mut findings);
     }
-    active::take_out(&mut scene);
+    scene.take_out_inactive();
     let problems = findings.sorted();
     if problems.is_empty() {
         Ok(scene)

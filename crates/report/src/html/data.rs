@@ -348,7 +348,7 @@ fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
 /// The measures at the frames.
 fn measures<'a>(page: &RunPage<'a>) -> Vec<MeasureCurve<'a>> {
     let (mechanism, frames) = (page.mechanism, &page.recording.frames);
-    let observed = mechanism.observed();
+    let observed = mechanism.frames().observed();
     let name = |of: Option<usize>| of.map_or("ground", |k| observed.markers[k].name.as_str());
     let measures = observed.measures.iter().take(MEASURES_MAX).enumerate();
     let curve = |(k, measure): (usize, &'a Measure)| {
@@ -357,7 +357,11 @@ fn measures<'a>(page: &RunPage<'a>) -> Vec<MeasureCurve<'a>> {
             name: &measure.name,
             text: format!("{} of {second} from {first}", measure.kind.name()),
             unit: measure.kind.unit(),
-            value: Channel::new(frames.iter().map(|f| mechanism.measure(k, &f.q, &f.v))),
+            value: Channel::new(
+                frames
+                    .iter()
+                    .map(|f| mechanism.frames().measure(k, &f.q, &f.v)),
+            ),
         }
     };
     measures.map(curve).collect()

@@ -409,7 +409,7 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
          <div><div class=\"picker\"><select id=\"quantity-b\" aria-label=\"Second quantity\"></select></div>\
          <div id=\"motion-b\"></div></div></div>\n",
     );
-    if page.mechanism.observed().measures.is_empty() {
+    if page.mechanism.frames().observed().measures.is_empty() {
         out.push_str("<div id=\"measure-curves\" hidden></div>\n");
     } else {
         out.push_str("<h2>Measures</h2>\n<div class=\"curves\" id=\"measure-curves\"></div>\n");
