@@ -14,17 +14,14 @@ pub(super) fn reaction(
 ) -> Result<ConstraintId, StudyError> {
     let groups = &mechanism.layout().groups;
     let place = groups.iter().position(|g| g.name == name);
-    place
-        .map(ConstraintId)
-        .ok_or_else(|| match scene.is_inactive(name) {
-            true => StudyError::InactiveReaction {
-                name: name.to_owned(),
-            },
-            false => StudyError::UnknownReaction {
-                name: name.to_owned(),
-                nearest: scene.nearest_reaction(name).map(str::to_owned),
-            },
-        })
+    place.map(ConstraintId).ok_or_else(|| {
+        let name = name.to_owned();
+        if scene.is_inactive(&name) {
+            return StudyError::InactiveReaction { name };
+        }
+        let nearest = scene.nearest_reaction(&name).map(str::to_owned);
+        StudyError::UnknownReaction { name, nearest }
+    })
 }
 
 /// Groups with their names: those of the scene, then the requested combinations.
