@@ -566,7 +566,7 @@ fn questions_without_an_answer_are_refused() {
 fn coordinates_to_keep_must_exist() {
     let mut m = Mechanism::build(&robot(steering())).expect("builds");
     let (q, _) = m.described_state();
-    let given = m.given_velocities(&q);
+    let given = m.frames().given_velocities(&q);
     for (body, dof) in [(7, 0), (0, 3), (usize::MAX, 0)] {
         let keep = |level| StartOptions {
             keep: vec![Coordinate { body, dof, level }],

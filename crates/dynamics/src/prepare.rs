@@ -255,7 +255,7 @@ pub fn start_velocity(
     q: &[f64],
     kept: &[usize],
 ) -> Result<(StartVelocity, Option<Contradiction>), MotionError> {
-    let given = mechanism.given_velocities(q);
+    let given = mechanism.frames().given_velocities(q);
     let found = consistent_velocity(mechanism, start, q, &given, kept);
     if !rows.all.is_decided() || !rows.holonomic.is_decided() {
         return Ok((found?, None));

@@ -287,9 +287,9 @@ fn moving_poses<'a>(
 }
 
 /// The uncertainty of data of this shape in a constraint, in their unit, in a mechanism of this
-/// size (m). Lengths: the tolerance stated for the constraint, or else for a marker at the point, or
-/// else for the body in whose frame they are, or else for the scene. Angles: the angle tolerance of the scene, or else that length
-/// divided by the size.
+/// size (m). Lengths: the tolerance stated for the constraint, or else for a marker at the point,
+/// or else for the body in whose frame they are, or else for the scene. Angles: the angle tolerance
+/// of the scene, or else that length divided by the size.
 fn tolerance_of(
     mechanism: &Mechanism,
     c: &PlacedConstraint,
@@ -306,7 +306,7 @@ fn tolerance_of(
     let body = slot.and_then(|slot| c.site.bodies.get(slot).copied());
     let bodies = mechanism.bodies();
     let of_marker = || match shape {
-        DatumShape::Point { .. } => mechanism.observed().tolerance_at(bodies, body?, numbers),
+        DatumShape::Point { .. } => mechanism.observed.tolerance_at(bodies, body?, numbers),
         _ => None,
     };
     let of_body = || bodies[body?.moving()?].tolerance;

@@ -176,8 +176,9 @@ impl BodyRef {
         }
     }
 
-    /// A global point (m) relative to the centre of mass of this body, one of `bodies` as described,
-    /// in the axes of its frame: `Rᵀ·(point − r)`. For the ground, and for a body that does not exist, the point itself.
+    /// A global point (m) relative to the centre of mass of this body, one of `bodies` as
+    /// described, in the axes of its frame: `Rᵀ·(point − r)`. For the ground, and for a body that
+    /// does not exist, the point itself.
     #[must_use]
     pub fn to_local(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
         let described = self.moving().and_then(|at| bodies.get(at));

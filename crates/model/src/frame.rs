@@ -9,6 +9,7 @@ use joints::Pose;
 
 use crate::description::{Body, BodyRef};
 use crate::mechanism::{Mechanism, N_BODY};
+use crate::observed::{Marker, Measure, MeasureKind, Observed};
 use crate::space::{Space, in_space};
 
 /// Names of the numbers of a [`FrameState`], in their order.
@@ -80,6 +81,25 @@ impl BodyRef {
 }
 
 impl Mechanism {
+    /// The frames of its bodies, its markers and its measures.
+    #[must_use]
+    pub fn frames(&self) -> Frames<'_> {
+        Frames(self)
+    }
+}
+
+/// What a scene says of bodies and places, and what is written of them, by a mechanism at its
+/// centres of mass.
+#[derive(Clone, Copy)]
+pub struct Frames<'m>(&'m Mechanism);
+
+impl<'m> Frames<'m> {
+    /// The markers and measures; a part of a mechanism has its markers with a tolerance only.
+    #[must_use]
+    pub fn observed(self) -> &'m Observed {
+        &self.0.observed
+    }
+
     /// The origin and the axes of the frame of a body at q and v: what is written of it. For a body
     /// whose frame is at its centre of mass these are its coordinates and velocities, bit for bit.
     ///
@@ -89,7 +109,8 @@ impl Mechanism {
     /// let mut d = Description::new("rod");
     /// d.body(Body { centre: [0.5, 0.0], ..Body::new("rod", 1.0, 0.1) });
     /// let quarter = std::f64::consts::FRAC_PI_2;
-    /// let rod = Mechanism::build(&d).unwrap().frame(0, &[0.0, 0.5, quarter], &[0.0, 0.0, 2.0]);
+    /// let rod = Mechanism::build(&d).unwrap();
+    /// let rod = rod.frames().body(0, &[0.0, 0.5, quarter], &[0.0, 0.0, 2.0]);
     /// assert!(rod.place.iter().all(|x| x.abs() < 1e-15));
     /// assert!((rod.velocity[0] - 1.0).abs() < 1e-15 && rod.velocity[1].abs() < 1e-15);
     /// ```
@@ -97,19 +118,19 @@ impl Mechanism {
     /// # Panics
     /// If there is no such body, or q and v are not those of the mechanism.
     #[must_use]
-    pub fn frame(&self, body: usize, q: &[f64], v: &[f64]) -> FrameState {
-        self.state_of(body, [0.0; 2], q, v)
+    pub fn body(self, body: usize, q: &[f64], v: &[f64]) -> FrameState {
+        self.point(body, [0.0; 2], q, v)
     }
 
     /// A point of the frame of a body at q and v.
     ///
     /// # Panics
-    /// As [`Self::frame`].
+    /// As [`Self::body`].
     #[must_use]
-    pub fn state_of(&self, body: usize, point: [f64; 2], q: &[f64], v: &[f64]) -> FrameState {
-        let own = &q[self.space().coordinates(body)];
+    pub fn point(self, body: usize, point: [f64; 2], q: &[f64], v: &[f64]) -> FrameState {
+        let own = &q[self.0.space().coordinates(body)];
         let [vx, vy, omega] = [0, 1, 2].map(|dof| v[N_BODY * body + dof]);
-        let arm = self.bodies()[body].from_centre(point);
+        let arm = self.0.bodies()[body].from_centre(point);
         let (mut place, mut velocity) = ([own[0], own[1]], [vx, vy]);
         if arm != [0.0; 2] {
             let [x, y] = turned(&self.pose_at(body, q), arm);
@@ -118,21 +139,21 @@ impl Mechanism {
         }
         FrameState {
             place,
-            angle: in_space!(self.space(), S => S::angle(own)),
+            angle: in_space!(self.0.space(), S => S::angle(own)),
             velocity,
             omega,
         }
     }
 
-    fn pose_at(&self, body: usize, q: &[f64]) -> Pose {
-        let own = &q[self.space().coordinates(body)];
-        in_space!(self.space(), S => S::pose(own))
+    fn pose_at(self, body: usize, q: &[f64]) -> Pose {
+        let own = &q[self.0.space().coordinates(body)];
+        in_space!(self.0.space(), S => S::pose(own))
     }
 
     /// Velocities that the description gives, n_v, at the configuration q: of the centres of mass,
     /// with given velocities of frames that turn with the given angular velocity.
     #[must_use]
-    pub fn given_velocities(&self, q: &[f64]) -> Vec<Option<f64>> {
+    pub fn given_velocities(self, q: &[f64]) -> Vec<Option<f64>> {
         let of = |(k, b): (usize, &Body)| {
             let [mut vx, mut vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
             if let (Some([x, y]), Some(omega), false) =
@@ -143,7 +164,79 @@ impl Mechanism {
             }
             [vx, vy, b.angular_velocity]
         };
-        self.bodies().iter().enumerate().flat_map(of).collect()
+        self.0.bodies().iter().enumerate().flat_map(of).collect()
+    }
+
+    /// State of a marker at q and v. Its angle is that of its axes.
+    ///
+    /// # Panics
+    /// If there is no such marker, or q and v are not those of the mechanism.
+    #[must_use]
+    pub fn marker(self, marker: usize, q: &[f64], v: &[f64]) -> FrameState {
+        let Marker {
+            body, point, angle, ..
+        } = self.0.observed.markers[marker];
+        let of_body = match body {
+            BodyRef::Body(k) => self.point(k, point, q, v),
+            BodyRef::Ground => FrameState {
+                place: point,
+                ..FrameState::default()
+            },
+        };
+        FrameState {
+            angle: of_body.angle + angle.unwrap_or_default(),
+            ..of_body
+        }
+    }
+
+    /// Value of a measure at q and v.
+    ///
+    /// ```
+    /// use model::{Body, Description, Marker, Measure, MeasureKind, Mechanism};
+    /// let mut d = Description::new("top");
+    /// let body = d.body(Body::new("top", 1.0, 1.0));
+    /// let marker = Marker { name: "rim".into(), body, point: [2.0, 0.0], angle: None, tolerance: None };
+    /// d.observed.markers.push(marker);
+    /// for kind in [MeasureKind::Y, MeasureKind::Speed, MeasureKind::Angle] {
+    ///     let (name, between) = (kind.name().into(), [None, Some(0)]);
+    ///     d.observed.measures.push(Measure { name, kind, between });
+    /// }
+    /// let top = Mechanism::build(&d).unwrap();
+    /// // After one and a half turns, at 3 rad/s.
+    /// let turned = 3.0 * std::f64::consts::PI;
+    /// let value = |k| top.frames().measure(k, &[0.0, 1.0, turned], &[0.0, 0.0, 3.0]);
+    /// assert!((value(0) - 1.0).abs() < 1e-14 && (value(1) - 6.0).abs() < 1e-14);
+    /// assert_eq!(value(2), turned);
+    /// ```
+    ///
+    /// # Panics
+    /// If there is no such measure, or q and v are not those of the mechanism.
+    #[must_use]
+    pub fn measure(self, measure: usize, q: &[f64], v: &[f64]) -> f64 {
+        let Measure { kind, between, .. } = self.0.observed.measures[measure];
+        let state = |of: Option<usize>| {
+            of.map_or_else(FrameState::default, |marker| self.marker(marker, q, v))
+        };
+        let [first, second] = between.map(state);
+        value(kind, &first, &second)
+    }
+}
+
+/// Value of a measure from the states of both markers.
+fn value(kind: MeasureKind, first: &FrameState, second: &FrameState) -> f64 {
+    let difference = |a: [f64; 2], b: [f64; 2]| [b[0] - a[0], b[1] - a[1]];
+    let [dx, dy] = difference(first.place, second.place);
+    let (sin, cos) = first.angle.sin_cos();
+    match kind {
+        MeasureKind::Distance => dx.hypot(dy),
+        MeasureKind::Angle => second.angle - first.angle,
+        MeasureKind::X => cos * dx + sin * dy,
+        MeasureKind::Y => cos * dy - sin * dx,
+        MeasureKind::Speed => {
+            let [vx, vy] = difference(first.velocity, second.velocity);
+            (vx + first.omega * dy).hypot(vy - first.omega * dx)
+        }
+        MeasureKind::AngularVelocity => second.omega - first.omega,
     }
 }
 

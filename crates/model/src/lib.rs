@@ -62,7 +62,7 @@ pub mod words;
 pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
-pub use frame::FrameState;
+pub use frame::{FrameState, Frames};
 pub use function::{Function, FunctionError};
 pub use law::Law;
 pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};

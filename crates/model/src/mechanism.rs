@@ -2,6 +2,7 @@
 //! checks everything that can be wrong; a built mechanism has no invalid state.
 
 mod build;
+mod check;
 mod derivatives;
 mod holds;
 mod initial;
@@ -74,7 +75,7 @@ pub struct Mechanism {
     reach: Vec<f64>,
     /// Whether rows of angles keep the angle of each body constant.
     held: Vec<bool>,
-    observed: Observed,
+    pub(crate) observed: Observed,
     layout: Layout,
 }
 
@@ -207,12 +208,6 @@ impl Mechanism {
         &self.bodies
     }
 
-    /// Its markers and measures; a part of a mechanism has its markers with a tolerance only.
-    #[must_use]
-    pub fn observed(&self) -> &Observed {
-        &self.observed
-    }
-
     /// Coordinates and velocities as described, not corrected; velocities that are not given are
     /// zero.
     #[must_use]
@@ -223,7 +218,7 @@ impl Mechanism {
                 S::described(b, q);
             }
         });
-        let v = self.given_velocities(&q).into_iter();
+        let v = self.frames().given_velocities(&q).into_iter();
         let v = v.map(Option::unwrap_or_default).collect();
         (q, v)
     }

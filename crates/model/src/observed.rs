@@ -1,9 +1,7 @@
 //! Markers and measures: places by name, and quantities between them, read off a motion. They
-//! restrict nothing, and are evaluated where somebody asks.
+//! restrict nothing, and are evaluated by [`crate::frame`] where somebody asks.
 
-use crate::description::{Body, BodyRef, Description};
-use crate::frame::FrameState;
-use crate::mechanism::{BuildError, Mechanism};
+use crate::description::{Body, BodyRef};
 
 /// A place of a body by name.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,24 +91,6 @@ impl MeasureKind {
             Self::AngularVelocity => "rad/s",
         }
     }
-
-    /// Its value from the states of both markers.
-    fn of(self, first: &FrameState, second: &FrameState) -> f64 {
-        let difference = |a: [f64; 2], b: [f64; 2]| [b[0] - a[0], b[1] - a[1]];
-        let [dx, dy] = difference(first.place, second.place);
-        let (sin, cos) = first.angle.sin_cos();
-        match self {
-            Self::Distance => dx.hypot(dy),
-            Self::Angle => second.angle - first.angle,
-            Self::X => cos * dx + sin * dy,
-            Self::Y => cos * dy - sin * dx,
-            Self::Speed => {
-                let [vx, vy] = difference(first.velocity, second.velocity);
-                (vx + first.omega * dy).hypot(vy - first.omega * dx)
-            }
-            Self::AngularVelocity => second.omega - first.omega,
-        }
-    }
 }
 
 /// The markers and measures of a mechanism.
@@ -157,100 +137,6 @@ impl Observed {
         Self {
             markers: own.collect(),
             measures: Vec::new(),
-        }
-    }
-}
-
-impl Mechanism {
-    /// State of a marker at q and v. Its angle is that of its axes.
-    ///
-    /// # Panics
-    /// If there is no such marker, or q and v are not those of the mechanism.
-    #[must_use]
-    pub fn marker(&self, marker: usize, q: &[f64], v: &[f64]) -> FrameState {
-        let Marker {
-            body, point, angle, ..
-        } = self.observed().markers[marker];
-        let of_body = match body {
-            BodyRef::Body(k) => self.state_of(k, point, q, v),
-            BodyRef::Ground => FrameState {
-                place: point,
-                ..FrameState::default()
-            },
-        };
-        FrameState {
-            angle: of_body.angle + angle.unwrap_or_default(),
-            ..of_body
-        }
-    }
-
-    /// Value of a measure at q and v.
-    ///
-    /// ```
-    /// use model::{Body, Description, Marker, Measure, MeasureKind, Mechanism};
-    /// let mut d = Description::new("top");
-    /// let body = d.body(Body::new("top", 1.0, 1.0));
-    /// let marker = Marker { name: "rim".into(), body, point: [2.0, 0.0], angle: None, tolerance: None };
-    /// d.observed.markers.push(marker);
-    /// for kind in [MeasureKind::Y, MeasureKind::Speed, MeasureKind::Angle] {
-    ///     let (name, between) = (kind.name().into(), [None, Some(0)]);
-    ///     d.observed.measures.push(Measure { name, kind, between });
-    /// }
-    /// let top = Mechanism::build(&d).unwrap();
-    /// // After one and a half turns, at 3 rad/s.
-    /// let turned = 3.0 * std::f64::consts::PI;
-    /// let value = |k| top.measure(k, &[0.0, 1.0, turned], &[0.0, 0.0, 3.0]);
-    /// assert!((value(0) - 1.0).abs() < 1e-14 && (value(1) - 6.0).abs() < 1e-14);
-    /// assert_eq!(value(2), turned);
-    /// ```
-    ///
-    /// # Panics
-    /// If there is no such measure, or q and v are not those of the mechanism.
-    #[must_use]
-    pub fn measure(&self, measure: usize, q: &[f64], v: &[f64]) -> f64 {
-        let Measure { kind, between, .. } = self.observed().measures[measure];
-        let state = |of: Option<usize>| {
-            of.map_or_else(FrameState::default, |marker| self.marker(marker, q, v))
-        };
-        let [first, second] = between.map(state);
-        kind.of(&first, &second)
-    }
-}
-
-/// Reports markers and measures that cannot be evaluated.
-pub(crate) fn check(d: &Description, errors: &mut Vec<BuildError>) {
-    let Observed { markers, measures } = &d.observed;
-    for marker in markers {
-        let name = || marker.name.clone();
-        if let Some(body) = marker.body.moving().filter(|k| *k >= d.bodies.len()) {
-            errors.push(BuildError::UnknownBody {
-                name: name(),
-                body,
-                n_bodies: d.bodies.len(),
-            });
-        }
-        let ([x, y], angle) = (marker.point, marker.angle.unwrap_or_default());
-        if ![x, y, angle].iter().all(|x| x.is_finite()) {
-            errors.push(BuildError::Marker {
-                name: name(),
-                x,
-                y,
-                angle,
-            });
-        }
-    }
-    for measure in measures {
-        let [first, second] = measure.between;
-        let name = measure.name.clone();
-        let unknown = |k: &usize| *k >= markers.len();
-        if let Some(marker) = [first, second].into_iter().flatten().find(unknown) {
-            errors.push(BuildError::UnknownMarker {
-                name,
-                marker,
-                n_markers: markers.len(),
-            });
-        } else if first == second {
-            errors.push(BuildError::SameMarker { name });
         }
     }
 }

@@ -51,7 +51,7 @@ impl Mechanism {
                 .constraints
                 .iter()
                 .any(|c| c.tolerance.is_some())
-            || self.observed().has_tolerances()
+            || self.observed.has_tolerances()
     }
 }
 

@@ -162,7 +162,11 @@ pub fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion>, Stud
     let pairs = common(&first.prepared.mechanism, &second.prepared.mechanism);
     let mut expected: Vec<Vec<FrameState>> = Vec::new();
     let frame = |study: &Study, sample: &Sample<'_, '_>, body: usize| {
-        study.prepared.mechanism.frame(body, sample.q, sample.v)
+        study
+            .prepared
+            .mechanism
+            .frames()
+            .body(body, sample.q, sample.v)
     };
     run(first, a, t_end, |sample| {
         let own = pairs.iter().map(|[i, _]| frame(first, sample, *i));

@@ -11,7 +11,7 @@ use report::{
     AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, WrittenScene,
     numbers_per_row, run_page,
 };
-use scene::Scene;
+use scene::{Scene, Units, WithUnit};
 use solvability::{Allowed, Sensitivities, Verdict};
 
 use crate::comparison::compare;
@@ -228,6 +228,15 @@ pub fn written_scene(scene: &Scene) -> WrittenScene<'_> {
     WrittenScene {
         text: scene.text(),
         inactive: scene.inactive.iter().map(ToString::to_string).collect(),
+        units: [
+            (scene.units.length, Units::SI.length),
+            (scene.units.angle, Units::SI.angle),
+        ]
+        .map(|(unit, si)| {
+            let text = format!("1 {unit}");
+            let of = WithUnit::read(&text).filter(|_| unit != si)?;
+            Some((unit, of.in_si(1.0)))
+        }),
     }
 }
 

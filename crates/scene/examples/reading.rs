@@ -64,7 +64,7 @@ fn main() -> ExitCode {
     };
     let begin = Instant::now();
     let rows: Vec<usize> = (0..mechanism.layout().rows()).collect();
-    let given = mechanism.given_velocities(&assembly.q);
+    let given = mechanism.frames().given_velocities(&assembly.q);
     let v = consistent_velocity(&mechanism, &scene.start, &assembly.q, &given, &rows);
     said("start::consistent_velocity", begin);
     if let Err(e) = v {

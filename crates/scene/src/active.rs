@@ -3,8 +3,6 @@
 use crate::dimension::Dimension;
 use crate::findings::Findings;
 use crate::key::{Key, Takes};
-use crate::scene::{Inactive, Scene};
-use crate::source_map::Entry;
 use crate::table::Table;
 
 /// The key of joints, drives, forces and groups.
@@ -30,40 +28,3 @@ pub(crate) fn read(table: &mut Table, findings: &mut Findings) -> bool {
 
 /// Help for a reference to something that takes no part.
 pub(crate) const HELP: &str = "remove `active = false` there, or leave the name out here";
-
-/// Takes everything that is not active out of a scene that has been checked as a whole.
-pub(crate) fn take_out(scene: &mut Scene) {
-    let Some(source) = &mut scene.source else {
-        return;
-    };
-    let mut inactive = Vec::new();
-    let d = &mut scene.description;
-    retain("joint", &mut d.joints, &mut source.joints, &mut inactive);
-    retain("drive", &mut d.drives, &mut source.drives, &mut inactive);
-    retain("force", &mut d.forces, &mut source.forces, &mut inactive);
-    retain(
-        "group",
-        &mut scene.groups,
-        &mut source.groups,
-        &mut inactive,
-    );
-    scene.inactive = inactive;
-}
-
-/// Keeps the active items of a list, and their entries.
-fn retain<T>(
-    kind: &'static str,
-    items: &mut Vec<T>,
-    entries: &mut Vec<Entry>,
-    inactive: &mut Vec<Inactive>,
-) {
-    let mut is_active = entries.iter().map(|entry| entry.is_active);
-    items.retain(|_| is_active.next().unwrap_or(true));
-    entries.retain(|entry| {
-        if !entry.is_active {
-            let name = entry.name.clone();
-            inactive.push(Inactive { kind, name });
-        }
-        entry.is_active
-    });
-}

@@ -11,8 +11,34 @@ pub(crate) struct Language {
     /// Whether texts are computed.
     pub(crate) computes: bool,
     bases: Bases,
+    /// The names of these units.
+    pub(crate) units: Units,
     /// `None` if its own text is wrong.
     parameters: BTreeMap<String, Option<Quantity>>,
+}
+
+/// The units in which a scene writes lengths and angles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Units {
+    /// Unit of lengths, as `mm`.
+    pub length: &'static str,
+    /// Unit of angles, as `deg`.
+    pub angle: &'static str,
+}
+
+impl Units {
+    /// Metres and radians.
+    pub const SI: Self = Self {
+        length: "m",
+        angle: "rad",
+    };
+}
+
+/// Metres and radians.
+impl Default for Units {
+    fn default() -> Self {
+        Self::SI
+    }
 }
 
 impl Scope for Language {
@@ -30,6 +56,7 @@ impl Language {
     pub(crate) const PLAIN: Self = Self {
         computes: false,
         bases: Bases::SI,
+        units: Units::SI,
         parameters: BTreeMap::new(),
     };
 

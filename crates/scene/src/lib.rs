@@ -60,6 +60,7 @@ mod units;
 
 pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};
 pub use diagnostic::{Diagnostic, Label, Severity};
+pub use language::Units;
 pub use nearest::{ELSEWHERE, nearest};
 pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
 pub use read::read;

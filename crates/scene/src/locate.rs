@@ -257,7 +257,8 @@ fn place_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
 }
 
-/// Places of a name in the two name spaces: bodies, markers and measures; joints, drives and forces.
+/// Places of a name in the two name spaces: bodies, markers and measures; joints, drives and
+/// forces.
 fn uses(map: &SourceMap, name: &str) -> [Vec<Range<usize>>; 2] {
     let of = |entries: &mut dyn Iterator<Item = &Entry>| {
         let same = entries.filter(|entry| entry.name == name);

@@ -1,5 +1,5 @@
-//! Names of bodies, markers and measures, of joints, drives and forces, and of groups: within each of these name spaces a
-//! name occurs once.
+//! Names of bodies, markers and measures, of joints, drives and forces, and of groups: within each
+//! of these name spaces a name occurs once.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;

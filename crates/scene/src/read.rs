@@ -19,7 +19,7 @@ use crate::force::Forces;
 use crate::function::Domain;
 use crate::joint::{Drives, JointNames, Joints};
 use crate::key::{Interval, Key, Takes};
-use crate::language::{self, Language};
+use crate::language::{self, Language, Units};
 use crate::limits;
 use crate::locate;
 use crate::marker::Markers;
@@ -72,6 +72,7 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     let language = Language::read(&mut whole, &mut findings);
     let whole = Table::new("the scene", 0..0, root.get_ref(), &language);
     let mut scene = document(whole, registry, &mut findings);
+    scene.units = language.units;
     scene.warnings = findings.take_warnings();
     drop(language);
     // Large compared with what was read from it.
@@ -79,7 +80,7 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     if let Some(source) = &scene.source {
         check(&scene.description, source, &mut findings);
     }
-    active::take_out(&mut scene);
+    scene.take_out_inactive();
     let problems = findings.sorted();
     if problems.is_empty() {
         Ok(scene)
@@ -192,6 +193,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         output: output.unwrap_or_default(),
         groups,
         source: Some(source),
+        units: Units::SI,
         inactive: Vec::new(),
         warnings: Vec::new(),
     }

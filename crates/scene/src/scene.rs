@@ -6,10 +6,11 @@ use model::{BuildError, Description, StartError, StartOptions};
 
 use crate::combination::{self, Combination, CombinationError, ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
+use crate::language::Units;
 use crate::locate;
 use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
-use crate::source_map::SourceMap;
+use crate::source_map::{Entry, SourceMap};
 
 /// A mechanism, the requested computations, and the places of all of these in the file, if it was
 /// read from one.
@@ -40,6 +41,8 @@ pub struct Scene {
     pub groups: Vec<GroupRequest>,
     /// Places in the text; `None` if there is no text.
     pub source: Option<SourceMap>,
+    /// Units of the numbers of the text that have none.
+    pub units: Units,
     /// What the text says is not active: it was checked, and is in no list.
     pub inactive: Vec<Inactive>,
     /// Parts of the text that can be used, but are probably not what was intended.
@@ -132,6 +135,18 @@ impl Scene {
         combination::parse(text, &Reactions::new(names.collect()).without(inactive))
     }
 
+    /// Takes out everything that is not active, after the whole has been checked.
+    pub(crate) fn take_out_inactive(&mut self) {
+        let Some(source) = &mut self.source else {
+            return;
+        };
+        let (d, inactive) = (&mut self.description, &mut self.inactive);
+        retain("joint", &mut d.joints, &mut source.joints, inactive);
+        retain("drive", &mut d.drives, &mut source.drives, inactive);
+        retain("force", &mut d.forces, &mut source.forces, inactive);
+        retain("group", &mut self.groups, &mut source.groups, inactive);
+    }
+
     /// Whether a joint or drive with this name is in the text, but not active.
     #[must_use]
     pub fn is_inactive(&self, name: &str) -> bool {
@@ -146,6 +161,24 @@ impl Scene {
         let drives = self.description.drives.iter().map(|d| d.name.as_str());
         nearest(name, joints.chain(drives))
     }
+}
+
+/// Keeps the active items of a list, and their entries.
+fn retain<T>(
+    kind: &'static str,
+    items: &mut Vec<T>,
+    entries: &mut Vec<Entry>,
+    inactive: &mut Vec<Inactive>,
+) {
+    let mut is_active = entries.iter().map(|entry| entry.is_active);
+    items.retain(|_| is_active.next().unwrap_or(true));
+    entries.retain(|entry| {
+        if !entry.is_active {
+            let name = entry.name.clone();
+            inactive.push(Inactive { kind, name });
+        }
+        entry.is_active
+    });
 }
 
 impl std::fmt::Debug for Scene {

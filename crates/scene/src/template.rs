@@ -25,17 +25,19 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 /// A key is the name of a parameter, or written as people say it: `body.platform.mass`,
 /// `joint.H.axis[0]`, `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Things
 /// with names go by their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key
-/// that the text leaves out is added to its table, which must be there; a parameter is not. `active`
-/// counts as a number: zero is false.
+/// that the text leaves out is added to its table, which must be there; a parameter is not.
+/// `active` counts as a number: zero is false.
 ///
 /// ```
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
 /// let template = scene::Template::new(text, &["body.bob.mass", "body.bob.angle"])?;
 /// let changed = template.with(&[2.5, 0.1]);
-/// assert_eq!(changed, "[scene]\nname = \"drop\"\n[[body]]\nangle = 0.1\nname = \"bob\"\nmass = 2.5 # kg\n");
+/// assert_eq!(changed, "[scene]\nname = \"drop\"\n[[body]]\nangle = 0.1\nname = \"bob\"\nmass = 2.5
+/// # kg\n");
 ///
 /// let wrong = scene::Template::new(text, &["body.bib.mass"]).err().unwrap();
-/// assert_eq!(wrong.to_string(), "`body.bib.mass`: there is no `bib` in `body`; did you mean `bob`?");
+/// assert_eq!(wrong.to_string(), "`body.bib.mass`: there is no `bib` in `body`; did you mean
+/// `bob`?");
 /// # Ok::<(), scene::KeyError>(())
 /// ```
 #[derive(Clone, Debug)]

@@ -64,7 +64,7 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     let assembly = assemble(&mut mechanism, &start).expect("it is assembled already");
     assert!(assembly.correction.iter().all(|x| *x == 0.0));
     let all: Vec<usize> = (0..mechanism.layout().rows()).collect();
-    let mut given = mechanism.given_velocities(&assembly.q);
+    let mut given = mechanism.frames().given_velocities(&assembly.q);
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("it rests");
     assert!(found.v.iter().all(|v| *v == 0.0));

@@ -4,12 +4,13 @@ use std::collections::HashSet;
 
 use joints::spec::{ConstraintSpec, Level, Role, Spec};
 
+use super::check;
 use super::work::held_bodies;
 use super::{Elements, Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction, initialise};
 use crate::description::{Body, BodyRef, Description};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
-use crate::observed::{self, Observed};
+use crate::observed::Observed;
 use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::space::SpaceKind;
 use crate::system::{Layout, RowLabel, Site};
@@ -190,7 +191,7 @@ impl Mechanism {
         check_names(d, &mut errors);
         check_places(d, &mut errors);
         check_tolerances(d, &mut errors);
-        observed::check(d, &mut errors);
+        check::observed(d, &mut errors);
         if !errors.is_empty() {
             return Err(errors);
         }

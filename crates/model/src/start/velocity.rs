@@ -68,7 +68,7 @@ const CANCELLED: f64 = 1e-12;
 /// let mut mechanism = Mechanism::build(&d).unwrap();
 /// let options = StartOptions::default();
 /// let q = assemble(&mut mechanism, &options)?.q;
-/// let given = mechanism.given_velocities(&q);
+/// let given = mechanism.frames().given_velocities(&q);
 /// let found = consistent_velocity(&mechanism, &options, &q, &given, &[0, 1])?;
 /// assert_eq!((found.v, found.correction), (vec![6.0, 0.0, 3.0], vec![0.0; 3]));
 /// # Ok::<(), model::StartError>(())

@@ -423,3 +423,24 @@ fn what_is_active_may_be_varied() {
     let [free, doubled] = [0, 1].map(|k| of_c[k].parse::<f64>().expect("unique"));
     assert!((free - doubled).abs() < 1e-6 * free, "{free} {doubled}");
 }
+
+/// Curves are in the units of the drawing, and the page says so; files are in SI.
+#[test]
+fn a_report_has_the_units_of_the_scene() {
+    let page = |name: &str, scene: &str| {
+        let folder = Folder::new(name);
+        document(&["simulate", "-", "--out", folder.text(), "--json"], scene);
+        folder.read("report.html")
+    };
+    let drawing = page("language-page", DRAWING);
+    let begin = drawing.find("\"units\":").expect("units");
+    let units = &drawing[begin + "\"units\":".len()..];
+    let end = units.find('}').expect("an end") + 1;
+    let units: Value = serde_json::from_str(&units[..end]).expect("JSON");
+    assert_eq!(units["m/s"], serde_json::json!(["mm/s", 1000.0]));
+    let degrees = units["rad"][1].as_f64().expect("a number");
+    assert!(units["rad"][0] == "deg" && (degrees - 57.295_779_513_082_32).abs() < 1e-12);
+    assert!(drawing.contains("in the units of the scene (mm, deg)"));
+    let metres = page("language-plain-page", &in_metres());
+    assert!(metres.contains("\"units\":{}") && !metres.contains("units of the scene ("));
+}

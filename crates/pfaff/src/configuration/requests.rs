@@ -15,16 +15,12 @@ pub(super) fn reaction(
     let groups = &mechanism.layout().groups;
     let place = groups.iter().position(|g| g.name == name);
     place.map(ConstraintId).ok_or_else(|| {
-        if scene.is_inactive(name) {
-            StudyError::InactiveReaction {
-                name: name.to_owned(),
-            }
-        } else {
-            StudyError::UnknownReaction {
-                name: name.to_owned(),
-                nearest: scene.nearest_reaction(name).map(str::to_owned),
-            }
+        let name = name.to_owned();
+        if scene.is_inactive(&name) {
+            return StudyError::InactiveReaction { name };
         }
+        let nearest = scene.nearest_reaction(&name).map(str::to_owned);
+        StudyError::UnknownReaction { name, nearest }
     })
 }
 

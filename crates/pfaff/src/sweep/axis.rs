@@ -13,8 +13,8 @@ const RUNS_MAX: usize = 10_000_000;
 ///
 /// `FROM:TO:N` are N ≥ 2 values including both ends, evenly spaced, or evenly spaced in their
 /// logarithms. Both ends are exact. Numbers may have a unit, both ends of a range the same one, as
-/// `L=300mm:500mm:21`; then the values of the axis are in SI, and the scene gets them as written and
-/// checks the unit.
+/// `L=300mm:500mm:21`; then the values of the axis are in SI, and the scene gets them as written
+/// and checks the unit.
 ///
 /// ```
 /// use pfaff::sweep::Axis;

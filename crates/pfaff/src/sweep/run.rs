@@ -149,7 +149,7 @@ impl<'s> Watch<'s> {
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
         self.t_state = sample.t;
         for (body, state) in self.state.chunks_exact_mut(COLUMNS.len()).enumerate() {
-            let frame = self.mechanism.frame(body, sample.q, sample.v);
+            let frame = self.mechanism.frames().body(body, sample.q, sample.v);
             state.copy_from_slice(&frame.numbers());
         }
         if !self.reactions.iter().any(|(_, is_unique)| *is_unique) {

@@ -93,12 +93,13 @@ impl MomentDocument {
         reactions: &[Reaction],
     ) -> Self {
         let bodies = mechanism.bodies().iter().enumerate();
-        let bodies = bodies.map(|(k, b)| (b.name.clone(), mechanism.frame(k, q, v).into()));
-        let observed = mechanism.observed();
+        let bodies = bodies.map(|(k, b)| (b.name.clone(), mechanism.frames().body(k, q, v).into()));
+        let observed = mechanism.frames().observed();
         let markers = observed.markers.iter().enumerate();
-        let markers = markers.map(|(k, m)| (m.name.clone(), mechanism.marker(k, q, v).into()));
+        let markers =
+            markers.map(|(k, m)| (m.name.clone(), mechanism.frames().marker(k, q, v).into()));
         let measures = observed.measures.iter().enumerate();
-        let measures = measures.map(|(k, m)| (m.name.clone(), mechanism.measure(k, q, v)));
+        let measures = measures.map(|(k, m)| (m.name.clone(), mechanism.frames().measure(k, q, v)));
         let groups = mechanism.layout().groups.iter().zip(reactions);
         let reactions = groups.map(|(group, reaction)| {
             let names = COMPONENTS.into_iter().chain(group.spec.component);

@@ -413,7 +413,7 @@ impl DrawnForce {
 impl DrawnMarker {
     /// The markers of a mechanism on the ground and on bodies that are drawn.
     fn all(mechanism: &Mechanism, bodies: &[usize]) -> Vec<Self> {
-        let markers = mechanism.observed().markers.iter();
+        let markers = mechanism.frames().observed().markers.iter();
         let all = markers.filter_map(|marker| {
             Some(Self {
                 name: marker.name.clone(),

@@ -1,5 +1,7 @@
 //! The data of a page as one JSON document for the scripts, limited so that the page stays small.
 
+use std::collections::BTreeMap;
+
 use model::reaction::COMPONENTS;
 use model::{Measure, Mechanism, System};
 use serde::Serialize;
@@ -37,6 +39,8 @@ pub(super) struct Data<'a> {
     energy: Energy,
     residuals: Residuals,
     events: &'a [EventDocument],
+    /// Units of the scene for those of curves, with how many of them one SI unit is.
+    units: BTreeMap<&'static str, (String, f64)>,
 }
 
 /// A time with ten digits.
@@ -224,6 +228,10 @@ impl<'a> Data<'a> {
                 position: logarithmic(measured.position.iter().copied()),
                 velocity: logarithmic(measured.velocity.iter().copied()),
             },
+            units: ["m", "rad", "m/s", "rad/s"]
+                .into_iter()
+                .filter_map(|si| Some((si, page.scene.unit(si)?)))
+                .collect(),
             events: page.run.map_or(&[], |run| &run.events),
         }
     }
@@ -340,7 +348,7 @@ fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
 /// The measures at the frames.
 fn measures<'a>(page: &RunPage<'a>) -> Vec<MeasureCurve<'a>> {
     let (mechanism, frames) = (page.mechanism, &page.recording.frames);
-    let observed = mechanism.observed();
+    let observed = mechanism.frames().observed();
     let name = |of: Option<usize>| of.map_or("ground", |k| observed.markers[k].name.as_str());
     let measures = observed.measures.iter().take(MEASURES_MAX).enumerate();
     let curve = |(k, measure): (usize, &'a Measure)| {
@@ -349,7 +357,11 @@ fn measures<'a>(page: &RunPage<'a>) -> Vec<MeasureCurve<'a>> {
             name: &measure.name,
             text: format!("{} of {second} from {first}", measure.kind.name()),
             unit: measure.kind.unit(),
-            value: Channel::new(frames.iter().map(|f| mechanism.measure(k, &f.q, &f.v))),
+            value: Channel::new(
+                frames
+                    .iter()
+                    .map(|f| mechanism.frames().measure(k, &f.q, &f.v)),
+            ),
         }
     };
     measures.map(curve).collect()

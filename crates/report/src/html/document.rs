@@ -391,13 +391,25 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
          <label for=\"frame\">Components</label> <select id=\"frame\"><option value=\"global\">global</option>\
          <option value=\"body\">along the first body</option></select></div>\n\
          <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n</section>\n\
-         <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n\
-         <div class=\"curves\"><div><div class=\"picker\"><select id=\"quantity-a\" aria-label=\"First quantity\"></select></div>\
+         <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n",
+    );
+    let units: Vec<&str> = page.scene.units.iter().flatten().map(|u| u.0).collect();
+    if !units.is_empty() {
+        add(
+            out,
+            format_args!(
+                "<p class=\"grey\">Lengths and angles of these curves are in the units of the scene ({}); values under the pointer are told in SI, too, and so are all files.</p>\n",
+                safe(&units.join(", "))
+            ),
+        );
+    }
+    out.push_str(
+        "<div class=\"curves\"><div><div class=\"picker\"><select id=\"quantity-a\" aria-label=\"First quantity\"></select></div>\
          <div id=\"motion-a\"></div></div>\
          <div><div class=\"picker\"><select id=\"quantity-b\" aria-label=\"Second quantity\"></select></div>\
          <div id=\"motion-b\"></div></div></div>\n",
     );
-    if page.mechanism.observed().measures.is_empty() {
+    if page.mechanism.frames().observed().measures.is_empty() {
         out.push_str("<div id=\"measure-curves\" hidden></div>\n");
     } else {
         out.push_str("<h2>Measures</h2>\n<div class=\"curves\" id=\"measure-curves\"></div>\n");

@@ -147,7 +147,7 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
             page.recording.rows()
         ));
     }
-    let measures = page.mechanism.observed().measures.len();
+    let measures = page.mechanism.frames().observed().measures.len();
     if measures > data::MEASURES_MAX {
         told.push(format!(
             "{} of {measures} measures are plotted; trajectory.csv has all.",

@@ -41,6 +41,21 @@ pub struct WrittenScene<'a> {
     pub text: Option<&'a str>,
     /// Joints, drives, forces and groups that are in it, but not active.
     pub inactive: Vec<String>,
+    /// Its units of lengths and angles with their values in metres and radians, if they are others.
+    pub units: [Option<(&'static str, f64)>; 2],
+}
+
+impl WrittenScene<'_> {
+    /// The unit of the scene for an SI unit of a curve, with its number in one of these.
+    pub(super) fn unit(&self, si: &str) -> Option<(String, f64)> {
+        let (base, rest) = si.split_at(si.find('/').unwrap_or(si.len()));
+        let (name, value) = match base {
+            "m" => self.units[0]?,
+            "rad" => self.units[1]?,
+            _ => return None,
+        };
+        Some((format!("{name}{rest}"), value.recip()))
+    }
 }
 
 impl RunPage<'_> {

@@ -30,7 +30,7 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
         for body in mechanism.bodies() {
             header.extend(COLUMNS.map(|column| format!("{}.{column}", body.name)));
         }
-        let observed = mechanism.observed();
+        let observed = mechanism.frames().observed();
         for marker in observed.markers.iter().filter(|m| is_written(m)) {
             let own = (0..COLUMNS.len()).filter(|k| has_column(marker, *k));
             header.extend(own.map(|k| format!("{}.{}", marker.name, COLUMNS[k])));
@@ -61,13 +61,14 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
         self.values.push(t);
         for body in 0..self.mechanism.bodies().len() {
             self.values
-                .extend(self.mechanism.frame(body, q, v).numbers());
+                .extend(self.mechanism.frames().body(body, q, v).numbers());
         }
-        let observed = self.mechanism.observed();
+        let observed = self.mechanism.frames().observed();
         let markers = observed.markers.iter().enumerate();
         for (k, marker) in markers.filter(|(_, m)| is_written(m)) {
             let all = self
                 .mechanism
+                .frames()
                 .marker(k, q, v)
                 .numbers()
                 .into_iter()
@@ -75,7 +76,8 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
             let own = all.filter(|(k, _)| has_column(marker, *k));
             self.values.extend(own.map(|(_, x)| x));
         }
-        let measures = (0..observed.measures.len()).map(|k| self.mechanism.measure(k, q, v));
+        let measures =
+            (0..observed.measures.len()).map(|k| self.mechanism.frames().measure(k, q, v));
         self.values.extend(measures);
         if self.has_laws {
             self.values.extend(self.mechanism.law_forces(t, q, v));

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use linalg::Dd;
 
-use super::Language;
+use super::{Language, Units};
 use crate::dimension::Dimension;
 use crate::expression::{self, Bases, is_name, names_of, reserved, units};
 use crate::field::Field;
@@ -75,7 +75,7 @@ impl Language {
             if !language.computes {
                 needs_format(field.span(), "`units`", findings);
             }
-            language.bases = bases(&field, findings);
+            (language.bases, language.units) = bases(&field, findings);
         }
         if let Some(field) = root.optional(section::PARAMETERS.name) {
             if !language.computes {
@@ -230,9 +230,9 @@ fn whole(field: &Field, findings: &mut Findings) -> Option<i64> {
 }
 
 /// The units of bare numbers.
-fn bases(field: &Field, findings: &mut Findings) -> Bases {
+fn bases(field: &Field, findings: &mut Findings) -> (Bases, Units) {
     let Some(mut table) = field.table(UNITS.expected, findings) else {
-        return Bases::SI;
+        return (Bases::SI, Units::SI);
     };
     let mut base = |key: &Key, of: Dimension| {
         let field = table.optional(key)?;
@@ -252,10 +252,18 @@ fn bases(field: &Field, findings: &mut Findings) -> Bases {
                     .or(Some(format!("there are {}", list(names.iter().copied())))),
             );
         }
-        found.map(|(_, unit)| unit.value)
+        found.map(|(name, unit)| (name, unit.value))
     };
-    let length = base(&LENGTH, Dimension::LENGTH).unwrap_or(Dd::ONE);
-    let angle = base(&ANGLE, Dimension::ANGLE).unwrap_or(Dd::ONE);
+    let length = base(&LENGTH, Dimension::LENGTH).unwrap_or((Units::SI.length, Dd::ONE));
+    let angle = base(&ANGLE, Dimension::ANGLE).unwrap_or((Units::SI.angle, Dd::ONE));
     table.close(findings);
-    Bases { length, angle }
+    let bases = Bases {
+        length: length.1,
+        angle: angle.1,
+    };
+    let units = Units {
+        length: length.0,
+        angle: angle.0,
+    };
+    (bases, units)
 }

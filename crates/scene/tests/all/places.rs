@@ -176,7 +176,7 @@ fn a_tolerance_of_a_marker_is_that_of_its_point() {
     let part = Mechanism::build(&d)
         .expect("a mechanism")
         .part_of_groups(&[1]);
-    assert_eq!(part.mechanism.observed().markers.len(), 1);
+    assert_eq!(part.mechanism.frames().observed().markers.len(), 1);
     let of = Stated::Marker("tip".to_owned());
     assert_eq!(of.to_string(), "marker `tip`");
 }

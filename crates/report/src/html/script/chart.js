@@ -56,12 +56,16 @@ class Chart {
    * @param {{low: Float64Array, high: Float64Array, label: string} | null} band
    */
   show(series, { band = null, title = null, unit = null, badge = null, floor = 0, legend = true } = {}) {
-    this.series = series;
-    this.band = band;
-    this.floor = floor;
     if (title !== null) this.options.title = title;
     if (unit !== null) this.options.unit = unit;
-    const words = this.options.unit ? `${this.options.title} (${this.options.unit})` : this.options.title;
+    // Curves are drawn in the units of the scene; tips tell SI, too.
+    const [name, factor] = data.units[this.options.unit] ?? [this.options.unit, 1];
+    const scaled = (values) => (factor === 1 ? values : values.map((x) => factor * x));
+    [this.unit, this.factor] = [name, factor];
+    this.series = series.map((s) => ({ ...s, values: scaled(s.values) }));
+    this.band = band && { ...band, low: scaled(band.low), high: scaled(band.high) };
+    this.floor = factor * floor;
+    const words = name ? `${this.options.title} (${name})` : this.options.title;
     this.title.textContent = words;
     this.badge.className = `badge ${badge ?? ""}`;
     this.badge.textContent = badge ? badge.replace("_", " ") : "";
@@ -242,6 +246,7 @@ class Chart {
       make(line, "span", { className: `swatch c${(s.colour ?? 0) % 7}` });
       line.append(`${s.label}: `);
       make(line, "b", { textContent: value(s.values[k]) });
+      if (this.factor !== 1) line.append(` ${this.unit} (${value(s.values[k] / this.factor)} ${this.options.unit})`);
     }
     this.tip.hidden = false;
     const box = this.figure.getBoundingClientRect();

@@ -426,7 +426,8 @@ class Picture {
       const width = text.getComputedTextLength?.() || 0.65 * size * text.textContent.length;
       const spots = [14, 24, 36].flatMap((r) => [[r, -r * 0.6], [-r - width, -r * 0.6], [r, r + 4], [-r - width, r + 4], [-width / 2, -r - 3], [-width / 2, r + 12]]);
       const boxes = spots.map(([dx, dy]) => [x + dx, y + dy - size, x + dx + width, y + dy + 3]);
-      const costs = boxes.map((box) => taken.reduce((sum, other) => sum + overlap(box, other), 0));
+      const outside = (box) => Math.max(-box[0], 0, box[2] - this.page[0]) * size;
+      const costs = boxes.map((box) => taken.reduce((sum, other) => sum + overlap(box, other), outside(box)));
       const best = costs.indexOf(Math.min(...costs));
       text.setAttribute("x", spots[best][0].toFixed(1));
       text.setAttribute("y", spots[best][1].toFixed(1));

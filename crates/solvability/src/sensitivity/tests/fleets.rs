@@ -75,7 +75,7 @@ fn assembled(d: &Description) -> (Mechanism, Vec<f64>, Vec<f64>) {
     };
     let start = model::start::assemble(&mut mechanism, &options).expect("it assembles");
     let rows: Vec<usize> = (0..mechanism.layout().rows()).collect();
-    let given = mechanism.given_velocities(&start.q);
+    let given = mechanism.frames().given_velocities(&start.q);
     let v = model::start::consistent_velocity(&mechanism, &options, &start.q, &given, &rows);
     (mechanism, start.q, v.expect("no row is redundant").v)
 }
