@@ -35,6 +35,7 @@
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
 
+pub mod codes;
 mod data;
 pub mod description;
 pub mod extended;
