@@ -29,7 +29,7 @@ fn describe(entry: &Entry) -> String {
         Example::Scene(arguments, scene) => {
             text.push_str(&format!("example: pfaff {arguments}, with the scene\n\n"));
             for line in scene.trim().lines() {
-                text.push_str(&format!("    {line}").trim_end().to_owned());
+                text.push_str(format!("    {line}").trim_end());
                 text.push('\n');
             }
         }
