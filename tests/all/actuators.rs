@@ -195,7 +195,7 @@ fn a_law_without_a_value_stops_by_name() {
         last = sample.t;
         Ok(ControlFlow::Continue(()))
     });
-    let error = failure.err().expect("stops").error.to_string();
+    let error = failure.expect_err("stops").error.to_string();
     assert!(error.contains("the law of drive `motor` (log("), "{error}");
     assert!(last > 0.55 && last < 0.4_f64.sqrt(), "{last}");
 }

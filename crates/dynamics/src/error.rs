@@ -4,6 +4,7 @@ mod rows;
 
 use integrators::IntegrationError;
 use linalg::{SaddleError, SingularPivot};
+use model::codes::Code;
 use model::words::{listed, rounded};
 use model::{RowLabel, StartError};
 use rank::Doubt;
@@ -225,6 +226,32 @@ pub enum MotionFault {
     },
 }
 
+impl MotionFault {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::RankLost { .. } => const { Code::new(410) },
+            Self::IndependentCoordinates { .. } => const { Code::new(411) },
+            Self::IterationMatrix { .. } => const { Code::new(412) },
+            Self::Massless { .. } => const { Code::new(413) },
+            Self::NotFinite { .. } => const { Code::new(414) },
+            Self::OffConstraints { .. } => const { Code::new(415) },
+            Self::DroppedRow { .. } => const { Code::new(416) },
+            Self::BeyondTolerance { .. } => const { Code::new(425) },
+            Self::Drives { .. } => const { Code::new(417) },
+            Self::SingularStart { .. } => const { Code::new(418) },
+            Self::FarCompletion { .. } => const { Code::new(419) },
+            Self::FarRow { .. } => const { Code::new(420) },
+            Self::PositionJump { .. } => const { Code::new(421) },
+            Self::SingularPassage { .. } => const { Code::new(422) },
+            Self::NoRows { .. } => const { Code::new(423) },
+            Self::Saddle { .. } => const { Code::new(424) },
+            Self::Interrupted { .. } => const { Code::new(8) },
+        }
+    }
+}
+
 /// Reason why there is no motion, or only a part of it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -301,6 +328,28 @@ pub enum MotionError {
     /// The integration stopped.
     #[error("{0}")]
     Integration(Box<IntegrationError<MotionFault>>),
+}
+
+impl MotionError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Option { .. } => const { Code::new(401) },
+            Self::Combination { .. } => const { Code::new(402) },
+            Self::Start(e) => e.code(),
+            Self::Analysis(e) => e.code(),
+            Self::State(e) => e.code(),
+            Self::Contradiction(_) => const { Code::new(210) },
+            Self::RankUndecided(_) => const { Code::new(212) },
+            Self::Inseparable { .. } => const { Code::new(213) },
+            Self::Rows(e) => e.code(),
+            Self::Fault(e) => e.code(),
+            Self::NoReaction { .. } => const { Code::new(404) },
+            Self::Component { source, .. } => source.code(),
+            Self::Integration(_) => const { Code::new(430) },
+        }
+    }
 }
 
 /// Explains an undecided rank to the author of a scene, with what can be changed there.

@@ -22,7 +22,7 @@ joint! { plane Mesh(i, j, carrier) {
         line: Vector in carrier = local(carrier, cos(pressure_angle) * perp(d) + sin(pressure_angle) * d),
         inverse: PerLength = 1.0 / norm(d),
     }
-    require "the ratio is not 1": ratio < 1.0 || ratio > 1.0;
+    require "the ratio is not 1": (ratio - 1.0) * (ratio - 1.0) > 0.0;
     require "the two centres are apart": norm(d) > 0.0;
     let n = vector(carrier, line);
     let arm = perp(vector(carrier, centres));

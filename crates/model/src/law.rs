@@ -162,7 +162,7 @@ impl std::error::Error for Undefined {}
 impl std::fmt::Display for Undefined {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match *self {
-            Self::Join(Join::Divide, _, b) if b == 0.0 => f.write_str("division by zero"),
+            Self::Join(Join::Divide, _, 0.0) => f.write_str("division by zero"),
             Self::Apply(Function::Log, a) => write!(f, "log({a})"),
             Self::Apply(Function::Root, a) => write!(f, "sqrt({a})"),
             Self::Apply(Function::Asin, a) => write!(f, "asin({a})"),

@@ -38,6 +38,7 @@
 //! | `observed` | markers, and measures between them |
 //! | [`reaction`] | multipliers to forces and torques |
 
+pub mod codes;
 mod data;
 pub mod description;
 pub mod extended;

@@ -65,6 +65,9 @@ pub(crate) enum Command {
     /// Compare two scenes: ranks, verdicts, dependencies, motion
     #[command(after_help = examples::DIFF)]
     Diff(Diff),
+    /// What the code of an error means, and what to do; without a code, list all
+    #[command(after_help = examples::EXPLAIN)]
+    Explain(Explain),
     /// The JSON schema of scene files, for editors
     #[command(after_help = examples::SCHEMA)]
     Schema,
@@ -95,7 +98,8 @@ impl Command {
             | Self::New(New { json, .. })
             | Self::View(View { json, .. })
             | Self::Diff(Diff { json, .. }) => *json,
-            Self::Schema
+            Self::Explain(_)
+            | Self::Schema
             | Self::Completions(_)
             | Self::Man(_)
             | Self::Stress(_)
@@ -173,6 +177,9 @@ pub(crate) struct Simulate {
     /// Largest step (s)
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub(crate) max_step: Option<f64>,
+    /// Most steps, accepted and rejected, after which the run stops
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) max_steps: Option<u64>,
     #[command(flatten)]
     pub(crate) way: Way,
     #[command(flatten)]
@@ -367,6 +374,15 @@ pub(crate) struct Diff {
     /// The differences as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Explain {
+    /// The code, as P0102
+    pub(crate) code: Option<String>,
+    /// The page of the book with all codes
+    #[arg(long, hide = true)]
+    pub(crate) book: bool,
 }
 
 #[derive(Args)]

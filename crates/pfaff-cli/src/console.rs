@@ -6,10 +6,11 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use pfaff::model::Registry;
+use pfaff::model::codes::Code;
 use serde::Serialize;
 
 use crate::interrupt::note_answer;
-use crate::output::{Answer, Failure, Outcome, json};
+use crate::output::{Answer, Failure, Outcome, json, visible};
 
 /// A stream for output, and whether it can show colours.
 pub struct Stream<'w> {
@@ -64,7 +65,7 @@ impl<'c> Console<'c> {
     /// [`Failure::Closed`] if the reader has closed the output, [`Failure::Stopped`] if the output
     /// cannot be written.
     pub fn print(&self, text: &str) -> Outcome {
-        self.write(|out| out.write_all(text.as_bytes()))
+        self.write(|out| out.write_all(visible(text).as_bytes()))
     }
 
     /// Writes an answer as a document.
@@ -114,8 +115,8 @@ impl<'c> Console<'c> {
         let code = match failure {
             Failure::Closed => return ExitCode::SUCCESS,
             Failure::Incomplete => return ExitCode::from(1),
-            Failure::Scene { .. } | Failure::Input(_) => 2,
-            Failure::Stopped(_) => 1,
+            Failure::Scene { .. } | Failure::Input(..) => 2,
+            Failure::Stopped(..) => 1,
         };
         let unsaid = match answer {
             Answer::Json => failure.document().and_then(|text| self.print(&text)).err(),
@@ -140,6 +141,11 @@ impl<'c> Console<'c> {
         } else {
             message.render().to_string()
         };
+        let text = if is_fault {
+            text.replacen(": ", &format!("[{}]: ", const { Code::new(1) }), 1)
+        } else {
+            text
+        };
         let written = stream.write(text.as_bytes());
         drop(stream);
         match written {
@@ -153,7 +159,7 @@ impl<'c> Console<'c> {
 }
 
 fn unprintable(e: &io::Error) -> Failure {
-    Failure::Stopped(format!("cannot write to standard output: {e}"))
+    Failure::stopped(format!("cannot write to standard output: {e}")).coded(const { Code::new(6) })
 }
 
 /// Whether the stream shows colours and the user wants them: an empty `NO_COLOR` counts as not set

@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use pfaff::model::codes::Code;
 use pfaff::model::{Registry, Tolerance};
 use pfaff::scene::{KeyError, Template, nearest};
 use pfaff::{AssembledScene, Overrides, Study, StudyError};
@@ -16,6 +17,8 @@ use crate::resources::{Resources, Stage};
 /// Largest scene that is read (bytes): ten times the size of a scene with a hundred thousand
 /// bodies. An endless device must not fill the memory.
 pub const LARGEST: u64 = 1 << 28;
+
+const UNREADABLE: Code = Code::new(2);
 
 /// Number of entries of a directory that are searched for a similar name.
 const LOOKED_AT: usize = 10_000;
@@ -51,15 +54,13 @@ impl<'r> Source<'r> {
         let bytes = bytes.map_err(|e| unreadable(path, &e))?;
         if bytes.len() as u64 > LARGEST {
             let largest = LARGEST >> 20;
-            return Err(Failure::input(format!(
-                "`{name}` is too large for a scene: more than {largest} MiB"
-            )));
+            let message = format!("`{name}` is too large for a scene: more than {largest} MiB");
+            return Err(Failure::input(message).coded(UNREADABLE));
         }
         let text = String::from_utf8(bytes).map_err(|e| {
             let (line, column) = end_of(&e.as_bytes()[..e.utf8_error().valid_up_to()]);
-            Failure::input(format!(
-                "{name}:{line}:{column}: not UTF-8: save the file as UTF-8"
-            ))
+            let message = format!("{name}:{line}:{column}: not UTF-8: save the file as UTF-8");
+            Failure::input(message).coded(UNREADABLE)
         })?;
         Ok(Self {
             name,
@@ -101,7 +102,8 @@ impl<'r> Source<'r> {
 
     /// An error with its places in this text.
     pub(crate) fn failure(&self, error: StudyError) -> Failure {
-        match error {
+        let code = error.code();
+        let failure = match error {
             StudyError::SingularStart {
                 place: Some(diagnostic),
                 ..
@@ -117,7 +119,8 @@ impl<'r> Source<'r> {
             )),
             other if other.is_input() => Failure::input(other.to_string()),
             other => Failure::stopped(other.to_string()),
-        }
+        };
+        failure.coded(code)
     }
 }
 
@@ -131,7 +134,7 @@ fn with_settings(text: String, Settings { list }: &Settings) -> Result<String, F
     let template = match Template::new(&text, &keys) {
         Ok(template) => template,
         Err(KeyError::NotToml) => return Ok(text),
-        Err(e) => return Err(Failure::input(format!("--set: {e}"))),
+        Err(e) => return Err(Failure::input(format!("--set: {e}")).coded(e.code())),
     };
     let expressions: Vec<&str> = list.iter().map(|set| set.expression.as_str()).collect();
     Ok(template.with_expressions(&expressions))
@@ -151,7 +154,7 @@ pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
     let advice = near.map_or_else(String::new, |near| {
         format!("; did you mean `{}`?", near.display())
     });
-    Failure::input(format!("cannot read `{name}`: {e}{advice}"))
+    Failure::input(format!("cannot read `{name}`: {e}{advice}")).coded(UNREADABLE)
 }
 
 /// The scene in the directory of a path whose name is nearest to that of the path.

@@ -10,6 +10,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use pfaff::model::codes::Code;
+
 use crate::output::{Answer, Failure};
 
 /// Exit code of a program that was interrupted.
@@ -184,7 +186,7 @@ fn say(words: &str) {
     if words.is_empty() || ANSWERED.load(Ordering::Relaxed) {
         return;
     }
-    let failure = Failure::stopped(words.to_owned());
+    let failure = Failure::stopped(words.to_owned()).coded(const { Code::new(8) });
     // The process ends, whether or not anybody hears it.
     let _ = if AS_JSON.load(Ordering::Relaxed) {
         let document = failure.document().unwrap_or_default();

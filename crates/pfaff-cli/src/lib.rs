@@ -5,6 +5,7 @@ mod args;
 mod check;
 pub mod console;
 mod diff;
+mod explain;
 pub mod input;
 pub mod interrupt;
 mod manual;
@@ -147,6 +148,7 @@ impl CommandLine for Arguments {
             Command::New(a) => new::run(a, console),
             Command::View(a) => view::run(a, console),
             Command::Diff(a) => diff::run(a, console),
+            Command::Explain(a) => explain::run(a, console),
             Command::Schema => manual::schema(console),
             Command::Completions(a) => manual::completions(a, console),
             Command::Man(a) => manual::page(a, console),

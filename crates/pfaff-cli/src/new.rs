@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use pfaff::report::documents::{NewDocument, TemplateDocument, TemplatesDocument};
 
+use pfaff::model::codes::Code;
+
 use crate::args::New;
 use crate::console::Console;
 use crate::output::{Failure, Outcome, columns};
@@ -60,6 +62,7 @@ fn write(path: &Path, text: &str, force: bool) -> Outcome {
             )),
             _ => Failure::input(format!("cannot write `{name}`: {e}")),
         }
+        .coded(const { Code::new(3) })
     };
     let mut options = File::options();
     options.write(true);

@@ -1,8 +1,10 @@
 //! The form of answers and failures; the console decides where they are written.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
+use pfaff::model::codes::Code;
 use pfaff::report::documents::RefusalDocument;
 use pfaff::report::{FileError, OutputDirectory, write_json};
 use pfaff::scene::{Diagnostic, Severity};
@@ -32,9 +34,9 @@ pub enum Failure {
         diagnostics: Vec<Diagnostic>,
     },
     /// Another input is wrong.
-    Input(String),
+    Input(Code, String),
     /// The computation stopped.
-    Stopped(String),
+    Stopped(Code, String),
     /// The reader has closed the output.
     Closed,
     /// The computation stopped or was interrupted; its partial results have been written already.
@@ -44,12 +46,31 @@ pub enum Failure {
 impl Failure {
     /// A failure because of wrong input; the message states how to correct it.
     pub fn input(message: String) -> Self {
-        Self::Input(message)
+        Self::Input(const { Code::new(1) }, message)
     }
 
     /// A computation that stopped, with the reason.
     pub fn stopped(message: String) -> Self {
-        Self::Stopped(message)
+        Self::Stopped(const { Code::new(9) }, message)
+    }
+
+    /// The same failure with another code.
+    #[must_use]
+    pub fn coded(self, code: Code) -> Self {
+        match self {
+            Self::Input(_, message) => Self::Input(code, message),
+            Self::Stopped(_, message) => Self::Stopped(code, message),
+            other => other,
+        }
+    }
+
+    /// Its code, if there is something to report.
+    pub fn code(&self) -> Option<Code> {
+        match self {
+            Self::Scene { diagnostics, .. } => diagnostics.first().map(|d| d.code),
+            Self::Input(code, _) | Self::Stopped(code, _) => Some(*code),
+            Self::Closed | Self::Incomplete => None,
+        }
     }
 
     /// The failure in words.
@@ -59,8 +80,10 @@ impl Failure {
                 name,
                 text,
                 diagnostics,
-            } => render(name, text, diagnostics, color),
-            Self::Input(message) | Self::Stopped(message) => format!("error: {message}\n"),
+            } => render(&visible(name), &visible(text), diagnostics, color),
+            Self::Input(code, message) | Self::Stopped(code, message) => {
+                format!("error[{code}]: {}\n", visible(message))
+            }
             Self::Closed | Self::Incomplete => String::new(),
         }
     }
@@ -73,11 +96,12 @@ impl Failure {
     pub fn document(&self) -> Result<String, Self> {
         let (error, problems) = match self {
             Self::Scene { diagnostics, .. } => (in_one_line(diagnostics), diagnostics.as_slice()),
-            Self::Input(message) | Self::Stopped(message) => (message.clone(), [].as_slice()),
+            Self::Input(_, message) | Self::Stopped(_, message) => (message.clone(), [].as_slice()),
             Self::Closed | Self::Incomplete => (String::new(), [].as_slice()),
         };
         json(&RefusalDocument {
             ok: false,
+            code: self.code(),
             error,
             problems,
         })
@@ -100,11 +124,12 @@ pub fn directory(path: &Path, names: &[&str], force: bool) -> Result<OutputDirec
 
 /// A file that was not written: because of its place, or because writing failed.
 pub fn unwritten(error: &FileError) -> Failure {
-    if error.is_place() {
+    let failure = if error.is_place() {
         Failure::input(error.to_string())
     } else {
         Failure::stopped(error.to_string())
-    }
+    };
+    failure.coded(error.code())
 }
 
 /// A document as text.
@@ -131,46 +156,96 @@ pub fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
+/// A text without characters that a terminal obeys instead of showing them: control characters and
+/// those that change the direction of writing. Each is replaced by one of the same length, so that
+/// places in the text stay the same.
+#[must_use]
+pub fn visible(text: &str) -> Cow<'_, str> {
+    let is_obeyed = |c: char| {
+        (c.is_control() && !matches!(c, '\n' | '\t'))
+            || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.chars().any(is_obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| match (is_obeyed(c), c.len_utf8()) {
+        (false, _) => c,
+        (true, 1) if c == '\r' => ' ',
+        (true, 1) => '?',
+        (true, 2) => '¿',
+        (true, _) => '\u{fffd}',
+    };
+    Cow::Owned(text.chars().map(shown).collect())
+}
+
+/// Largest number of problems that are shown; the others are counted.
+const SHOWN: usize = 50;
+
 /// Problems of a scene with its lines and carets.
 fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: bool) -> String {
     let mut out = Vec::new();
     // The positions of the lines are computed once for all problems.
     let mut source = (name, Source::from(text));
-    for d in diagnostics {
+    for d in &diagnostics[..diagnostics.len().min(SHOWN)] {
         let labels = || std::iter::once(&d.primary).chain(&d.secondary);
         if labels().any(|label| line_around(text, label.span.start).len() > WIDEST) {
             out.extend(narrow(text, d).bytes());
             continue;
         }
-        let (kind, tint) = match d.severity {
-            Severity::Warning => (ReportKind::Warning, Color::Yellow),
-            Severity::Note => (ReportKind::Advice, Color::Blue),
-            _ => (ReportKind::Error, Color::Red),
+        let (word, tint) = match d.severity {
+            Severity::Warning => ("warning", Color::Yellow),
+            Severity::Note => ("note", Color::Blue),
+            _ => ("error", Color::Red),
         };
+        let kind = format!("{word}[{}]", d.code);
+        let kind = ReportKind::Custom(&kind, tint);
         let config = Config::default()
             .with_color(color)
             .with_index_type(IndexType::Byte);
         let mut report = Report::build(kind, (name, d.primary.span.clone()))
             .with_config(config)
-            .with_message(&d.message)
+            .with_message(visible(&d.message))
             .with_label(label(name, &d.primary).with_color(tint));
         for other in &d.secondary {
             report = report.with_label(label(name, other).with_color(Color::Blue));
         }
         if let Some(help) = &d.help {
-            report = report.with_help(help);
+            report = report.with_help(visible(help));
         }
         let written = report.finish().write(&mut source, &mut out);
         if written.is_err() {
-            out.extend(format!("{d}\n").bytes());
+            out.extend(format!("{}\n", visible(&d.to_string())).bytes());
         }
     }
     let mut rendered = String::from_utf8_lossy(&out).into_owned();
+    if !color {
+        rendered = uncoloured(&rendered);
+    }
     // If some problems are not listed, the last one states how many.
-    if diagnostics.len() > 1 && diagnostics.iter().all(|d| d.severity != Severity::Note) {
+    let is_listed = diagnostics.iter().all(|d| d.severity != Severity::Note);
+    if diagnostics.len() > SHOWN {
+        // The last one may be the number of more.
+        let (more, listed) = if is_listed {
+            ("", diagnostics.len())
+        } else {
+            ("more than ", diagnostics.len() - 1)
+        };
+        rendered.push_str(&format!(
+            "the first {SHOWN} of {more}{listed} problems in `{name}`; `--json` lists more\n"
+        ));
+    } else if diagnostics.len() > 1 && is_listed {
         rendered.push_str(&format!("{} problems in `{name}`\n", diagnostics.len()));
     }
     rendered
+}
+
+/// A text without codes of colours: kinds with a code of their own are coloured in any case.
+fn uncoloured(text: &str) -> String {
+    let mut pieces = text.split('\u{1b}');
+    let first = pieces.next().unwrap_or_default().to_owned();
+    pieces.fold(first, |all, piece| {
+        all + piece.split_once('m').map_or(piece, |(_, rest)| rest)
+    })
 }
 
 /// Length of the longest line (bytes) that is shown completely.
@@ -213,7 +288,7 @@ fn label<'a>(name: &'a str, l: &pfaff::scene::Label) -> Label<(&'a str, std::ops
     if l.text.is_empty() {
         label
     } else {
-        label.with_message(&l.text)
+        label.with_message(visible(&l.text))
     }
 }
 

@@ -5,12 +5,14 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::thread;
 use std::time::Duration;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::AssembledScene;
 use pfaff::memory::of_reading;
+use pfaff::model::codes::Code;
 
 use crate::input::Source;
 use crate::output::Failure;
@@ -66,7 +68,8 @@ impl Resources {
                     Some(_) => "",
                     None => " (--max-memory overrides this)",
                 }
-            )))
+            ))
+            .coded(const { Code::new(7) }))
         }
     }
 }
@@ -195,7 +198,10 @@ impl Stage {
                 bar.set_style(style);
             }
             bar.set_message(format!("{what}: {}", Bytes(size as u64)));
-            bar.enable_steady_tick(Duration::from_millis(100));
+            // The bar ticks on a thread of its own; without one it stands still.
+            if !bar.is_hidden() && thread::Builder::new().spawn(|| ()).is_ok() {
+                bar.enable_steady_tick(Duration::from_millis(100));
+            }
             bar
         }))
     }

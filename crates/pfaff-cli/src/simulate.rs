@@ -108,6 +108,7 @@ fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
         rtol: arguments.rtol,
         atol: arguments.atol,
         max_step: arguments.max_step,
+        max_steps: arguments.max_steps,
         threads: arguments.resources.threads,
         ..arguments.way.overrides()?
     })

@@ -140,11 +140,12 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
 }
 
 fn failure(error: &SweepError) -> Failure {
-    if error.is_input() {
+    let failure = if error.is_input() {
         Failure::input(error.to_string())
     } else {
         Failure::stopped(error.to_string())
-    }
+    };
+    failure.coded(error.code())
 }
 
 /// The summary in words.

@@ -11,7 +11,7 @@ use crate::check::Checked;
 use crate::console::Console;
 use crate::input::{Source, unreadable};
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome};
+use crate::output::{Failure, Outcome, visible};
 
 /// Time between two checks of the file.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -31,11 +31,10 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     Interrupt::ends_well()?;
     arguments.resources.apply();
     loop {
-        console.print(&format!(
-            "──── {} ────\n{}",
-            path.display(),
-            verdict(arguments, console)
-        ))?;
+        // Its colours are ours.
+        let verdict = verdict(arguments, console);
+        let heading = format!("──── {} ────\n", path.display());
+        console.write(|out| write!(out, "{}{verdict}", visible(&heading)))?;
         seen = changed(path, seen, console)?;
     }
 }
@@ -44,7 +43,8 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
 fn verdict(arguments: &Check, console: &Console<'_>) -> String {
     let checked = Source::read(&arguments.scene, &arguments.known.settings, console)
         .map(|source| source.known(&arguments.known))
-        .and_then(|source| Ok(Checked::of(&source, arguments.resources)?.describe()));
+        .and_then(|source| Ok(Checked::of(&source, arguments.resources)?.describe()))
+        .map(|text| visible(&text).into_owned());
     checked.unwrap_or_else(|failure| failure.words(console.is_coloured()))
 }
 

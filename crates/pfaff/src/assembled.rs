@@ -247,6 +247,7 @@ fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
     options.rtol = overrides.rtol.unwrap_or(options.rtol);
     options.atol = overrides.atol.unwrap_or(options.atol);
     options.max_step = overrides.max_step.unwrap_or(options.max_step);
+    options.max_steps = overrides.max_steps.unwrap_or(options.max_steps);
     options.method = overrides.method.unwrap_or(options.method);
     options.stabilisation = overrides.stabilisation.unwrap_or(options.stabilisation);
     options.threads = overrides.threads.or(options.threads);

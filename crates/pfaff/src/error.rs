@@ -2,6 +2,7 @@
 
 use dynamics::MotionError;
 use model::BuildError;
+use model::codes::Code;
 use rank::DeletionError;
 use report::{FileError, RunDocument, TableError};
 use scene::{CombinationError, Diagnostic};
@@ -109,6 +110,40 @@ pub enum StudyError {
     /// A table could not be written.
     #[error(transparent)]
     Table(#[from] TableError),
+}
+
+impl StudyError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Scene(diagnostics) => diagnostics
+                .first()
+                .map_or(const { Code::new(100) }, |d| d.code),
+            Self::Build(errors) => errors
+                .first()
+                .map_or(const { Code::new(120) }, BuildError::code),
+            Self::SingularStart { .. } => const { Code::new(211) },
+            Self::NoEnd => const { Code::new(214) },
+            Self::Combination { .. } => const { Code::new(311) },
+            Self::UnknownReaction { .. } | Self::UnknownRow { .. } => const { Code::new(310) },
+            Self::InactiveReaction { .. } => const { Code::new(317) },
+            Self::Contradiction(_) => const { Code::new(210) },
+            Self::Request(e) => e.code(),
+            Self::Motion(e) => e.code(),
+            Self::Stopped { error, .. } => error.code(),
+            Self::Interrupted => const { Code::new(8) },
+            Self::Analysis(e) => e.code(),
+            Self::State(e) => e.code(),
+            Self::Explanation(e) => e.code(),
+            Self::Deletion(e) => e.code(),
+            Self::Choice(e) => e.code(),
+            Self::Units(e) => e.code(),
+            Self::Along(e) => e.code(),
+            Self::File(e) => e.code(),
+            Self::Table(e) => e.code(),
+        }
+    }
 }
 
 fn suggestion(nearest: Option<&str>) -> String {

@@ -55,6 +55,8 @@ pub struct Overrides {
     pub atol: Option<f64>,
     /// Largest step (s).
     pub max_step: Option<f64>,
+    /// Most steps, accepted and rejected.
+    pub max_steps: Option<u64>,
     /// Integrator.
     pub method: Option<Method>,
     /// Treatment of drift.

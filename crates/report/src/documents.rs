@@ -66,8 +66,16 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
         version: env!("CARGO_PKG_VERSION"),
         document,
     };
-    serde_json::to_writer_pretty(&mut out, &headed)?;
-    out.write_all(b"\n")?;
+    let text = serde_json::to_string_pretty(&headed)?;
+    // Such characters are in strings only. They may be written as their codes, which no terminal
+    // obeys.
+    let is_obeyed = |c: char| matches!(c, '\u{7f}'..='\u{9f}' | '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let mut written = 0;
+    for (at, c) in text.char_indices().filter(|(_, c)| is_obeyed(*c)) {
+        write!(out, "{}\\u{:04x}", &text[written..at], u32::from(c))?;
+        written = at + c.len_utf8();
+    }
+    writeln!(out, "{}", &text[written..])?;
     out.flush()
 }
 

@@ -9,6 +9,7 @@
 mod lock;
 mod ours;
 
+use model::codes::Code;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::mem;
@@ -57,6 +58,19 @@ pub enum FileError {
         /// These files.
         paths: Vec<PathBuf>,
     },
+}
+
+impl FileError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Foreign { .. } => const { Code::new(4) },
+            Self::Busy { .. } => const { Code::new(5) },
+            _ if self.is_place() => const { Code::new(3) },
+            Self::Refused { .. } | Self::Name { .. } => const { Code::new(6) },
+        }
+    }
 }
 
 impl FileError {

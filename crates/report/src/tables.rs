@@ -8,6 +8,7 @@ mod reactions;
 mod tests;
 mod trajectory;
 
+use model::codes::Code;
 use std::io::{self, BufWriter, Write};
 
 use serde::Serialize;
@@ -49,6 +50,17 @@ pub enum TableError {
         /// All names.
         known: String,
     },
+}
+
+impl TableError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Write { .. } | Self::Length { .. } => const { Code::new(6) },
+            Self::UnknownReaction { .. } => const { Code::new(404) },
+        }
+    }
 }
 
 /// A CSV writer with a fixed number of columns.

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
+use model::codes::Code;
 use serde::Serialize;
 
 use crate::text::SourceText;
@@ -40,6 +41,8 @@ pub struct Label {
 pub struct Diagnostic {
     /// Its severity.
     pub severity: Severity,
+    /// Its code.
+    pub code: Code,
     /// Name of the file.
     pub file: String,
     /// The error, with the actual and the expected entry.
@@ -63,12 +66,19 @@ impl Diagnostic {
     ) -> Self {
         Self {
             severity: Severity::Error,
+            code: const { Code::new(100) },
             file: source.name().to_owned(),
             message: message.into(),
             primary: source.label(span, label),
             secondary: Vec::new(),
             help: None,
         }
+    }
+
+    /// Gives it a code other than that of any wrong entry.
+    #[must_use]
+    pub(crate) fn coded(self, code: Code) -> Self {
+        Self { code, ..self }
     }
 
     /// Adds another place.

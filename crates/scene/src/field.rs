@@ -9,6 +9,8 @@ use model::law::Operation;
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
+use model::codes::Code;
+
 use crate::dimension::Dimension;
 use crate::expression::{Fault, Problem, Quantity, Scope, decimal};
 use crate::findings::Findings;
@@ -52,7 +54,8 @@ impl<'t> Field<'t> {
                     units::advice(text).or_else(|| Some(COMPUTED.to_owned()))
                 }
             });
-        findings.error_with_help(
+        findings.coded_error(
+            const { Code::new(105) },
             self.span(),
             format!(
                 "{}: `{}` must be {expected}, found {}",
@@ -188,7 +191,13 @@ impl<'t> Field<'t> {
             }
         }
         let message = format!("{}: `{}`: {problem}", self.subject, self.key);
-        findings.error_with_help(self.part(span, findings), message, label, help);
+        findings.coded_error(
+            const { Code::new(106) },
+            self.part(span, findings),
+            message,
+            label,
+            help,
+        );
     }
 
     /// Warns of digits that cancel.

@@ -6,6 +6,8 @@ use std::collections::hash_map::Entry;
 use std::hash::Hash;
 use std::ops::Range;
 
+use model::codes::Code;
+
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::nearest::nearest;
 use crate::text::SourceText;
@@ -103,6 +105,22 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(self.source, span, message, label).help(help));
     }
 
+    /// Like [`Self::error_with_help`], with a code.
+    pub(crate) fn coded_error(
+        &mut self,
+        code: Code,
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Into<Option<String>>,
+    ) {
+        if self.is_full() {
+            return self.count(1);
+        }
+        let found = Diagnostic::error(self.source, span, message, label).help(help);
+        self.report(found.coded(code));
+    }
+
     /// Adds a warning, which does not make the file invalid.
     pub(crate) fn warning(
         &mut self,
@@ -116,6 +134,7 @@ impl<'s> Findings<'s> {
         }
         self.warnings.push(Diagnostic {
             severity: Severity::Warning,
+            code: const { Code::new(190) },
             ..Diagnostic::error(self.source, span, message, label).help(help)
         });
     }
@@ -140,7 +159,8 @@ impl<'s> Findings<'s> {
             return self.count(1);
         }
         let first = self.source.label(first, first_label);
-        self.report(Diagnostic::error(self.source, span, message, label).and(first));
+        let found = Diagnostic::error(self.source, span, message, label).and(first);
+        self.report(found.coded(const { Code::new(104) }));
     }
 
     /// Whether something that may be named once is named for the first time, here; else reports
@@ -216,6 +236,7 @@ impl<'s> Findings<'s> {
             let label = "the last one of the list";
             unique.push(Diagnostic {
                 severity: Severity::Note,
+                code: const { Code::new(107) },
                 ..Diagnostic::error(self.source, place, message, label)
             });
         }

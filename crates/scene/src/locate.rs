@@ -12,6 +12,10 @@ use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
 
 /// The place of an error of [`model::Mechanism::build`].
 pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic {
+    build_at(map, d, error).coded(error.code())
+}
+
+fn build_at(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic {
     let (span, label) = match error {
         BuildError::NoBodies => (map.section("scene", ""), "no `[[body]]` in this scene"),
         BuildError::Gravity { .. } => (map.section("scene", "gravity"), "not finite"),
@@ -84,6 +88,10 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
 
 /// The place of an error of [`model::start`].
 pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
+    start_at(map, error).coded(error.code())
+}
+
+fn start_at(map: &SourceMap, error: &StartError) -> Diagnostic {
     let (span, label) = match error {
         StartError::NoAssembly { rows, .. } => {
             let labels = rows.iter().map(|r| &r.row);
@@ -139,6 +147,10 @@ fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) 
 
 /// The place of an error of a run.
 pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
+    motion_at(map, error).coded(error.code())
+}
+
+fn motion_at(map: &SourceMap, error: &MotionError) -> Diagnostic {
     let (span, label) = match error {
         MotionError::Start(error) => return start(map, error),
         MotionError::Component { source, .. } => return motion(map, source),

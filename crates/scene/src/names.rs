@@ -89,7 +89,7 @@ impl Names {
                 let name = name.to_owned();
                 let error = BuildError::DuplicateName { name };
                 for diagnostic in locate::duplicates(map, &uses, &error) {
-                    findings.report(diagnostic);
+                    findings.report(diagnostic.coded(error.code()));
                 }
             }
         }

@@ -8,6 +8,8 @@ use model::{BuildError, Description, Mechanism, Observed, Registry, Stated, Tole
 use serde_json::json;
 use toml::de::DeTable;
 
+use model::codes::Code;
+
 use crate::active;
 use crate::body::Bodies;
 use crate::combination::{ReactionNames, Reactions};
@@ -115,7 +117,9 @@ fn syntax(errors: &[toml::de::Error], findings: &mut Findings) {
         };
         match fault {
             Some(fault) => say(fault, findings),
-            None => findings.error(span, error.message(), "not valid TOML"),
+            None => {
+                findings.coded_error(NOT_TOML, span, error.message(), "not valid TOML", None);
+            }
         }
     }
 }
@@ -127,8 +131,10 @@ fn say(fault: syntax::Fault, findings: &mut Findings) {
         label,
         help,
     } = fault;
-    findings.error_with_help(span, message, label, Some(help));
+    findings.coded_error(NOT_TOML, span, message, label, Some(help));
 }
+
+const NOT_TOML: Code = Code::new(101);
 
 /// Reads all sections. The result may be used only if no problem was found.
 fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
@@ -359,9 +365,14 @@ struct Heading {
 
 impl Heading {
     fn read(mut table: Table, findings: &mut Findings) -> Self {
-        let name = table
-            .required(&NAME, findings)
-            .and_then(|field| field.text(NAME.expected, findings));
+        let name = table.required(&NAME, findings).and_then(|field| {
+            let name = field.text(NAME.expected, findings)?;
+            if let Some((reason, label)) = section::unfit(name) {
+                let message = format!("`[scene]`: `name` {reason}");
+                findings.error(field.span(), message, label);
+            }
+            Some(name.to_owned())
+        });
         let space = table.required(&SPACE, findings);
         if let Some(field) = space
             && let Some(space) = field.text(SPACE.expected, findings)
@@ -382,7 +393,7 @@ impl Heading {
         }
         table.close(findings);
         Self {
-            name: name.unwrap_or_default().to_owned(),
+            name: name.unwrap_or_default(),
             gravity: gravity.unwrap_or_default(),
             tolerance,
         }

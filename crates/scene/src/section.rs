@@ -138,7 +138,7 @@ pub(crate) const LONGEST_NAME: usize = 1000;
 
 /// The reason why a name cannot be used in the header of a column, if it cannot, and a suggestion:
 /// tables have one line for their header and are opened by spreadsheets.
-fn unfit(name: &str) -> Option<(String, &'static str)> {
+pub(crate) fn unfit(name: &str) -> Option<(String, &'static str)> {
     if name.trim().is_empty() {
         return Some(("is empty".to_owned(), "expected a name"));
     }

@@ -60,6 +60,9 @@ const ATOL: Key = positive("atol", "a number > 0")
 const MAX_STEP: Key = positive("max_step", "a time > 0")
     .unit(Dimension::TIME)
     .doc("Largest step; without limit where it is not given");
+const MAX_STEPS: Key = Key::optional("max_steps", "a whole number ≥ 1", Takes::Whole(1, i64::MAX))
+    .doc("Most steps, accepted and rejected, after which a run stops")
+    .or(|| MotionOptions::MAX_STEPS.into());
 const METHOD: Key = Key::optional(
     "method",
     "the name of a method",
@@ -78,12 +81,13 @@ const DROP: Key = Key::optional("drop", "a list of rows, counted from 1", Takes:
     .doc("Rows to eliminate, counted from 1; chosen automatically where they are not given");
 
 /// Keys of the section.
-pub(crate) const KEYS: [Key; 8] = [
+pub(crate) const KEYS: [Key; 9] = [
     T_END,
     OUTPUT_STEP,
     RTOL,
     ATOL,
     MAX_STEP,
+    MAX_STEPS,
     METHOD,
     STABILISATION,
     DROP,
@@ -132,6 +136,9 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
     number(&RTOL, &mut options.rtol);
     number(&ATOL, &mut options.atol);
     number(&MAX_STEP, &mut options.max_step);
+    if let Some(steps) = max_steps(&mut table, findings) {
+        options.max_steps = steps;
+    }
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
     refuse_moved(&mut table, findings);
     options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
@@ -190,6 +197,18 @@ fn bounded(field: &Field, key: &Key, findings: &mut Findings) -> Option<f64> {
         format!("expected {expected}"),
     );
     None
+}
+
+fn max_steps(table: &mut Table, findings: &mut Findings) -> Option<u64> {
+    let field = table.optional(&MAX_STEPS)?;
+    let value = field.integer(MAX_STEPS.expected, findings)?;
+    let steps = u64::try_from(value).ok().filter(|steps| *steps > 0);
+    if steps.is_none() {
+        let expected = MAX_STEPS.expected;
+        let message = format!("{}: max_steps is {value}, need {expected}", field.subject);
+        findings.error(field.span(), message, format!("expected {expected}"));
+    }
+    steps
 }
 
 fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Findings) -> Option<T> {

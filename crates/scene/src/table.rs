@@ -7,6 +7,8 @@ use std::rc::Rc;
 
 use toml::de::DeTable;
 
+use model::codes::Code;
+
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::Key;
@@ -88,7 +90,13 @@ impl<'t> Table<'t> {
         findings: &mut Findings,
     ) {
         self.missing.push((key, findings.next()));
-        findings.error(self.header.clone(), message, label);
+        findings.coded_error(
+            const { Code::new(103) },
+            self.header.clone(),
+            message,
+            label,
+            None,
+        );
     }
 
     /// All keys with their values, for tables whose keys are names.
@@ -149,7 +157,8 @@ impl<'t> Table<'t> {
             if let Some((_, problem)) = self.missing.iter().find(|(key, _)| near == Some(key)) {
                 findings.explain(*problem);
             }
-            findings.error_with_help(
+            findings.coded_error(
+                const { Code::new(102) },
                 key.span(),
                 format!("{} has no key `{name}`", self.subject),
                 label,

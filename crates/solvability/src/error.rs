@@ -1,5 +1,6 @@
 //! Errors of the analysis.
 
+use model::codes::Code;
 use rank::{KeptRowsError, RankError};
 
 use crate::limits::ROWS_MAX;
@@ -59,4 +60,18 @@ pub enum AnalysisError {
         /// Cause; rows are counted from 0 here.
         source: KeptRowsError,
     },
+}
+
+impl AnalysisError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::State(e) => e.code(),
+            Self::Rank { .. } | Self::Query { .. } => const { Code::new(302) },
+            Self::Large { .. } => const { Code::new(303) },
+            Self::Chosen { .. } => const { Code::new(304) },
+            Self::Rows { .. } => const { Code::new(310) },
+        }
+    }
 }

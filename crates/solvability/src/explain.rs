@@ -6,6 +6,7 @@
 
 use crate::limits::VISIBLE;
 use crate::pose::TRANSLATIONS;
+use model::codes::Code;
 use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
@@ -101,6 +102,18 @@ pub enum ExplanationError {
     /// The solvability belongs to another constraint matrix.
     #[error(transparent)]
     Query(#[from] QueryError),
+}
+
+impl ExplanationError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Rank { .. } | Self::Undecided { .. } | Self::Query { .. } => {
+                const { Code::new(316) }
+            }
+        }
+    }
 }
 
 impl Explanation {

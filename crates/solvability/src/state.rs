@@ -1,5 +1,6 @@
 //! A state given by the caller, and the check that it fits the mechanism.
 
+use model::codes::Code;
 use model::{Mechanism, System};
 
 /// Coordinates and velocities at one instant.
@@ -45,6 +46,18 @@ pub enum StateError {
         /// The time.
         time: f64,
     },
+}
+
+impl StateError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Length { .. } | Self::NotFinite { .. } | Self::Time { .. } => {
+                const { Code::new(301) }
+            }
+        }
+    }
 }
 
 /// Checks the sizes of a state and that its numbers are finite.

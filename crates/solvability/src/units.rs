@@ -11,6 +11,7 @@
 mod rewrite;
 
 use crate::limits::{OF_ONE_JOINT, UNIT_ROUNDING};
+use model::codes::Code;
 use model::reaction::COMPONENTS;
 use model::{ColumnKind, ConstraintId, Frame, Mechanism};
 use rank::{RankDecision, RankError};
@@ -74,6 +75,18 @@ pub enum UnitError {
         /// The other units.
         units: Units,
     },
+}
+
+impl UnitError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Choice(e) => e.code(),
+            Self::Request(e) => e.code(),
+            Self::Rank { .. } | Self::RankChanges { .. } => const { Code::new(313) },
+        }
+    }
 }
 
 /// Compares the components of all reactions in all frames, at a state whose rank has been decided:

@@ -278,6 +278,9 @@ pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
         let field = format_ident!("{}", k.field);
         let value = kept_value(model, k);
         match &k.overridden_by {
+            Some(p) if let Some(number) = literal(&value) => {
+                quote!(self.#field = self.#p.unwrap_or(#number);)
+            }
             Some(p) => quote! {
                 self.#field = match self.#p {
                     Some(given) => given,
@@ -294,6 +297,15 @@ pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
     });
     quote! {
         fn initialise(&mut self, x: &[Pose]) { #(#kept)* #measure }
+    }
+}
+
+/// The literal that a block consists of, if it consists of one.
+fn literal(block: &TokenStream) -> Option<syn::ExprLit> {
+    let block: syn::Block = syn::parse2(block.clone()).ok()?;
+    match block.stmts.as_slice() {
+        [syn::Stmt::Expr(syn::Expr::Lit(literal), None)] => Some(literal.clone()),
+        _ => None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Reasons why rows cannot be dropped as requested. Messages count rows from 1, as users do.
 
 use model::RowLabel;
+use model::codes::Code;
 use rank::KeptRowsError;
 
 /// Reason why rows cannot be dropped as requested.
@@ -46,6 +47,21 @@ pub enum DropError {
     /// The constraint matrix at the start cannot be analysed.
     #[error(transparent)]
     Kept(KeptRowsError),
+}
+
+impl DropError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NotRedundant { .. }
+            | Self::Count { .. }
+            | Self::OutOfRange { .. }
+            | Self::Twice { .. }
+            | Self::Dependent { .. }
+            | Self::Kept { .. } => const { Code::new(403) },
+        }
+    }
 }
 
 fn rows_are(n: usize) -> String {

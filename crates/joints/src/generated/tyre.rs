@@ -82,10 +82,7 @@ impl Force for Tyre {
 #[allow(unused_variables)]
 impl Definition for Tyre {
     fn initialise(&mut self, x: &[Pose]) {
-        self.low_speed_0 = match self.low_speed {
-            Some(given) => given,
-            None => 0.1,
-        };
+        self.low_speed_0 = self.low_speed.unwrap_or(0.1);
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         match k {

@@ -1,5 +1,6 @@
 //! From a description to a mechanism. All faults of a description are found at once.
 
+use crate::codes::Code;
 use std::collections::HashSet;
 
 use joints::spec::{ConstraintSpec, Level, Role, Spec};
@@ -177,6 +178,33 @@ pub enum BuildError {
         /// Number of functions given.
         found: usize,
     },
+}
+
+impl BuildError {
+    /// Its code; see [`crate::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NoBodies { .. } => const { Code::new(120) },
+            Self::DuplicateName { .. } => const { Code::new(104) },
+            Self::Ground { .. } => const { Code::new(121) },
+            Self::NotFinite { .. } => const { Code::new(122) },
+            Self::Negative { .. } => const { Code::new(123) },
+            Self::Gravity { .. } => const { Code::new(124) },
+            Self::Tolerance { .. } => const { Code::new(125) },
+            Self::BodyCount { .. } => const { Code::new(126) },
+            Self::UnknownBody { .. } => const { Code::new(127) },
+            Self::SameBody { .. } => const { Code::new(128) },
+            Self::GroundOnly { .. } => const { Code::new(129) },
+            Self::Point { .. } => const { Code::new(130) },
+            Self::Role { .. } => const { Code::new(131) },
+            Self::FunctionCount { .. } => const { Code::new(132) },
+            Self::VelocityAlone { .. } => const { Code::new(133) },
+            Self::Marker { .. } => const { Code::new(134) },
+            Self::UnknownMarker { .. } => const { Code::new(135) },
+            Self::SameMarker { .. } => const { Code::new(136) },
+        }
+    }
 }
 
 impl Mechanism {

@@ -1,5 +1,6 @@
 //! Reasons why no consistent start was found.
 
+use crate::codes::Code;
 use linalg::{SaddleError, SparseError, StepError};
 use rank::RankError;
 
@@ -108,6 +109,26 @@ pub enum StartError {
     /// The correction step failed.
     #[error("the start cannot be corrected: {0}")]
     Step(#[from] StepError),
+}
+
+impl StartError {
+    /// Its code; see [`crate::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NoAssembly { .. } => const { Code::new(201) },
+            Self::LargeCorrection { .. } => const { Code::new(202) },
+            Self::Velocities { .. } => const { Code::new(203) },
+            Self::Requirement { .. } => const { Code::new(204) },
+            Self::NoCoordinate { .. } => const { Code::new(205) },
+            Self::NoVelocity { .. } => const { Code::new(206) },
+            Self::TooLarge { .. } => const { Code::new(207) },
+            Self::KeptOrigin { .. } => const { Code::new(209) },
+            Self::Rank(_) | Self::Saddle(_) | Self::Sparse(_) | Self::Step(_) => {
+                const { Code::new(208) }
+            }
+        }
+    }
 }
 
 /// A row that is not satisfied.

@@ -81,3 +81,8 @@ pub(super) const MAN: &str = "Examples:
   pfaff man | man -l -
   pfaff man analyze | man -l -                  of one command
   pfaff man > ~/.local/share/man/man1/pfaff.1";
+
+pub(super) const EXPLAIN: &str = "\
+Examples:
+  pfaff explain P0102     one code
+  pfaff explain           all codes";

@@ -171,7 +171,7 @@ fn drives_that_part_later_are_named_by_every_command() {
     assert_eq!(check.status.code(), Some(2));
     contains(
         &stderr(&check),
-        &["Error: at t = ", names, "contradicts too"],
+        &["error[P0210]: at t = ", names, "contradicts too"],
     );
     let analyze = with_scene(&["analyze", "-"], &scene);
     assert_eq!(analyze.status.code(), Some(0));

@@ -75,7 +75,8 @@ fn unknown_names_are_refused() {
     let page = pfaff(&["man", "analyse"]);
     assert_eq!((page.status.code(), &*stdout(&page)), (Some(2), ""));
     assert!(
-        stderr(&page).starts_with("error: there is no command `analyse`; there are analyze, "),
+        stderr(&page)
+            .starts_with("error[P0001]: there is no command `analyse`; there are analyze, "),
         "{}",
         stderr(&page)
     );

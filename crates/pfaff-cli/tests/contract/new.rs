@@ -104,7 +104,7 @@ fn a_file_that_is_there_is_kept() {
     assert_eq!(
         stderr(&again),
         format!(
-            "error: `{path}` is there already; --force replaces it, --out writes another file\n"
+            "error[P0003]: `{path}` is there already; --force replaces it, --out writes another file\n"
         )
     );
     assert_eq!(folder.read("mine.toml"), "mine");

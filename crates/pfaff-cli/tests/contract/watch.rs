@@ -66,7 +66,7 @@ fn each_change_is_checked_until_somebody_stops_it() {
     );
 
     fs::remove_file(&file).expect("removable");
-    until(&lines, "error: cannot read");
+    until(&lines, "error[P0002]: cannot read");
     fs::write(&file, right).expect("writable");
     until(&lines, "assembled");
 

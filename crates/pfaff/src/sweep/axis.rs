@@ -1,5 +1,6 @@
 //! A number of a scene with the values it takes.
 
+use model::codes::Code;
 use std::fmt;
 use std::str::FromStr;
 
@@ -84,6 +85,22 @@ pub enum AxisError {
     /// There are too many combinations.
     #[error("the grid has more than {RUNS_MAX} combinations")]
     TooLarge,
+}
+
+impl AxisError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Form { .. }
+            | Self::Value { .. }
+            | Self::Units { .. }
+            | Self::Count { .. }
+            | Self::Logarithm { .. }
+            | Self::Nothing { .. }
+            | Self::TooLarge { .. } => const { Code::new(502) },
+        }
+    }
 }
 
 impl Axis {

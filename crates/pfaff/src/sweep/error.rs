@@ -1,6 +1,7 @@
 //! Reasons why a sweep does not begin or continue. Faults of single runs are reported in their
 //! rows.
 
+use model::codes::Code;
 use report::sweep::JournalError;
 use report::{FileError, TableError};
 use scene::KeyError;
@@ -43,6 +44,23 @@ pub enum SweepError {
     /// A table could not be written.
     #[error(transparent)]
     Table(#[from] TableError),
+}
+
+impl SweepError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Study(e) => e.code(),
+            Self::Key(e) => e.code(),
+            Self::Axis(e) => e.code(),
+            Self::NoneBegins { .. } => const { Code::new(503) },
+            Self::Journal(e) => e.code(),
+            Self::Threads(_) => const { Code::new(508) },
+            Self::File(e) => e.code(),
+            Self::Table(e) => e.code(),
+        }
+    }
 }
 
 impl SweepError {

@@ -1,6 +1,7 @@
 //! Documents of commands whose result is a few numbers, and of errors. `ok` states whether there is
 //! a result.
 
+use model::codes::Code;
 use serde::Serialize;
 
 use super::{AnalysisDocument, ComponentDocument, DependencyDocument, ReactionDocument};
@@ -10,6 +11,8 @@ use super::{AnalysisDocument, ComponentDocument, DependencyDocument, ReactionDoc
 pub struct RefusalDocument<'a, P> {
     /// `false`
     pub ok: bool,
+    /// Its code.
+    pub code: Option<Code>,
     /// The reason in one line.
     pub error: String,
     /// Places in the scene that are wrong.

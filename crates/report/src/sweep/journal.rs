@@ -7,6 +7,7 @@
 //! 09f3a7… 3,1.2,done,,dop853,10.0,…
 //! ```
 
+use model::codes::Code;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -64,6 +65,20 @@ pub enum JournalError {
         /// The directory.
         directory: PathBuf,
     },
+}
+
+impl JournalError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::File(e) => e.code(),
+            Self::Busy { .. } => const { Code::new(504) },
+            Self::Changed { .. } => const { Code::new(505) },
+            Self::Damaged { .. } => const { Code::new(506) },
+            Self::Missing { .. } => const { Code::new(507) },
+        }
+    }
 }
 
 /// A journal that is being written; no other process can write it at the same time.

@@ -1,5 +1,6 @@
 //! Finds the place of a number in the text by its key.
 
+use model::codes::Code;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -72,6 +73,21 @@ pub enum KeyError {
         /// The first one.
         first: String,
     },
+}
+
+impl KeyError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NotToml => const { Code::new(101) },
+            Self::Unknown { .. }
+            | Self::Index { .. }
+            | Self::NotANumber { .. }
+            | Self::NoRoom { .. }
+            | Self::Repeated { .. } => const { Code::new(501) },
+        }
+    }
 }
 
 fn advice(nearest: Option<&str>, known: &[String]) -> String {

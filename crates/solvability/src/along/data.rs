@@ -1,5 +1,6 @@
 //! Results of the verdicts along a motion, and the errors if there are none.
 
+use model::codes::Code;
 use model::{RowLabel, StartError};
 use rank::Doubt;
 
@@ -157,4 +158,19 @@ pub enum AlongError {
         /// Singular values below this tolerance count as zero.
         tolerance: f64,
     },
+}
+
+impl AlongError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::State(e) => e.code(),
+            Self::Analysis(e) => e.code(),
+            Self::Times { .. }
+            | Self::OffConstraints { .. }
+            | Self::Large { .. }
+            | Self::Undecided { .. } => const { Code::new(314) },
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use linalg::SaddleError;
 use model::RowLabel;
+use model::codes::Code;
 use rank::{Doubt, KeptRowsError};
 
 use crate::groups::RequestError;
@@ -100,6 +101,26 @@ pub enum ChoiceError {
         /// Cause; rows are counted from 0 here.
         source: KeptRowsError,
     },
+}
+
+impl ChoiceError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Request(e) => e.code(),
+            Self::Undecided { .. }
+            | Self::Saddle { .. }
+            | Self::Contradiction { .. }
+            | Self::Weight { .. }
+            | Self::NormWeight { .. }
+            | Self::Indeterminate { .. }
+            | Self::Hidden { .. }
+            | Self::InPart { .. }
+            | Self::Count { .. }
+            | Self::Rows { .. } => const { Code::new(312) },
+        }
+    }
 }
 
 pub(super) fn list(rows: &[RowLabel]) -> String {

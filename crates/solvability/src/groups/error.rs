@@ -1,6 +1,7 @@
 //! Errors in a request about reactions.
 
 use crate::matrices::QueryError;
+use model::codes::Code;
 
 /// Reason why a request cannot be answered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -82,6 +83,24 @@ pub enum RequestError {
         /// The length it must have.
         expected: usize,
     },
+}
+
+impl RequestError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::UnknownReaction { .. }
+            | Self::UnknownComponent { .. }
+            | Self::UnknownBody { .. }
+            | Self::UnknownRow { .. } => const { Code::new(310) },
+            Self::Large { .. } => const { Code::new(303) },
+            Self::Query(_) => const { Code::new(302) },
+            Self::Empty { .. } | Self::NotFinite { .. } | Self::Length { .. } => {
+                const { Code::new(311) }
+            }
+        }
+    }
 }
 
 /// Checks the length of an argument and that its entries are finite.

@@ -1,5 +1,6 @@
 //! Which rows may be deleted without a change of motion: combinations of such sets of the parts.
 
+use model::codes::Code;
 use std::borrow::Cow;
 
 use model::{ConstraintId, System};
@@ -28,6 +29,17 @@ pub enum EliminationError {
         /// Number of parts with dependent rows.
         parts: usize,
     },
+}
+
+impl EliminationError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Request(e) => e.code(),
+            Self::Deletion { .. } | Self::TooMany { .. } => const { Code::new(315) },
+        }
+    }
 }
 
 impl Questions<'_> {

@@ -1,0 +1,631 @@
+//! The table of codes: below 100 the command and its files, from 100 the text of a scene, from 200
+//! its start and its rank, from 300 questions, from 400 runs, from 500 sweeps.
+
+use super::{Code, Entry, Example};
+
+const fn entry(code: u16, title: &'static str, advice: &'static str, example: Example) -> Entry {
+    Entry {
+        code: Code(code),
+        title,
+        advice,
+        example,
+    }
+}
+
+const RARE: Example = Example::None("the machine or the numbers have to be special");
+const MACHINE: Example = Example::None("depends on the machine");
+const LIBRARY: Example =
+    Example::None("only programs meet it: the reader of scenes refuses it before");
+
+macro_rules! scene {
+    ($text:literal) => {
+        concat!("[scene]\nname = \"bar\"\nspace = \"plane\"\n", $text)
+    };
+}
+
+macro_rules! bar {
+    ($text:literal) => {
+        concat!(
+            "[scene]\nname = \"bar\"\nspace = \"plane\"\n\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 0.1\n",
+            $text
+        )
+    };
+}
+
+/// All codes, ascending.
+pub const TABLE: &[Entry] = &[
+    entry(
+        1,
+        "The command line is wrong",
+        "The message names the option; `pfaff COMMAND --help` lists all.",
+        Example::Command("analyze scene.toml --no-such-option"),
+    ),
+    entry(
+        2,
+        "A file cannot be read",
+        "Correct its name or its rights; a scene is a text in UTF-8 of at most 256 MiB.",
+        Example::Command("check no-such-file.toml"),
+    ),
+    entry(
+        3,
+        "Results cannot be written there",
+        "Choose a directory, or for `view` a file, in which files can be made.",
+        Example::Command("new door --out no-such-directory/door.toml"),
+    ),
+    entry(
+        4,
+        "A file that pfaff has not written would be replaced",
+        "Choose another place, or replace it with `--force`.",
+        Example::None("needs such a file"),
+    ),
+    entry(
+        5,
+        "Another run is writing into the directory",
+        "Wait for its end, or choose another directory.",
+        Example::None("needs another run"),
+    ),
+    entry(
+        6,
+        "Writing failed",
+        "Make room on the disk. What has been written ends with a whole line.",
+        MACHINE,
+    ),
+    entry(
+        7,
+        "The computation needs more memory than there is",
+        "Take a smaller scene or a larger machine; `--max-memory` overrides the limit.",
+        Example::Command("check - --max-memory 1B"),
+    ),
+    entry(
+        8,
+        "The command was interrupted",
+        "What it had computed is kept; `summary.json` says `partial`.",
+        Example::None("needs somebody who presses Ctrl-C"),
+    ),
+    entry(9, "The computation stopped", "The message says why.", RARE),
+    entry(
+        100,
+        "An entry of the scene is wrong",
+        "The message says what is expected at the marked place.",
+        Example::Scene("check -", "[scene]\nname = \"bar\"\nspace = \"moon\"\n"),
+    ),
+    entry(
+        101,
+        "The text is not TOML",
+        "Correct the marked line; texts stand in quotes, tables in brackets.",
+        Example::Scene("check -", "[scene\nname = \"bar\"\n"),
+    ),
+    entry(
+        102,
+        "A table has no such key",
+        "Use one of the keys that the message lists, or delete the line.",
+        Example::Scene("check -", bar!("colour = \"red\"\n")),
+    ),
+    entry(
+        103,
+        "A table lacks a key, or a scene a table",
+        "Add it; the book and `pfaff schema` list what is required.",
+        Example::Scene("check -", "[[body]]\nmass = 1.0\ninertia = 0.1\n"),
+    ),
+    entry(
+        104,
+        "A name or an entry is given twice",
+        "Rename or delete one of the two.",
+        Example::Scene(
+            "check -",
+            bar!("\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 0.1\n"),
+        ),
+    ),
+    entry(
+        105,
+        "A value is of another kind than its key requires",
+        "Write a value of the kind that the message names.",
+        Example::Scene(
+            "check -",
+            scene!("\n[[body]]\nname = \"bar\"\nmass = true\ninertia = 0.1\n"),
+        ),
+    ),
+    entry(
+        106,
+        "An expression cannot be computed",
+        "Correct the marked part: a name, a unit, a bracket, or a division by zero.",
+        Example::Scene(
+            "check -",
+            "[scene]\nformat = 2\nname = \"bar\"\nspace = \"plane\"\n\n[[body]]\nname = \"bar\"\nmass = \"2*\"\ninertia = 0.1\n",
+        ),
+    ),
+    entry(
+        107,
+        "There are more problems than are listed",
+        "Correct those that are listed first.",
+        Example::None("needs thousands of problems"),
+    ),
+    entry(
+        120,
+        "A mechanism has no bodies",
+        "Add a `[[body]]`.",
+        LIBRARY,
+    ),
+    entry(
+        121,
+        "A body is called `ground`",
+        "Choose another name: the ground is always there.",
+        LIBRARY,
+    ),
+    entry(
+        122,
+        "A number of a body or an element is not finite",
+        "Write a finite number.",
+        LIBRARY,
+    ),
+    entry(
+        123,
+        "A mass or an inertia is negative",
+        "Write a number ≥ 0.",
+        Example::Scene(
+            "check -",
+            scene!("\n[[body]]\nname = \"bar\"\nmass = -1.0\ninertia = 0.1\n"),
+        ),
+    ),
+    entry(
+        124,
+        "Gravity is not finite",
+        "Write two finite numbers.",
+        LIBRARY,
+    ),
+    entry(
+        125,
+        "A tolerance is not a number above zero",
+        "Write a number > 0, or leave it out.",
+        LIBRARY,
+    ),
+    entry(
+        126,
+        "An element has the wrong number of bodies",
+        "Give as many bodies as its type connects.",
+        LIBRARY,
+    ),
+    entry(
+        127,
+        "A body does not exist",
+        "Correct the name, or add the body.",
+        LIBRARY,
+    ),
+    entry(
+        128,
+        "An element connects a body with itself",
+        "Name two different bodies.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"bar\", \"bar\"]\nat = [0.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        129,
+        "An element connects the ground with itself",
+        "Name at least one moving body.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"ground\"]\nat = [0.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        130,
+        "A place of an element is not possible",
+        "Correct the point that the message names.",
+        LIBRARY,
+    ),
+    entry(
+        131,
+        "A body cannot have this part in an element",
+        "Choose another body for it.",
+        RARE,
+    ),
+    entry(
+        132,
+        "An element has the wrong number of functions of time",
+        "Give as many as its type requires.",
+        LIBRARY,
+    ),
+    entry(
+        133,
+        "A body has a `velocity` without `angular_velocity`, and a `centre`",
+        "The velocity is that of the origin of the frame: give the angular velocity with it.",
+        Example::Scene(
+            "check -",
+            bar!("centre = [0.5, 0.0]\nvelocity = [1.0, 0.0]\n"),
+        ),
+    ),
+    entry(
+        134,
+        "A number of a marker is not finite",
+        "Write finite numbers.",
+        LIBRARY,
+    ),
+    entry(
+        135,
+        "A measure refers to a marker that does not exist",
+        "Name one of the markers of the description.",
+        LIBRARY,
+    ),
+    entry(
+        136,
+        "A measure is between a place and itself",
+        "Name two different markers.",
+        LIBRARY,
+    ),
+    entry(
+        190,
+        "A warning about the scene",
+        "The scene can be used, but is probably not what was intended.",
+        RARE,
+    ),
+    entry(
+        201,
+        "The mechanism cannot be assembled",
+        "No position of the bodies satisfies the joints that the message names: correct a place or a length.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\npoints = { ground = [0.0, 0.0], bar = [0.0, 0.0] }\n\n[[joint]]\nname = \"B\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\npoints = { ground = [5.0, 0.0], bar = [1.0, 0.0] }\n"
+            ),
+        ),
+    ),
+    entry(
+        202,
+        "The start is far from any that the joints allow",
+        "Correct the positions of the bodies, or set `allow_correction = true` in `[start]`.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\npoints = { ground = [0.5, 0.0], bar = [0.0, 0.0] }\n"
+            ),
+        ),
+    ),
+    entry(
+        203,
+        "No velocities satisfy the joints and the given ones",
+        "Leave out the velocities that the message names.",
+        RARE,
+    ),
+    entry(
+        204,
+        "A type asks for something that the start does not have",
+        "Correct the places of the joint or force that the message names.",
+        RARE,
+    ),
+    entry(
+        205,
+        "A coordinate does not exist",
+        "Name one as `body.angle`.",
+        LIBRARY,
+    ),
+    entry(
+        206,
+        "The rows allow no velocities",
+        "They depend on each other, or nearly, and ask for different velocities: correct or delete one of them.",
+        RARE,
+    ),
+    entry(
+        207,
+        "The start of a large mechanism needs a correction",
+        "Write positions that satisfy the joints.",
+        Example::None("needs a large scene"),
+    ),
+    entry(
+        208,
+        "The equations of the start have no solution in numbers",
+        "Look for lengths or masses of very different sizes.",
+        RARE,
+    ),
+    entry(
+        209,
+        "The origin of a frame is kept without its angle",
+        "A frame away from the centre of mass moves as the body turns: keep the angle, or the angular velocity, too.",
+        Example::Scene(
+            "check -",
+            bar!("centre = [0.5, 0.0]\n\n[start]\nkeep = [\"bar.x\"]\n"),
+        ),
+    ),
+    entry(
+        210,
+        "Redundant rows require different motions",
+        "Correct the drives or joints that the message names.",
+        RARE,
+    ),
+    entry(
+        211,
+        "No motion begins at this singular start",
+        "Begin at another configuration, or with other velocities.",
+        RARE,
+    ),
+    entry(
+        212,
+        "The rank of the start is undecided",
+        "Correct the misalignment that the message names, or state a tolerance.",
+        RARE,
+    ),
+    entry(
+        213,
+        "Rows depend on each other so nearly that nothing can be moved",
+        "Correct the misalignment, or delete one of the rows.",
+        RARE,
+    ),
+    entry(
+        214,
+        "The end of the run is not stated",
+        "Write `t_end` in `[simulate]`, or `--t-end`.",
+        Example::Scene("simulate - --out run", bar!("")),
+    ),
+    entry(
+        301,
+        "A state is not one of the mechanism",
+        "Give as many finite numbers as it has coordinates and velocities.",
+        LIBRARY,
+    ),
+    entry(
+        302,
+        "The constraint matrix cannot be analysed",
+        "Look for numbers that are not finite.",
+        RARE,
+    ),
+    entry(
+        303,
+        "A part of the mechanism is too large for this question",
+        "Ask about a smaller part; the message names it.",
+        Example::None("needs a large scene"),
+    ),
+    entry(
+        304,
+        "Rows that were to be dropped are not redundant",
+        "Drop other rows: `pfaff analyze` lists the dependencies.",
+        RARE,
+    ),
+    entry(
+        310,
+        "A question names something that does not exist",
+        "Correct the name of the joint, component, body or row.",
+        Example::Command("analyze - --make-unique no-such-joint"),
+    ),
+    entry(
+        311,
+        "A combination of reactions cannot be read",
+        "Write it as `W3.N + W4.N`.",
+        Example::Command("analyze - --combine W3.N+"),
+    ),
+    entry(
+        312,
+        "Reactions cannot be computed for this choice",
+        "Make another choice, or give the numbers that the message asks for.",
+        RARE,
+    ),
+    entry(
+        313,
+        "The change of units could not be examined",
+        "The message says what is undecided.",
+        RARE,
+    ),
+    entry(
+        314,
+        "The motion could not be analysed along its way",
+        "The message says where it ends.",
+        RARE,
+    ),
+    entry(
+        315,
+        "Rows to delete could not be determined",
+        "Allow fewer rows or other ones.",
+        RARE,
+    ),
+    entry(
+        316,
+        "A verdict could not be explained",
+        "The verdict holds; its reason is undecided.",
+        RARE,
+    ),
+    entry(
+        317,
+        "A question names something that is not active",
+        "Ask about another reaction, or remove `active = false`.",
+        Example::Scene(
+            "analyze - --make-unique A",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\nactive = false\n"
+            ),
+        ),
+    ),
+    entry(
+        401,
+        "An option of the run is not possible",
+        "Write a value that the message allows.",
+        Example::Scene("simulate - --out run --t-end 1 --rtol 2", bar!("")),
+    ),
+    entry(
+        402,
+        "Two options of the run do not go together",
+        "Leave one of them out.",
+        RARE,
+    ),
+    entry(
+        403,
+        "The rows to drop cannot be dropped",
+        "Drop as many rows as are redundant, one of each dependent set.",
+        Example::Scene(
+            "simulate - --out run --t-end 1 --drop 1",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        404,
+        "A reaction is wanted of something that does not exist",
+        "Correct the name.",
+        LIBRARY,
+    ),
+    entry(
+        410,
+        "The kept rows became dependent",
+        "The mechanism passes a singular configuration: begin elsewhere, or end before.",
+        RARE,
+    ),
+    entry(
+        411,
+        "The independent coordinates no longer determine the others",
+        "Use an explicit method, or a smaller `max_step`.",
+        RARE,
+    ),
+    entry(
+        412,
+        "The system of an implicit step is singular",
+        "Use another method.",
+        RARE,
+    ),
+    entry(
+        413,
+        "A body without mass can move freely",
+        "Give it mass or inertia, or constrain it.",
+        Example::Scene(
+            "simulate - --out run --t-end 1",
+            scene!("\n[[body]]\nname = \"bar\"\nmass = 0.0\ninertia = 0.0\n"),
+        ),
+    ),
+    entry(
+        414,
+        "A value became infinite or undefined",
+        "Look for a function of time or a force that grows without bound.",
+        RARE,
+    ),
+    entry(
+        415,
+        "Positions could not be moved back onto the constraints",
+        "Use a tighter tolerance or a smaller `max_step`.",
+        RARE,
+    ),
+    entry(
+        416,
+        "A dropped row is violated",
+        "It is redundant at the start only, or drives contradict each other.",
+        RARE,
+    ),
+    entry(
+        417,
+        "Drives contradict each other later",
+        "Correct what they prescribe.",
+        RARE,
+    ),
+    entry(
+        418,
+        "A row is redundant at the singular start only",
+        "Begin at another configuration.",
+        RARE,
+    ),
+    entry(
+        419,
+        "Dependent coordinates were found on another branch",
+        "Use a smaller `max_step` or another method.",
+        RARE,
+    ),
+    entry(
+        420,
+        "A row of output is far from the path of its step",
+        "Use another method, or a smaller `max_step`.",
+        RARE,
+    ),
+    entry(
+        421,
+        "A constraint jumps",
+        "Use a function of time that is continuous.",
+        RARE,
+    ),
+    entry(
+        422,
+        "No step passes a singular configuration",
+        "The constraints do not determine how the motion goes on.",
+        RARE,
+    ),
+    entry(
+        423,
+        "No rows can be kept",
+        "The kept rows are nearly dependent, and so are all others.",
+        RARE,
+    ),
+    entry(
+        424,
+        "The equations of motion have no unique solution",
+        "Look for bodies without mass.",
+        RARE,
+    ),
+    entry(
+        425,
+        "A row misses by more than the stated tolerance explains",
+        "Correct the dimensions of its joint, state the tolerance that the joint has, or end the run earlier.",
+        RARE,
+    ),
+    entry(
+        430,
+        "The integration stopped",
+        "Loosen the tolerance, raise `max_steps`, or use another method; the message says which.",
+        Example::Scene(
+            "simulate - --out run --t-end 10 --max-step 1 --max-steps 10",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        501,
+        "A key to vary or to set is no number of the scene",
+        "Write it as `body.bob.mass`, or as the name of a parameter.",
+        Example::Scene("check - --set body.rod.mass=1", bar!("")),
+    ),
+    entry(
+        502,
+        "The values of a sweep cannot be read",
+        "Write them as KEY=FROM:TO:N or KEY=A,B,C.",
+        LIBRARY,
+    ),
+    entry(
+        503,
+        "No run of a sweep can begin",
+        "Correct the scene, or choose other values.",
+        Example::Scene(
+            "sweep - --vary body.bar.mass=-1,-2 --out run",
+            bar!("\n[simulate]\nt_end = 1.0\n"),
+        ),
+    ),
+    entry(
+        504,
+        "Another sweep is writing the journal",
+        "Wait for its end, or take a shard of your own.",
+        Example::None("needs another sweep"),
+    ),
+    entry(
+        505,
+        "The journal belongs to another sweep",
+        "Take another directory, or remove the journal.",
+        Example::None("needs two sweeps"),
+    ),
+    entry(
+        506,
+        "The first line of a journal is damaged",
+        "Remove the journal to begin again.",
+        Example::None("needs a damaged file"),
+    ),
+    entry(
+        507,
+        "There is no sweep in the directory",
+        "Make its runs first.",
+        Example::Command("sweep --merge . --out run"),
+    ),
+    entry(
+        508,
+        "Threads cannot be started",
+        "Use fewer with `--threads`.",
+        MACHINE,
+    ),
+];

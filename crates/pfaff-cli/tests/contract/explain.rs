@@ -1,0 +1,97 @@
+//! Every code is explained, and every example has its code.
+
+use pfaff::model::codes::{Code, Example, TABLE, page};
+use serde_json::Value;
+
+use super::{Folder, pfaff, stderr, stdout};
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+/// The page of the book with all codes.
+const PAGE: &str = include_str!("../../../../docs/book/errors.md");
+
+#[test]
+fn the_page_of_the_book_is_that_of_the_table() {
+    assert_eq!(
+        page(),
+        PAGE,
+        "cargo run -p pfaff-cli -- explain --book > docs/book/errors.md"
+    );
+    assert_eq!(stdout(&pfaff(&["explain", "--book"])), PAGE);
+}
+
+#[test]
+fn codes_ascend_and_are_found() {
+    for pair in TABLE.windows(2) {
+        assert!(pair[0].code < pair[1].code, "{}", pair[1].code);
+    }
+    let all = stdout(&pfaff(&["explain"]));
+    assert_eq!(all.lines().count(), TABLE.len());
+    for entry in TABLE {
+        let found = Code::find(&entry.code.to_string()).expect("in the table");
+        assert_eq!(found.code, entry.code);
+        assert!(all.contains(&format!("{}  {}\n", entry.code, entry.title)));
+        assert!(entry.advice.ends_with('.') && !entry.title.ends_with('.'));
+    }
+    let text = stdout(&pfaff(&["explain", "P0102"]));
+    assert!(
+        text.starts_with("P0102: A table has no such key\n"),
+        "{text}"
+    );
+    let output = pfaff(&["explain", "P9999"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).starts_with("error[P0001]: there is no code `P9999`"));
+}
+
+#[test]
+fn every_example_has_its_code() {
+    let folder = Folder::new("codes");
+    std::fs::create_dir_all(&folder.0).expect("writable");
+    let run = |arguments: &str, scene: &str| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_pfaff"))
+            .args(arguments.split(' '))
+            .current_dir(&folder.0)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the command starts");
+        // A command that does not read is done before.
+        let _ = child
+            .stdin
+            .take()
+            .expect("piped")
+            .write_all(scene.as_bytes());
+        child.wait_with_output().expect("the command ends")
+    };
+    // A sound scene for commands without one.
+    let door = include_str!("../../../../examples/door.toml");
+    let mut wrong = Vec::new();
+    for entry in TABLE {
+        let (arguments, scene) = match entry.example {
+            Example::Scene(arguments, scene) => (arguments, scene),
+            Example::Command(arguments) => (arguments, door),
+            Example::None(reason) => {
+                assert!(!reason.is_empty());
+                continue;
+            }
+        };
+        let output = run(arguments, scene);
+        let said = stderr(&output);
+        if !said.contains(&format!("error[{}]: ", entry.code)) {
+            wrong.push(format!("{}: {arguments}: {said}", entry.code));
+            continue;
+        }
+        // The same code in the document, for commands that were read.
+        if entry.code != Code::new(1) && !arguments.starts_with("new ") {
+            let output = run(&format!("{arguments} --json"), scene);
+            let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            assert_eq!(document["format"], 1, "{document:#}");
+            let codes = document["problems"].as_array().expect("a list").iter();
+            let mut codes = codes.map(|p| &p["code"]).chain([&document["code"]]);
+            let code = entry.code.to_string();
+            assert!(codes.any(|c| *c == code.as_str()), "{document:#}");
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
