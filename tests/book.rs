@@ -39,6 +39,10 @@ mod scene_format {}
 mod commands {}
 #[doc = include_str!("../docs/book/crates.md")]
 mod each_crate {}
+#[doc = include_str!("../docs/book/words.md")]
+mod words {}
+#[doc = include_str!("../docs/book/errors.md")]
+mod errors {}
 #[doc = include_str!("../docs/book/glossary.md")]
 mod glossary {}
 #[doc = include_str!("../docs/book/bibliography.md")]

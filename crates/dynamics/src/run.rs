@@ -42,8 +42,8 @@ pub fn simulate(
     simulate_until(prepared, options, &|| false, row)
 }
 
-/// Like [`simulate`]; `stop` is asked at each evaluation, and the run ends at the last accepted step
-/// once it returns true.
+/// Like [`simulate`]; `stop` is asked at each evaluation, and the run ends at the last accepted
+/// step once it returns true.
 ///
 /// # Errors
 /// As [`simulate`].

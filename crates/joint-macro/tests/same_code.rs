@@ -19,8 +19,8 @@ macro_rules! own {
 }
 
 own! {
-    angle body_point_force bushing distance fixed gear knife_edge pin_in_slot point_force point_on_line
-    rack_and_pinion revolute rolling spring_damper torque torque_between torsion_spring_damper translational velocity
+    angle body_point_force bushing damper distance fixed gear knife_edge mesh pin_in_slot point_force point_on_line
+    rack_and_pinion revolute rolling spring_damper torque torque_between torsion_spring_damper translational tyre velocity
 }
 
 fn own_constraints<V: Visitor>(visitor: &mut V) {
@@ -29,6 +29,7 @@ fn own_constraints<V: Visitor>(visitor: &mut V) {
     visitor.constraint::<fixed::Fixed>();
     visitor.constraint::<gear::Gear>();
     visitor.constraint::<knife_edge::KnifeEdge>();
+    visitor.constraint::<mesh::Mesh>();
     visitor.constraint::<pin_in_slot::PinInSlot>();
     visitor.constraint::<point_on_line::PointOnLine>();
     visitor.constraint::<rack_and_pinion::RackAndPinion>();
@@ -41,11 +42,13 @@ fn own_constraints<V: Visitor>(visitor: &mut V) {
 fn own_forces<V: Visitor>(visitor: &mut V) {
     visitor.force::<body_point_force::BodyPointForce>();
     visitor.force::<bushing::Bushing>();
+    visitor.force::<damper::Damper>();
     visitor.force::<point_force::PointForce>();
     visitor.force::<spring_damper::SpringDamper>();
     visitor.force::<torque::Torque>();
     visitor.force::<torque_between::TorqueBetween>();
     visitor.force::<torsion_spring_damper::TorsionSpringDamper>();
+    visitor.force::<tyre::Tyre>();
 }
 
 /// Number of poses for each definition.

@@ -1,6 +1,6 @@
 //! Stable codes of errors and warnings, and what each of them means: one table, from which the
-//! command `pfaff explain` and a page of the book are made. A code is never used again for something
-//! else. Each enum of errors gives its codes in `code()`, by a `match` over all variants.
+//! command `pfaff explain` and a page of the book are made. A code is never used again for
+//! something else. Each enum of errors gives its codes in `code()`, by a `match` over all variants.
 
 mod table;
 

@@ -57,8 +57,8 @@ impl Interrupt {
         Self::listen_with(|| "interrupted".to_owned())
     }
 
-    /// Starts listening for requests; `last_act` puts files in order if the command has to be ended,
-    /// and returns what it has kept, in words.
+    /// Starts listening for requests; `last_act` puts files in order if the command has to be
+    /// ended, and returns what it has kept, in words.
     ///
     /// # Errors
     /// If the system does not allow it.
@@ -181,7 +181,8 @@ fn end(code: i32, last_act: impl FnOnce() -> String + Send + 'static) -> ! {
     process::exit(code)
 }
 
-/// Writes the last words to the streams of the process, because those of the command may be blocked.
+/// Writes the last words to the streams of the process, because those of the command may be
+/// blocked.
 fn say(words: &str) {
     if words.is_empty() || ANSWERED.load(Ordering::Relaxed) {
         return;

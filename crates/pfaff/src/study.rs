@@ -368,8 +368,8 @@ impl Study {
     /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and
     /// `report.html` into a directory, each if the scene requests it; those that an earlier run has
     /// left and this one does not write are removed. `progress` is called with the time of each
-    /// row, or of each step if no rows are written, and may stop the run. The files of a stopped run
-    /// are kept, and its summary says `partial`.
+    /// row, or of each step if no rows are written, and may stop the run. The files of a stopped
+    /// run are kept, and its summary says `partial`.
     ///
     /// # Errors
     /// - [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.

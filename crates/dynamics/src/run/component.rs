@@ -25,8 +25,8 @@ pub(super) type ShowRow<'r> =
 /// Receives the time (s) of each accepted step of each component, and may end the run.
 pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
 
-/// Whether the caller wants a run to end. Asked at each evaluation, by all threads of a run, so that
-/// it is heard within a step; it should cost no more than reading a flag.
+/// Whether the caller wants a run to end. Asked at each evaluation, by all threads of a run, so
+/// that it is heard within a step; it should cost no more than reading a flag.
 pub type Stop<'w> = dyn Fn() -> bool + Sync + 'w;
 
 /// The failure of a run that has not begun.

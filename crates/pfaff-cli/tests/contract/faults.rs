@@ -80,7 +80,8 @@ fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
     }
 }
 
-/// The command under a limit of the shell: of the size of files (then no signal ends it), of memory.
+/// The command under a limit of the shell: of the size of files (then no signal ends it), of
+/// memory.
 fn with_limit(limit: &str, arguments: &[&str]) -> Output {
     let script = format!("trap '' XFSZ; ulimit {limit}; exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");

@@ -374,6 +374,7 @@ fn the_types_are_those_of_the_contract() {
             "fixed",
             "gear",
             "knife-edge",
+            "mesh",
             "pin-in-slot",
             "point-on-line",
             "rack-and-pinion",
@@ -390,10 +391,12 @@ fn the_types_are_those_of_the_contract() {
         forces,
         [
             "bushing",
+            "damper",
             "point-force",
             "spring-damper",
             "torque",
-            "torsion-spring-damper"
+            "torsion-spring-damper",
+            "tyre"
         ]
     );
 }

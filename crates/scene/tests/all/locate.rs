@@ -193,6 +193,7 @@ fn diagnostics_are_data() {
     let json = serde_json::to_value(&problems[1]).expect("JSON");
     let expected = serde_json::json!({
         "severity": "error",
+        "code": "P0102",
         "file": "x.toml",
         "message": "the scene has no key `x`",
         "primary": { "span": { "start": 0, "end": 1 }, "line": 1, "column": 1, "text": "unknown key" },
