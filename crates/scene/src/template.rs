@@ -32,12 +32,12 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
 /// let template = scene::Template::new(text, &["body.bob.mass", "body.bob.angle"])?;
 /// let changed = template.with(&[2.5, 0.1]);
-/// assert_eq!(changed, "[scene]\nname = \"drop\"\n[[body]]\nangle = 0.1\nname = \"bob\"\nmass = 2.5
-/// # kg\n");
+/// let body = "[[body]]\nangle = 0.1\nname = \"bob\"\nmass = 2.5 # kg\n";
+/// assert_eq!(changed, format!("[scene]\nname = \"drop\"\n{body}"));
 ///
 /// let wrong = scene::Template::new(text, &["body.bib.mass"]).err().unwrap();
-/// assert_eq!(wrong.to_string(), "`body.bib.mass`: there is no `bib` in `body`; did you mean
-/// `bob`?");
+/// let words = wrong.to_string();
+/// assert_eq!(words, "`body.bib.mass`: there is no `bib` in `body`; did you mean `bob`?");
 /// # Ok::<(), scene::KeyError>(())
 /// ```
 #[derive(Clone, Debug)]
