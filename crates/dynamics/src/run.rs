@@ -4,6 +4,7 @@
 use std::ops::ControlFlow;
 
 mod by_time;
+mod caller;
 mod component;
 mod energy;
 mod equations;
@@ -24,7 +25,7 @@ use crate::plan::{Plan, Wanted};
 use crate::prepare::Prepared;
 use component::run_component;
 
-pub use component::{Stop, Watch};
+pub use caller::{Stop, Watch};
 pub use reduced::Reduced;
 pub use sample::Sample;
 pub use summary::{ComponentSummary, Failure, Summary};

@@ -1,33 +1,21 @@
 //! The run of one component of a plan: its integration, its rows, and the reason if it stops.
 
-use std::ops::ControlFlow;
 use std::time::Instant;
 
-use integrators::{Cause, IntegrationError, Interval, Options, OutputTimes, Rows};
+use integrators::{Interval, Options, OutputTimes, Rows};
 use model::System;
 use solvability::{contradicting_drives_along, generic};
 
+use super::caller::{ShowRow, Stop, Watch, named};
 use super::equations::RunEquations;
 use super::integration::Run;
-use super::sample::{AtRows, Sample};
+use super::sample::AtRows;
 use super::summary::{Failure, Summary};
 use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::plan::{self, Plan};
 use crate::prepare::Prepared;
-
-/// Receives each row. A trait object, so that a run is compiled once, here, and not for each
-/// caller.
-pub(super) type ShowRow<'r> =
-    dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + 'r;
-
-/// Receives the time (s) of each accepted step of each component, and may end the run.
-pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
-
-/// Whether the caller wants a run to end. Asked at each evaluation, by all threads of a run, so
-/// that it is heard within a step; it should cost no more than reading a flag.
-pub type Stop<'w> = dyn Fn() -> bool + Sync + 'w;
 
 /// The failure of a run that has not begun.
 pub(super) fn not_begun(error: MotionError) -> Box<Failure> {
@@ -166,20 +154,5 @@ fn output_times(plan: &Plan<'_>) -> OutputTimes {
         plan::Rows::Every | plan::Rows::Interpolated => {
             OutputTimes::Every(plan.options().output_step)
         }
-    }
-}
-
-/// The cause behind a collapsed step, if it is ours.
-pub(super) fn named(error: IntegrationError<MotionFault>) -> MotionError {
-    match error {
-        IntegrationError::StepSizeCollapsed {
-            cause: Cause::Problem(fault),
-            ..
-        }
-        | IntegrationError::StartFailed {
-            cause: Cause::Problem(fault),
-            ..
-        } => MotionError::Fault(fault),
-        other => MotionError::Integration(Box::new(other)),
     }
 }

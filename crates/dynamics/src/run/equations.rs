@@ -7,7 +7,7 @@ use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, 
 use model::{Mechanism, System};
 
 use super::by_time::ByTime;
-use super::component::Stop;
+use super::caller::Stop;
 use super::impulse::cross_break;
 use super::record::Record;
 use super::reduced::Reduced;

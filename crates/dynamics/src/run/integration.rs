@@ -13,7 +13,7 @@ use integrators::{
     Tsit5, integrate,
 };
 
-use super::component::{ShowRow, Watch, named};
+use super::caller::{ShowRow, Watch, named};
 use super::equations::{Leader, RunEquations};
 use super::passages;
 use crate::error::{MotionError, MotionFault};

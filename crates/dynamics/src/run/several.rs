@@ -10,7 +10,8 @@ use std::time::Instant;
 
 use model::{Places, Reaction, System};
 
-use super::component::{ShowRow, Stop, Watch, run_component};
+use super::caller::{ShowRow, Stop, Watch};
+use super::component::run_component;
 use super::permits::Permits;
 use super::sample::{Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary};
