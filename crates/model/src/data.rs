@@ -77,6 +77,14 @@ impl DataBlock {
     }
 }
 
+/// What data within their stated tolerances explain of a value with this gradient with respect to
+/// all numbers: [`SHARED`] times the sum of the largest changes.
+#[must_use]
+pub fn explained(blocks: &[DataBlock], gradient: &[f64]) -> f64 {
+    let change = |b: &DataBlock| b.change(gradient, b.tolerance.unwrap_or(0.0));
+    SHARED * blocks.iter().map(change).sum::<f64>()
+}
+
 /// Rows that contradict each other within a stated tolerance have residuals of at most this
 /// multiple of the effect of their own data, because a residual is distributed among several rows.
 pub const SHARED: f64 = 3.0;

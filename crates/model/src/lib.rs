@@ -60,7 +60,7 @@ mod tolerance;
 mod uncertainty;
 pub mod words;
 
-pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED};
+pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED, explained};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
 pub use frame::{FrameState, Frames};

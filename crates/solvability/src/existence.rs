@@ -15,7 +15,7 @@ use crate::pose::velocity_units;
 use std::collections::BTreeSet;
 
 use model::start::scene_size;
-use model::{ConstraintId, DataBlock, Mechanism, RowLabel, SHARED, Scratch, System};
+use model::{ConstraintId, Mechanism, RowLabel, Scratch, System, explained};
 use rank::{Circuit, RankDecision};
 
 use crate::state::{self, StateError};
@@ -415,9 +415,7 @@ impl Comparison<'_> {
             }
             _ => return 0.0,
         }
-        let blocks = data.blocks(s);
-        let of_block = |b: &DataBlock| b.change(&gradient, b.tolerance.unwrap_or(0.0));
-        SHARED * blocks.iter().map(of_block).sum::<f64>()
+        explained(&data.blocks(s), &gradient)
     }
 
     /// Drives that move the bodies of these rows and, together with the joints, leave them no other

@@ -3,10 +3,10 @@
 //!
 //! With `z` = 1 at a dropped row and minus the coefficients of the kept rows that imply it, the
 //! bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j; for velocities
-//! `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`SHARED`]: the residual of rows that share a misfit,
+//! `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: the residual of rows that share a misfit,
 //! and the pose, which moves with the data.
 
-use model::{DataBlock, RowLabel, SHARED, System};
+use model::{DataBlock, RowLabel, System, explained};
 
 use super::evaluation::Evaluation;
 use super::rows::KeptRows;
@@ -98,8 +98,7 @@ impl Misfits {
             None => data.add_phi(&at.s, &self.z, 1.0, &mut self.gradient),
             Some(v) => data.add_power(&at.s, &self.z, v, 1.0, &mut self.gradient),
         }
-        let of_block = |b: &DataBlock| b.change(&self.gradient, b.tolerance.unwrap_or(0.0));
-        Ok(SHARED * self.blocks.iter().map(of_block).sum::<f64>())
+        Ok(explained(&self.blocks, &self.gradient))
     }
 
     /// Begins the record of a state at time t.
