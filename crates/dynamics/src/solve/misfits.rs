@@ -3,8 +3,8 @@
 //!
 //! With `z` = 1 at a dropped row and minus the coefficients of the kept rows that imply it, the
 //! bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j; for velocities
-//! `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: the residual of rows that share a misfit,
-//! and the pose, which moves with the data.
+//! `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: the residual of rows that share a
+//! misfit, and the pose, which moves with the data.
 
 use model::{DataBlock, RowLabel, System, explained};
 
