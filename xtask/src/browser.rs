@@ -1,6 +1,7 @@
 //! `cargo xtask browser`: reports of three scenes in a real browser. Needs Node and Chromium, which
 //! are not dependencies of the project: without them the pages are tested only as text.
 
+use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -48,6 +49,10 @@ pub(crate) fn check(program: Program) -> Result<String, String> {
         Program::OfTests => format!("{target}/debug/pfaff"),
     };
     let out = Path::new(&target).join("browser");
+    // An earlier program may have left files that this one refuses to replace.
+    if out.exists() {
+        fs::remove_dir_all(&out).map_err(|e| format!("{}: {e}", out.display()))?;
+    }
     let mut node = Command::new("node");
     node.current_dir(&root)
         .args(["tests/browser/report.mjs", &chromium])

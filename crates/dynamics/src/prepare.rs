@@ -216,8 +216,10 @@ fn drop_within_tolerance(
     Ok((all, positions))
 }
 
-/// Returns the reason why no rows can be kept, if none can.
-fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
+/// The reason why no motion can begin at a configuration, if none can: its rank is undecided, or
+/// rows that the certificate shows to be independent are too nearly dependent for `f64`.
+#[must_use]
+pub fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
     if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
         let largest = nearly
             .direction

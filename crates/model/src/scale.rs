@@ -149,16 +149,15 @@ impl Scales<'_> {
     }
 
     /// Bound on the error of the entries of a dimensionless C at a configuration: the largest
-    /// |Φ_i|, and at least the rounding of its terms, relative to the change of row `i` if the
-    /// mechanism moves by its own size. Needs Φ and C.
+    /// |Φ_i| of these rows, and at least the rounding of its terms, relative to the change of row
+    /// `i` if the mechanism moves by its own size. Needs Φ and C.
     #[must_use]
-    pub fn relative_residual(self, size: f64) -> f64 {
-        let layout = self.mechanism.layout();
+    pub fn relative_residual(self, size: f64, rows: impl IntoIterator<Item = usize>) -> f64 {
         let of_row = |i: usize| {
             let rounding = f64::EPSILON * self.position(i);
             self.relative_to_reach(i, size, self.s.phi[i].abs().max(rounding))
         };
-        (0..layout.m).map(of_row).fold(0.0, f64::max)
+        rows.into_iter().map(of_row).fold(0.0, f64::max)
     }
 
     /// `x` relative to the change of row `i` if the mechanism moves by its own size. Needs C.

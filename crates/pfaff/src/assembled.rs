@@ -1,7 +1,7 @@
 //! A scene with its mechanism, before its rows are analysed: the first stage of a study, and all
 //! that is available for a mechanism whose rank is too uncertain for a motion.
 
-use dynamics::{MotionError, MotionOptions, RowChoice, prepare, start_velocity};
+use dynamics::{MotionError, MotionOptions, RowChoice, prepare, start_velocity, unmovable};
 use model::start::assemble;
 use model::{Assembly, Known, Mechanism, Registry, StartError, Tolerance};
 use scene::Scene;
@@ -198,11 +198,8 @@ impl AssembledScene {
             let rows = solvability::rows(&self.mechanism, 0.0, q)?;
             configuration.state.v = match start_velocity(&self.mechanism, start, &rows, q, kept) {
                 Ok((found, _)) => found.v,
-                // Rows that the certificate shows to be independent may be too nearly dependent for
-                // `f64`.
                 Err(MotionError::Start(StartError::NoVelocity { .. }))
-                    if !rows.all.is_decided()
-                        || rows.inseparable(&self.mechanism, 0.0, q).is_some() =>
+                    if unmovable(&self.mechanism, &rows, q).is_some() =>
                 {
                     Vec::new()
                 }

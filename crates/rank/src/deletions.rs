@@ -32,13 +32,13 @@ pub enum DeletionError {
     /// Whether some rows may be deleted together depends on a number that is neither certainly zero
     /// nor certainly not zero.
     #[error(
-        "whether rows can be deleted together hangs on {value:.3e}, between the rounding {noise:.3e} of the dependencies and what is \
-         certainly not zero; polish the point or decide in higher precision"
+        "whether rows can be deleted together hangs on {value:.3e}, and the dependencies are known to {noise:.3e} only: \
+         more accurate data or a smaller tolerance decide it"
     )]
     Unclear {
         /// The number.
         value: f64,
-        /// Largest value that counts as zero.
+        /// What the coefficients of the dependencies are known to.
         noise: f64,
     },
     /// There are too many deletions to be counted.

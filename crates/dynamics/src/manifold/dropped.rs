@@ -61,7 +61,17 @@ pub(super) fn monitor(
     }
     // The rows cannot agree better than the rounding of the coordinates allows. Kept rows are
     // solved to the rounding of the fastest of them, so dropped rows are no more accurate.
-    let rounding = at.mechanism.scales(&at.s).relative_residual(at.size);
+    // What dropped rows miss within a tolerance is no error of the coordinates.
+    let position = &equations.position;
+    let exact = position.kept.iter();
+    let exact = exact.chain(
+        position
+            .dropped
+            .iter()
+            .filter(|_| equations.misfits.is_none()),
+    );
+    let scales = at.mechanism.scales(&at.s);
+    let rounding = scales.relative_residual(at.size, exact.copied());
     let all = 0..at.mechanism.layout().rows();
     let fastest = all.map(scale).fold(0.0, f64::max);
     let level = Level {

@@ -105,7 +105,11 @@ impl<'m> RunEquations<'m> {
             motion,
         };
         let at = &equations.motion.equations.at;
-        equations.is_coarse = at.mechanism.scales(&at.s).relative_residual(at.size) > COARSE;
+        equations.is_coarse = at
+            .mechanism
+            .scales(&at.s)
+            .relative_residual(at.size, 0..at.mechanism.layout().m)
+            > COARSE;
         equations.is_careful = equations.wants_care();
         equations.record.min_pivot_ratio = equations.motion.pivot_ratio();
         equations

@@ -38,7 +38,7 @@ pub(crate) const EXTREMES: [&str; 30] = [
 ];
 
 /// Values of all kinds.
-const VALUES: [&str; 24] = [
+const VALUES: [&str; 30] = [
     "true",
     "\"\"",
     "\" \"",
@@ -63,10 +63,16 @@ const VALUES: [&str; 24] = [
     "{ type = \"constant-rate\", rate = 1e6 }",
     "\"a\\nb\"",
     "\"\\u0000\"",
+    "\"2 mm + 1 deg\"",
+    "\"p0 + ((((1))))\"",
+    "\"1/0\"",
+    "\"10^10^10\"",
+    "\"-rate*t\"",
+    "\"45 deg\"",
 ];
 
 /// Lines that change the kind of an element.
-const LINES: [&str; 26] = [
+const LINES: [&str; 36] = [
     "type = \"revolute\"",
     "type = \"translational\"",
     "type = \"fixed\"",
@@ -79,6 +85,16 @@ const LINES: [&str; 26] = [
     "type = \"bushing\"",
     "type = \"knife-edge\"",
     "type = \"angle\"",
+    "type = \"mesh\"",
+    "type = \"tyre\"",
+    "type = \"damper\"",
+    "type = \"speed\"",
+    "torque = \"rate/measure\"",
+    "format = 2",
+    "active = false",
+    "centre = [1e3, 0.5]",
+    "[[marker]]",
+    "[[measure]]",
     "[[body]]",
     "[[joint]]",
     "[[drive]]",

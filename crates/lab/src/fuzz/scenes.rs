@@ -18,6 +18,7 @@ struct Draft {
     /// Joints: name, quoted, and type.
     joints: Vec<(String, &'static str)>,
     drives: Vec<String>,
+    markers: Vec<String>,
 }
 
 impl Draft {
@@ -59,6 +60,13 @@ pub fn random(numbers: &mut Numbers) -> String {
     };
     for k in 0..bodies {
         things::body(&mut draft, &mut values, k);
+    }
+    let markers = values.numbers.below(6).saturating_sub(3);
+    for _ in 0..markers {
+        things::marker(&mut draft, &mut values);
+    }
+    if values.numbers.once_in(4) {
+        things::measure(&mut draft, &mut values);
     }
     // First a tree, then additional loops.
     for k in 0..bodies {

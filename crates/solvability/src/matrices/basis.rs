@@ -10,7 +10,7 @@ use rank::{CoefficientReading, ExactNullSpace, RankStatus, Readings};
 
 use super::Mapped;
 use super::error::QueryError;
-use crate::verdict::Judgement;
+use crate::verdict::{Judgement, Verdict};
 
 /// Rows, vectors that span their part of the left null space, and the accuracy of both.
 #[derive(Clone, Debug)]
@@ -270,6 +270,8 @@ impl Basis {
         match (&self.exact, &self.known.status) {
             (Some(z), _) => Judgement::exact(margin, vanishes(z)),
             (None, RankStatus::Undecided(doubt)) => Judgement::without_rank(margin, doubt),
+            // Independent rows: there is nothing that could be uncertain.
+            (None, _) if self.z.ncols() == 0 => Judgement::new(Verdict::Unique, 0.0),
             (None, _) => {
                 let reading = self.known.readings.read(margin, noise.known);
                 Judgement::of(margin, reading, margin > noise.rounding)

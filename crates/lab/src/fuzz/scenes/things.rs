@@ -14,6 +14,74 @@ pub(super) fn head(draft: &mut Draft, values: &mut Values<'_>) {
     draft.line(&format!(
         "[scene]\nname = {name}\nspace = \"plane\"\n{gravity}"
     ));
+    if values.numbers.once_in(5) {
+        // What the data are known to, from rounded to measured by hand.
+        let tolerances = ["1e-9", "1e-6", "1e-4", "1e-2"];
+        draft.line(&format!("tolerance = {}", values.one(&tolerances)));
+    }
+    if values.has_expressions() {
+        draft.line("format = 2");
+        if values.numbers.once_in(3) {
+            let units = [
+                "length = \"mm\"",
+                "angle = \"deg\"",
+                "length = \"in\", angle = \"deg\"",
+            ];
+            draft.line(&format!("units = {{ {} }}", values.one(&units)));
+        }
+        draft.line(&values.parameters());
+    }
+}
+
+/// `active`, mostly left out.
+fn active(draft: &mut Draft, values: &mut Values<'_>) {
+    if values.numbers.once_in(25) {
+        let is_active = values.one(&["false", "true", "false", "0", "1"]);
+        draft.line(&format!("active = {is_active}"));
+    }
+}
+
+/// `[[marker]]`.
+pub(super) fn marker(draft: &mut Draft, values: &mut Values<'_>) {
+    let name = values.name("m", draft.markers.len());
+    let body = draft.body(values.numbers, 4);
+    draft.line(&format!(
+        "[[marker]]\nname = {name}\nbody = {body}\npoint = {}",
+        values.point()
+    ));
+    if values.numbers.once_in(2) {
+        draft.line(&format!("angle = {}", values.angle()));
+    }
+    if values.numbers.once_in(8) {
+        draft.line("tolerance = 1e-5");
+    }
+    draft.markers.push(name);
+}
+
+/// `[[measure]]` between markers.
+pub(super) fn measure(draft: &mut Draft, values: &mut Values<'_>) {
+    let kinds = ["distance", "x", "y", "speed", "angle", "angular-velocity"];
+    let kind = values.one(&kinds);
+    let k = draft.text.len();
+    let name = values.name("q", k);
+    let count = draft.markers.len();
+    let of = |values: &mut Values<'_>| {
+        if count == 0 || values.numbers.once_in(8) {
+            "\"ground\"".to_owned()
+        } else {
+            draft.markers[values.numbers.below(count)].clone()
+        }
+    };
+    let first = of(values);
+    let second = of(values);
+    let markers = if values.numbers.once_in(3) || first == second && !values.numbers.once_in(8) {
+        first
+    } else {
+        format!("{first}, {second}")
+    };
+    draft.line(&format!(
+        "[[measure]]\nname = {name}\ntype = \"{kind}\"\nmarkers = [{markers}]"
+    ));
 }
 
 /// `[[body]]`.
@@ -26,12 +94,21 @@ pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
     ));
     draft.line(&format!("position = {}", values.point()));
     if values.numbers.once_in(3) {
-        draft.line(&format!("angle = {}", values.number()));
+        draft.line(&format!("angle = {}", values.angle()));
     }
-    if values.numbers.once_in(4) {
-        draft.line(&format!("velocity = {}", values.point()));
+    let is_elsewhere = values.numbers.once_in(10);
+    if is_elsewhere {
+        draft.line(&format!("centre = {}", values.point()));
     }
-    if values.numbers.once_in(4) {
+    let is_moving = values.numbers.once_in(4);
+    if is_moving {
+        draft.line(&format!("velocity = {}", values.velocity()));
+    }
+    // The velocity of a frame elsewhere needs an angular velocity beside it.
+    if values
+        .numbers
+        .once_in(if is_elsewhere && is_moving { 1 } else { 4 })
+    {
         draft.line(&format!("angular_velocity = {}", values.number()));
     }
     draft.bodies.push(name);
@@ -42,6 +119,7 @@ fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static str) {
     let k = draft.joints.len();
     let name = values.name("j", k);
     draft.line(&format!("[[joint]]\nname = {name}\ntype = \"{kind}\""));
+    active(draft, values);
     draft.joints.push((name, kind));
 }
 
@@ -55,6 +133,9 @@ fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
             pair[1],
             values.point()
         )
+    } else if !draft.markers.is_empty() && values.numbers.once_in(6) {
+        let marker = values.numbers.below(draft.markers.len());
+        format!("at = {}", draft.markers[marker])
     } else {
         format!("at = {}", values.point())
     };
@@ -81,6 +162,7 @@ pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2
         "angle",
         "distance",
         "gear",
+        "mesh",
         "rack-and-pinion",
         "point-on-line",
     ];
@@ -100,6 +182,18 @@ pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2
             if values.numbers.once_in(3) {
                 let carrier = draft.body(values.numbers, 3);
                 draft.line(&format!("carrier = {carrier}"));
+            }
+        }
+        "mesh" => {
+            draft.line(&format!(
+                "at = [{}, {}]\nratio = {}",
+                values.point(),
+                values.point(),
+                values.number()
+            ));
+            if values.numbers.once_in(2) {
+                let angles = ["0.35", "-0.35", "0", "1.5"];
+                draft.line(&format!("pressure_angle = {}", values.one(&angles)));
             }
         }
         "distance" => draft.line(&format!("at = [{}, {}]", values.point(), values.point())),
@@ -162,6 +256,7 @@ pub(super) fn drive(draft: &mut Draft, values: &mut Values<'_>, joint: &(String,
         "revolute" => "angle",
         "translational" => "displacement",
         "pin-in-slot" => values.one(&["angle", "displacement"]),
+        "distance" => "length",
         // Most joints have no measure; a drive of them is refused.
         _ if !values.numbers.once_in(20) => return,
         _ => "angle",
@@ -171,8 +266,36 @@ pub(super) fn drive(draft: &mut Draft, values: &mut Values<'_>, joint: &(String,
         "[[drive]]\nname = {name}\njoint = {}\ntype = \"{measure}\"",
         joint.0
     ));
-    draft.line(&format!("motion = {}", function(values)));
+    if values.numbers.once_in(4) {
+        law(draft, values, measure);
+    } else {
+        draft.line(&format!("motion = {}", function(values)));
+    }
+    active(draft, values);
     draft.drives.push(name);
+}
+
+/// A torque or a force as a law of the measure, its rate and the time.
+fn law(draft: &mut Draft, values: &mut Values<'_>, measure: &str) {
+    let key = if measure == "angle" {
+        "torque"
+    } else {
+        "force"
+    };
+    let laws = [
+        "2 - 0.5*rate",
+        "-3*measure - rate",
+        "sin(5*t)",
+        "-abs(rate)*rate",
+        "1/measure",
+        "log(rate)",
+        "sqrt(measure)",
+        "exp(1e3*t)",
+        "1e6*(0.1 - measure)",
+        "p0*rate",
+    ];
+    let law = values.one(&laws);
+    draft.line(&format!("{key} = \"{law}\""));
 }
 
 /// `[[force]]`.
@@ -183,15 +306,18 @@ pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
         "bushing",
         "point-force",
         "torque",
+        "damper",
+        "tyre",
     ]);
     let k = draft.text.len();
     let name = values.name("f", k);
     draft.line(&format!("[[force]]\nname = {name}\ntype = \"{kind}\""));
+    active(draft, values);
     let pair = [
         draft.body(values.numbers, 3),
         draft.body(values.numbers, 10),
     ];
-    if matches!(kind, "point-force" | "torque") {
+    if matches!(kind, "point-force" | "torque" | "tyre") {
         draft.line(&format!("body = {}", pair[1]));
     } else {
         draft.line(&format!("bodies = [{}, {}]", pair[0], pair[1]));
@@ -213,6 +339,23 @@ pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
             ));
             if values.numbers.once_in(2) {
                 draft.line(&format!("free_length = {}", values.positive()));
+            }
+        }
+        "damper" => draft.line(&format!(
+            "at = [{}, {}]\ndamping = {}",
+            values.point(),
+            values.point(),
+            stiff(values)
+        )),
+        "tyre" => {
+            own_place(draft, values);
+            draft.line(&format!(
+                "normal = {}\nstiffness = {}",
+                values.direction(),
+                stiff(values)
+            ));
+            if values.numbers.once_in(3) {
+                draft.line(&format!("low_speed = {}", values.positive()));
             }
         }
         "torsion-spring-damper" => {
@@ -268,8 +411,10 @@ pub(super) fn wishes(draft: &mut Draft, values: &mut Values<'_>) {
         let end = values.one(&["0.05", "0.1", "0.2", "1.0", "10", "0"]);
         draft.line(&format!("[simulate]\nt_end = {end}"));
         let methods = ["auto", "auto", "dopri5", "dop853", "tsit5", "radau5"];
-        draft.line(&format!("method = \"{}\"", values.one(&methods)));
-        if values.numbers.once_in(4) {
+        let method = values.one(&methods);
+        draft.line(&format!("method = \"{method}\""));
+        // Radau IIA relies on projection.
+        if method != "radau5" && values.numbers.once_in(4) || values.numbers.once_in(40) {
             draft.line(&format!(
                 "stabilisation = \"{}\"",
                 values.one(&["projection", "none"])

@@ -28,7 +28,32 @@ pub(crate) struct Values<'n> {
     /// Unit of length (m).
     length: f64,
     has_names: bool,
+    /// One number out of this many is an expression; none if it is 0.
+    expressions: usize,
 }
+
+/// Parameters of scenes with expressions.
+const PARAMETERS: [&str; 5] = ["p0", "p1", "p2", "p3", "p_4"];
+
+/// Expressions around a number, `#`, that is bare: those with a dimension fit few places.
+const EXPRESSIONS: [&str; 16] = [
+    "#",
+    "-(#)",
+    "2*#/2",
+    "# + 0.25",
+    "(#)^1",
+    "# - 1e-3",
+    "max(#, 0.1)",
+    "min(abs(#), 5)",
+    "sqrt(abs(#))",
+    "#*cos(0)",
+    "# + sin(pi)",
+    "#*1 mm/mm",
+    "atan2(#, 1)",
+    "exp(-abs(#))",
+    "log(#)",
+    "#/(# - #)",
+];
 
 impl<'n> Values<'n> {
     pub(crate) fn new(numbers: &'n mut Numbers) -> Self {
@@ -45,16 +70,81 @@ impl<'n> Values<'n> {
                 _ => 1.0,
             },
             has_names: numbers.once_in(25),
+            expressions: match numbers.below(5) {
+                0 => 3,
+                1 => 20,
+                _ => 0,
+            },
             numbers,
         }
+    }
+
+    /// Whether numbers may be expressions.
+    pub(crate) fn has_expressions(&self) -> bool {
+        self.expressions > 0
     }
 
     fn or_extreme(&mut self, value: f64) -> String {
         if self.wild > 0 && self.numbers.once_in(self.wild) {
             EXTREMES[self.numbers.below(EXTREMES.len())].to_owned()
+        } else if self.is_expression() {
+            self.expression(value)
         } else {
             format!("{value:?}")
         }
+    }
+
+    fn is_expression(&mut self) -> bool {
+        self.expressions > 0 && self.numbers.once_in(self.expressions)
+    }
+
+    /// A text that stands for a number without a unit.
+    fn expression(&mut self, value: f64) -> String {
+        let number = if self.numbers.once_in(4) {
+            self.parameter().to_owned()
+        } else {
+            format!("{value:?}")
+        };
+        let text = self.one(&EXPRESSIONS).replace('#', &number);
+        format!("\"{text}\"")
+    }
+
+    /// The name of a parameter.
+    pub(crate) fn parameter(&mut self) -> &'static str {
+        self.one(&PARAMETERS)
+    }
+
+    /// `[parameters]`: mostly numbers and what can be computed from them; once in 40 times a name
+    /// that leads back to itself.
+    pub(crate) fn parameters(&mut self) -> String {
+        let mut text = "[parameters]\n".to_owned();
+        for (k, name) in PARAMETERS.iter().enumerate() {
+            let value = match self.numbers.below(40) {
+                0 => format!("\"{}\"", self.parameter()),
+                1 => "\"2 kg\"".to_owned(),
+                2..8 => format!("{:?}", self.numbers.unit()),
+                8..16 if k > 0 => format!("\"2*{}\"", PARAMETERS[k - 1]),
+                _ => format!("{:?}", 0.5 * f64::from(self.numbers.between(1, 4))),
+            };
+            text.push_str(&format!("{name} = {value}\n"));
+        }
+        text
+    }
+
+    /// A number, as a text with a unit where expressions are allowed.
+    fn with_unit(&mut self, value: f64, units: &[(&str, f64)]) -> Option<String> {
+        if !self.is_expression() {
+            return None;
+        }
+        let (unit, size) = units[self.numbers.below(units.len())];
+        Some(format!("\"{:?} {unit}\"", value / size))
+    }
+
+    /// An angle (rad).
+    pub(crate) fn angle(&mut self) -> String {
+        let value = 0.25 * f64::from(self.numbers.between(-8, 8));
+        self.with_unit(value, &[("deg", 1.0_f64.to_radians()), ("rad", 1.0)])
+            .unwrap_or_else(|| self.or_extreme(value))
     }
 
     /// A number: mostly simple, of any sign.
@@ -83,8 +173,17 @@ impl<'n> Values<'n> {
             0 => self.numbers.unit(),
             _ => 0.5 * f64::from(self.numbers.between(-4, 4)),
         };
-        let length = self.length;
-        self.or_extreme(value * length)
+        let value = value * self.length;
+        self.with_unit(
+            value,
+            &[("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("in", 0.0254)],
+        )
+        .unwrap_or_else(|| self.or_extreme(value))
+    }
+
+    /// A velocity (m/s).
+    pub(crate) fn velocity(&mut self) -> String {
+        format!("[{}, {}]", self.number(), self.number())
     }
 
     pub(crate) fn point(&mut self) -> String {

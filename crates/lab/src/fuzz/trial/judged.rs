@@ -64,10 +64,13 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
             evidence.tolerance
         );
     }
-    assert_eq!(
-        analysis.dependencies.len(),
-        decision.redundancy,
-        "as many dependencies as redundant rows"
+    // Within a stated tolerance some may be open: a warning says so, and they are not listed.
+    let listed = analysis.dependencies.len();
+    let is_open = analysis.warnings.iter().any(|w| w.contains("not listed"));
+    assert!(
+        listed == decision.redundancy || is_open && listed < decision.redundancy,
+        "{listed} dependencies of {} redundant rows",
+        decision.redundancy
     );
     for d in &analysis.dependencies {
         let largest = d.coefficients.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
@@ -94,7 +97,7 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
                     row.row + 1
                 ),
                 Verdict::NotUnique => assert!(
-                    depends(row.row),
+                    depends(row.row) || is_open,
                     "row {} is not unique and depends on nothing",
                     row.row + 1
                 ),
