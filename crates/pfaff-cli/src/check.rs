@@ -2,7 +2,7 @@
 
 use pfaff::model::{Layout, Mechanism, System};
 use pfaff::report::documents::{CheckDocument, FreedomsDocument};
-use pfaff::scene::Scene;
+use pfaff::scene::{Diagnostic, Scene};
 use pfaff::{ConfigurationAnalysis, Overrides, StudyError};
 
 use crate::args::Check;
@@ -41,8 +41,10 @@ pub(crate) struct Checked {
     position: f64,
     /// Largest change of a velocity; `None` if no motion begins.
     velocity: Option<f64>,
-    /// The reason why the mechanism cannot be moved, if that is the only fault, and entries that
-    /// are probably mistakes.
+    /// Entries of the text that are probably mistakes, with their places.
+    problems: Vec<Diagnostic>,
+    /// The same as sentences, then the reason why the mechanism cannot be moved, if that is the only
+    /// fault, and what the start shows.
     warnings: Vec<String>,
     /// The freedoms; `None` if the rank was not computed because the mechanism is large.
     freedoms: Option<Freedoms>,
@@ -75,6 +77,7 @@ impl Checked {
             layout: mechanism.layout().clone(),
             position: largest(correction),
             velocity: None,
+            problems: scene.warnings.clone(),
             warnings: scene.cautions().collect(),
             freedoms: None,
             inactive: scene.inactive.iter().map(ToString::to_string).collect(),
@@ -120,13 +123,13 @@ impl Checked {
                     .space()
                     .difference_of(&start.state.q, &described);
                 let mut checked = new(start.scene, start.mechanism, &correction);
-                checked.warnings.insert(0, warning);
+                checked.warnings.push(warning);
                 Ok(checked)
             }
         }
     }
 
-    fn document(&self) -> CheckDocument<'_> {
+    fn document(&self) -> CheckDocument<'_, Diagnostic> {
         let freedoms = self.freedoms.as_ref();
         CheckDocument {
             ok: true,
@@ -140,7 +143,7 @@ impl Checked {
             mobility: freedoms.map(|f| f.mobility),
             mobility_without_drives: freedoms.and_then(|f| f.document.mobility_without_drives()),
             inactive: &self.inactive,
-            problems: [],
+            problems: &self.problems,
             warnings: &self.warnings,
         }
     }
@@ -151,8 +154,13 @@ impl Checked {
             Some(correction) => format!(" and {correction:.1e} in velocity"),
             None => String::new(),
         };
-        let warnings = self.warnings.iter();
-        let warnings: String = warnings.map(|w| wrapped("warning: ", w)).collect();
+        let codes = self
+            .problems
+            .iter()
+            .map(|d| format!("warning[{}]: ", d.code));
+        let heads = codes.chain(std::iter::repeat("warning: ".to_owned()));
+        let warnings = heads.zip(&self.warnings);
+        let warnings: String = warnings.map(|(head, w)| wrapped(&head, w)).collect();
         let inactive = match self.inactive.as_slice() {
             [] => String::new(),
             names => wrapped("not active: ", &names.join(", ")),

@@ -81,6 +81,14 @@ impl Diagnostic {
         Self { code, ..self }
     }
 
+    /// It with its line and advice, for reports without the text of the scene.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let help = self.help.as_ref().map(|help| format!("; {help}"));
+        let (line, help) = (self.primary.line, help.unwrap_or_default());
+        format!("line {line}: {}{help}", self.message)
+    }
+
     /// Adds another place.
     #[must_use]
     pub fn and(mut self, label: Label) -> Self {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 use std::rc::Rc;
+use std::slice;
 
 use model::Law;
 use model::law::Operation;
@@ -15,6 +16,7 @@ use crate::dimension::Dimension;
 use crate::expression::{Fault, Problem, Quantity, Scope, decimal};
 use crate::findings::Findings;
 use crate::language::Language;
+use crate::plausible::{self, Number};
 use crate::table::Table;
 use crate::{expression, nearest, units};
 
@@ -104,11 +106,24 @@ impl<'t> Field<'t> {
         of: Dimension,
         findings: &mut Findings,
     ) -> Option<f64> {
+        let number = self.judged_later(expected, of, findings)?;
+        plausible::degrees(slice::from_ref(self), &[number], findings);
+        Some(number.value)
+    }
+
+    /// A finite number of this dimension, before anybody asks whether it is plausible.
+    fn judged_later(
+        &self,
+        expected: &str,
+        of: Dimension,
+        findings: &mut Findings,
+    ) -> Option<Number> {
         let written = self.quantity(expected, self.language, findings)?;
-        match written.at(of, self.language.bases()) {
+        let bases = self.language.bases();
+        match written.at(of, bases) {
             Ok(q) => {
                 self.warn_if_cancelled(q, findings);
-                Some(q.to_f64())
+                Some(Number::new(q.to_f64(), &written, of, bases.angle))
             }
             Err(problem) => {
                 let span = 0..self.value.get_ref().as_str().unwrap_or_default().len();
@@ -206,13 +221,14 @@ impl<'t> Field<'t> {
         let share = q.error / value.abs();
         if value != 0.0 && share > CANCELLED {
             findings.warning(
+                const { Code::new(190) },
                 self.span(),
                 format!(
                     "{}: `{}` is a small difference of larger numbers: it is accurate to {share:.0e} of its value",
                     self.subject, self.key
                 ),
                 "digits cancel",
-                "write it in another way, or state a `tolerance`".to_owned(),
+                "write it in another way, or state a `tolerance`",
             );
         }
     }
@@ -329,7 +345,11 @@ fn each(
     findings: &mut Findings,
 ) -> Option<Vec<f64>> {
     let mut k = 0..;
-    all(items, |item| item.number(of(k.next()?), findings))
+    let numbers = all(items, |item| {
+        item.judged_later("a number", of(k.next()?), findings)
+    })?;
+    plausible::degrees(items, &numbers, findings);
+    Some(numbers.iter().map(|number| number.value).collect())
 }
 
 /// Reads all values, even after one that cannot be read.

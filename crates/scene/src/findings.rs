@@ -1,8 +1,8 @@
 //! Problems found while reading. Reading continues after each of them.
 
 use std::cell::Cell;
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
 use std::ops::Range;
 
@@ -23,6 +23,9 @@ const COMPARED: usize = 1_000_000;
 /// same mistake, this is sufficient.
 pub(crate) const LISTED: usize = 5000;
 
+/// Largest number of warnings of one kind that are listed; the others are counted.
+const WARNED: usize = 10;
+
 /// The problems of a file, in the order in which they are found.
 pub(crate) struct Findings<'s> {
     /// The text to which places refer.
@@ -30,6 +33,10 @@ pub(crate) struct Findings<'s> {
     list: Vec<Diagnostic>,
     /// Scenes with these can be used, but are probably not what was intended.
     warnings: Vec<Diagnostic>,
+    /// Numbers of warnings of each kind: listed, and more.
+    warned: BTreeMap<Code, (usize, usize)>,
+    /// Codes of warnings that are not wanted.
+    silenced: Vec<Code>,
     /// Indices of problems that are explained by another one.
     explained: Vec<usize>,
     /// Number of problems that are not listed.
@@ -43,6 +50,8 @@ impl<'s> Findings<'s> {
             source,
             list: Vec::new(),
             warnings: Vec::new(),
+            warned: BTreeMap::new(),
+            silenced: Vec::new(),
             explained: Vec::new(),
             more: 0,
             compared: Cell::new(0),
@@ -121,28 +130,48 @@ impl<'s> Findings<'s> {
         self.report(found.coded(code));
     }
 
-    /// Adds a warning, which does not make the file invalid.
+    /// Passes over warnings with this code from now on.
+    pub(crate) fn silence(&mut self, code: Code) {
+        self.silenced.push(code);
+    }
+
+    /// Adds a warning, which does not make the file invalid; its advice ends with how to silence
+    /// it. After [`WARNED`] of a kind the others are counted.
     pub(crate) fn warning(
         &mut self,
+        code: Code,
         span: Range<usize>,
         message: impl Into<String>,
-        label: impl Into<String>,
-        help: impl Into<Option<String>>,
+        label: &str,
+        help: &str,
     ) {
-        if self.warnings.len() >= LISTED {
+        if self.silenced.contains(&code) {
             return;
         }
+        let (listed, more) = self.warned.entry(code).or_default();
+        if *listed == WARNED {
+            *more += 1;
+            return;
+        }
+        *listed += 1;
+        let help = format!("{help}; if it is meant, `silence = [\"{code}\"]` in `[scene]`");
         self.warnings.push(Diagnostic {
             severity: Severity::Warning,
-            code: const { Code::new(190) },
+            code,
             ..Diagnostic::error(self.source, span, message, label).help(help)
         });
     }
 
-    /// The warnings in the order of the file.
+    /// The warnings in the order of the file. The last one of a kind says how many are not listed.
     pub(crate) fn take_warnings(&mut self) -> Vec<Diagnostic> {
         let mut warnings = std::mem::take(&mut self.warnings);
         warnings.sort_by_key(|d| d.primary.span.start);
+        for (code, (_, more)) in std::mem::take(&mut self.warned) {
+            let of_kind = warnings.iter_mut().rfind(|d| d.code == code);
+            if let Some(last) = of_kind.filter(|_| more > 0) {
+                last.message = format!("{} (and {more} more like this)", last.message);
+            }
+        }
         warnings
     }
 

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use joints::Argument;
 use joints::spec::Unit;
+use model::codes::Code;
 use model::registry::ConstraintDefinition;
 use model::{BodyRef, Drive, Force, Function, Joint, Law};
 
@@ -344,13 +345,14 @@ fn warn_if_held(motion: &Field, function: &Function, findings: &mut Findings) {
         None => held.to_string(),
     };
     findings.warning(
+        const { Code::new(191) },
         motion.span(),
         format!(
             "{}: `motion = {value}` is constant, and a drive follows f(t) − f(0), so the measure is held at its initial value",
             motion.subject
         ),
         "holds the measure",
-        format!(
+        &format!(
             "for a constant speed write `motion = {{ type = \"constant-rate\", rate = {value} }}`, to hold the measure `motion = 0`"
         ),
     );

@@ -43,6 +43,8 @@ pub(crate) enum Takes {
     Whole(i64, i64),
     /// Units of bare numbers.
     Units,
+    /// Codes of warnings.
+    Warnings,
     /// One number.
     Number(Interval),
     /// At least this many numbers.

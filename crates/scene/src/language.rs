@@ -5,6 +5,7 @@ pub(crate) mod read;
 use std::collections::BTreeMap;
 
 use crate::expression::{self, Bases, Quantity, Scope};
+use crate::plausible::LengthUnit;
 
 /// What the numbers of a file mean.
 pub(crate) struct Language {
@@ -59,6 +60,14 @@ impl Language {
         units: Units::SI,
         parameters: BTreeMap::new(),
     };
+
+    /// The unit of lengths that have none.
+    pub(crate) fn length_unit(&self) -> LengthUnit {
+        LengthUnit {
+            name: self.units.length,
+            metres: self.bases.length.to_f64(),
+        }
+    }
 
     /// The names that an expression may have been meant to say.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> + '_ {

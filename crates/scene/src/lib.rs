@@ -17,6 +17,7 @@
 //! | `function` | functions of time |
 //! | `start`, `simulate`, `reactions`, `combination` | requested computations |
 //! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
+//! | `plausible`, `silence` | numbers that are probably not what was meant; warnings that are not wanted |
 //! | `template` | the text with other numbers |
 //! | `schema` | the format as a JSON schema, from the same keys |
 //! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, suggested names |
@@ -44,11 +45,13 @@ mod measure;
 mod names;
 mod nearest;
 mod place;
+mod plausible;
 mod reactions;
 mod read;
 mod scene;
 mod schema;
 mod section;
+mod silence;
 mod simulate;
 mod source_map;
 mod start;

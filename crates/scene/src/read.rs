@@ -27,9 +27,11 @@ use crate::locate;
 use crate::marker::Markers;
 use crate::measure::Measures;
 use crate::names::{Names, Use};
+use crate::plausible::{self, LengthUnit};
 use crate::reactions::{self, GroupRequest, components};
 use crate::scene::Scene;
 use crate::section::{self, list, section};
+use crate::silence;
 use crate::simulate;
 use crate::source_map::{Entry, SourceMap};
 use crate::start;
@@ -75,14 +77,15 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     let whole = Table::new("the scene", 0..0, root.get_ref(), &language);
     let mut scene = document(whole, registry, &mut findings);
     scene.units = language.units;
-    scene.warnings = findings.take_warnings();
+    let unit = language.length_unit();
     drop(language);
     // Large compared with what was read from it.
     drop(root);
     if let Some(source) = &scene.source {
-        check(&scene.description, source, &mut findings);
+        check(&scene.description, source, unit, &mut findings);
     }
     scene.take_out_inactive();
+    scene.warnings = findings.take_warnings();
     let problems = findings.sorted();
     if problems.is_empty() {
         Ok(scene)
@@ -365,6 +368,7 @@ struct Heading {
 
 impl Heading {
     fn read(mut table: Table, findings: &mut Findings) -> Self {
+        silence::read(&mut table, findings);
         let name = table.required(&NAME, findings).and_then(|field| {
             let name = field.text(NAME.expected, findings)?;
             if let Some((reason, label)) = section::unfit(name) {
@@ -384,9 +388,11 @@ impl Heading {
                 "not available",
             );
         }
-        let gravity = table
-            .optional(&GRAVITY)
-            .and_then(|field| field.pair(GRAVITY.expected, GRAVITY.unit, findings));
+        let gravity = table.optional(&GRAVITY).and_then(|field| {
+            let gravity = field.pair(GRAVITY.expected, GRAVITY.unit, findings)?;
+            plausible::gravity(&field, gravity, findings);
+            Some(gravity)
+        });
         let tolerance = tolerance::of_scene(&mut table, findings);
         for key in &language::read::SCENE_KEYS {
             table.optional(key);
@@ -400,10 +406,13 @@ impl Heading {
     }
 }
 
-/// Reports what the mechanism refuses. The existence of bodies has already been checked, and so
+/// Reports what the mechanism refuses, or else what is not plausible in it. The existence of bodies has already been checked, and so
 /// have names, including those of tables that could not be read.
-fn check(description: &Description, source: &SourceMap, findings: &mut Findings) {
-    let errors = Mechanism::build(description).err().unwrap_or_default();
+fn check(description: &Description, source: &SourceMap, unit: LengthUnit, findings: &mut Findings) {
+    let errors = match Mechanism::build(description) {
+        Ok(built) => return plausible::check(description, &built, source, unit, findings),
+        Err(errors) => errors,
+    };
     let of_drive = |of: &str| description.drives.iter().any(|drive| drive.name == of);
     for (said, error) in errors.iter().enumerate() {
         if findings.is_full() {

@@ -89,11 +89,7 @@ impl Scene {
 
     /// The warnings as sentences, each with its line and advice.
     pub fn cautions(&self) -> impl Iterator<Item = String> + '_ {
-        self.warnings.iter().map(|w| {
-            let help = w.help.as_ref().map(|help| format!("; {help}"));
-            let (line, help) = (w.primary.line, help.unwrap_or_default());
-            format!("line {line}: {}{help}", w.message)
-        })
+        self.warnings.iter().map(Diagnostic::sentence)
     }
 
     /// The place of an error of [`model::Mechanism::build`], for descriptions that were changed

@@ -19,6 +19,7 @@ use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
+use crate::silence;
 use crate::{body, marker, measure, simulate, start, tolerance};
 use element::{Kind, elements};
 use value::{described, reference};
@@ -128,6 +129,7 @@ fn scene_table() -> Value {
         .into_iter()
         .chain(tolerance::SCENE_KEYS)
         .chain(language::SCENE_KEYS)
+        .chain(silence::SCENE_KEYS)
         .collect();
     table("Scene", &keys)
 }

@@ -13,6 +13,7 @@ use crate::findings::Findings;
 use crate::function::Domain;
 use crate::key::{Interval, Key, Takes};
 use crate::nearest::{did_you_mean, list};
+use crate::plausible;
 use crate::table::Table;
 
 /// The values of a key whose meaning is an enum of `dynamics`.
@@ -126,6 +127,7 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
     options.output_step = output_step.unwrap_or(options.output_step);
     if let (Some(_), Some(end), Some(step)) = (t_end, &end, &step) {
         check_length(&options, step, end, findings);
+        plausible::output_step(step, [options.output_step, options.t_end], findings);
     }
     let mut number = |key: &Key, value: &mut f64| {
         let read = table

@@ -259,10 +259,90 @@ pub const TABLE: &[Entry] = &[
         LIBRARY,
     ),
     entry(
+        180,
+        "A warning that is to be silenced does not exist",
+        "Write the codes of warnings, P0190 to P0197; errors cannot be silenced.",
+        Example::Scene(
+            "check -",
+            "[scene]\nname = \"bar\"\nspace = \"plane\"\nsilence = [\"P0100\"]\n",
+        ),
+    ),
+    entry(
         190,
-        "A warning about the scene",
-        "The scene can be used, but is probably not what was intended.",
+        "A number is a small difference of larger ones (warning)",
+        "Its digits have cancelled: write it in another way, or state a `tolerance`.",
         RARE,
+    ),
+    entry(
+        191,
+        "A drive has a constant motion other than zero (warning)",
+        "A drive follows f(t) − f(0), so it holds its measure: write a rate or a function, or 0 to hold it.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"J\"\ntype = \"angle\"\nmotion = 0.3\n"
+            ),
+        ),
+    ),
+    entry(
+        192,
+        "An angle looks like degrees (warning)",
+        "Angles without a unit are in radians, unless `units` says otherwise: write `\"45 deg\"` with `format = 2`.",
+        Example::Scene("check -", bar!("angle = 45.0\n")),
+    ),
+    entry(
+        193,
+        "Gravity is that of no planet (warning)",
+        "Write it in m/s², or in the unit of lengths of the scene: it was probably meant in another one.",
+        Example::Scene(
+            "check -",
+            concat!(
+                "[scene]\nname = \"bar\"\nspace = \"plane\"\ngravity = [0.0, -9810.0]\n",
+                "\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 0.1\n"
+            ),
+        ),
+    ),
+    entry(
+        194,
+        "No body of that mass and size has such an inertia (warning)",
+        "Write the moment of inertia about the centre of mass, in kg·m² or with the unit of lengths of the scene.",
+        Example::Scene(
+            "check -",
+            scene!(
+                "\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 83333.0\n\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [-0.5, 0.0]\n\n[[marker]]\nname = \"tip\"\nbody = \"bar\"\npoint = [0.5, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        195,
+        "No joint holds a body (warning)",
+        "Add a joint that names it. A scene without joints has no such warning.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[body]]\nname = \"weight\"\nmass = 1.0\ninertia = 0.1\n\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        196,
+        "A joint is far from a body that it connects (warning)",
+        "Correct the place of the joint, its unit, or the `position` of the body.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [-0.5, 0.0]\n\n[[joint]]\nname = \"K\"\ntype = \"knife-edge\"\nbody = \"bar\"\nat = [500.0, 0.0]\nnormal = [0.0, 1.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        197,
+        "Rows of output are farther apart than the run is long (warning)",
+        "Write a shorter `output_step`, or leave it out for 200 steps.",
+        Example::Scene(
+            "check -",
+            bar!("\n[simulate]\nt_end = 1.0\noutput_step = 10.0\n"),
+        ),
     ),
     entry(
         201,

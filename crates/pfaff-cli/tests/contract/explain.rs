@@ -77,8 +77,9 @@ fn every_example_has_its_code() {
             }
         };
         let output = run(arguments, scene);
-        let said = stderr(&output);
-        if !said.contains(&format!("error[{}]: ", entry.code)) {
+        let said = stderr(&output) + &stdout(&output);
+        let is_said = |word: &str| said.contains(&format!("{word}[{}]: ", entry.code));
+        if !is_said("error") && !is_said("warning") {
             wrong.push(format!("{}: {arguments}: {said}", entry.code));
             continue;
         }

@@ -32,7 +32,7 @@ pub struct EndedDocument {
 
 /// A scene that was read and assembled.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CheckDocument<'a> {
+pub struct CheckDocument<'a, P> {
     /// `true`
     pub ok: bool,
     /// Name of the scene.
@@ -56,8 +56,8 @@ pub struct CheckDocument<'a> {
     /// Joints, drives, forces and groups that are in the scene, but not active.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     pub inactive: &'a [String],
-    /// Always empty: a scene with problems is refused.
-    pub problems: [(); 0],
+    /// The warnings of the text with their places: a scene with errors is refused.
+    pub problems: &'a [P],
     /// Other remarks for the reader.
     pub warnings: &'a [String],
 }

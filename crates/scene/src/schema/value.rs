@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::dimension::Dimension;
 use crate::key::{Interval, Key, Takes};
 use crate::section::LONGEST_NAME;
+use crate::silence;
 
 /// The value of a key with its meaning, its unit and its default.
 pub(super) fn described(key: &Key) -> Value {
@@ -25,6 +26,10 @@ pub(super) fn described(key: &Key) -> Value {
             json!({ "type": "integer", "minimum": least, "maximum": most })
         }
         Takes::Units => reference("units"),
+        Takes::Warnings => json!({
+            "type": "array",
+            "items": { "enum": silence::warnings() },
+        }),
         Takes::Number(range) => number(range),
         Takes::Pair(range) => tuple(vec![number(range); 2]),
         Takes::Numbers(least) => {

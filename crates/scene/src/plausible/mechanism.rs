@@ -1,0 +1,228 @@
+//! What the whole mechanism shows: moments of inertia that do not fit mass and size, bodies that no
+//! joint holds, and joints far away.
+
+use model::codes::Code;
+use model::{Body, BodyRef, ConstraintId, Description, Mechanism, System};
+
+use super::{LengthUnit, short};
+use crate::findings::Findings;
+use crate::source_map::{BODY_KEYS, PLACE_KEYS, SourceMap};
+
+/// Largest radius of gyration, in arms of the body. All mass within an arm gives 1; a flywheel on a
+/// small crank has some 5, and the inertia of a rod in kg·cm² read as kg·m² has 58.
+const LARGEST_GYRATION: f64 = 20.0;
+
+/// Smallest radius of gyration, in arms of the body. A rod has 0.6, a small bob on a light rod 0.01;
+/// the inertia of a rod in kg·m² read as kg·mm² has 0.0006.
+const SMALLEST_GYRATION: f64 = 1e-3;
+
+/// Most sizes of a mechanism from the centre of mass of a body to a joint of it. Lengths in cm read
+/// as m are 100 times too large; the longest parts of a machine are some ten times the middle ones.
+const FARTHEST: f64 = 100.0;
+
+/// Warns of what is not plausible in a mechanism.
+pub(crate) fn check(
+    d: &Description,
+    mechanism: &Mechanism,
+    map: &SourceMap,
+    unit: LengthUnit,
+    findings: &mut Findings,
+) {
+    let joints = joints(mechanism);
+    let bodies = bodies(d, mechanism, &joints);
+    let size = size(d, &bodies);
+    unheld(d, &bodies, map, findings);
+    far(d, &joints, map, size, unit, findings);
+    inertia(d, &bodies, map, size, unit, findings);
+}
+
+/// A joint with its points. Drives act at the points of their joints.
+struct Joint<'m> {
+    name: &'m str,
+    bodies: &'m [BodyRef],
+    points: Vec<(BodyRef, [f64; 2])>,
+}
+
+fn joints(mechanism: &Mechanism) -> Vec<Joint<'_>> {
+    let groups = mechanism.layout().groups.iter().enumerate();
+    let joints = groups.filter(|(_, group)| !group.is_drive());
+    joints
+        .map(|(k, group)| Joint {
+            name: &group.name,
+            bodies: &group.bodies,
+            points: mechanism.points(ConstraintId(k)),
+        })
+        .collect()
+}
+
+/// What is known of the shape of a body.
+#[derive(Clone, Default)]
+struct Shape {
+    /// Points of joints, forces and markers relative to the centre of mass.
+    points: Vec<[f64; 2]>,
+    is_held: bool,
+    /// Number of forces that act on it.
+    forces: usize,
+}
+
+impl Shape {
+    fn arms(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(length)
+    }
+
+    /// Whether not all points are the same one.
+    fn has_extent(&self) -> bool {
+        self.points.windows(2).any(|pair| pair[0] != pair[1])
+    }
+}
+
+fn length(p: &[f64; 2]) -> f64 {
+    p[0].hypot(p[1])
+}
+
+fn bodies(d: &Description, mechanism: &Mechanism, joints: &[Joint]) -> Vec<Shape> {
+    let mut bodies = vec![Shape::default(); d.bodies.len()];
+    let mut add = |points: &[(BodyRef, [f64; 2])]| {
+        for (body, point) in points {
+            if let BodyRef::Body(k) = body {
+                bodies[*k].points.push(*point);
+            }
+        }
+    };
+    joints.iter().for_each(|joint| add(&joint.points));
+    for marker in &d.observed.markers {
+        add(&[(marker.body, marker.from_centre(&d.bodies))]);
+    }
+    let forces: Vec<_> = mechanism.applied_forces().collect();
+    forces.iter().for_each(|force| add(&force.points));
+    let held = joints.iter().flat_map(|joint| joint.bodies);
+    for body in held.filter_map(|body| body.moving()) {
+        bodies[body].is_held = true;
+    }
+    let acted_on = forces.iter().flat_map(|force| force.bodies);
+    for body in acted_on.filter_map(|body| body.moving()) {
+        bodies[body].forces += 1;
+    }
+    bodies
+}
+
+/// Radius of gyration of a body; `None` if it has no mass or no inertia, which is allowed.
+fn gyration(body: &Body) -> Option<f64> {
+    let radius = (body.inertia / body.mass).sqrt();
+    (radius.is_finite() && radius > 0.0).then_some(radius)
+}
+
+/// Size of a mechanism: the upper median of all arms and radii of gyration, so that neither a few
+/// points far away nor many joints near centres of mass change it. `None` if there are none.
+fn size(d: &Description, bodies: &[Shape]) -> Option<f64> {
+    let arms = bodies.iter().flat_map(Shape::arms);
+    let mut sizes: Vec<f64> = arms.chain(d.bodies.iter().filter_map(gyration)).collect();
+    sizes.retain(|size| *size > 0.0);
+    let middle = sizes.len() / 2;
+    sizes.sort_unstable_by(f64::total_cmp);
+    sizes.get(middle).copied()
+}
+
+/// Warns of bodies that no joint holds, if there are joints.
+fn unheld(d: &Description, bodies: &[Shape], map: &SourceMap, findings: &mut Findings) {
+    if !bodies.iter().any(|body| body.is_held) {
+        return;
+    }
+    let all = d.bodies.iter().zip(bodies).zip(&map.bodies);
+    for ((body, shape), entry) in all.filter(|((_, shape), _)| !shape.is_held) {
+        let acts = match shape.forces {
+            0 => "moves freely".to_owned(),
+            1 => "moves under one force".to_owned(),
+            n => format!("moves under {n} forces"),
+        };
+        findings.warning(
+            const { Code::new(195) },
+            entry.name_span(),
+            format!("no joint holds body `{}`: it {acts}", body.name),
+            "in no joint",
+            "add a `[[joint]]` that names it",
+        );
+    }
+}
+
+/// Warns of joints far from the centre of mass of a body.
+fn far(
+    d: &Description,
+    joints: &[Joint],
+    map: &SourceMap,
+    size: Option<f64>,
+    unit: LengthUnit,
+    findings: &mut Findings,
+) {
+    let Some(size) = size else { return };
+    for (joint, entry) in joints.iter().zip(&map.joints) {
+        let arm = |(body, point): &(BodyRef, [f64; 2])| Some((body.moving()?, length(point)));
+        let arms = joint.points.iter().filter_map(arm);
+        let Some((body, arm)) = arms.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            continue;
+        };
+        if arm <= FARTHEST * size {
+            continue;
+        }
+        let keys = [&PLACE_KEYS[..], &BODY_KEYS[..]].concat();
+        findings.warning(
+            const { Code::new(196) },
+            entry.first_of(&keys),
+            format!(
+                "joint `{}` is {} m from the centre of mass of body `{}`, {} times the size of this mechanism, {} m",
+                joint.name,
+                short(arm),
+                d.bodies[body].name,
+                short(arm / size),
+                short(size)
+            ),
+            "far away",
+            &format!(
+                "numbers without a unit are in {}: correct the place, or the `position` of the body",
+                unit.name
+            ),
+        );
+    }
+}
+
+/// Warns of moments of inertia that fit no body of that mass and size.
+fn inertia(
+    d: &Description,
+    bodies: &[Shape],
+    map: &SourceMap,
+    size: Option<f64>,
+    unit: LengthUnit,
+    findings: &mut Findings,
+) {
+    let Some(size) = size else { return };
+    for ((body, shape), entry) in d.bodies.iter().zip(bodies).zip(&map.bodies) {
+        // Points far away have a warning of their own.
+        let near = shape.arms().filter(|arm| *arm <= FARTHEST * size);
+        let arm = near.fold(0.0, f64::max);
+        let Some(radius) = gyration(body).filter(|_| arm > 0.0) else {
+            continue;
+        };
+        let is_large = shape.has_extent() && radius > LARGEST_GYRATION * arm.max(size);
+        let is_small = radius < SMALLEST_GYRATION * arm;
+        if !is_large && !is_small {
+            continue;
+        }
+        findings.warning(
+            const { Code::new(194) },
+            entry.span("inertia"),
+            format!(
+                "body `{}`: with its mass of {} kg the inertia has a radius of gyration of {} m, and points of the body are up to {} m from its centre of mass",
+                body.name,
+                short(body.mass),
+                short(radius),
+                short(arm)
+            ),
+            if is_large { "too large" } else { "too small" },
+            &format!(
+                "write `inertia` about the centre of mass, in kg·{}²: a rod twice as long has {}",
+                unit.name,
+                unit.inertia(body.mass * arm * arm / 3.0)
+            ),
+        );
+    }
+}

@@ -1,0 +1,61 @@
+//! `silence` of `[scene]`: the warnings that are not wanted, by their codes.
+
+use model::codes::Code;
+use serde_json::json;
+
+use crate::findings::Findings;
+use crate::key::{Key, Takes};
+use crate::nearest::{did_you_mean, list};
+use crate::table::Table;
+
+/// The warnings that a scene can have. They are never errors, and each can be silenced.
+const WARNINGS: [Code; 8] = [
+    Code::new(190),
+    Code::new(191),
+    Code::new(192),
+    Code::new(193),
+    Code::new(194),
+    Code::new(195),
+    Code::new(196),
+    Code::new(197),
+];
+
+/// The codes as they are written.
+pub(crate) fn warnings() -> Vec<String> {
+    WARNINGS.iter().map(ToString::to_string).collect()
+}
+
+const SILENCE: Key = Key::optional(
+    "silence",
+    "a list of codes of warnings [\"P0192\", …]",
+    Takes::Warnings,
+)
+.doc("Codes of warnings that are not shown, because what they warn of is meant")
+.or(|| json!([]));
+
+/// The key of `[scene]`.
+pub(crate) const SCENE_KEYS: [Key; 1] = [SILENCE];
+
+/// Silences what `[scene]` says.
+pub(crate) fn read(table: &mut Table, findings: &mut Findings) {
+    let field = table.optional(&SILENCE);
+    let items = field.and_then(|field| field.items(SILENCE.expected, findings));
+    for item in items.unwrap_or_default() {
+        let Some(text) = item.text(SILENCE.expected, findings) else {
+            continue;
+        };
+        if let Some(code) = WARNINGS.iter().find(|code| code.to_string() == text) {
+            findings.silence(*code);
+            continue;
+        }
+        let codes = warnings();
+        let names = || codes.iter().map(String::as_str);
+        findings.coded_error(
+            const { Code::new(180) },
+            item.span(),
+            format!("`[scene]`: `silence` names `{text}`, which is no warning of a scene"),
+            "no such warning",
+            did_you_mean(text, names()).or_else(|| Some(format!("there are {}", list(names())))),
+        );
+    }
+}

@@ -1,0 +1,394 @@
+//! Numbers that were probably not meant: each warning at its place, and its near neighbour without
+//! one; and no warning in any scene of the repository.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use scene::Severity;
+
+use super::read;
+
+/// A crank and a rod of bars of 0.2 m and 0.6 m, as textbooks have them.
+const CRANK: &str = r#"[scene]
+name = "slider-crank"
+space = "plane"
+gravity = [0.0, -9.81]
+
+[[body]]
+name = "crank"
+mass = 1.0
+inertia = 0.003333
+angle = 0.0
+
+[[body]]
+name = "rod"
+mass = 3.0
+inertia = 0.09
+position = [0.4, 0.0]
+
+[[joint]]
+name = "A"
+type = "revolute"
+bodies = ["ground", "crank"]
+at = [-0.1, 0.0]
+
+[[joint]]
+name = "B"
+type = "revolute"
+bodies = ["crank", "rod"]
+at = [0.1, 0.0]
+
+[[joint]]
+name = "S"
+type = "pin-in-slot"
+bodies = ["ground", "rod"]
+points = { ground = [0.0, 0.0], rod = [0.3, 0.0] }
+axis = [1.0, 0.0]
+
+[simulate]
+t_end = 2.0
+"#;
+
+/// Codes of the warnings with the marked texts.
+fn warned(text: &str) -> Vec<(String, String)> {
+    let scene = read(text).unwrap_or_else(|problems| panic!("{text}\n{problems:#?}"));
+    let warnings = scene.warnings.iter();
+    warnings
+        .map(|w| {
+            assert_eq!(w.severity, Severity::Warning);
+            (w.code.to_string(), text[w.primary.span.clone()].to_owned())
+        })
+        .collect()
+}
+
+/// The scene with one part replaced.
+fn with(from: &str, to: &str) -> String {
+    assert!(CRANK.contains(from), "{from}");
+    CRANK.replacen(from, to, 1)
+}
+
+/// A part of the scene, its replacement, and code and mark of the warning, if there is one.
+type Case = (
+    &'static str,
+    &'static str,
+    Option<(&'static str, &'static str)>,
+);
+
+#[track_caller]
+fn check(cases: &[Case]) {
+    assert_eq!(warned(CRANK), []);
+    for (from, to, expected) in cases {
+        let text = with(from, to);
+        let expected = expected.map(|(code, mark)| (code.to_owned(), mark.to_owned()));
+        assert_eq!(warned(&text), Vec::from_iter(expected), "{to}");
+    }
+}
+
+#[test]
+fn round_angles_beyond_a_turn_look_like_degrees() {
+    let degrees = |mark| Some(("P0192", mark));
+    const ANGLE: &str = "angle = 0.0";
+    check(&[
+        (ANGLE, "angle = 45", degrees("45")),
+        (ANGLE, "angle = -360.0", degrees("-360.0")),
+        (ANGLE, "angle = 10", degrees("10")),
+        // Not so round, within a turn, or more than a turn in degrees.
+        (ANGLE, "angle = 45.3", None),
+        (ANGLE, "angle = 12.566370614359172", None),
+        (ANGLE, "angle = 5", None),
+        (ANGLE, "angle = 365", None),
+        // A rate is none.
+        (ANGLE, "angular_velocity = 90", None),
+    ]);
+    let drive = |motion: &str| {
+        format!(
+            "{CRANK}\n[[drive]]\nname = \"D\"\njoint = \"A\"\ntype = \"angle\"\nmotion = {motion}\n"
+        )
+    };
+    let table = |values: &str| {
+        let times = "type = \"table\", times = [0, 1, 2]";
+        warned(&drive(&format!("{{ {times}, values = {values} }}")))
+    };
+    // A list is judged as a whole.
+    assert_eq!(
+        table("[0, 45, 90]"),
+        [("P0192".to_owned(), "45".to_owned())]
+    );
+    assert_eq!(table("[0, 45, 91.5]"), []);
+    // Of 1, t and t² only the first coefficient is an angle.
+    let polynomial = drive("{ type = \"polynomial\", coefficients = [0, 90, 45] }");
+    assert_eq!(warned(&polynomial), []);
+}
+
+#[test]
+fn units_say_what_an_angle_is() {
+    let computed = with("space", "format = 2\nspace");
+    let angle = |text: &str| warned(&computed.replacen("angle = 0.0", text, 1));
+    assert_eq!(angle("angle = 45").len(), 1);
+    assert_eq!(angle("angle = \"9*5\"").len(), 1);
+    for meant in ["\"45 deg\"", "\"45 rad\"", "\"15*pi\"", "\"2*45 deg\""] {
+        assert_eq!(angle(&format!("angle = {meant}")), [], "{meant}");
+    }
+    let degrees = "units = { angle = \"deg\" }\nspace";
+    let text = with("space", &format!("format = 2\n{degrees}"));
+    assert_eq!(warned(&text.replacen("angle = 0.0", "angle = 45", 1)), []);
+    // The advice is what to write.
+    let scene = read(&computed.replacen("angle = 0.0", "angle = 45.0", 1)).expect("a scene");
+    let help = scene.warnings[0].help.as_deref().expect("advice");
+    assert_eq!(
+        help,
+        "write `\"45 deg\"`, or `\"45 rad\"` for radians; if it is meant, `silence = [\"P0192\"]` in `[scene]`"
+    );
+    assert_eq!(
+        scene.warnings[0].message,
+        "body `crank`: `angle` is 45 rad, which is 7.162 turns: it looks like degrees"
+    );
+}
+
+#[test]
+fn gravity_is_that_of_a_planet() {
+    let gravity = |mark| Some(("P0193", mark));
+    const G: &str = "[0.0, -9.81]";
+    check(&[
+        (G, "[0.0, -9810.0]", gravity("[0.0, -9810.0]")),
+        (G, "[9.81e3, 0.0]", gravity("[9.81e3, 0.0]")),
+        (G, "[0, -981]", gravity("[0, -981]")),
+        (G, "[0, -386.1]", gravity("[0, -386.1]")),
+        (G, "[0, -60]", gravity("[0, -60]")),
+        // Jupiter, twice Jupiter, the Moon, none.
+        (G, "[0, -24.79]", None),
+        (G, "[0, -49]", None),
+        (G, "[0, -1.62]", None),
+        (G, "[0, -0.00981]", None),
+        (G, "[0, 0]", None),
+    ]);
+    let said = |text: &str| {
+        let scene = read(text).unwrap_or_else(|problems| panic!("{problems:#?}"));
+        let [warning] = &scene.warnings[..] else {
+            panic!("{:#?}", scene.warnings)
+        };
+        let help = warning.help.clone().unwrap_or_default();
+        let advice = help.split(';').next().unwrap_or_default().to_owned();
+        (warning.message.clone(), advice)
+    };
+    assert_eq!(
+        said(&with(G, "[0, -386.1]")),
+        (
+            "`[scene]`: `gravity` is 386.1 m/s², 39.37 times that of the Earth: it looks like in/s²".to_owned(),
+            "write `gravity = [0, -9.807]`".to_owned()
+        )
+    );
+    // The same numbers in a scene of millimetres.
+    let scene = |gravity: &str| {
+        format!(
+            "[scene]\nname = \"mm\"\nspace = \"plane\"\nformat = 2\nunits = {{ length = \"mm\" }}\ngravity = {gravity}\n\n[[body]]\nname = \"a\"\nmass = 1\ninertia = 1\n"
+        )
+    };
+    assert_eq!(warned(&scene("[0, -9810]")), []);
+    assert_eq!(warned(&scene("[0, \"-9.81 m/s^2\"]")), []);
+    let advice = "write `gravity = [0, -9810]`";
+    let (message, help) = said(&scene("[0, -9.81]"));
+    assert_eq!(help, advice);
+    assert!(
+        message.ends_with("numbers without a unit are in mm/s² here"),
+        "{message}"
+    );
+    assert_eq!(said(&scene("[0, \"-9810 m/s^2\"]")).1, advice);
+}
+
+#[test]
+fn inertia_fits_mass_and_size() {
+    let inertia = |mark| Some(("P0194", mark));
+    const ROD: &str = "inertia = 0.09";
+    check(&[
+        // Read as kg·m² what is in kg·cm² and in kg·mm².
+        (ROD, "inertia = 900.0", inertia("900.0")),
+        (ROD, "inertia = 9e4", inertia("9e4")),
+        // Radius of gyration 20 arms of 0.3 m and a little less.
+        (ROD, "inertia = 108.1", inertia("108.1")),
+        (ROD, "inertia = 107.9", None),
+        // A thousandth of the arm, and a little more; a point mass.
+        (ROD, "inertia = 2.6e-7", inertia("2.6e-7")),
+        (ROD, "inertia = 2.8e-7", None),
+        (ROD, "inertia = 0.0", None),
+        ("mass = 3.0", "mass = 0.0", None),
+        // In tonnes.
+        ("mass = 3.0", "mass = 0.001", inertia("0.09")),
+    ]);
+    // A rotor whose only point is near its centre of mass has no size.
+    let rotor = "[scene]\nname = \"rotor\"\nspace = \"plane\"\n\n[[body]]\nname = \"rotor\"\nmass = 8.0\ninertia = 0.09\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"rotor\"]\nat = [1e-5, 0.0]\n";
+    assert_eq!(warned(rotor), []);
+    let marked =
+        format!("{rotor}\n[[marker]]\nname = \"M\"\nbody = \"rotor\"\npoint = [0.0, 0.0]\n");
+    assert_eq!(warned(&marked), []);
+}
+
+#[test]
+fn units_do_not_change_what_is_plausible() {
+    // The rod in millimetres: 90 kg·mm² would be 0.00009 kg·m².
+    let scene = |inertia: &str| {
+        format!(
+            "[scene]\nname = \"mm\"\nspace = \"plane\"\nformat = 2\nunits = {{ length = \"mm\" }}\n\n[[body]]\nname = \"rod\"\nmass = 3\ninertia = {inertia}\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"rod\"]\nat = [\"-30 cm\", 0]\n\n[[joint]]\nname = \"B\"\ntype = \"pin-in-slot\"\nbodies = [\"ground\", \"rod\"]\npoints = {{ ground = [0, 0], rod = [300, 0] }}\naxis = [1, 0]\n"
+        )
+    };
+    for meant in ["9e4", "\"0.09 kg*m^2\"", "\"900 kg*cm^2\""] {
+        assert_eq!(warned(&scene(meant)), [], "{meant}");
+    }
+    // In kg·m².
+    let found = read(&scene("0.09")).expect("a scene");
+    let [warning] = &found.warnings[..] else {
+        panic!("{:#?}", found.warnings)
+    };
+    assert_eq!(
+        warning.message,
+        "body `rod`: with its mass of 3 kg the inertia has a radius of gyration of 0.0001732 m, and points of the body are up to 0.3 m from its centre of mass"
+    );
+    let help = warning.help.as_deref().unwrap_or_default();
+    assert!(
+        help.contains("in kg·mm²: a rod twice as long has 90000 kg·mm²;"),
+        "{help}"
+    );
+}
+
+#[test]
+fn bodies_without_joints_beside_others_are_told() {
+    let weight = "[[body]]\nname = \"weight\"\nmass = 1.0\ninertia = 0.0\nposition = [0.0, -1.0]\n";
+    let text = format!("{CRANK}\n{weight}");
+    let told = || vec![("P0195".to_owned(), "\"weight\"".to_owned())];
+    assert_eq!(warned(&text), told());
+    // A force does not hold it; a joint does, even one that is not active for now.
+    let spring = "\n[[force]]\nname = \"F\"\ntype = \"spring-damper\"\nbodies = [\"ground\", \"weight\"]\nat = [[0.0, 0.0], [0.0, -1.0]]\nstiffness = 1.0\ndamping = 0.0\n";
+    assert_eq!(warned(&format!("{text}{spring}")), told());
+    let joint = "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"weight\"]\nat = [0.0, 0.0]\n";
+    assert_eq!(warned(&format!("{text}{joint}")), []);
+    assert_eq!(warned(&format!("{text}{joint}active = false\n")), []);
+    // Where nothing is held, free bodies are the subject.
+    let free = format!("[scene]\nname = \"free\"\nspace = \"plane\"\n\n{weight}{spring}");
+    assert_eq!(warned(&free), []);
+    let messages = |text: &str| {
+        let scene = read(text).expect("a scene");
+        scene.warnings[0].message.clone()
+    };
+    assert_eq!(
+        messages(&text),
+        "no joint holds body `weight`: it moves freely"
+    );
+    assert_eq!(
+        messages(&format!("{text}{spring}")),
+        "no joint holds body `weight`: it moves under one force"
+    );
+}
+
+#[test]
+fn a_joint_a_hundred_sizes_away_is_told() {
+    let far = |mark| Some(("P0196", mark));
+    const AT: &str = "points = { ground = [0.0, 0.0], rod = [0.3, 0.0] }";
+    // Arms 0.1, 0.1 and 0.3, radii of gyration 0.058 and 0.173: the upper median is 0.173 with a
+    // fourth arm above it.
+    const MM: &str = "{ ground = [0.0, 0.0], rod = [300.0, 0.0] }";
+    const OUT: &str = "{ ground = [0.0, 0.0], rod = [17.4, 0.0] }";
+    check(&[
+        (
+            AT,
+            "points = { ground = [0.0, 0.0], rod = [300.0, 0.0] }",
+            far(MM),
+        ),
+        (
+            AT,
+            "points = { ground = [0.0, 0.0], rod = [17.4, 0.0] }",
+            far(OUT),
+        ),
+        (
+            AT,
+            "points = { ground = [0.0, 0.0], rod = [17.2, 0.0] }",
+            None,
+        ),
+        // The ground has no size.
+        (
+            AT,
+            "points = { ground = [9e5, 0.0], rod = [0.3, 0.0] }",
+            None,
+        ),
+    ]);
+    let scene = read(&with(AT, &format!("points = {MM}"))).expect("a scene");
+    assert_eq!(
+        scene.warnings[0].message,
+        "joint `S` is 300 m from the centre of mass of body `rod`, 1732 times the size of this mechanism, 0.1732 m"
+    );
+    // Far from the origin everything is as near to each other as before.
+    let moved = "position = [1000000.4, 0.0]";
+    let text = with("position = [0.4, 0.0]", moved);
+    let text = text.replacen("angle = 0.0", "position = [1e6, 0.0]", 1);
+    let text = text.replacen("at = [-0.1, 0.0]", "at = [999999.9, 0.0]", 1);
+    let text = text.replacen("at = [0.1, 0.0]", "at = [1000000.1, 0.0]", 1);
+    assert_eq!(warned(&text), []);
+}
+
+#[test]
+fn rows_lie_within_the_run() {
+    let step = |mark| Some(("P0197", mark));
+    const END: &str = "t_end = 2.0";
+    check(&[
+        (END, "t_end = 2.0\noutput_step = 2.5", step("2.5")),
+        (END, "t_end = 2.0\noutput_step = 2.0", None),
+        (END, "t_end = 0.0\noutput_step = 2.0", None),
+    ]);
+}
+
+/// Files below a folder with this ending.
+fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files(&path, end, found);
+        } else if path.extension().is_some_and(|e| e == end) {
+            found.push(path);
+        }
+    }
+}
+
+/// All scenes in files and in pages: examples and templates, those of the suite and of the tests.
+/// Machines found the implausible ones of `crates/lab/found`.
+#[test]
+fn no_scene_of_the_repository_has_a_warning() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut texts: Vec<(PathBuf, String)> = Vec::new();
+    for folder in [
+        "examples",
+        "docs",
+        "crates/suite",
+        "crates/robot-trolley",
+        "crates/pfaff-cli",
+    ] {
+        for end in ["toml", "md"] {
+            let mut found = Vec::new();
+            files(&root.join(folder), end, &mut found);
+            found.sort();
+            for path in found {
+                let text = fs::read_to_string(&path).unwrap_or_default();
+                let blocks: Vec<String> = match end {
+                    // The first line of a block is its language.
+                    "md" => {
+                        let blocks = text.split("```").skip(1).step_by(2);
+                        let inside = blocks.filter_map(|block| block.split_once('\n'));
+                        inside.map(|(_, block)| block.to_owned()).collect()
+                    }
+                    _ => vec![text],
+                };
+                texts.extend(blocks.into_iter().map(|block| (path.clone(), block)));
+            }
+        }
+    }
+    let mut n_read = 0;
+    for (path, text) in texts {
+        // The page of codes shows a scene for each.
+        if path.ends_with("docs/book/errors.md") {
+            continue;
+        }
+        let Ok(scene) = read(&text) else { continue };
+        n_read += 1;
+        assert_eq!(scene.warnings, [], "{}", path.display());
+    }
+    // At least the 20 examples, 13 of the suite, the robot, and some pages.
+    assert!(n_read >= 60, "{n_read}");
+}
