@@ -20,6 +20,7 @@ use symbolic::{Expr, Graph};
 
 use crate::parse::{Definition, Kept, Param, ParamKind};
 pub(crate) use check::not_polynomial;
+use expression::as_scalar;
 pub(crate) use inputs::{Inputs, Source};
 pub(crate) use model::{Body, Comparison, Condition, ConstraintBody, KeptValue, Measure, Model};
 use scope::Scope;
@@ -208,7 +209,7 @@ impl<'a> Scope<'a> {
                 continue;
             };
             let values = match kept {
-                Kept::Number(_) => vec![self.as_scalar(value, &b.value)?],
+                Kept::Number(_) => vec![as_scalar(value, &b.value)?],
                 Kept::Vector(slot) => {
                     let slot = self.slot(slot)?;
                     self.pair_in(slot, value, &b.value)?.to_vec()

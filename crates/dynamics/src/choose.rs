@@ -37,7 +37,7 @@ pub(crate) fn method(
     if options.method != Method::Auto {
         return Ok(decided(options.method, "requested".to_owned()));
     }
-    if !prepared.mechanism.has_applied_forces() {
+    if prepared.mechanism.applied_forces().is_empty() {
         return explicit("no applied forces, so that nothing can be stiff");
     }
     if prepared.is_sparse() {

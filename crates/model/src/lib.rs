@@ -66,7 +66,9 @@ pub use extended::Polished;
 pub use frame::{FrameState, Frames};
 pub use function::{Function, FunctionError};
 pub use law::Law;
-pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
+pub use mechanism::{
+    AppliedForce, AppliedForces, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work,
+};
 pub use observed::{Marker, Measure, MeasureKind, Observed};
 pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
 pub use record::RecordedEquations;

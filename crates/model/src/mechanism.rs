@@ -4,6 +4,7 @@
 mod build;
 mod check;
 mod derivatives;
+mod forces;
 mod holds;
 mod initial;
 mod kernels;
@@ -25,7 +26,7 @@ use crate::tolerance::Tolerance;
 
 pub use build::BuildError;
 pub use derivatives::{Derivatives, Sparse};
-pub use holds::AppliedForce;
+pub use forces::{AppliedForce, AppliedForces};
 pub(crate) use initial::{initialise, unmet_requirement};
 pub use part::{Part, Places};
 pub use work::Work;
@@ -221,12 +222,6 @@ impl Mechanism {
         let v = self.frames().given_velocities(&q).into_iter();
         let v = v.map(Option::unwrap_or_default).collect();
         (q, v)
-    }
-
-    /// Whether forces other than the weight are applied, which may add or remove energy.
-    #[must_use]
-    pub fn has_applied_forces(&self) -> bool {
-        !self.elements.forces.is_empty()
     }
 
     /// Kinetic energy at velocities v (J).

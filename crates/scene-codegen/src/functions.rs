@@ -136,7 +136,8 @@ impl Functions {
     /// All functions, with the equations solved in the frame of the ground or of the body whose
     /// angle has this index in q.
     fn seen_from(subject: &Subject<'_>, angle: Option<usize>) -> Result<Self, CodeError> {
-        if let Some((drive, _)) = subject.prepared.mechanism.law_drives().next() {
+        let forces = subject.prepared.mechanism.applied_forces();
+        if let Some((drive, _)) = forces.law_drives().next() {
             let drive = drive.to_owned();
             return Err(CodeError::Law { drive });
         }

@@ -5,6 +5,7 @@ use symbolic::{Expr, Graph, Node};
 use syn::{BinOp, Lit, UnOp};
 
 use super::check::Refusal;
+use super::model::Model;
 use super::scope::Scope;
 use super::value::Value;
 use crate::nearest::hint;
@@ -68,14 +69,7 @@ impl<'a> Scope<'a> {
 
     pub(super) fn scalar(&mut self, e: &'a syn::Expr) -> syn::Result<Expr> {
         let value = self.value(e)?;
-        self.as_scalar(value, e)
-    }
-
-    pub(super) fn as_scalar(&self, value: Value, at: &syn::Expr) -> syn::Result<Expr> {
-        match value {
-            Value::Scalar(e) => Ok(e),
-            other => Err(wrong(at, "a scalar", &other)),
-        }
+        as_scalar(value, e)
     }
 
     pub(super) fn vector(&mut self, e: &'a syn::Expr) -> syn::Result<Vector> {
@@ -132,6 +126,7 @@ impl<'a> Scope<'a> {
             ),
         )
     }
+
     fn named(&mut self, name: &Ident) -> syn::Result<Value> {
         let key = name.to_string();
         if let Some(value) = self.values.get(&key) {
@@ -216,36 +211,30 @@ impl<'a> Scope<'a> {
         value: &Value,
         refusals: &[Refusal],
     ) -> syn::Result<()> {
-        for r in refusals {
-            let mut scalars = value.scalars().into_iter();
-            if scalars.any(|s| (r.bad)(&mut self.model, s)) {
-                let at = self.culprit(e, r);
-                return Err(syn::Error::new_spanned(at, r.why));
-            }
-        }
-        Ok(())
-    }
-
-    fn is_bad(&mut self, e: &'a syn::Expr, r: &Refusal) -> bool {
-        match self.value(e) {
-            Ok(value) => value
-                .scalars()
-                .into_iter()
-                .any(|s| (r.bad)(&mut self.model, s)),
-            Err(_) => false,
+        let bad = |r: &&Refusal| is_bad(&mut self.model, value, r);
+        match refusals.iter().find(bad) {
+            Some(r) => Err(syn::Error::new_spanned(self.culprit(e, r), r.why)),
+            None => Ok(()),
         }
     }
 
     /// The smallest part of `e` to which the refusal applies.
     fn culprit(&mut self, e: &'a syn::Expr, r: &Refusal) -> &'a syn::Expr {
-        match parts(self.definition, e)
-            .into_iter()
-            .find(|part| self.is_bad(part, r))
-        {
+        let parts = parts(self.definition, e);
+        let bad = |part: &&'a syn::Expr| {
+            let value = self.value(part);
+            value.is_ok_and(|value| is_bad(&mut self.model, &value, r))
+        };
+        match parts.into_iter().find(bad) {
             Some(part) => self.culprit(part, r),
             None => e,
         }
     }
+}
+
+/// Whether the refusal applies to one of the scalars of a value.
+fn is_bad(model: &mut Model, value: &Value, r: &Refusal) -> bool {
+    value.scalars().into_iter().any(|s| (r.bad)(model, s))
 }
 
 /// The value of a literal.
@@ -313,6 +302,13 @@ fn parts<'a>(definition: &'a Definition, e: &'a syn::Expr) -> Vec<&'a syn::Expr>
                 .collect()
         }
         _ => Vec::new(),
+    }
+}
+
+pub(super) fn as_scalar(value: Value, at: &syn::Expr) -> syn::Result<Expr> {
+    match value {
+        Value::Scalar(e) => Ok(e),
+        other => Err(wrong(at, "a scalar", &other)),
     }
 }
 

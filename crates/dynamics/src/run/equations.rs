@@ -81,7 +81,7 @@ impl<'m> RunEquations<'m> {
         stop: &'m Stop<'m>,
     ) -> Self {
         let (q, v, mechanism) = (&prepared.q, &prepared.v, motion.mechanism());
-        let works = mechanism.layout().rheonomic || mechanism.has_applied_forces();
+        let works = mechanism.layout().rheonomic || !mechanism.applied_forces().is_empty();
         let mut y0 = [q.as_slice(), v].concat();
         y0.extend(works.then_some(0.0));
         let mut equations = Self {

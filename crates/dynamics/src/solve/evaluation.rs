@@ -88,7 +88,7 @@ impl<'m> Evaluation<'m> {
     pub(super) fn named(&mut self, fault: MotionFault) -> MotionFault {
         match fault {
             MotionFault::NotFinite { time, what } => {
-                let force = self.mechanism.undefined_force(&mut self.s);
+                let force = self.mechanism.applied_forces().undefined(&mut self.s);
                 let what = force.unwrap_or(what);
                 MotionFault::NotFinite { time, what }
             }

@@ -1,27 +1,14 @@
-//! The points at which joints, drives and forces act on bodies, from their parameters, for
-//! pictures; and the measures and values that drives prescribe.
+//! The points at which joints and drives act on bodies, from their parameters, for pictures; and
+//! the measures and values that drives prescribe.
 //!
 //! The point at which a reaction is reported is defined by [`crate::Reactions::place`].
 
-use joints::spec::{ForceSpec, Shape, Spec};
+use joints::spec::{Shape, Spec};
 
 use super::Mechanism;
 use crate::description::BodyRef;
 use crate::group::ConstraintId;
 use crate::system::Scratch;
-
-/// The data of an applied force for a picture.
-#[derive(Clone, Debug)]
-pub struct AppliedForce<'m> {
-    /// Its name.
-    pub name: &'m str,
-    /// Description of its definition.
-    pub spec: &'static ForceSpec,
-    /// Its bodies.
-    pub bodies: &'m [BodyRef],
-    /// Points at which it acts, each in the frame of its body (m).
-    pub points: Vec<(BodyRef, [f64; 2])>,
-}
 
 impl Mechanism {
     /// The points at which a joint or drive acts, each in the frame of its body (m; the frame of
@@ -96,24 +83,14 @@ impl Mechanism {
     pub fn prescribed<'s>(&self, id: ConstraintId, s: &'s Scratch) -> &'s [[f64; 3]] {
         self.elements.constraints[id.0].site.f(&s.slots)
     }
-
-    /// Its applied forces, without the weight.
-    pub fn applied_forces(&self) -> impl Iterator<Item = AppliedForce<'_>> {
-        self.elements.forces.iter().map(|f| {
-            let element = &f.element;
-            let spec = element.spec();
-            AppliedForce {
-                name: &f.name,
-                spec,
-                bodies: &f.site.bodies,
-                points: placed(&spec.common, &f.site.bodies, element.points()),
-            }
-        })
-    }
 }
 
 /// Points, with the bodies of their slots.
-fn placed(spec: &Spec, bodies: &[BodyRef], points: Vec<[f64; 2]>) -> Vec<(BodyRef, [f64; 2])> {
+pub(super) fn placed(
+    spec: &Spec,
+    bodies: &[BodyRef],
+    points: Vec<[f64; 2]>,
+) -> Vec<(BodyRef, [f64; 2])> {
     let slots = spec.parameters.iter().filter_map(|p| match p.shape {
         Shape::Point { slot } => Some(slot),
         _ => None,

@@ -3,11 +3,9 @@
 //! sines and cosines of unchanged angles, constant entries of C, and Γ of rows that are linear in
 //! q.
 
-use joints::spec::Unit;
 use joints::{Pose, Twist};
 
 use super::{Mechanism, N_BODY, pose_of};
-use crate::law::DriveForce;
 use crate::space::{Space, in_space};
 use crate::system::{Layout, Scratch, Slots, System};
 
@@ -142,58 +140,6 @@ impl System for Mechanism {
 
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]) {
         self.space.difference(q, from, d);
-    }
-}
-
-impl Mechanism {
-    /// The first force without a finite value at the pose and the twist of the scratch: "the force
-    /// `spring`", or a drive by a law with its numbers.
-    #[must_use]
-    pub fn undefined_force(&self, s: &mut Scratch) -> Option<String> {
-        self.elements.forces.iter().find_map(|force| {
-            let (x, v, f) = force.site.xvf(&s.slots);
-            force.element.q(x, v, f, &mut s.block);
-            let mut values = s.block[..force.columns.len()].iter();
-            if values.all(|value| value.is_finite()) {
-                return None;
-            }
-            let name = &force.name;
-            Some(match force.element.drive(x, v, f) {
-                Some(DriveForce {
-                    measure,
-                    rate,
-                    force: Err(why),
-                }) => format!(
-                    "the law of drive `{name}` ({why}, at measure = {measure:.6}, rate = {rate:.6})"
-                ),
-                _ => format!("the force `{name}`"),
-            })
-        })
-    }
-
-    /// Names of the drives by laws and what they apply, "force" or "torque", in the order of the
-    /// forces.
-    pub fn law_drives(&self) -> impl Iterator<Item = (&str, &'static str)> {
-        let laws = self.elements.forces.iter().filter(|f| f.element.is_law());
-        laws.map(|force| {
-            let mut units = force.element.spec().common.functions();
-            let turns = units.any(|(_, unit)| unit == Unit::Angle);
-            (force.name.as_str(), if turns { "torque" } else { "force" })
-        })
-    }
-
-    /// Their forces and torques at a state, each on the second body along the measure; NaN where
-    /// one is not defined; allocates.
-    #[must_use]
-    pub fn law_forces(&self, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
-        let mut s = self.scratch();
-        self.pose(t, q, &mut s);
-        self.twist(v, &mut s);
-        let forces = self.elements.forces.iter().filter_map(|force| {
-            let (x, v, f) = force.site.xvf(&s.slots);
-            force.element.drive(x, v, f)
-        });
-        forces.map(|d| d.force.unwrap_or(f64::NAN)).collect()
     }
 }
 

@@ -396,7 +396,7 @@ impl DrawnForce {
     /// The applied forces of a mechanism on bodies that are drawn.
     pub(crate) fn all(mechanism: &Mechanism, bodies: &[usize]) -> Vec<Self> {
         let place = |body: &BodyRef| drawn(bodies, *body);
-        let drawn = mechanism.applied_forces().filter_map(|f| {
+        let drawn = mechanism.applied_forces().iter().filter_map(|f| {
             let points = f.points.iter();
             let held = points.map(|(body, [x, y])| Some((place(body)?, Rounded(*x), Rounded(*y))));
             Some(Self {

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use model::frame::COLUMNS;
-use model::{Marker, Mechanism, System};
+use model::{Marker, Mechanism, Scratch, System};
 
 use super::{Table, TableError};
 
@@ -15,7 +15,8 @@ use super::{Table, TableError};
 pub struct TrajectoryTable<'m, W: Write> {
     table: Table<W>,
     mechanism: &'m Mechanism,
-    has_laws: bool,
+    /// To evaluate drives by laws, if there are any.
+    s: Option<Scratch>,
     /// One row, reused.
     values: Vec<f64>,
 }
@@ -36,12 +37,13 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
             header.extend(own.map(|k| format!("{}.{}", marker.name, COLUMNS[k])));
         }
         header.extend(observed.measures.iter().map(|m| m.name.clone()));
-        let laws = mechanism.law_drives();
+        let columns = header.len();
+        let laws = mechanism.applied_forces().law_drives();
         header.extend(laws.map(|(name, load)| format!("{name}.{load}")));
         Ok(Self {
             table: Table::new("trajectory.csv", out, &header)?,
             mechanism,
-            has_laws: mechanism.law_drives().next().is_some(),
+            s: (header.len() > columns).then(|| mechanism.scratch()),
             values: Vec::with_capacity(header.len()),
         })
     }
@@ -79,8 +81,11 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
         let measures =
             (0..observed.measures.len()).map(|k| self.mechanism.frames().measure(k, q, v));
         self.values.extend(measures);
-        if self.has_laws {
-            self.values.extend(self.mechanism.law_forces(t, q, v));
+        if let Some(s) = &mut self.s {
+            self.mechanism.pose(t, q, s);
+            self.mechanism.twist(v, s);
+            let laws = self.mechanism.applied_forces().of_laws(s);
+            self.values.extend(laws);
         }
         self.table.row(&self.values)
     }
