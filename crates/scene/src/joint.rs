@@ -18,6 +18,7 @@ use crate::findings::Findings;
 use crate::force::Forces;
 use crate::function::{self, Domain};
 use crate::key::{Key, TYPE, Takes};
+use crate::mistake::Mistake;
 use crate::nearest::{all, list, nearest};
 use crate::source_map::Entry;
 use crate::table::Table;
@@ -211,7 +212,7 @@ impl Drives {
                     table.subject
                 );
                 let label = "a drive does one of them";
-                findings.error(table.header.clone(), message, label);
+                findings.error(Mistake::Exclusive, table.header.clone(), message, label);
                 None
             }
         };
@@ -242,6 +243,7 @@ impl Drives {
                 None => "no such measure".to_owned(),
             };
             findings.error_with_help(
+                Mistake::UnknownMeasure,
                 span,
                 format!(
                     "drive `{name}`: joint `{}` (`{}`) has no measure `{measure}`",
@@ -259,6 +261,7 @@ impl Drives {
         arguments.push(Argument::Absent);
         let Some(drive) = definition.drives.get(at) else {
             return findings.error(
+                Mistake::Registry,
                 span,
                 format!(
                     "drive `{name}`: the definition of the drive of `{measure}` is not registered"
@@ -300,7 +303,12 @@ impl Drives {
             }
         };
         if let Some(error) = refused {
-            findings.error(span, format!("drive `{name}`: {error}"), "not possible");
+            findings.error(
+                Mistake::Registry,
+                span,
+                format!("drive `{name}`: {error}"),
+                "not possible",
+            );
         } else if definition.spec.measures[at].is_kept && is_active {
             self.replaced.push(joint.name.clone());
         }
@@ -317,6 +325,7 @@ fn read_law(field: &Field, of: Option<Dimension>, findings: &mut Findings) -> Op
     };
     if field.key != key {
         findings.error_with_help(
+            Mistake::OtherLoad,
             field.span(),
             format!(
                 "{}: `{}` does not act along {}",
@@ -366,6 +375,7 @@ fn is_driven(table: &Table, joint: Option<&Known>, findings: &mut Findings) {
         table.subject, joint.name
     );
     findings.collision(
+        Mistake::Inactive,
         table.span_of(JOINT.name),
         message,
         "write `active = false` for the drive, too, or remove it from the joint",
@@ -404,6 +414,7 @@ fn joint<'j, 'r>(
             None => "no such joint".to_owned(),
         };
         findings.error_with_help(
+            Mistake::UnknownJoint,
             field.span(),
             format!("{} refers to the unknown joint `{name}`", table.subject),
             label,

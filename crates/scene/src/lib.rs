@@ -19,7 +19,7 @@
 //! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
 //! | `template` | the text with other numbers |
 //! | `schema` | the format as a JSON schema, from the same keys |
-//! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, suggested names |
+//! | `diagnostic`, `mistake`, `text`, `findings`, `nearest` | problems, their kinds and codes, lines and columns, suggested names |
 
 mod active;
 mod arguments;
@@ -41,6 +41,7 @@ mod limits;
 mod locate;
 mod marker;
 mod measure;
+mod mistake;
 mod names;
 mod nearest;
 mod place;
