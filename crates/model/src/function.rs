@@ -5,6 +5,7 @@ mod lines;
 mod parts;
 mod spline;
 
+use crate::codes::Code;
 use lines::Lines;
 use spline::Spline;
 
@@ -95,6 +96,18 @@ pub enum FunctionError {
         /// The time that is not larger.
         later: f64,
     },
+}
+
+impl FunctionError {
+    /// Its code; see [`crate::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NotFinite { .. } => const { Code::new(111) },
+            Self::EmptyStep { .. } | Self::NotIncreasing { .. } => const { Code::new(117) },
+            Self::Uneven { .. } | Self::ShortTable { .. } => const { Code::new(118) },
+        }
+    }
 }
 
 impl Function {

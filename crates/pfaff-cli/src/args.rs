@@ -97,13 +97,12 @@ impl Command {
             | Self::Check(Check { json, .. })
             | Self::New(New { json, .. })
             | Self::View(View { json, .. })
-            | Self::Diff(Diff { json, .. }) => *json,
-            Self::Explain(_)
-            | Self::Schema
-            | Self::Completions(_)
-            | Self::Man(_)
-            | Self::Stress(_)
-            | Self::Generate(_) => false,
+            | Self::Diff(Diff { json, .. })
+            | Self::Explain(Explain { json, .. }) => *json,
+            Self::Stress(Elsewhere { arguments }) | Self::Generate(Elsewhere { arguments }) => {
+                arguments.iter().any(|argument| argument == "--json")
+            }
+            Self::Schema | Self::Completions(_) | Self::Man(_) => false,
         };
         if json { Answer::Json } else { Answer::Words }
     }
@@ -381,8 +380,11 @@ pub(crate) struct Explain {
     /// The code, as P0102
     pub(crate) code: Option<String>,
     /// The page of the book with all codes
-    #[arg(long, hide = true)]
+    #[arg(long, hide = true, conflicts_with = "json")]
     pub(crate) book: bool,
+    /// The code, or all codes, as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args)]

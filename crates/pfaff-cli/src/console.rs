@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use pfaff::model::Registry;
 use pfaff::model::codes::Code;
 use serde::Serialize;
@@ -131,31 +132,68 @@ impl<'c> Console<'c> {
         ExitCode::from(code)
     }
 
-    /// Prints the requested help, or the error in the command line.
-    pub fn usage(&self, message: &clap::Error) -> ExitCode {
-        let is_fault = message.use_stderr();
-        let stream = if is_fault { &self.err } else { &self.out };
-        let mut stream = stream.borrow_mut();
-        let text = if is_coloured(&stream) {
-            message.render().ansi().to_string()
-        } else {
-            message.render().to_string()
-        };
-        let text = if is_fault {
-            text.replacen(": ", &format!("[{}]: ", const { Code::new(1) }), 1)
-        } else {
-            text
-        };
+    /// Prints the requested help, or reports the error in the command line.
+    pub fn usage(&self, message: &clap::Error, answer: Answer) -> ExitCode {
+        if message.use_stderr() {
+            return self.misused(message, answer);
+        }
+        let mut stream = self.out.borrow_mut();
+        let text = rendered(message, &stream);
         let written = stream.write(text.as_bytes());
         drop(stream);
         match written {
-            _ if is_fault => ExitCode::from(2),
             Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
                 self.report(unprintable(&e), Answer::Words)
             }
             _ => ExitCode::SUCCESS,
         }
     }
+
+    fn misused(&self, message: &clap::Error, answer: Answer) -> ExitCode {
+        let failure = Failure::input(in_one_line(message));
+        if let Answer::Json = answer {
+            return self.report(failure, answer);
+        }
+        let mut stream = self.err.borrow_mut();
+        let text = rendered(message, &stream);
+        let text = match message.kind() {
+            NO_COMMAND => format!("{}\n{text}", failure.words(is_coloured(&stream))),
+            _ => text.replacen(": ", &format!("[{}]: ", const { Code::new(1) }), 1),
+        };
+        // An error on standard error itself cannot be reported anywhere.
+        let _ = stream.write(text.as_bytes());
+        ExitCode::from(2)
+    }
+}
+
+/// The kind of error whose text is the help alone.
+const NO_COMMAND: ErrorKind = ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+
+fn rendered(message: &clap::Error, stream: &Stream<'_>) -> String {
+    let text = message.render();
+    if is_coloured(stream) {
+        text.ansi().to_string()
+    } else {
+        text.to_string()
+    }
+}
+
+/// An error in the command line without its paragraphs about usage.
+fn in_one_line(message: &clap::Error) -> String {
+    if message.kind() == NO_COMMAND {
+        return "there is no command; `--help` lists all".to_owned();
+    }
+    let text = message.render().to_string();
+    let text = text.strip_prefix("error: ").unwrap_or(&text);
+    let said = text.split("\n\n").filter(|paragraph| {
+        let usage = ["Usage:", "For more information"];
+        !usage.iter().any(|begin| paragraph.starts_with(begin))
+    });
+    let lines = said.map(|paragraph| {
+        let words: Vec<&str> = paragraph.split_whitespace().collect();
+        words.join(" ")
+    });
+    lines.collect::<Vec<_>>().join("; ")
 }
 
 fn unprintable(e: &io::Error) -> Failure {

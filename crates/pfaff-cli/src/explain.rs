@@ -2,6 +2,8 @@
 
 use pfaff::model::codes::{Code, Entry, Example, TABLE, page};
 
+use pfaff::report::documents::CodesDocument;
+
 use crate::args::Explain;
 use crate::console::Console;
 use crate::output::{Failure, Outcome, wrapped};
@@ -11,6 +13,9 @@ pub(crate) fn run(arguments: &Explain, console: &Console<'_>) -> Outcome {
         return console.print(&page());
     }
     let Some(text) = &arguments.code else {
+        if arguments.json {
+            return console.document(&CodesDocument::new(TABLE));
+        }
         let line = |entry: &Entry| format!("{}  {}\n", entry.code, entry.title);
         return console.print(&TABLE.iter().map(line).collect::<String>());
     };
@@ -19,6 +24,9 @@ pub(crate) fn run(arguments: &Explain, console: &Console<'_>) -> Outcome {
             "there is no code `{text}`; `pfaff explain` lists all"
         )));
     };
+    if arguments.json {
+        return console.document(&CodesDocument::new(std::slice::from_ref(entry)));
+    }
     console.print(&describe(entry))
 }
 

@@ -14,6 +14,9 @@ use pfaff::model::codes::Code;
 
 use crate::output::{Answer, Failure};
 
+/// Code of the message of a command that was interrupted.
+pub(crate) const BY_REQUEST: Code = Code::new(8);
+
 /// Exit code of a program that was interrupted.
 const INTERRUPTED: i32 = 1;
 
@@ -187,7 +190,7 @@ fn say(words: &str) {
     if words.is_empty() || ANSWERED.load(Ordering::Relaxed) {
         return;
     }
-    let failure = Failure::stopped(words.to_owned()).coded(const { Code::new(8) });
+    let failure = Failure::stopped(words.to_owned()).coded(BY_REQUEST);
     // The process ends, whether or not anybody hears it.
     let _ = if AS_JSON.load(Ordering::Relaxed) {
         let document = failure.document().unwrap_or_default();

@@ -90,7 +90,10 @@ where
     let words: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
     let arguments = match C::try_parse_from(&words) {
         Ok(arguments) => arguments,
-        Err(e) => return console.usage(&with_suggestion(e, C::command(), &words)),
+        Err(e) => {
+            let refused = with_suggestion(e, C::command(), &words);
+            return console.usage(&refused, Answer::asked_by(&words));
+        }
     };
     interrupt::answer_as(arguments.answer());
     match arguments.run(&console) {

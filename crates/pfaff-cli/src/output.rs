@@ -1,6 +1,7 @@
 //! The form of answers and failures; the console decides where they are written.
 
 use std::borrow::Cow;
+use std::ffi::OsString;
 use std::path::Path;
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
@@ -17,6 +18,18 @@ pub enum Answer {
     Words,
     /// One JSON document for programs, without other output.
     Json,
+}
+
+impl Answer {
+    /// The form that the words of a command line ask for which cannot be parsed.
+    pub fn asked_by(words: &[OsString]) -> Self {
+        let mut options = words.iter().take_while(|word| *word != "--");
+        if options.any(|word| word == "--json") {
+            Self::Json
+        } else {
+            Self::Words
+        }
+    }
 }
 
 /// The result of a command.

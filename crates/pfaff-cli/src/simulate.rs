@@ -13,7 +13,7 @@ use pfaff::{Overrides, StudyError};
 use crate::args::Simulate;
 use crate::console::Console;
 use crate::input::Source;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{BY_REQUEST, Interrupt};
 use crate::output::{Failure, Outcome, directory, json};
 use crate::work_precision::provenance;
 
@@ -81,6 +81,7 @@ fn last_act(directory: &OutputDirectory, scene: &str) -> impl Fn() -> String + S
     let document = json(&EndedDocument {
         scene: scene.to_owned(),
         partial: true,
+        code: BY_REQUEST,
         error,
     });
     let summary = document.unwrap_or_default();

@@ -86,25 +86,24 @@ impl Request<'_> {
     /// # Errors
     /// If a scene cannot be run or a file cannot be written.
     pub fn run(&self, console: &Console<'_>) -> Outcome {
-        let stopped = |e: &dyn std::error::Error| Failure::stopped(e.to_string());
         let directory = directory(self.out, &FILES, self.force)?;
         let [csv, svg, page_name] = FILES;
         let file = directory.file(csv).map_err(|e| unwritten(&e))?;
-        let table = WorkPrecisionTable::new(file).map_err(|e| stopped(&e))?;
+        let table = WorkPrecisionTable::new(file).map_err(|e| unfinished(&e))?;
         let (document, table) = self.compare(&directory, table)?;
-        let file = table.finish().map_err(|e| stopped(&e))?;
+        let file = table.finish().map_err(|e| unfinished(&e))?;
         let finished = if document.partial {
             file.finish_partial()
         } else {
             file.finish()
         };
-        finished.map_err(|e| stopped(&e))?;
+        finished.map_err(|e| unwritten(&e))?;
         let figure = figures::work_precision(&document.scenes);
         let page = work_precision_page(&document, &figure);
         for (name, text) in [(svg, figure), (page_name, page)] {
             directory
                 .write(name, text.as_bytes())
-                .map_err(|e| stopped(&e))?;
+                .map_err(|e| unwritten(&e))?;
         }
         let text = if self.json {
             json(&document)?
@@ -153,8 +152,8 @@ impl Request<'_> {
             let comparison = subject
                 .compare(&self.plan, self.rivals, &interrupted, row)
                 .map_err(|e| match e {
-                    Interruption::Study(e) => Failure::stopped(e.to_string()),
-                    Interruption::Table(e) => Failure::stopped(e.to_string()),
+                    Interruption::Study(e) => Failure::stopped(e.to_string()).coded(e.code()),
+                    Interruption::Table(e) => unfinished(&e),
                 })?;
             scenes.push(comparison.scene);
             partial = comparison.interrupted;
@@ -244,4 +243,9 @@ fn describe(document: &WorkPrecisionDocument, out: &str) -> String {
     }
     text.push_str(&format!("written to {out}\n"));
     text
+}
+
+/// A table that was not written to its end.
+fn unfinished(error: &TableError) -> Failure {
+    Failure::stopped(error.to_string()).coded(error.code())
 }

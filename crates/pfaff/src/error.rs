@@ -119,7 +119,7 @@ impl StudyError {
         match self {
             Self::Scene(diagnostics) => diagnostics
                 .first()
-                .map_or(const { Code::new(100) }, |d| d.code),
+                .map_or(const { Code::new(107) }, |d| d.code),
             Self::Build(errors) => errors
                 .first()
                 .map_or(const { Code::new(120) }, BuildError::code),

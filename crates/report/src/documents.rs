@@ -29,8 +29,9 @@ pub use analysis::{
     ReasonsDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument, WayDocument,
 };
 pub use answers::{
-    CheckDocument, DiffBody, DiffChange, DiffDocument, DiffMotion, DiffReaction, DiffSide,
-    EndedDocument, NewDocument, RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
+    CheckDocument, CodeDocument, CodesDocument, DiffBody, DiffChange, DiffDocument, DiffMotion,
+    DiffReaction, DiffSide, EndedDocument, NewDocument, RefusalDocument, TemplateDocument,
+    TemplatesDocument, ViewDocument,
 };
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use misfits::{MisfitDocument, SpreadDocument};

@@ -10,6 +10,7 @@ use crate::dimension::Dimension;
 use crate::field::{Field, all};
 use crate::findings::Findings;
 use crate::function::{self, Domain};
+use crate::mistake::Mistake;
 use crate::place::Place;
 use crate::table::Table;
 
@@ -95,6 +96,7 @@ impl Arguments {
                 .parameter()
                 .and_then(|name| spec.parameters.iter().position(|p| p.name == name))?;
             findings.error(
+                Mistake::from(&error),
                 self.spans[at].clone(),
                 format!("{subject}: {error}"),
                 label(&error),
@@ -165,7 +167,7 @@ fn functions(
     }
     let items = field.items(&shape.to_string(), findings)?;
     if items.len() != units.len() {
-        field.mismatch(&shape.to_string(), findings);
+        field.miscount(&shape.to_string(), items.len(), units.len(), findings);
         return None;
     }
     let mut units = units.iter();

@@ -12,6 +12,7 @@ use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::marker::Markers;
+use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
 use crate::table::Table;
@@ -169,6 +170,7 @@ impl Bodies {
             None => "no such body".to_owned(),
         };
         findings.error_with_help(
+            Mistake::UnknownBody,
             span,
             format!("{subject} refers to the unknown body `{name}`"),
             label,

@@ -7,6 +7,7 @@ use model::BodyRef;
 
 use crate::body::Bodies;
 use crate::findings::Findings;
+use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
 use crate::source_map::PLACE_KEYS;
 use crate::table::Table;
@@ -50,6 +51,7 @@ pub(crate) fn named(
     match (one, two) {
         (Some(one), Some(two)) => {
             findings.collision(
+                Mistake::Exclusive,
                 two.span(),
                 format!("{} takes {expected}, not both", table.subject),
                 "and here two bodies are given",
@@ -60,13 +62,18 @@ pub(crate) fn named(
         }
         (Some(one), None) if takes(1) => Some(vec![bodies.find(&one, findings)]),
         (Some(one), None) => {
-            findings.error(one.span(), wrong("body"), format!("expected {expected}"));
+            findings.error(
+                Mistake::BodyCount,
+                one.span(),
+                wrong("body"),
+                format!("expected {expected}"),
+            );
             None
         }
         (None, Some(two)) if takes(2) => {
             let items = two.items("two bodies [first, second]", findings)?;
             if items.len() != 2 {
-                two.mismatch("two bodies [first, second]", findings);
+                two.miscount("two bodies [first, second]", items.len(), 2, findings);
                 return None;
             }
             Some(
@@ -77,11 +84,17 @@ pub(crate) fn named(
             )
         }
         (None, Some(two)) => {
-            findings.error(two.span(), wrong("bodies"), format!("expected {expected}"));
+            findings.error(
+                Mistake::BodyCount,
+                two.span(),
+                wrong("bodies"),
+                format!("expected {expected}"),
+            );
             None
         }
         (None, None) => {
             findings.error(
+                Mistake::Missing,
                 table.header.clone(),
                 format!("{} needs {expected}", table.subject),
                 "the bodies are missing here",
@@ -147,6 +160,7 @@ pub(crate) fn choose(
     let Some((_, first)) = variants().next() else {
         let names: Vec<_> = fitting.iter().map(|&k| specs[k].name).collect();
         findings.error(
+            Mistake::Registry,
             table.header.clone(),
             format!(
                 "{}: nothing tells apart the definitions {} that are registered under this type",
@@ -170,6 +184,7 @@ pub(crate) fn choose(
     let chosen = variants().find(|(_, variant)| variant.value == value);
     if chosen.is_none() {
         findings.error_with_help(
+            Mistake::UnknownChoice,
             field.span(),
             format!(
                 "{}: `{}` must be one of {expected}, found `{value}`",

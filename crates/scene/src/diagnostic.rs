@@ -59,6 +59,7 @@ impl Diagnostic {
     /// An error with one place.
     #[must_use]
     pub fn error(
+        code: impl Into<Code>,
         source: &SourceText,
         span: Range<usize>,
         message: impl Into<String>,
@@ -66,19 +67,13 @@ impl Diagnostic {
     ) -> Self {
         Self {
             severity: Severity::Error,
-            code: const { Code::new(100) },
+            code: code.into(),
             file: source.name().to_owned(),
             message: message.into(),
             primary: source.label(span, label),
             secondary: Vec::new(),
             help: None,
         }
-    }
-
-    /// Gives it a code other than that of any wrong entry.
-    #[must_use]
-    pub(crate) fn coded(self, code: Code) -> Self {
-        Self { code, ..self }
     }
 
     /// It with its line and advice, for reports without the text of the scene.

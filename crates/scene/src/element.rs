@@ -12,6 +12,7 @@ use crate::connection;
 use crate::findings::Findings;
 use crate::function::Domain;
 use crate::key::TYPE;
+use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
 use crate::place;
 use crate::section;
@@ -133,6 +134,7 @@ pub(crate) fn scene_type(
     };
     let all = || format!("the types of a {} are {}", types.kind, types);
     findings.error_with_help(
+        Mistake::UnknownType,
         field.span(),
         format!("{} has the unknown type `{name}`", table.subject),
         label,

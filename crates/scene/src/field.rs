@@ -6,16 +6,16 @@ use std::rc::Rc;
 use std::slice;
 
 use model::Law;
+use model::codes::Code;
 use model::law::Operation;
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
-
-use model::codes::Code;
 
 use crate::dimension::Dimension;
 use crate::expression::{Fault, Problem, Quantity, Scope, decimal};
 use crate::findings::Findings;
 use crate::language::Language;
+use crate::mistake::Mistake;
 use crate::plausible::{self, Number};
 use crate::table::Table;
 use crate::{expression, nearest, units};
@@ -41,8 +41,22 @@ impl<'t> Field<'t> {
         self.value.span()
     }
 
-    /// Reports that something else was expected.
+    /// Reports that a value of another kind was expected.
     pub(crate) fn mismatch(&self, expected: &str, findings: &mut Findings) {
+        self.is_not(expected, Mistake::Type, findings);
+    }
+
+    /// Reports a list of `found` values which is not the expected one of `n`.
+    pub(crate) fn miscount(&self, expected: &str, found: usize, n: usize, findings: &mut Findings) {
+        let mistake = if found == n {
+            Mistake::Type
+        } else {
+            Mistake::Count
+        };
+        self.is_not(expected, mistake, findings);
+    }
+
+    fn is_not(&self, expected: &str, mistake: Mistake, findings: &mut Findings) {
         let text = self.value.get_ref().as_str();
         let help = text
             .filter(|_| expected.contains("number"))
@@ -56,8 +70,8 @@ impl<'t> Field<'t> {
                     units::advice(text).or_else(|| Some(COMPUTED.to_owned()))
                 }
             });
-        findings.coded_error(
-            const { Code::new(105) },
+        findings.error_with_help(
+            mistake,
             self.span(),
             format!(
                 "{}: `{}` must be {expected}, found {}",
@@ -156,6 +170,7 @@ impl<'t> Field<'t> {
         };
         if !value.is_finite() {
             findings.error(
+                Mistake::NotFinite,
                 self.span(),
                 format!(
                     "{}: `{}` is {value}, need a finite number",
@@ -206,8 +221,8 @@ impl<'t> Field<'t> {
             }
         }
         let message = format!("{}: `{}`: {problem}", self.subject, self.key);
-        findings.coded_error(
-            const { Code::new(106) },
+        findings.error_with_help(
+            Mistake::from(&problem),
             self.part(span, findings),
             message,
             label,
@@ -269,7 +284,7 @@ impl<'t> Field<'t> {
         let items = self.items(expected, findings)?;
         let is_nested = |item: &Self| item.value.get_ref().is_array();
         if items.len() != n || items.iter().any(is_nested) {
-            self.mismatch(expected, findings);
+            self.miscount(expected, items.len(), n, findings);
             return None;
         }
         each(&items, of, findings)
@@ -304,7 +319,7 @@ impl<'t> Field<'t> {
     ) -> Option<Vec<[f64; 2]>> {
         let items = self.items(expected, findings)?;
         if items.len() != n || items.iter().any(|item| !item.value.get_ref().is_array()) {
-            self.mismatch(expected, findings);
+            self.miscount(expected, items.len(), n, findings);
             return None;
         }
         all(&items, |item| {

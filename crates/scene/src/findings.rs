@@ -9,6 +9,7 @@ use std::ops::Range;
 use model::codes::Code;
 
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::mistake::Mistake;
 use crate::nearest::nearest;
 use crate::text::SourceText;
 
@@ -90,6 +91,7 @@ impl<'s> Findings<'s> {
     /// Reports an error with one place.
     pub(crate) fn error(
         &mut self,
+        code: impl Into<Code>,
         span: Range<usize>,
         message: impl Into<String>,
         label: impl Into<String>,
@@ -97,12 +99,13 @@ impl<'s> Findings<'s> {
         if self.is_full() {
             return self.count(1);
         }
-        self.report(Diagnostic::error(self.source, span, message, label));
+        self.report(Diagnostic::error(code, self.source, span, message, label));
     }
 
     /// Reports an error with one place and advice.
     pub(crate) fn error_with_help(
         &mut self,
+        code: impl Into<Code>,
         span: Range<usize>,
         message: impl Into<String>,
         label: impl Into<String>,
@@ -111,23 +114,7 @@ impl<'s> Findings<'s> {
         if self.is_full() {
             return self.count(1);
         }
-        self.report(Diagnostic::error(self.source, span, message, label).help(help));
-    }
-
-    /// Like [`Self::error_with_help`], with a code.
-    pub(crate) fn coded_error(
-        &mut self,
-        code: Code,
-        span: Range<usize>,
-        message: impl Into<String>,
-        label: impl Into<String>,
-        help: impl Into<Option<String>>,
-    ) {
-        if self.is_full() {
-            return self.count(1);
-        }
-        let found = Diagnostic::error(self.source, span, message, label).help(help);
-        self.report(found.coded(code));
+        self.report(Diagnostic::error(code, self.source, span, message, label).help(help));
     }
 
     /// Passes over warnings with this code from now on.
@@ -157,8 +144,7 @@ impl<'s> Findings<'s> {
         let help = format!("{help}; if it is meant, `silence = [\"{code}\"]` in `[scene]`");
         self.warnings.push(Diagnostic {
             severity: Severity::Warning,
-            code,
-            ..Diagnostic::error(self.source, span, message, label).help(help)
+            ..Diagnostic::error(code, self.source, span, message, label).help(help)
         });
     }
 
@@ -178,6 +164,7 @@ impl<'s> Findings<'s> {
     /// Reports an error with the place of the item with which it is in conflict.
     pub(crate) fn collision(
         &mut self,
+        code: impl Into<Code>,
         span: Range<usize>,
         message: impl Into<String>,
         label: &str,
@@ -188,8 +175,7 @@ impl<'s> Findings<'s> {
             return self.count(1);
         }
         let first = self.source.label(first, first_label);
-        let found = Diagnostic::error(self.source, span, message, label).and(first);
-        self.report(found.coded(const { Code::new(104) }));
+        self.report(Diagnostic::error(code, self.source, span, message, label).and(first));
     }
 
     /// Whether something that may be named once is named for the first time, here; else reports
@@ -204,7 +190,15 @@ impl<'s> Findings<'s> {
         match named.entry(thing) {
             Entry::Occupied(first) => {
                 let first = first.get().clone();
-                self.collision(span, twice, "named again here", first, "first named here");
+                let label = "named again here";
+                self.collision(
+                    Mistake::Twice,
+                    span,
+                    twice,
+                    label,
+                    first,
+                    "first named here",
+                );
                 false
             }
             Entry::Vacant(place) => {
@@ -265,8 +259,7 @@ impl<'s> Findings<'s> {
             let label = "the last one of the list";
             unique.push(Diagnostic {
                 severity: Severity::Note,
-                code: const { Code::new(107) },
-                ..Diagnostic::error(self.source, place, message, label)
+                ..Diagnostic::error(Mistake::More, self.source, place, message, label)
             });
         }
         unique

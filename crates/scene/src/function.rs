@@ -9,6 +9,7 @@ use crate::dimension::Dimension;
 use crate::field::{Field, all};
 use crate::findings::Findings;
 use crate::key::{Interval, Key, TYPE, Takes};
+use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
@@ -153,6 +154,7 @@ pub(crate) fn read(
         "linear-table" => points(&mut table, of, Function::lines, domains, findings),
         unknown => {
             findings.error_with_help(
+                Mistake::UnknownType,
                 kind.span(),
                 format!("{} has the unknown type `{unknown}`", table.subject),
                 "no such function of time",
@@ -300,5 +302,5 @@ fn refuse(error: &FunctionError, at: &Field, findings: &mut Findings) {
         _ => "not possible",
     };
     let message = format!("{}: `{}`: {error}", at.subject, at.key);
-    findings.error(at.span(), message, label);
+    findings.error(error.code(), at.span(), message, label);
 }

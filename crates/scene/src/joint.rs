@@ -19,6 +19,7 @@ use crate::findings::Findings;
 use crate::force::Forces;
 use crate::function::{self, Domain};
 use crate::key::{Key, TYPE, Takes};
+use crate::mistake::Mistake;
 use crate::nearest::{all, list, nearest};
 use crate::source_map::Entry;
 use crate::table::Table;
@@ -212,7 +213,7 @@ impl Drives {
                     table.subject
                 );
                 let label = "a drive does one of them";
-                findings.error(table.header.clone(), message, label);
+                findings.error(Mistake::Exclusive, table.header.clone(), message, label);
                 None
             }
         };
@@ -243,6 +244,7 @@ impl Drives {
                 None => "no such measure".to_owned(),
             };
             findings.error_with_help(
+                Mistake::UnknownMeasure,
                 span,
                 format!(
                     "drive `{name}`: joint `{}` (`{}`) has no measure `{measure}`",
@@ -260,6 +262,7 @@ impl Drives {
         arguments.push(Argument::Absent);
         let Some(drive) = definition.drives.get(at) else {
             return findings.error(
+                Mistake::Registry,
                 span,
                 format!(
                     "drive `{name}`: the definition of the drive of `{measure}` is not registered"
@@ -301,7 +304,12 @@ impl Drives {
             }
         };
         if let Some(error) = refused {
-            findings.error(span, format!("drive `{name}`: {error}"), "not possible");
+            findings.error(
+                Mistake::Registry,
+                span,
+                format!("drive `{name}`: {error}"),
+                "not possible",
+            );
         } else if definition.spec.measures[at].is_kept && is_active {
             self.replaced.push(joint.name.clone());
         }
@@ -318,6 +326,7 @@ fn read_law(field: &Field, of: Option<Dimension>, findings: &mut Findings) -> Op
     };
     if field.key != key {
         findings.error_with_help(
+            Mistake::OtherLoad,
             field.span(),
             format!(
                 "{}: `{}` does not act along {}",
@@ -368,6 +377,7 @@ fn is_driven(table: &Table, joint: Option<&Known>, findings: &mut Findings) {
         table.subject, joint.name
     );
     findings.collision(
+        Mistake::Inactive,
         table.span_of(JOINT.name),
         message,
         "write `active = false` for the drive, too, or remove it from the joint",
@@ -406,6 +416,7 @@ fn joint<'j, 'r>(
             None => "no such joint".to_owned(),
         };
         findings.error_with_help(
+            Mistake::UnknownJoint,
             field.span(),
             format!("{} refers to the unknown joint `{name}`", table.subject),
             label,

@@ -20,7 +20,7 @@
 //! | `plausible`, `silence` | numbers that are probably not what was meant; warnings that are not wanted |
 //! | `template` | the text with other numbers |
 //! | `schema` | the format as a JSON schema, from the same keys |
-//! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, suggested names |
+//! | `diagnostic`, `mistake`, `text`, `findings`, `nearest` | problems, their kinds and codes, lines and columns, suggested names |
 
 mod active;
 mod arguments;
@@ -42,6 +42,7 @@ mod limits;
 mod locate;
 mod marker;
 mod measure;
+mod mistake;
 mod names;
 mod nearest;
 mod place;

@@ -4,18 +4,38 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use dynamics::{MotionError, MotionFault};
+use model::codes::Code;
 use model::start::VelocityConflict;
 use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError, Stated};
 
 use crate::diagnostic::Diagnostic;
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
 
-/// The place of an error of [`model::Mechanism::build`].
-pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic {
-    build_at(map, d, error).coded(error.code())
+/// An error with a code of its own.
+trait Coded: std::error::Error {
+    fn code(&self) -> Code;
 }
 
-fn build_at(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic {
+impl Coded for BuildError {
+    fn code(&self) -> Code {
+        self.code()
+    }
+}
+
+impl Coded for StartError {
+    fn code(&self) -> Code {
+        self.code()
+    }
+}
+
+impl Coded for MotionError {
+    fn code(&self) -> Code {
+        self.code()
+    }
+}
+
+/// The place of an error of [`model::Mechanism::build`].
+pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic {
     let (span, label) = match error {
         BuildError::NoBodies => (map.section("scene", ""), "no `[[body]]` in this scene"),
         BuildError::Gravity { .. } => (map.section("scene", "gravity"), "not finite"),
@@ -88,10 +108,6 @@ fn build_at(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic 
 
 /// The place of an error of [`model::start`].
 pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
-    start_at(map, error).coded(error.code())
-}
-
-fn start_at(map: &SourceMap, error: &StartError) -> Diagnostic {
     let (span, label) = match error {
         StartError::NoAssembly { rows, .. } => {
             let labels = rows.iter().map(|r| &r.row);
@@ -147,10 +163,6 @@ fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) 
 
 /// The place of an error of a run.
 pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
-    motion_at(map, error).coded(error.code())
-}
-
-fn motion_at(map: &SourceMap, error: &MotionError) -> Diagnostic {
     let (span, label) = match error {
         MotionError::Start(error) => return start(map, error),
         MotionError::Component { source, .. } => return motion(map, source),
@@ -197,7 +209,7 @@ fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
     forcing: &[&str],
-    error: &impl std::error::Error,
+    error: &impl Coded,
 ) -> Diagnostic {
     // Rows that drives prevent from holding are not wrong themselves.
     let mut spans = forcing
@@ -226,13 +238,8 @@ fn contradicting(
 /// Largest number of marked places for one error.
 const MARKS: usize = 20;
 
-fn at(
-    map: &SourceMap,
-    span: Range<usize>,
-    error: &impl std::error::Error,
-    label: &str,
-) -> Diagnostic {
-    Diagnostic::error(&map.text, span, error.to_string(), label)
+fn at(map: &SourceMap, span: Range<usize>, error: &impl Coded, label: &str) -> Diagnostic {
+    Diagnostic::error(error.code(), &map.text, span, error.to_string(), label)
 }
 
 /// An error of several rows, marked at their joints and drives, each once. The first mark is for
@@ -240,7 +247,7 @@ fn at(
 fn at_rows<'a>(
     map: &SourceMap,
     labels: impl IntoIterator<Item = &'a RowLabel>,
-    error: &impl std::error::Error,
+    error: &impl Coded,
     [first_mark, mark]: [&str; 2],
 ) -> Diagnostic {
     let mut seen = BTreeSet::new();

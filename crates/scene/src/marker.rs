@@ -9,6 +9,7 @@ use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
+use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
 use crate::table::Table;
@@ -96,6 +97,7 @@ impl Markers {
         sorted.sort_unstable();
         let near = findings.suggest(name, sorted.iter().copied());
         findings.error_with_help(
+            Mistake::UnknownMarker,
             field.span(),
             format!("{} refers to the unknown marker `{name}`", field.subject),
             "no such marker",
@@ -137,7 +139,7 @@ impl Bodies {
         let own = self.markers.list.iter().zip(&self.markers.entries);
         let found = own.clone().find(|(own, _)| own.name == marker.name);
         let place = found.map_or_else(|| field.span(), |(_, entry)| entry.span(BODY.name));
-        findings.collision(
+        findings.collision(Mistake::ForeignMarker,
             field.span(),
             format!(
                 "{}: marker `{name}` belongs to `{body}`, and a point of `{}` is needed; `at = \"{name}\"` takes the place where it is",

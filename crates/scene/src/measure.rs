@@ -6,6 +6,7 @@ use crate::body::GROUND;
 use crate::findings::Findings;
 use crate::key::{Key, TYPE, Takes};
 use crate::marker::Markers;
+use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
 use crate::source_map::Entry;
 use crate::table::Table;
@@ -65,6 +66,7 @@ fn kind(table: &mut Table, findings: &mut Findings) -> Option<MeasureKind> {
         .find(|kind| kind.name() == name);
     if found.is_none() {
         findings.error_with_help(
+            Mistake::UnknownType,
             field.span(),
             format!("{} has the unknown type `{name}`", table.subject),
             "unknown type",
@@ -86,7 +88,7 @@ fn between(
     let field = table.required(&MARKERS, findings)?;
     let items = field.items(MARKERS.expected, findings)?;
     if !(1..=2).contains(&items.len()) {
-        field.mismatch(MARKERS.expected, findings);
+        field.miscount(MARKERS.expected, items.len(), 2, findings);
         return None;
     }
     let read = items

@@ -10,6 +10,7 @@ use model::frame::COLUMNS;
 use crate::body::GROUND;
 use crate::findings::Findings;
 use crate::locate;
+use crate::mistake::Mistake;
 use crate::source_map::SourceMap;
 use crate::table::Table;
 
@@ -53,7 +54,12 @@ impl Names {
             if name == TIME || name.rsplit_once('.').is_some_and(is_column) {
                 let message =
                     format!("measure `{name}` has the name of another column of `trajectory.csv`");
-                findings.error(span.clone(), message, "choose another name");
+                findings.error(
+                    Mistake::ReservedName,
+                    span.clone(),
+                    message,
+                    "choose another name",
+                );
             }
         }
     }
@@ -63,6 +69,7 @@ impl Names {
         for used in self.bodies.iter().chain(&self.elements) {
             if used.name == GROUND {
                 findings.error(
+                    BuildError::Ground.code(),
                     used.span.clone(),
                     BuildError::Ground.to_string(),
                     "choose another name",
@@ -89,7 +96,7 @@ impl Names {
                 let name = name.to_owned();
                 let error = BuildError::DuplicateName { name };
                 for diagnostic in locate::duplicates(map, &uses, &error) {
-                    findings.report(diagnostic.coded(error.code()));
+                    findings.report(diagnostic);
                 }
             }
         }

@@ -12,6 +12,7 @@ use crate::connection::listed;
 use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::mistake::Mistake;
 use crate::nearest::list;
 use crate::table::Table;
 
@@ -65,6 +66,7 @@ pub(crate) fn read(
     match (at, local) {
         (Some(at), Some(local)) => {
             findings.collision(
+                Mistake::Exclusive,
                 local.span(),
                 format!("{} takes `at` or `{local_key}`, not both", table.subject),
                 "and here in the frames of the bodies",
@@ -93,7 +95,7 @@ pub(crate) fn read(
             } else {
                 "[x, y]"
             };
-            findings.error(
+            findings.error(Mistake::Missing,
                 table.header.clone(),
                 format!(
                     "{} needs a place: `at = {form}` in global coordinates, or `{local_key}` in the frames of the bodies",
@@ -132,7 +134,7 @@ fn global(
             Point::At(point) => body.to_local(&bodies.list, point),
         };
         if local.iter().any(|x| !x.is_finite()) {
-            findings.error(
+            findings.error(Mistake::NotFinite,
                 at.span(),
                 format!(
                     "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number",
@@ -181,7 +183,7 @@ fn several<'t>(
     if items.len() == n && items.iter().all(is_point) {
         return Some(items);
     }
-    field.mismatch(expected, findings);
+    field.miscount(expected, items.len(), n, findings);
     None
 }
 
@@ -260,6 +262,7 @@ fn by_body(
             .collect();
         if mine.is_empty() {
             findings.error_with_help(
+                Mistake::UnknownKey,
                 key.clone(),
                 format!(
                     "{} names `{}`, which has no point here",
@@ -281,6 +284,7 @@ fn by_body(
     }
     for name in missing {
         findings.error(
+            Mistake::Missing,
             table.header.clone(),
             format!("{} needs the point of `{name}`", table.subject),
             format!("`{name} = [x, y]` is missing here"),

@@ -11,6 +11,7 @@ use crate::combination::{self, Combination, Reactions};
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Key, Takes};
+use crate::mistake::Mistake;
 use crate::table::Table;
 
 /// A combination of reactions on which a verdict is requested.
@@ -110,6 +111,7 @@ pub(crate) fn group(
         (Some(field), None) => match members(&field, names, findings) {
             Some(none) if none.is_empty() => {
                 findings.error(
+                    Mistake::EmptyList,
                     field.span(),
                     format!("{}: `members` is empty", table.subject),
                     "needs at least one joint or drive",
@@ -123,6 +125,7 @@ pub(crate) fn group(
         }
         (Some(members), Some(combine)) => {
             findings.collision(
+                Mistake::Exclusive,
                 combine.span(),
                 format!("{} takes `members` or `combine`, not both", table.subject),
                 "and a combination here",
@@ -133,6 +136,7 @@ pub(crate) fn group(
         }
         (None, None) => {
             findings.error(
+                Mistake::Missing,
                 table.header.clone(),
                 format!(
                     "{} needs `members = [\"A\", …]` or `combine = \"A.Fx + …\"`",
@@ -193,6 +197,7 @@ fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
         if names.find(name).is_none() && names.is_inactive(name) {
             right = false;
             findings.error_with_help(
+                Mistake::Inactive,
                 item.span(),
                 format!("{} refers to `{name}`, which is not active", item.subject),
                 "not active",
@@ -202,6 +207,7 @@ fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
             right = false;
             let near = findings.suggest(name, names.names());
             findings.error_with_help(
+                Mistake::UnknownJoint,
                 item.span(),
                 format!(
                     "{} refers to the unknown joint or drive `{name}`",
@@ -213,6 +219,7 @@ fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
         } else if let Some(first) = first.get(name) {
             right = false;
             findings.collision(
+                Mistake::Twice,
                 item.span(),
                 format!("{}: `{}` names `{name}` twice", item.subject, item.key),
                 "named again here",
@@ -233,6 +240,7 @@ fn combine(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
         .map_err(|error| {
             let span = field.part(error.span, findings);
             findings.error(
+                Mistake::from(&error.problem),
                 span,
                 format!("{}: `combine`: {}", field.subject, error.problem),
                 "here",

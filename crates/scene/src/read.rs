@@ -8,8 +8,6 @@ use model::{BuildError, Description, Mechanism, Observed, Registry, Stated, Tole
 use serde_json::json;
 use toml::de::DeTable;
 
-use model::codes::Code;
-
 use crate::active;
 use crate::body::Bodies;
 use crate::combination::{ReactionNames, Reactions};
@@ -26,6 +24,7 @@ use crate::limits;
 use crate::locate;
 use crate::marker::Markers;
 use crate::measure::Measures;
+use crate::mistake::Mistake;
 use crate::names::{Names, Use};
 use crate::plausible::{self, LengthUnit};
 use crate::reactions::{self, GroupRequest, components};
@@ -63,7 +62,7 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     let source = SourceText::new(source_name, text);
     let mut findings = Findings::new(&source);
     if let Some(excess) = limits::excess(text) {
-        findings.error(excess.span, excess.message, excess.label);
+        findings.error(Mistake::TooLarge, excess.span, excess.message, excess.label);
         return Err(findings.sorted());
     }
     let (root, errors) = DeTable::parse_recoverable(text);
@@ -121,7 +120,7 @@ fn syntax(errors: &[toml::de::Error], findings: &mut Findings) {
         match fault {
             Some(fault) => say(fault, findings),
             None => {
-                findings.coded_error(NOT_TOML, span, error.message(), "not valid TOML", None);
+                findings.error(Mistake::NotToml, span, error.message(), "not valid TOML");
             }
         }
     }
@@ -134,10 +133,8 @@ fn say(fault: syntax::Fault, findings: &mut Findings) {
         label,
         help,
     } = fault;
-    findings.coded_error(NOT_TOML, span, message, label, Some(help));
+    findings.error_with_help(Mistake::NotToml, span, message, label, help);
 }
-
-const NOT_TOML: Code = Code::new(101);
 
 /// Reads all sections. The result may be used only if no problem was found.
 fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
@@ -373,7 +370,7 @@ impl Heading {
             let name = field.text(NAME.expected, findings)?;
             if let Some((reason, label)) = section::unfit(name) {
                 let message = format!("`[scene]`: `name` {reason}");
-                findings.error(field.span(), message, label);
+                findings.error(Mistake::UnfitName, field.span(), message, label);
             }
             Some(name.to_owned())
         });
@@ -383,6 +380,7 @@ impl Heading {
             && space != PLANE
         {
             findings.error(
+                Mistake::UnknownChoice,
                 field.span(),
                 format!("`[scene]`: `space` is \"{space}\", only \"{PLANE}\" is available"),
                 "not available",

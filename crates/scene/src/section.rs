@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Key, Takes};
+use crate::mistake::Mistake;
 use crate::source_map::Entry;
 use crate::table::Table;
 
@@ -126,7 +127,7 @@ fn named<'t>(
         && let Some((reason, label)) = unfit(name)
     {
         let message = format!("{}: `name` {reason}", table.subject);
-        findings.error(field.span(), message, label);
+        findings.error(Mistake::UnfitName, field.span(), message, label);
     }
     let name = table.subject.to_string();
     Some((table, name))

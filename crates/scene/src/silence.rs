@@ -50,7 +50,7 @@ pub(crate) fn read(table: &mut Table, findings: &mut Findings) {
         }
         let codes = warnings();
         let names = || codes.iter().map(String::as_str);
-        findings.coded_error(
+        findings.error_with_help(
             const { Code::new(180) },
             item.span(),
             format!("`[scene]`: `silence` names `{text}`, which is no warning of a scene"),

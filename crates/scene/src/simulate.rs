@@ -12,6 +12,7 @@ use crate::field::Field;
 use crate::findings::Findings;
 use crate::function::Domain;
 use crate::key::{Interval, Key, Takes};
+use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
 use crate::plausible;
 use crate::table::Table;
@@ -171,7 +172,8 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &m
         step.subject
     );
     let source = findings.source;
-    let too_small = Diagnostic::error(source, step.span(), message, "too small for this run")
+    let label = "too small for this run";
+    let too_small = Diagnostic::error(Mistake::TooManyRows, source, step.span(), message, label)
         .and(source.label(end.span(), "the run ends here"))
         .help(format!(
             "`output_step = {:e}` gives {USEFUL_ROWS:e} rows; without the key there are {}",
@@ -194,6 +196,7 @@ fn bounded(field: &Field, key: &Key, findings: &mut Findings) -> Option<f64> {
         expected,
     };
     findings.error(
+        Mistake::OutOfRange,
         field.span(),
         format!("{}: {error}", field.subject),
         format!("expected {expected}"),
@@ -208,7 +211,12 @@ fn max_steps(table: &mut Table, findings: &mut Findings) -> Option<u64> {
     if steps.is_none() {
         let expected = MAX_STEPS.expected;
         let message = format!("{}: max_steps is {value}, need {expected}", field.subject);
-        findings.error(field.span(), message, format!("expected {expected}"));
+        findings.error(
+            Mistake::OutOfRange,
+            field.span(),
+            message,
+            format!("expected {expected}"),
+        );
     }
     steps
 }
@@ -223,6 +231,7 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     }
     if let Some(words) = moved(&field.key, value) {
         findings.error(
+            Mistake::NotOfARun,
             field.span(),
             format!("{}: {words}", field.subject),
             "not of a run",
@@ -231,6 +240,7 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     }
     let help = did_you_mean(value, names());
     findings.error_with_help(
+        Mistake::UnknownChoice,
         field.span(),
         format!("{}: `{}` `{value}` is unknown", field.subject, field.key),
         "no such choice",
@@ -256,6 +266,7 @@ fn refuse_moved(table: &mut Table, findings: &mut Findings) {
         let words = moved(of, value);
         let words = words.unwrap_or_else(|| format!("a run has no key `{key}`"));
         findings.error(
+            Mistake::NotOfARun,
             field.span(),
             format!("{}: {words}", field.subject),
             "not of a run",
@@ -275,6 +286,7 @@ fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
         };
         let Some(row) = usize::try_from(number).ok().and_then(|n| n.checked_sub(1)) else {
             findings.error(
+                Mistake::UnknownRow,
                 item.span(),
                 format!(
                     "{}: `drop` names row {number}; rows are counted from 1",
@@ -297,6 +309,7 @@ impl Simulate {
     pub(crate) fn check_rows(&self, n_rows: usize, findings: &mut Findings) {
         for (row, span) in self.drop.iter().filter(|(row, _)| *row >= n_rows) {
             findings.error(
+                Mistake::UnknownRow,
                 span.clone(),
                 format!(
                     "`[simulate]`: `drop` names row {}; rows are 1 to {n_rows}",
@@ -315,7 +328,7 @@ impl Simulate {
             if first <= 0.0 && last >= t_end {
                 continue;
             }
-            findings.collision(
+            findings.collision(Mistake::Uncovered,
                 domain.span.clone(),
                 format!(
                     "{}: the table runs from t = {first} to t = {last}, the run from t = 0 to t = {t_end}",

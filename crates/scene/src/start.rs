@@ -10,6 +10,7 @@ use crate::body::{Bodies, GROUND};
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Key, Takes};
+use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
@@ -80,6 +81,7 @@ fn coordinate(item: &Field, bodies: &Bodies, findings: &mut Findings) -> Option<
     };
     if body == GROUND {
         findings.error(
+            Mistake::UnknownCoordinate,
             item.span(),
             "`[start]`: `keep` names the ground, which has no coordinates",
             "the ground does not move",
@@ -94,6 +96,7 @@ fn coordinate(item: &Field, bodies: &Bodies, findings: &mut Findings) -> Option<
     if found.is_none() {
         let names = || COORDINATES.iter().map(|(known, ..)| *known);
         findings.error_with_help(
+            Mistake::UnknownCoordinate,
             item.span(),
             format!("`[start]`: `keep` names the unknown coordinate `{name}`"),
             "no such coordinate",

@@ -7,12 +7,11 @@ use std::rc::Rc;
 
 use toml::de::DeTable;
 
-use model::codes::Code;
-
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::Key;
 use crate::language::Language;
+use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
 
 /// A table and what it describes.
@@ -90,13 +89,7 @@ impl<'t> Table<'t> {
         findings: &mut Findings,
     ) {
         self.missing.push((key, findings.next()));
-        findings.coded_error(
-            const { Code::new(103) },
-            self.header.clone(),
-            message,
-            label,
-            None,
-        );
+        findings.error(Mistake::Missing, self.header.clone(), message, label);
     }
 
     /// All keys with their values, for tables whose keys are names.
@@ -157,8 +150,8 @@ impl<'t> Table<'t> {
             if let Some((_, problem)) = self.missing.iter().find(|(key, _)| near == Some(key)) {
                 findings.explain(*problem);
             }
-            findings.coded_error(
-                const { Code::new(102) },
+            findings.error_with_help(
+                Mistake::UnknownKey,
                 key.span(),
                 format!("{} has no key `{name}`", self.subject),
                 label,

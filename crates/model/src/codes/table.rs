@@ -23,6 +23,15 @@ macro_rules! scene {
     };
 }
 
+macro_rules! computed {
+    ($text:literal) => {
+        concat!(
+            "[scene]\nformat = 2\nname = \"bar\"\nspace = \"plane\"\n",
+            $text
+        )
+    };
+}
+
 macro_rules! bar {
     ($text:literal) => {
         concat!(
@@ -84,12 +93,6 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(9, "The computation stopped", "The message says why.", RARE),
     entry(
-        100,
-        "An entry of the scene is wrong",
-        "The message says what is expected at the marked place.",
-        Example::Scene("check -", "[scene]\nname = \"bar\"\nspace = \"moon\"\n"),
-    ),
-    entry(
         101,
         "The text is not TOML",
         "Correct the marked line; texts stand in quotes, tables in brackets.",
@@ -127,11 +130,11 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(
         106,
-        "An expression cannot be computed",
-        "Correct the marked part: a name, a unit, a bracket, or a division by zero.",
+        "A text is not an expression",
+        "Correct the marked part: an operator, a bracket, or the values of a function.",
         Example::Scene(
             "check -",
-            "[scene]\nformat = 2\nname = \"bar\"\nspace = \"plane\"\n\n[[body]]\nname = \"bar\"\nmass = \"2*\"\ninertia = 0.1\n",
+            computed!("\n[[body]]\nname = \"bar\"\nmass = \"2*\"\ninertia = 0.1\n"),
         ),
     ),
     entry(
@@ -139,6 +142,114 @@ pub const TABLE: &[Entry] = &[
         "There are more problems than are listed",
         "Correct those that are listed first.",
         Example::None("needs thousands of problems"),
+    ),
+    entry(
+        108,
+        "A name cannot be used",
+        "Choose a name in one line that is not empty and does not begin like a formula of a spreadsheet; parameters have letters, digits and `_`.",
+        Example::Scene(
+            "check -",
+            scene!("\n[[body]]\nname = \"=bar\"\nmass = 1.0\ninertia = 0.1\n"),
+        ),
+    ),
+    entry(
+        109,
+        "A name already means something else",
+        "Choose another name: this one is a column of a table, or a function, a unit or a measure in expressions.",
+        Example::Scene("check -", computed!("\n[parameters]\nsin = 1.0\n")),
+    ),
+    entry(
+        110,
+        "A number is outside of its range",
+        "Write a number within the range that the message states.",
+        Example::Scene("check -", bar!("\n[simulate]\nt_end = 1.0\nrtol = 2.0\n")),
+    ),
+    entry(
+        111,
+        "A number is not finite",
+        "Write a finite number; places that are far apart need a finite difference, too.",
+        Example::Scene(
+            "check -",
+            scene!("\n[[body]]\nname = \"bar\"\nmass = inf\ninertia = 0.1\n"),
+        ),
+    ),
+    entry(
+        112,
+        "A direction has no length",
+        "Write a direction that is not zero, or a line through two different points.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"translational\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\naxis = [0.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        113,
+        "The text is too large for a scene",
+        "Write long lists in several lines, or split the mechanism; the message states the limit.",
+        Example::None("needs a text of several megabytes"),
+    ),
+    entry(
+        114,
+        "A key has no such choice",
+        "Write one of the words that the message lists.",
+        Example::Scene("check -", "[scene]\nname = \"bar\"\nspace = \"moon\"\n"),
+    ),
+    entry(
+        115,
+        "Keys of a table exclude each other",
+        "Keep one of them.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\npoints = { ground = [0.0, 0.0], bar = [0.0, 0.0] }\n"
+            ),
+        ),
+    ),
+    entry(
+        116,
+        "A type is unknown",
+        "Write one of the types that the message lists; joints, forces and drives have tables of their own.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolut\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        117,
+        "Times of a function do not increase",
+        "Write later times after earlier ones; a step ends after it begins.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"J\"\ntype = \"angle\"\nmotion = { type = \"table\", times = [0.0, 2.0, 1.0], values = [0.0, 1.0, 2.0] }\n"
+            ),
+        ),
+    ),
+    entry(
+        118,
+        "A table of a function has the wrong number of values",
+        "Write at least two times, and as many values.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"J\"\ntype = \"angle\"\nmotion = { type = \"table\", times = [0.0, 1.0], values = [0.0, 1.0, 2.0] }\n"
+            ),
+        ),
+    ),
+    entry(
+        119,
+        "A table of a function does not cover the run",
+        "Write values for the whole run, or end the run before.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"J\"\ntype = \"angle\"\nmotion = { type = \"table\", times = [0.0, 1.0], values = [0.0, 1.0] }\n\n[simulate]\nt_end = 2.0\n"
+            ),
+        ),
     ),
     entry(
         120,
@@ -182,14 +293,24 @@ pub const TABLE: &[Entry] = &[
     entry(
         126,
         "An element has the wrong number of bodies",
-        "Give as many bodies as its type connects.",
-        LIBRARY,
+        "Give as many bodies as its type connects, with the key that the message names.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbody = \"bar\"\nat = [0.0, 0.0]\n"
+            ),
+        ),
     ),
     entry(
         127,
         "A body does not exist",
         "Correct the name, or add the body.",
-        LIBRARY,
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"rod\"]\nat = [0.0, 0.0]\n"
+            ),
+        ),
     ),
     entry(
         128,
@@ -248,15 +369,156 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(
         135,
-        "A measure refers to a marker that does not exist",
-        "Name one of the markers of the description.",
-        LIBRARY,
+        "A marker does not exist",
+        "Correct the name, or add the marker.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[marker]]\nname = \"top\"\nbody = \"bar\"\npoint = [1.0, 0.0]\n\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = \"tip\"\n"
+            ),
+        ),
     ),
     entry(
         136,
         "A measure is between a place and itself",
         "Name two different markers.",
         LIBRARY,
+    ),
+    entry(
+        137,
+        "A joint or drive does not exist",
+        "Correct the name, or add the joint.",
+        Example::Scene(
+            "check -",
+            bar!("\n[[drive]]\nname = \"motor\"\njoint = \"J\"\ntype = \"angle\"\nmotion = 0.0\n"),
+        ),
+    ),
+    entry(
+        138,
+        "A joint has no such measure",
+        "Write one of the measures that the message lists; some types cannot be driven.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"J\"\ntype = \"displacement\"\nmotion = 0.0\n"
+            ),
+        ),
+    ),
+    entry(
+        139,
+        "A load does not act along its measure",
+        "Write `force` along a length and `torque` along an angle.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"J\"\ntype = \"angle\"\nforce = 1.0\n"
+            ),
+        ),
+    ),
+    entry(
+        140,
+        "An entry refers to something that is not active",
+        "Remove `active = false` from it, or write it for this entry, too.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\nactive = false\n\n[[drive]]\nname = \"motor\"\njoint = \"J\"\ntype = \"angle\"\nmotion = 0.0\n"
+            ),
+        ),
+    ),
+    entry(
+        141,
+        "A marker belongs to another body than the one that is needed",
+        "Name a marker of the body; `at` takes the place of any marker.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[marker]]\nname = \"tip\"\nbody = \"bar\"\npoint = [1.0, 0.0]\n\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\npoints = { ground = \"tip\", bar = [1.0, 0.0] }\n"
+            ),
+        ),
+    ),
+    entry(
+        142,
+        "A run would write too many rows",
+        "Write a larger `output_step`.",
+        Example::Scene(
+            "check -",
+            bar!("\n[simulate]\nt_end = 1.0\noutput_step = 1e-12\n"),
+        ),
+    ),
+    entry(
+        143,
+        "An option is not one of a run",
+        "Remove it; the message says what is in its place.",
+        Example::Scene(
+            "check -",
+            bar!("\n[simulate]\nt_end = 1.0\nmethod = \"gbs\"\n"),
+        ),
+    ),
+    entry(
+        144,
+        "An entry needs the format 2",
+        "Write `format = 2` in `[scene]`.",
+        Example::Scene("check -", bar!("\n[parameters]\nL = 1.0\n")),
+    ),
+    entry(
+        145,
+        "Parameters depend on each other",
+        "Give one of them a value without the others.",
+        Example::Scene(
+            "check -",
+            computed!("\n[parameters]\na = \"b\"\nb = \"a\"\n"),
+        ),
+    ),
+    entry(
+        146,
+        "An expression names something unknown",
+        "Correct the name, or add it to `[parameters]`.",
+        Example::Scene(
+            "check -",
+            computed!("\n[[body]]\nname = \"bar\"\nmass = \"2*rho\"\ninertia = 0.1\n"),
+        ),
+    ),
+    entry(
+        147,
+        "Units do not fit",
+        "Write the unit that the message asks for; only like quantities have a sum.",
+        Example::Scene(
+            "check -",
+            computed!("\n[[body]]\nname = \"bar\"\nmass = \"2 mm\"\ninertia = 0.1\n"),
+        ),
+    ),
+    entry(
+        148,
+        "An expression has no finite value",
+        "Look for a division by zero, or a function outside of its domain.",
+        Example::Scene(
+            "check -",
+            computed!("\n[[body]]\nname = \"bar\"\nmass = \"1/0\"\ninertia = 0.1\n"),
+        ),
+    ),
+    entry(
+        149,
+        "Definitions of a type are not registered as the reader needs them",
+        "Register each definition of a type once, with its drives; variants need keys that tell them apart.",
+        Example::None("only programs with joints of their own meet it"),
+    ),
+    entry(
+        150,
+        "A list is empty",
+        "Write at least one entry, or leave out the table.",
+        Example::Scene("check -", bar!("\n[[group]]\nname = \"G\"\nmembers = []\n")),
+    ),
+    entry(
+        151,
+        "A list has the wrong number of values",
+        "Write as many values as the message states.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0]\n"
+            ),
+        ),
     ),
     entry(
         180,
@@ -382,7 +644,7 @@ pub const TABLE: &[Entry] = &[
         205,
         "A coordinate does not exist",
         "Name one as `body.angle`.",
-        LIBRARY,
+        Example::Scene("check -", bar!("\n[start]\nkeep = [\"bar.z\"]\n")),
     ),
     entry(
         206,

@@ -23,6 +23,7 @@ mod new;
 mod own_joint;
 mod places;
 mod plan;
+mod refusals;
 mod report;
 mod resources;
 mod schema;

@@ -1,7 +1,7 @@
 //! Documents of commands whose result is a few numbers, and of errors. `ok` states whether there is
 //! a result.
 
-use model::codes::Code;
+use model::codes::{Code, Entry, Example};
 use serde::Serialize;
 
 use super::{AnalysisDocument, ComponentDocument, DependencyDocument, ReactionDocument};
@@ -19,6 +19,53 @@ pub struct RefusalDocument<'a, P> {
     pub problems: &'a [P],
 }
 
+/// Codes of errors and warnings with what they mean.
+#[derive(Clone, Debug, Serialize)]
+pub struct CodesDocument {
+    /// `true`
+    pub ok: bool,
+    /// The codes, ascending.
+    pub codes: Vec<CodeDocument>,
+}
+
+impl CodesDocument {
+    /// The document of these entries of the table.
+    #[must_use]
+    pub fn new(entries: &[Entry]) -> Self {
+        let codes = entries.iter().map(CodeDocument::from).collect();
+        Self { ok: true, codes }
+    }
+}
+
+/// What one code means.
+#[derive(Clone, Debug, Serialize)]
+pub struct CodeDocument {
+    code: Code,
+    title: &'static str,
+    advice: &'static str,
+    /// Arguments of `pfaff` with which it is reported.
+    arguments: Option<&'static str>,
+    /// The scene on standard input that they need.
+    scene: Option<&'static str>,
+}
+
+impl From<&Entry> for CodeDocument {
+    fn from(entry: &Entry) -> Self {
+        let (arguments, scene) = match entry.example {
+            Example::Scene(arguments, scene) => (Some(arguments), Some(scene)),
+            Example::Command(arguments) => (Some(arguments), None),
+            Example::None(_) => (None, None),
+        };
+        Self {
+            code: entry.code,
+            title: entry.title,
+            advice: entry.advice,
+            arguments,
+            scene,
+        }
+    }
+}
+
 /// The summary of a run whose process was ended before it could write its own.
 #[derive(Clone, Debug, Serialize)]
 pub struct EndedDocument {
@@ -26,6 +73,8 @@ pub struct EndedDocument {
     pub scene: String,
     /// `true`
     pub partial: bool,
+    /// Code of the reason why it ended.
+    pub code: Code,
     /// Why it ended.
     pub error: &'static str,
 }

@@ -7,6 +7,7 @@ use dynamics::{
     Summary,
 };
 use model::System;
+use model::codes::Code;
 use model::words::{listed, rounded};
 use serde::Serialize;
 use solvability::parts::parts;
@@ -66,6 +67,8 @@ pub struct RunDocument {
     pub stabilisation: &'static str,
     /// Whether the run ended before its last time.
     pub partial: bool,
+    /// Code of the reason why it ended early.
+    pub code: Option<Code>,
     /// Reason why it stopped.
     pub error: Option<String>,
     /// Last time reached (s).
@@ -271,10 +274,10 @@ impl RunDocument {
     pub fn new(run: &Run<'_>) -> Self {
         let (prepared, summary) = (run.plan.prepared(), run.summary);
         let options = run.plan.options();
-        let (partial, error) = match run.ending {
-            Ending::Complete => (false, None),
-            Ending::Interrupted => (true, None),
-            Ending::Stopped(error) => (true, Some(error.to_string())),
+        let (code, error) = match run.ending {
+            Ending::Complete => (None, None),
+            Ending::Interrupted => (Some(const { Code::new(8) }), None),
+            Ending::Stopped(error) => (Some(error.code()), Some(error.to_string())),
         };
         let parts = dropped_by_group(prepared);
         let reactions = run.reactions.iter().map(|r| {
@@ -290,7 +293,8 @@ impl RunDocument {
             method: run.summary.method.name(),
             formulation: FORMULATION,
             stabilisation: options.stabilisation.name(),
-            partial,
+            partial: code.is_some(),
+            code,
             error,
             t_end: summary.t,
             rows: run.rows,

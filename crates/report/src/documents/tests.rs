@@ -384,7 +384,7 @@ fn summary_has_the_keys_of_the_contract() {
     };
     let found = json(&RunDocument::new(&run));
     let expected = r#"{
-        "method": "dopri5", "formulation": "kept-rows", "stabilisation": "projection", "partial": false, "error": null,
+        "method": "dopri5", "formulation": "kept-rows", "stabilisation": "projection", "partial": false, "code": null, "error": null,
         "t_end": 2.0, "rows": 3, "files": ["trajectory.csv", "summary.json"], "steps": 10, "rejected": 1, "evaluations": 70, "projections": 10,
         "wall_seconds": 0.125, "max_position_residual": 0.0, "max_velocity_residual": null,
         "energy_balance": 0.0, "start_correction": 0.0, "start_velocity_correction": 0.0,

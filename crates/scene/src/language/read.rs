@@ -11,6 +11,7 @@ use crate::expression::{self, Bases, is_name, names_of, reserved, units};
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Key, Takes};
+use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
 use crate::section;
 use crate::table::Table;
@@ -69,7 +70,13 @@ impl Language {
                 "add `format = 2` to `[scene]`"
             };
             let message = format!("{what} needs the format 2");
-            findings.error_with_help(span, message, "not in format 1", help.to_owned());
+            findings.error_with_help(
+                Mistake::NeedsFormat,
+                span,
+                message,
+                "not in format 1",
+                help.to_owned(),
+            );
         };
         if let Some(field) = units {
             if !language.computes {
@@ -174,6 +181,7 @@ fn report_circles(
             ),
         };
         findings.error_with_help(
+            Mistake::Circle,
             value.part(span.clone(), findings),
             message,
             "closes the circle",
@@ -200,6 +208,7 @@ fn list_of(names: &[&str], between: &str) -> String {
 fn check_name(name: &str, span: Range<usize>, findings: &mut Findings) {
     if let Some(what) = reserved(name) {
         findings.error_with_help(
+            Mistake::ReservedName,
             span,
             format!("the parameter `{name}` has the name of {what}"),
             "choose another name",
@@ -207,6 +216,7 @@ fn check_name(name: &str, span: Range<usize>, findings: &mut Findings) {
         );
     } else if !is_name(name) {
         findings.error_with_help(
+            Mistake::UnfitName,
             span,
             format!("the parameter {name:?} has a name that expressions cannot contain"),
             "choose another name",
@@ -222,6 +232,7 @@ fn whole(field: &Field, findings: &mut Findings) -> Option<i64> {
         return Some(format);
     }
     findings.error(
+        Mistake::OutOfRange,
         field.span(),
         format!("`[scene]`: `format` is {format}, need {}", FORMAT.expected),
         "no such format",
@@ -242,6 +253,7 @@ fn bases(field: &Field, findings: &mut Findings) -> (Bases, Units) {
         if found.is_none() {
             let names = names_of(of);
             findings.error_with_help(
+                Mistake::UnknownChoice,
                 field.span(),
                 format!(
                     "{}: `{}` must be {}, found `{name}`",

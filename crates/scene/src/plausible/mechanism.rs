@@ -93,7 +93,7 @@ fn bodies(d: &Description, mechanism: &Mechanism, joints: &[Joint]) -> Vec<Shape
     for marker in &d.observed.markers {
         add(&[(marker.body, marker.from_centre(&d.bodies))]);
     }
-    let forces: Vec<_> = mechanism.applied_forces().collect();
+    let forces: Vec<_> = mechanism.applied_forces().iter().collect();
     forces.iter().for_each(|force| add(&force.points));
     let held = joints.iter().flat_map(|joint| joint.bodies);
     for body in held.filter_map(|body| body.moving()) {
