@@ -30,7 +30,7 @@ use pfaff::model::Registry;
 use pfaff::scene::nearest;
 
 pub use args::named;
-use args::{Arguments, Command, Elsewhere};
+use args::{Arguments, Command, LaboratoryCommand};
 use console::Console;
 pub use console::Stream;
 use output::{Answer, Failure, Outcome};
@@ -47,8 +47,8 @@ use output::{Answer, Failure, Outcome};
 /// use pfaff_cli::{Stream, run};
 /// let (mut out, mut err) = (Vec::new(), Vec::new());
 /// let arguments = ["pfaff", "check", "no-such-file.toml"];
-/// let code = run(&Registry::planar(), arguments, Stream::plain(&mut out), Stream::plain(&mut err));
-/// assert_eq!(code, std::process::ExitCode::from(2));
+/// let code = run(&Registry::planar(), arguments, Stream::plain(&mut out), Stream::plain(&mut
+/// err)); assert_eq!(code, std::process::ExitCode::from(2));
 /// assert!(String::from_utf8(err).unwrap().contains("no-such-file.toml"));
 /// ```
 pub fn run<'a, I>(
@@ -159,7 +159,7 @@ impl CommandLine for Arguments {
 }
 
 /// Reports how a command of the laboratory is called.
-fn elsewhere(name: &str, Elsewhere { arguments }: &Elsewhere) -> Outcome {
+fn elsewhere(name: &str, LaboratoryCommand { arguments }: &LaboratoryCommand) -> Outcome {
     let arguments = arguments.join(" ");
     Err(Failure::input(format!(
         "`{name}` is a command of the laboratory; in the repository of pfaff: \

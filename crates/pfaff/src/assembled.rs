@@ -17,11 +17,9 @@ use crate::study::{Overrides, Study};
 /// use pfaff::AssembledScene;
 /// use pfaff::model::Registry;
 ///
-/// // Two pivots 10⁻⁹ m apart: such a bar can neither move nor be called redundant in double precision.
-/// let scene = r#"
-/// scene = { name = "bar", space = "plane" }
-/// body = [{ name = "bar", mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }]
-/// joint = [
+/// // Two pivots 10⁻⁹ m apart: such a bar can neither move nor be called redundant in double
+/// precision. let scene = r#" scene = { name = "bar", space = "plane" } body = [{ name = "bar",
+/// mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }] joint = [
 ///     { name = "pivot", type = "revolute", bodies = ["ground", "bar"], at = [0.0, 0.0] },
 ///     { name = "twin", type = "revolute", bodies = ["ground", "bar"], at = [1e-9, 0.0] },
 /// ]
@@ -165,14 +163,14 @@ impl AssembledScene {
         &mut self,
         drop: Option<&[usize]>,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
-        self.analyse_watched(drop, |_| ())
+        self.analyse_with_progress(drop, |_| ())
     }
 
     /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
     ///
     /// # Errors
     /// As [`AssembledScene::analyse`].
-    pub fn analyse_watched(
+    pub fn analyse_with_progress(
         &mut self,
         drop: Option<&[usize]>,
         progress: impl Fn(usize) + Sync,

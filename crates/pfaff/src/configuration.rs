@@ -14,7 +14,8 @@ use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, Numbers,
     Proposals, Questions, ReactionVerdict, Rows, Sensitivities, Solution, State, UnitCheck,
-    analyse_decided, analyse_dropping, analyse_watched, generic, is_locked, second_order, solution,
+    analyse_decided, analyse_dropping, analyse_with_progress, generic, is_locked, second_order,
+    solution,
 };
 
 use crate::error::StudyError;
@@ -80,7 +81,7 @@ impl<'a> ConfigurationAnalysis<'a> {
     ) -> Result<Self, StudyError> {
         let q = &state.q;
         let analysis = Arc::new(match rows {
-            AskedRows::Any => analyse_watched(mechanism, t, q, known, progress)?,
+            AskedRows::Any => analyse_with_progress(mechanism, t, q, known, progress)?,
             AskedRows::Decided(rows) => analyse_decided(mechanism, t, q, rows, progress)?,
             AskedRows::Dropped(rows) => analyse_dropping(mechanism, t, q, rows)?,
         });
@@ -168,15 +169,13 @@ impl<'a> ConfigurationAnalysis<'a> {
     /// ```
     /// use pfaff::prelude::*;
     ///
-    /// // A bar between a wall and a nearly parallel slope pushes with 1/tan of the angle between them, here 1e-3 rad.
-    /// let mut bar = Description { gravity: [0.0, -10.0], ..Description::new("bar") };
-    /// let body = bar.body(Body::new("bar", 1.0, 1.0));
-    /// bar.joint("wall", &[body], KnifeEdge { s: [-1.0, 0.0], normal: Direction::X });
-    /// let slope = Direction::new([1.0, 1e-3]).expect("a direction");
-    /// bar.joint("slope", &[body], KnifeEdge { s: [-1.0, 0.0], normal: slope });
-    /// let study = Study::build(bar)?;
-    /// let hanging = study.analyse(0.0, None)?.sensitivities()?;
-    /// assert_eq!(hanging.fragile().count(), 2);
+    /// // A bar between a wall and a nearly parallel slope pushes with 1/tan of the angle between
+    /// them, here 1e-3 rad. let mut bar = Description { gravity: [0.0, -10.0],
+    /// ..Description::new("bar") }; let body = bar.body(Body::new("bar", 1.0, 1.0));
+    /// bar.joint("wall", &[body], KnifeEdge { s: [-1.0, 0.0], normal: Direction::X }); let slope =
+    /// Direction::new([1.0, 1e-3]).expect("a direction"); bar.joint("slope", &[body], KnifeEdge {
+    /// s: [-1.0, 0.0], normal: slope }); let study = Study::build(bar)?; let hanging =
+    /// study.analyse(0.0, None)?.sensitivities()?; assert_eq!(hanging.fragile().count(), 2);
     /// # Ok::<(), StudyError>(())
     /// ```
     ///

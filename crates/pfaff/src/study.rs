@@ -120,14 +120,14 @@ impl Study {
         t: f64,
         drop: Option<&[usize]>,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
-        self.analyse_watched(t, drop, |_| ())
+        self.analyse_with_progress(t, drop, |_| ())
     }
 
     /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
     ///
     /// # Errors
     /// As [`Study::analyse`].
-    pub fn analyse_watched(
+    pub fn analyse_with_progress(
         &self,
         t: f64,
         drop: Option<&[usize]>,
@@ -327,10 +327,11 @@ impl Study {
     /// simulate = { t_end = 1.0 }
     /// output = { reactions = false }
     /// "#;
-    /// let study = Study::read("pendulum.toml", scene, &Registry::planar(), &Overrides::default())?;
-    /// let plan = study.plan()?;
+    /// let study = Study::read("pendulum.toml", scene, &Registry::planar(),
+    /// &Overrides::default())?; let plan = study.plan()?;
     /// assert_eq!(plan.components[0].decisions.reactions.taken, "none");
-    /// assert_eq!(plan.components[0].decisions.method.reason, "no applied forces, so that nothing can be stiff");
+    /// assert_eq!(plan.components[0].decisions.method.reason, "no applied forces, so that nothing
+    /// can be stiff");
     /// # Ok::<(), pfaff::StudyError>(())
     /// ```
     ///

@@ -11,10 +11,10 @@
 use linalg::Matrix;
 
 use super::conflict::VelocityConflict;
+use super::dependent::{DENSE_ROWS, DependentVelocities, Equations, Part, exceeds, shortest};
 use super::error::StartError;
 use super::metric::{ROUNDINGS, SMALL_CORRECTION, largest};
 use super::options::{CorrectionLimit, KeepLevel, StartOptions, kept_columns};
-use super::tier::{DENSE_ROWS, Equations, Part, Tier, exceeds, shortest};
 use crate::mechanism::Mechanism;
 
 /// Velocities that satisfy the constraints.
@@ -63,14 +63,13 @@ const CANCELLED: f64 = 1e-12;
 ///
 /// // A bob 2 m below its pivot, rotating with 3 rad/s: its centre moves with 6 m/s.
 /// let mut d = Description::new("pendulum");
-/// let bob = d.body(Body { position: [0.0, -2.0], angular_velocity: Some(3.0), ..Body::new("bob", 1.0, 0.1) });
-/// d.joint("pivot", &[BodyRef::Ground, bob], Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] });
-/// let mut mechanism = Mechanism::build(&d).unwrap();
-/// let options = StartOptions::default();
-/// let q = assemble(&mut mechanism, &options)?.q;
-/// let given = mechanism.frames().given_velocities(&q);
-/// let found = consistent_velocity(&mechanism, &options, &q, &given, &[0, 1])?;
-/// assert_eq!((found.v, found.correction), (vec![6.0, 0.0, 3.0], vec![0.0; 3]));
+/// let bob = d.body(Body { position: [0.0, -2.0], angular_velocity: Some(3.0), ..Body::new("bob",
+/// 1.0, 0.1) }); d.joint("pivot", &[BodyRef::Ground, bob], Revolute { s_i: [0.0, 0.0], s_j: [0.0,
+/// 2.0] }); let mut mechanism = Mechanism::build(&d).unwrap(); let options =
+/// StartOptions::default(); let q = assemble(&mut mechanism, &options)?.q; let given =
+/// mechanism.frames().given_velocities(&q); let found = consistent_velocity(&mechanism, &options,
+/// &q, &given, &[0, 1])?; assert_eq!((found.v, found.correction), (vec![6.0, 0.0, 3.0], vec![0.0;
+/// 3]));
 /// # Ok::<(), model::StartError>(())
 /// ```
 ///
@@ -184,15 +183,15 @@ impl<'m> Start<'m> {
                 _ => self.written[j],
             };
         }
-        let mut tier = Tier::new(of, rows, |j| hold[j] == Hold::No)?;
-        tier.follow(of, v)?;
+        let mut dependent = DependentVelocities::new(of, rows, |j| hold[j] == Hold::No)?;
+        dependent.follow(of, v)?;
         let given: Vec<usize> = columns
             .iter()
             .copied()
             .filter(|&j| hold[j] == Hold::Given)
             .collect();
         for _ in 0..PASSES {
-            let is_open = tier.open(of, v).next().is_some()
+            let is_open = dependent.open(of, v).next().is_some()
                 || rows.len() > DENSE_ROWS && self.misses(rows, v);
             if given.is_empty() || !is_open {
                 break;
@@ -200,9 +199,9 @@ impl<'m> Start<'m> {
             if rows.len() > DENSE_ROWS {
                 self.correct_many(rows, hold, v)?;
             } else {
-                self.correct(&tier, &given, v)?;
+                self.correct(&dependent, &given, v)?;
             }
-            tier.follow(of, v)?;
+            dependent.follow(of, v)?;
         }
         // A velocity given as zero to rounding is set to zero: the iteration for a locked part
         // would reduce it without end.
@@ -218,11 +217,16 @@ impl<'m> Start<'m> {
     }
 
     /// Adds the shortest correction of given velocities that makes the sums over circuits vanish.
-    fn correct(&self, tier: &Tier, given: &[usize], v: &mut [f64]) -> Result<(), StartError> {
+    fn correct(
+        &self,
+        dependent: &DependentVelocities,
+        given: &[usize],
+        v: &mut [f64],
+    ) -> Result<(), StartError> {
         let of = &self.equations;
         let mut sums: Vec<Vec<f64>> = Vec::new();
         let mut residual = Vec::new();
-        for circuit in &tier.circuits {
+        for circuit in &dependent.circuits {
             let c = of.matrix(&circuit.rows, given);
             let sum = c.transpose_times(&circuit.coefficients);
             let terms = |l: usize| {
