@@ -58,20 +58,20 @@ pub struct CodeSpec {
 ///     fn multipliers(&self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) -> f64 { 1.0 }
 ///     fn phi(&self, _: f64, _: &[f64], _: &mut [f64]) {}
 ///     fn velocity_residual(&self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) {}
-///     fn position_correction(&self, _: f64, _: &[f64], _: &[f64], dq: &mut [f64]) -> f64 {
-/// dq.fill(0.0); 1.0 }
-///     fn velocity_correction(&self, _: f64, _: &[f64], _: &[f64], dv: &mut [f64]) -> f64 {
-/// dv.fill(0.0); 1.0 } }
+///     fn position_correction(&self, _: f64, _: &[f64], _: &[f64], dq: &mut [f64]) -> f64 { dq.fill(0.0); 1.0 }
+///     fn velocity_correction(&self, _: f64, _: &[f64], _: &[f64], dv: &mut [f64]) -> f64 { dv.fill(0.0); 1.0 }
+/// }
 ///
 /// let stone = Body { name: "stone".into(), mass: 2.0, inertia: 0.1, ..Body::default() };
-/// let described = Description { gravity: [0.0, -10.0], bodies: vec![stone],
-/// ..Description::default() }; let mechanism = Mechanism::build(&described).unwrap(); let spec =
-/// CodeSpec {
+/// let described = Description { gravity: [0.0, -10.0], bodies: vec![stone], ..Description::default() };
+/// let mechanism = Mechanism::build(&described).unwrap();
+/// let spec = CodeSpec {
 ///     name: "stone".into(), n_q: 3, n_v: 3, m: 0, h: 0,
-///     kept: vec![].into(), position_kept: vec![].into(), break_times: vec![].into(), operations:
-/// "".into(), }; let prepared = prepare(mechanism, &StartOptions::default(),
-/// &RowChoice::Automatic)?.with_code(Arc::new(Stone(spec)))?; let mut y = 0.0; simulate(&prepared,
-/// &MotionOptions::to(1.0), |row| {
+///     kept: vec![].into(), position_kept: vec![].into(), break_times: vec![].into(), operations: "".into(),
+/// };
+/// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?.with_code(Arc::new(Stone(spec)))?;
+/// let mut y = 0.0;
+/// simulate(&prepared, &MotionOptions::to(1.0), |row| {
 ///     y = row.q[1];
 ///     Ok(ControlFlow::Continue(()))
 /// })?;

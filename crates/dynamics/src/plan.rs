@@ -81,18 +81,20 @@ pub enum Reactions {
 /// // Two pendulums on one ground are independent of each other.
 /// let body = |name: &str| Body { name: name.into(), mass: 1.0, inertia: 1.0, ..Body::default() };
 /// let pin = |name: &str, k| {
-///     Joint::new(name, &[BodyRef::Ground, BodyRef::Body(k)], Revolute { s_i: [0.0; 2], s_j: [0.0,
-/// 1.0] }) }; let pendulums = Description {
+///     Joint::new(name, &[BodyRef::Ground, BodyRef::Body(k)], Revolute { s_i: [0.0; 2], s_j: [0.0, 1.0] })
+/// };
+/// let pendulums = Description {
 ///     gravity: [0.0, -9.81],
 ///     bodies: vec![body("left"), body("right")],
 ///     joints: vec![pin("a", 0), pin("b", 1)],
 ///     ..Description::default()
 /// };
-/// let start = StartOptions { correction: model::start::CorrectionLimit::Any,
-/// ..StartOptions::default() }; let prepared = prepare(Mechanism::build(&pendulums).unwrap(),
-/// &start, &RowChoice::Automatic)?; let plan = Plan::new(&prepared, &MotionOptions::to(1.0),
-/// &Wanted::default())?; assert_eq!(plan.components.len(), 2); assert_eq!(plan.components[1].name,
-/// "right"); assert_eq!(plan.components[1].decisions.method.taken, "dop853");
+/// let start = StartOptions { correction: model::start::CorrectionLimit::Any, ..StartOptions::default() };
+/// let prepared = prepare(Mechanism::build(&pendulums).unwrap(), &start, &RowChoice::Automatic)?;
+/// let plan = Plan::new(&prepared, &MotionOptions::to(1.0), &Wanted::default())?;
+/// assert_eq!(plan.components.len(), 2);
+/// assert_eq!(plan.components[1].name, "right");
+/// assert_eq!(plan.components[1].decisions.method.taken, "dop853");
 /// # Ok::<(), dynamics::MotionError>(())
 /// ```
 #[non_exhaustive]

@@ -17,9 +17,11 @@ use crate::study::{Overrides, Study};
 /// use pfaff::AssembledScene;
 /// use pfaff::model::Registry;
 ///
-/// // Two pivots 10⁻⁹ m apart: such a bar can neither move nor be called redundant in double
-/// precision. let scene = r#" scene = { name = "bar", space = "plane" } body = [{ name = "bar",
-/// mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }] joint = [
+/// // Two pivots 10⁻⁹ m apart: such a bar can neither move nor be called redundant in double precision.
+/// let scene = r#"
+/// scene = { name = "bar", space = "plane" }
+/// body = [{ name = "bar", mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }]
+/// joint = [
 ///     { name = "pivot", type = "revolute", bodies = ["ground", "bar"], at = [0.0, 0.0] },
 ///     { name = "twin", type = "revolute", bodies = ["ground", "bar"], at = [1e-9, 0.0] },
 /// ]

@@ -169,13 +169,15 @@ impl<'a> ConfigurationAnalysis<'a> {
     /// ```
     /// use pfaff::prelude::*;
     ///
-    /// // A bar between a wall and a nearly parallel slope pushes with 1/tan of the angle between
-    /// them, here 1e-3 rad. let mut bar = Description { gravity: [0.0, -10.0],
-    /// ..Description::new("bar") }; let body = bar.body(Body::new("bar", 1.0, 1.0));
-    /// bar.joint("wall", &[body], KnifeEdge { s: [-1.0, 0.0], normal: Direction::X }); let slope =
-    /// Direction::new([1.0, 1e-3]).expect("a direction"); bar.joint("slope", &[body], KnifeEdge {
-    /// s: [-1.0, 0.0], normal: slope }); let study = Study::build(bar)?; let hanging =
-    /// study.analyse(0.0, None)?.sensitivities()?; assert_eq!(hanging.fragile().count(), 2);
+    /// // A bar between a wall and a nearly parallel slope pushes with 1/tan of the angle between them, here 1e-3 rad.
+    /// let mut bar = Description { gravity: [0.0, -10.0], ..Description::new("bar") };
+    /// let body = bar.body(Body::new("bar", 1.0, 1.0));
+    /// bar.joint("wall", &[body], KnifeEdge { s: [-1.0, 0.0], normal: Direction::X });
+    /// let slope = Direction::new([1.0, 1e-3]).expect("a direction");
+    /// bar.joint("slope", &[body], KnifeEdge { s: [-1.0, 0.0], normal: slope });
+    /// let study = Study::build(bar)?;
+    /// let hanging = study.analyse(0.0, None)?.sensitivities()?;
+    /// assert_eq!(hanging.fragile().count(), 2);
     /// # Ok::<(), StudyError>(())
     /// ```
     ///

@@ -29,8 +29,7 @@ use crate::subject::Subject;
 /// let registry = pfaff::model::Registry::planar();
 /// let mut study = Study::read("pendulum.toml", scene, &registry, &Overrides::default())?;
 /// let tape = Tape::of(&Subject::at_start(&study.prepared))?;
-/// study.prepared = study.prepared.with_code(Arc::new(tape))?; // its runs are on the tape from now
-/// on
+/// study.prepared = study.prepared.with_code(Arc::new(tape))?; // its runs are on the tape from now on
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Tape {

@@ -63,13 +63,14 @@ const CANCELLED: f64 = 1e-12;
 ///
 /// // A bob 2 m below its pivot, rotating with 3 rad/s: its centre moves with 6 m/s.
 /// let mut d = Description::new("pendulum");
-/// let bob = d.body(Body { position: [0.0, -2.0], angular_velocity: Some(3.0), ..Body::new("bob",
-/// 1.0, 0.1) }); d.joint("pivot", &[BodyRef::Ground, bob], Revolute { s_i: [0.0, 0.0], s_j: [0.0,
-/// 2.0] }); let mut mechanism = Mechanism::build(&d).unwrap(); let options =
-/// StartOptions::default(); let q = assemble(&mut mechanism, &options)?.q; let given =
-/// mechanism.frames().given_velocities(&q); let found = consistent_velocity(&mechanism, &options,
-/// &q, &given, &[0, 1])?; assert_eq!((found.v, found.correction), (vec![6.0, 0.0, 3.0], vec![0.0;
-/// 3]));
+/// let bob = d.body(Body { position: [0.0, -2.0], angular_velocity: Some(3.0), ..Body::new("bob", 1.0, 0.1) });
+/// d.joint("pivot", &[BodyRef::Ground, bob], Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] });
+/// let mut mechanism = Mechanism::build(&d).unwrap();
+/// let options = StartOptions::default();
+/// let q = assemble(&mut mechanism, &options)?.q;
+/// let given = mechanism.frames().given_velocities(&q);
+/// let found = consistent_velocity(&mechanism, &options, &q, &given, &[0, 1])?;
+/// assert_eq!((found.v, found.correction), (vec![6.0, 0.0, 3.0], vec![0.0; 3]));
 /// # Ok::<(), model::StartError>(())
 /// ```
 ///
