@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use dynamics::{
-    CodeMismatch, EventKind, Facts, Method, MotionOptions, NoCode, Plan, Prepared, RowChoice,
+    CodeMismatch, CodeSpec, EventKind, Method, MotionOptions, NoCode, Plan, Prepared, RowChoice,
     SceneCode, Stabilisation, Summary, Wanted, prepare, simulate,
 };
 use model::start::CorrectionLimit;
@@ -266,10 +266,10 @@ fn a_healthy_run_asks_the_interpreter_nothing() {
 }
 
 /// Falling bodies: no equations to solve.
-struct Falling(Facts);
+struct Falling(CodeSpec);
 
 impl SceneCode for Falling {
-    fn facts(&self) -> &Facts {
+    fn spec(&self) -> &CodeSpec {
         &self.0
     }
 
@@ -312,7 +312,7 @@ fn steps_on_code_allocate_nothing() {
         bodies: (0..7).map(body).collect(),
         ..Description::default()
     });
-    let code = Falling(Facts {
+    let code = Falling(CodeSpec {
         name: "falling".into(),
         n_q: 21,
         n_v: 21,

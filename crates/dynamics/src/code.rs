@@ -17,7 +17,7 @@ pub use belongs::{CodeMismatch, NoCode};
 
 /// The mechanism for which code was generated, and its sizes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Facts {
+pub struct CodeSpec {
     /// Name of the scene.
     pub name: Cow<'static, str>,
     /// Number of coordinates.
@@ -43,14 +43,14 @@ pub struct Facts {
 /// ```
 /// use std::ops::ControlFlow;
 /// use std::sync::Arc;
-/// use dynamics::{Facts, MotionOptions, RowChoice, SceneCode, prepare, simulate};
+/// use dynamics::{CodeSpec, MotionOptions, RowChoice, SceneCode, prepare, simulate};
 /// use model::{Body, Description, Mechanism, StartOptions};
 ///
 /// /// A falling stone without constraints.
-/// struct Stone(Facts);
+/// struct Stone(CodeSpec);
 ///
 /// impl SceneCode for Stone {
-///     fn facts(&self) -> &Facts { &self.0 }
+///     fn spec(&self) -> &CodeSpec { &self.0 }
 ///     fn acceleration(&self, _: f64, _: &[f64], _: &[f64], a: &mut [f64]) -> f64 {
 ///         a.copy_from_slice(&[0.0, -10.0, 0.0]);
 ///         1.0
@@ -65,11 +65,11 @@ pub struct Facts {
 /// let stone = Body { name: "stone".into(), mass: 2.0, inertia: 0.1, ..Body::default() };
 /// let described = Description { gravity: [0.0, -10.0], bodies: vec![stone], ..Description::default() };
 /// let mechanism = Mechanism::build(&described).unwrap();
-/// let facts = Facts {
+/// let spec = CodeSpec {
 ///     name: "stone".into(), n_q: 3, n_v: 3, m: 0, h: 0,
 ///     kept: vec![].into(), position_kept: vec![].into(), break_times: vec![].into(), operations: "".into(),
 /// };
-/// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?.with_code(Arc::new(Stone(facts)))?;
+/// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?.with_code(Arc::new(Stone(spec)))?;
 /// let mut y = 0.0;
 /// simulate(&prepared, &MotionOptions::to(1.0), |row| {
 ///     y = row.q[1];
@@ -90,8 +90,8 @@ pub struct Facts {
 /// | `phi` | m | Φ(q, t) of all holonomic rows |
 /// | `residual`, `lambda` | m + h | C·v − b, and multipliers, of all rows |
 pub trait SceneCode: Send + Sync {
-    /// The facts for which it was generated.
-    fn facts(&self) -> &Facts;
+    /// The mechanism for which it was generated.
+    fn spec(&self) -> &CodeSpec;
 
     /// Computes `a` from `M·a + C_Kᵀ·λ_K = Q`, `C_K·a = Γ_K`; returns the health.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64;

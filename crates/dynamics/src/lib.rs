@@ -32,7 +32,7 @@ pub mod run;
 mod solve;
 mod watch;
 
-pub use code::{CodeMismatch, Facts, NoCode, SceneCode};
+pub use code::{CodeMismatch, CodeSpec, NoCode, SceneCode};
 pub use error::{DropError, MotionError, MotionFault};
 pub use events::{Event, EventKind};
 pub use manifold::Correction;

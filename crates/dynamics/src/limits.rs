@@ -150,17 +150,17 @@ pub(crate) const PARTITION_WORN: f64 = 0.5;
 /// is taken. Test: `shifted_systems_are_solved`.
 pub(crate) const FAR_COMPLETION: f64 = 0.6;
 
-/// Beside this they may move by so many times the way that the mechanism would go from the last
+/// In addition they may move by so many times the way that the mechanism would go from the last
 /// accepted state with its rates.
 /// Unit: ways. Less: long steps are refused. More: another branch is taken. Test: none.
-pub(crate) const FAR_WAY: f64 = 2.0;
+pub(crate) const FAR_EXTRAPOLATED: f64 = 2.0;
 
 /// The end of a step may lie so far from where the rates at both ends lead.
 /// Unit: share of the largest way on it. Less: steps of curved motions are refused. More: another
 /// branch is taken. Test: none.
 pub(crate) const FAR_IN_A_STEP: f64 = 0.5;
 
-/// The same beside, where nothing moves.
+/// The same in addition, where nothing moves.
 /// Unit: share of the mechanism's size, or rad. Less: starts from rest are refused. More: another
 /// branch is taken. Test: `a_grip_of_1e12_takes_few_steps`.
 pub(crate) const FAR_AT_REST: f64 = 1e-2;
@@ -210,8 +210,8 @@ pub(crate) const SHARPENED: f64 = 0.2;
 pub(crate) const DELICATE: f64 = 0.1;
 
 /// Stages below this share make a step suspect.
-/// Unit: share of pivots. Less: passages are not told, and branches not compared. More: ordinary
-/// steps are searched. Test: `rows_that_nobody_wants_are_not_computed`.
+/// Unit: share of pivots. Less: passages are not reported, and branches not compared. More:
+/// ordinary steps are searched. Test: `rows_that_nobody_wants_are_not_computed`.
 pub(crate) const SUSPECT: f64 = 0.1;
 
 /// Nearest approach of the end of a step to a singular configuration.
@@ -271,8 +271,8 @@ pub(crate) const PASSED: f64 = 1e-9;
 pub(crate) const SMOOTH: f64 = 0.01;
 
 /// Velocities behind a singular configuration may miss those that the accelerations on both sides
-/// explain by this share: a step over it is short beside the curvature of the motion, and another
-/// branch leads elsewhere.
+/// explain by this share: a step over it is short relative to the curvature of the motion, and
+/// another branch leads elsewhere.
 /// Unit: share of momentum. Less: runs stop behind it. More: another branch is taken. Test:
 /// `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
 pub(crate) const KINK: f64 = 0.25;
@@ -282,21 +282,21 @@ pub(crate) const KINK: f64 = 0.25;
 /// `a_contradiction_just_ahead_is_why_a_run_stops`.
 pub(crate) const JUST_AHEAD: f64 = 1e-9;
 
-/// Reactions are not told nearer to a singular configuration than this share.
+/// Reactions are not reported nearer to a singular configuration than this share.
 /// Unit: share of pivots. Less: reactions are rounding. More: they are left out where they are
 /// known. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
-pub(crate) const BLIND: f64 = 1e-6;
+pub(crate) const NO_REACTIONS: f64 = 1e-6;
 
 /// The same in units of the relative tolerance: a row off its motion by δ has reactions that are
 /// wrong by δ divided by that share.
 /// Unit: tolerances. Less: reactions are wrong. More: they are left out. Test:
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
-pub(crate) const BLIND_TOLERANCES: f64 = 1e3;
+pub(crate) const NO_REACTIONS_TOLERANCES: f64 = 1e3;
 
 /// Loose tolerances must not hide reactions farther away than this.
 /// Unit: share of pivots. Less: reactions are wrong. More: they are left out. Test:
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
-pub(crate) const BLIND_MAX: f64 = 1e-2;
+pub(crate) const NO_REACTIONS_MAX: f64 = 1e-2;
 
 // The search for singular instants.
 
@@ -356,12 +356,13 @@ pub(crate) const PASSAGE_STATES: usize = 8;
 /// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const JUDGED_MOST: usize = 64;
 
-/// Passages of one step that are told at most.
-/// Unit: passages. Less: some are not told. More: time. Test: `passages_are_told_at_the_same_time`.
+/// Passages of one step that are reported at most.
+/// Unit: passages. Less: some are not reported. More: time. Test:
+/// `passages_are_told_at_the_same_time`.
 pub(crate) const MOST_PASSAGES: usize = 8;
 
 /// What they are apart at least.
-/// Unit: share of the step. Less: one is told twice. More: two are told as one. Test:
+/// Unit: share of the step. Less: one counts twice. More: two count as one. Test:
 /// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const BESIDE: f64 = 0.02;
 
@@ -369,7 +370,7 @@ pub(crate) const BESIDE: f64 = 0.02;
 
 /// Residuals below this share of the terms of their row, or for rates of the largest row, are no
 /// jumps.
-/// Unit: share of terms. Less: rounding is an impulse. More: small jumps are not told. Test:
+/// Unit: share of terms. Less: rounding is an impulse. More: small jumps are not reported. Test:
 /// `smooth_steps_are_no_jumps`.
 pub(crate) const NO_JUMP: f64 = 1e-9;
 
@@ -390,13 +391,13 @@ pub(crate) const REMAINS: f64 = 0.5;
 /// Unit: share of the way of the step. Less: good rows are refused. More: rows on another branch
 /// are shown. Test:
 /// `rows_lie_where_their_step_leads`.
-pub(crate) const LED: f64 = 0.25;
+pub(crate) const ROW_DEVIATION: f64 = 0.25;
 
-/// The same beside, where nothing moves.
+/// The same in addition, where nothing moves.
 /// Unit: share of the mechanism's size, or rad. Less: good rows are refused. More: rows on
 /// another branch are shown. Test:
 /// `rows_lie_where_their_step_leads`.
-pub(crate) const LED_AT_REST: f64 = 1e-3;
+pub(crate) const ROW_DEVIATION_AT_REST: f64 = 1e-3;
 
 /// Velocities on a way may be so many times those of going it evenly.
 /// Unit: 1. Less: rows of drives that rest at both ends of a step are refused. More: rows on
@@ -486,7 +487,7 @@ pub(crate) const MOST_COMPONENTS: usize = 256;
 pub(crate) const NAMED: usize = 3;
 
 /// Rows with a smaller share than this of the largest weight take no part in a combination that
-/// is told.
+/// is reported.
 /// Unit: share. Less: rows are named that do not matter. More: some that do are not. Test:
 /// `a_start_names_the_rows_that_nearly_depend_and_no_others`.
 pub(crate) const TAKES_PART: f64 = 0.1;
@@ -549,8 +550,8 @@ mod tests {
             ),
             ("delicate rows are not sound", &[DELICATE, SOUND, 1.0]),
             (
-                "reactions are told where steps end",
-                &[BLIND, NEAREST, BLIND_MAX],
+                "reactions are reported where steps end",
+                &[NO_REACTIONS, NEAREST, NO_REACTIONS_MAX],
             ),
             (
                 "dropped rows",

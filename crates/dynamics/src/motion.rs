@@ -15,7 +15,7 @@ use crate::manifold::{Correction, Manifold, Origin, inspect};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, Misfits, State};
-use crate::watch::{Handover, Next, Watch, are_worn};
+use crate::watch::{CodeSwitch, Next, Watch, are_worn};
 
 /// A mechanism on kept rows. All storage is allocated here; accelerations and projections do not
 /// allocate.
@@ -24,7 +24,7 @@ pub struct KeptRowMotion<'m> {
     pub(crate) manifold: Manifold,
     pub(crate) watch: Watch,
     /// Generated code, if there is some that can be used.
-    pub(crate) code: Option<Handover>,
+    pub(crate) code: Option<CodeSwitch>,
 }
 
 impl<'m> KeptRowMotion<'m> {
@@ -49,7 +49,7 @@ impl<'m> KeptRowMotion<'m> {
         }
         if let Ok(code) = prepared.code_for(options) {
             let code = Arc::clone(code);
-            motion.code = Some(Handover::new(
+            motion.code = Some(CodeSwitch::new(
                 code,
                 &mut motion.equations,
                 (0.0, &prepared.q),
@@ -143,7 +143,7 @@ impl<'m> KeptRowMotion<'m> {
 
     /// Whether generated code is in use.
     pub(crate) fn is_on_code(&self) -> bool {
-        self.code.as_ref().is_some_and(Handover::is_in_use)
+        self.code.as_ref().is_some_and(CodeSwitch::is_in_use)
     }
 
     /// Accepts the start as the first state.
@@ -189,7 +189,7 @@ impl<'m> KeptRowMotion<'m> {
         a: &mut [f64],
     ) -> Result<(), MotionFault> {
         let state = State { t, q, v };
-        let code = self.code.as_mut().and_then(Handover::in_use);
+        let code = self.code.as_mut().and_then(CodeSwitch::in_use);
         if code.is_some_and(|code| code.accelerations(state, a).is_ok()) {
             Ok(())
         } else {
@@ -225,7 +225,7 @@ impl<'m> KeptRowMotion<'m> {
     ) -> Result<(), MotionFault> {
         note(Counted::Multipliers);
         let state = State { t, q, v };
-        let code = self.code.as_mut().and_then(Handover::in_use);
+        let code = self.code.as_mut().and_then(CodeSwitch::in_use);
         if code.is_some_and(|code| code.multipliers(state, lambda).is_ok()) {
             // Reactions need the pose.
             self.equations.at.pose(t, q);

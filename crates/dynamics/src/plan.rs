@@ -213,7 +213,7 @@ fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, M
     };
     let code = match prepared.code_for(&options) {
         Err(why) => return interpreted(why),
-        Ok(code) => code.facts(),
+        Ok(code) => code.spec(),
     };
     let reason = format!(
         "its values are those of this mechanism ({}); kernels and elimination below are what it falls back to",

@@ -2,15 +2,15 @@
 //! unreliable generated code. They check states at the ends of steps without changing them; the
 //! result is a [`Next`]. Residuals of dropped rows are computed in [`crate::manifold`].
 
+mod code_switch;
 mod exchange;
-mod handover;
-mod judge;
 mod passage;
 mod pivots;
 mod search;
+mod step_end;
 
-pub(crate) use handover::Handover;
-pub(crate) use judge::{Next, Watch};
+pub(crate) use code_switch::CodeSwitch;
 pub(crate) use passage::Now;
 pub(crate) use pivots::{are_delicate, are_worn};
 pub(crate) use search::{Search, Singular};
+pub(crate) use step_end::{Next, Watch};

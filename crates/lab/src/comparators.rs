@@ -32,7 +32,7 @@ pub use minimum_norm::MinimumNorm;
 pub use null_space::NullSpace;
 pub use proximal::{Proximal, Tuning};
 pub use run::{Row, Run, run, run_within};
-pub use way::{Drift, Formulation, Method, Way};
+pub use way::{Comparator, Drift, Formulation, Method};
 
 /// `M·a + Cᵀ·λ = f`, `C·a = γ` at one instant, M = diag(mass).
 #[derive(Clone, Copy, Debug)]

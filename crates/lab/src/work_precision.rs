@@ -12,13 +12,13 @@ use pfaff::work_precision::{
 use pfaff::{Overrides, Study, StudyError};
 use suite::{Case, Quantity};
 
-use crate::comparators::{Drift, Fault, Formulation, Method, Way, run_within};
+use crate::comparators::{Comparator, Drift, Fault, Formulation, Method, run_within};
 
 /// The combinations that are compared with those of pfaff: every method on kept rows with
 /// projection, and with one of the methods every formulation and every treatment of drift.
 #[must_use]
-pub fn ways() -> Vec<Way> {
-    let way = |formulation, method, drift| Way {
+pub fn ways() -> Vec<Comparator> {
+    let way = |formulation, method, drift| Comparator {
         formulation,
         method,
         drift,
@@ -79,7 +79,7 @@ fn named(quantity: Quantity) -> (Kind, &'static str) {
     }
 }
 
-impl Rival for Way {
+impl Rival for Comparator {
     fn name(&self) -> CurveName {
         CurveName {
             formulation: self.formulation.name(),

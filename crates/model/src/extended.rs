@@ -9,7 +9,7 @@
 use joints::Pose;
 use linalg::{Dd, DdMatrix, StepError, least_squares_step};
 
-use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint, TimeFunction, pose_of};
+use crate::mechanism::{Mechanism, N_BODY};
 use crate::size::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
@@ -99,11 +99,11 @@ impl Polished {
 /// Φ in double-double, m values.
 fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
     let mut phi = vec![Dd::ZERO; mechanism.layout().m];
-    let poses = mechanism.space().poses(q);
+    let (poses, jets) = arguments(mechanism, t, q);
     for c in &mechanism.elements.constraints {
         if c.rows.start < phi.len() {
-            let (x, f) = arguments(mechanism, c, t, &poses);
-            c.element.extended().phi(&x, &f, &mut phi[c.rows.clone()]);
+            let (x, f) = (c.site.poses(&poses), &jets[c.site.functions.clone()]);
+            c.element.extended().phi(&x, f, &mut phi[c.rows.clone()]);
         }
     }
     phi
@@ -112,17 +112,17 @@ fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
 /// C in double-double.
 fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
     let (layout, elements) = (mechanism.layout(), &mechanism.elements);
-    let poses = mechanism.space().poses(q);
+    let (poses, jets) = arguments(mechanism, t, q);
     let mut entries: Vec<Dd> = elements.entries.iter().map(|&e| Dd::from(e)).collect();
     for c in elements
         .constraints
         .iter()
         .filter(|c| c.has_varying_entries())
     {
-        let (x, f) = arguments(mechanism, c, t, &poses);
+        let (x, f) = (c.site.poses(&poses), &jets[c.site.functions.clone()]);
         c.element
             .extended()
-            .c(&x, &f, &mut entries[c.entries.clone()]);
+            .c(&x, f, &mut entries[c.entries.clone()]);
     }
     let mut dense = DdMatrix::zeros(layout.rows(), layout.n_v);
     for i in 0..layout.rows() {
@@ -133,20 +133,11 @@ fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
     dense
 }
 
-/// Poses of the bodies of one constraint, and values of its functions of time.
-fn arguments(
-    mechanism: &Mechanism,
-    c: &PlacedConstraint,
-    t: f64,
-    poses: &[Pose<Dd>],
-) -> (Vec<Pose<Dd>>, Vec<[Dd; 3]>) {
-    let bodies = c.site.bodies.iter();
-    let functions = mechanism.elements.functions[c.site.functions.clone()].iter();
-    let jet = |f: &TimeFunction| f.jet(t).map(Dd::from);
-    (
-        bodies.map(|&body| pose_of(poses, body)).collect(),
-        functions.map(jet).collect(),
-    )
+/// Poses of the bodies, and values of the functions of time.
+fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> (Vec<Pose<Dd>>, Vec<[Dd; 3]>) {
+    let jets = mechanism.elements.functions.iter();
+    let jets = jets.map(|f| f.jet(t).map(Dd::from)).collect();
+    (mechanism.space().poses(q), jets)
 }
 
 #[cfg(test)]

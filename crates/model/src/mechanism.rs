@@ -13,7 +13,7 @@ mod work;
 
 use std::ops::Range;
 
-use joints::{Pose, Ring, Twist};
+use joints::Twist;
 
 use crate::description::{Body, BodyRef};
 use crate::function::Function;
@@ -278,14 +278,6 @@ impl Mechanism {
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
-    }
-}
-
-/// The pose of a body, taken from those of all.
-pub(crate) fn pose_of<T: Ring>(poses: &[Pose<T>], body: BodyRef) -> Pose<T> {
-    match body {
-        BodyRef::Ground => Pose::GROUND.cast(),
-        BodyRef::Body(k) => poses[k],
     }
 }
 

@@ -8,7 +8,7 @@ use joints::{Pose, Twist};
 use crate::description::BodyRef;
 use crate::function::Function;
 use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
-use crate::system::System;
+use crate::system::{Site, System};
 
 /// Meaning of an input of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +48,13 @@ pub struct RecordedEquations {
     /// Q, n_v values, including the weight.
     pub force: Vec<Recorded>,
 }
+
+/// Poses, twists and functions of time of one element.
+type Arguments<'a> = (
+    Vec<Pose<Recorded>>,
+    Vec<Twist<Recorded>>,
+    &'a [[Recorded; 3]],
+);
 
 /// Poses, twists and functions of time as inputs.
 struct Inputs {
@@ -95,18 +102,13 @@ impl Inputs {
         }
     }
 
-    fn slots(&self, bodies: &[BodyRef]) -> (Vec<Pose<Recorded>>, Vec<Twist<Recorded>>) {
-        let pose = |b: &BodyRef| match *b {
-            BodyRef::Ground => Pose::GROUND.cast(),
-            BodyRef::Body(k) => self.poses[k],
-        };
-        let twist = |b: &BodyRef| match *b {
-            BodyRef::Ground => Twist::zero(),
-            BodyRef::Body(k) => self.twists[k],
-        };
+    /// Poses, twists and functions of time of an element.
+    fn of(&self, site: &Site) -> Arguments<'_> {
+        let twist = |b: &BodyRef| b.moving().map_or(Twist::zero(), |k| self.twists[k]);
         (
-            bodies.iter().map(pose).collect(),
-            bodies.iter().map(twist).collect(),
+            site.poses(&self.poses),
+            site.bodies.iter().map(twist).collect(),
+            &self.jets[site.functions.clone()],
         )
     }
 }
@@ -187,9 +189,8 @@ fn run_on(mechanism: &Mechanism, inputs: &Inputs) -> Results {
         record_constraint(c, inputs, layout.m, &mut r);
     }
     for f in &elements.forces {
-        let (x, v) = inputs.slots(&f.site.bodies);
+        let (x, v, jets) = inputs.of(&f.site);
         let mut block = vec![zero; f.columns.len()];
-        let jets = &inputs.jets[f.site.functions.clone()];
         f.element.recorded().q(&x, &v, jets, &mut block);
         for (column, value) in f.columns.iter().zip(block) {
             if let Some(column) = *column {
@@ -202,8 +203,7 @@ fn run_on(mechanism: &Mechanism, inputs: &Inputs) -> Results {
 
 fn record_constraint(c: &PlacedConstraint, inputs: &Inputs, m: usize, r: &mut Results) {
     let element = c.element.recorded();
-    let (x, v) = inputs.slots(&c.site.bodies);
-    let f = &inputs.jets[c.site.functions.clone()];
+    let (x, v, f) = inputs.of(&c.site);
     let rows = c.rows.clone();
     if rows.start < m {
         element.phi(&x, f, &mut r.phi[rows.clone()]);

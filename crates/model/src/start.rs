@@ -8,10 +8,10 @@
 
 mod blame;
 mod conflict;
+mod dependent;
 mod error;
 mod metric;
 mod options;
-mod tier;
 mod velocity;
 pub(crate) mod within;
 
@@ -79,7 +79,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         &described,
     );
     let q = if within {
-        within::meant(mechanism, &mut s, (&rows, &weights), &described, size, q)
+        within::within_data(mechanism, &mut s, (&rows, &weights), &described, size, q)
     } else {
         q
     };

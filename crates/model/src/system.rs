@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use joints::{Pose, Twist};
+use joints::{Pose, Ring, Twist};
 use linalg::{Matrix, Scaling};
 
 use crate::description::BodyRef;
@@ -257,6 +257,14 @@ pub(crate) struct Slots {
     pub(crate) jets: Vec<[f64; 3]>,
 }
 
+/// The pose of a body, taken from those of all.
+pub(crate) fn pose_of<T: Ring>(poses: &[Pose<T>], body: BodyRef) -> Pose<T> {
+    match body {
+        BodyRef::Ground => Pose::GROUND.cast(),
+        BodyRef::Body(k) => poses[k],
+    }
+}
+
 /// Indices of an element: its bodies, and its ranges in [`Slots`].
 #[derive(Clone)]
 pub(crate) struct Site {
@@ -279,6 +287,11 @@ impl Site {
     /// Values of its functions of time.
     pub(crate) fn f<'s>(&self, all: &'s Slots) -> &'s [[f64; 3]] {
         &all.jets[self.functions.clone()]
+    }
+
+    /// Poses of its bodies in any number type, from those of all bodies; allocates.
+    pub(crate) fn poses<T: Ring>(&self, all: &[Pose<T>]) -> Vec<Pose<T>> {
+        self.bodies.iter().map(|&b| pose_of(all, b)).collect()
     }
 
     /// Poses, twists and values of functions.

@@ -7,7 +7,7 @@ use std::ops::Range;
 use joints::{Magnitude, Pose};
 use linalg::Matrix;
 
-use crate::mechanism::{Mechanism, N_BODY, pose_of};
+use crate::mechanism::{Mechanism, N_BODY};
 use crate::scale::Scales;
 use crate::system::System;
 
@@ -167,12 +167,8 @@ impl Scales<'_> {
             .iter()
             .filter(|c| c.has_varying_entries())
         {
-            let poses = c
-                .site
-                .bodies
-                .iter()
-                .map(|&body| magnitude(&pose_of(&self.s.poses, body)));
-            let x: Vec<Pose<Magnitude>> = poses.collect();
+            let poses = c.site.x(&self.s.slots).iter();
+            let x: Vec<Pose<Magnitude>> = poses.map(magnitude).collect();
             let jets = c.site.f(&self.s.slots).iter();
             let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();
             c.element

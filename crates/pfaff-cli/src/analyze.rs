@@ -65,7 +65,7 @@ fn of_study(
     let of_configuration = || {
         let bar = Judging::begin(&bars, joints);
         let configuration = study
-            .analyse_watched(arguments.at_time, drop, |judged| bar.at(judged))
+            .analyse_with_progress(arguments.at_time, drop, |judged| bar.at(judged))
             .map_err(|e| source.failure(e))?;
         bar.end();
         let document = ask::document(arguments, source, &configuration)?;
@@ -114,7 +114,7 @@ fn of_start(
     let description = &assembled.scene.description;
     let joints = description.joints.len() + description.drives.len();
     let bar = Judging::begin(&MultiProgress::new(), joints);
-    let configuration = assembled.analyse_watched(drop, |judged| bar.at(judged));
+    let configuration = assembled.analyse_with_progress(drop, |judged| bar.at(judged));
     let configuration = configuration.map_err(failure)?;
     bar.end();
     let mut document = ask::document(arguments, source, &configuration)?;

@@ -79,10 +79,10 @@ pub(crate) enum Command {
     Man(Man),
     /// Part of the laboratory
     #[command(hide = true)]
-    Stress(Elsewhere),
+    Stress(LaboratoryCommand),
     /// Part of the laboratory
     #[command(hide = true)]
-    Generate(Elsewhere),
+    Generate(LaboratoryCommand),
 }
 
 impl Command {
@@ -180,7 +180,7 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_steps: Option<u64>,
     #[command(flatten)]
-    pub(crate) way: Way,
+    pub(crate) way: MotionArguments,
     #[command(flatten)]
     pub(crate) known: Known,
     #[command(flatten)]
@@ -198,7 +198,7 @@ pub(crate) struct Plan {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
     #[command(flatten)]
-    pub(crate) way: Way,
+    pub(crate) way: MotionArguments,
     #[command(flatten)]
     pub(crate) known: Known,
     #[command(flatten)]
@@ -221,7 +221,7 @@ pub(crate) struct Place {
 
 /// How the motion is computed.
 #[derive(Args)]
-pub(crate) struct Way {
+pub(crate) struct MotionArguments {
     /// Integrator
     #[arg(long, value_name = "M", value_parser = chosen("method", Method::ALL, Method::name))]
     pub(crate) method: Option<Method>,
@@ -236,7 +236,7 @@ pub(crate) struct Way {
     pub(crate) drop: Option<Vec<usize>>,
 }
 
-impl Way {
+impl MotionArguments {
     /// What it changes of the options of a scene.
     pub(crate) fn overrides(&self) -> Result<Overrides, Failure> {
         Ok(Overrides {
@@ -300,7 +300,7 @@ pub(crate) struct WorkPrecision {
 
 /// A command of the laboratory; its arguments are not read here.
 #[derive(Args)]
-pub(crate) struct Elsewhere {
+pub(crate) struct LaboratoryCommand {
     #[arg(num_args = 0.., allow_hyphen_values = true, trailing_var_arg = true)]
     pub(crate) arguments: Vec<String>,
 }

@@ -30,7 +30,7 @@ use pfaff::model::Registry;
 use pfaff::scene::nearest;
 
 pub use args::named;
-use args::{Arguments, Command, Elsewhere};
+use args::{Arguments, Command, LaboratoryCommand};
 use console::Console;
 pub use console::Stream;
 use output::{Answer, Failure, Outcome};
@@ -162,7 +162,7 @@ impl CommandLine for Arguments {
 }
 
 /// Reports how a command of the laboratory is called.
-fn elsewhere(name: &str, Elsewhere { arguments }: &Elsewhere) -> Outcome {
+fn elsewhere(name: &str, LaboratoryCommand { arguments }: &LaboratoryCommand) -> Outcome {
     let arguments = arguments.join(" ");
     Err(Failure::input(format!(
         "`{name}` is a command of the laboratory; in the repository of pfaff: \

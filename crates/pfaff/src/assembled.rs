@@ -165,14 +165,14 @@ impl AssembledScene {
         &mut self,
         drop: Option<&[usize]>,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
-        self.analyse_watched(drop, |_| ())
+        self.analyse_with_progress(drop, |_| ())
     }
 
     /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
     ///
     /// # Errors
     /// As [`AssembledScene::analyse`].
-    pub fn analyse_watched(
+    pub fn analyse_with_progress(
         &mut self,
         drop: Option<&[usize]>,
         progress: impl Fn(usize) + Sync,

@@ -14,7 +14,8 @@ use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, Numbers,
     Proposals, Questions, ReactionVerdict, Rows, Sensitivities, Solution, State, UnitCheck,
-    analyse_decided, analyse_dropping, analyse_watched, generic, is_locked, second_order, solution,
+    analyse_decided, analyse_dropping, analyse_with_progress, generic, is_locked, second_order,
+    solution,
 };
 
 use crate::error::StudyError;
@@ -80,7 +81,7 @@ impl<'a> ConfigurationAnalysis<'a> {
     ) -> Result<Self, StudyError> {
         let q = &state.q;
         let analysis = Arc::new(match rows {
-            AskedRows::Any => analyse_watched(mechanism, t, q, known, progress)?,
+            AskedRows::Any => analyse_with_progress(mechanism, t, q, known, progress)?,
             AskedRows::Decided(rows) => analyse_decided(mechanism, t, q, rows, progress)?,
             AskedRows::Dropped(rows) => analyse_dropping(mechanism, t, q, rows)?,
         });

@@ -120,14 +120,14 @@ impl Study {
         t: f64,
         drop: Option<&[usize]>,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
-        self.analyse_watched(t, drop, |_| ())
+        self.analyse_with_progress(t, drop, |_| ())
     }
 
     /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
     ///
     /// # Errors
     /// As [`Study::analyse`].
-    pub fn analyse_watched(
+    pub fn analyse_with_progress(
         &self,
         t: f64,
         drop: Option<&[usize]>,

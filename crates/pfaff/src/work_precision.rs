@@ -152,8 +152,10 @@ impl Subject {
         mut row: impl FnMut(&WorkPrecisionRow) -> Result<(), E>,
     ) -> Result<Comparison, E> {
         let (standard, document) = self.standard(plan, interrupted)?;
-        let own = plan.curves.iter().map(|&curve| Way::Own(curve));
-        let ways: Vec<Way<'_>> = own.chain(rivals.iter().map(|r| Way::Rival(*r))).collect();
+        let own = plan.curves.iter().map(|&curve| Contender::Own(curve));
+        let ways: Vec<Contender<'_>> = own
+            .chain(rivals.iter().map(|r| Contender::Rival(*r)))
+            .collect();
         let runs = ways.len() * plan.tolerances.len();
         let mut rows: Vec<WorkPrecisionRow> = Vec::with_capacity(runs);
         'all: for way in &ways {
@@ -162,10 +164,10 @@ impl Subject {
                 let empty = WorkPrecisionRow::empty(&self.name, way.name(), tolerance);
                 let new = match (given_up, way) {
                     (Some(looser), _) => Some(given_up_before(empty, looser)),
-                    (None, Way::Own(curve)) => {
+                    (None, Contender::Own(curve)) => {
                         self.run(*curve, empty, plan, standard.as_ref(), interrupted)
                     }
-                    (None, Way::Rival(rival)) => {
+                    (None, Contender::Rival(rival)) => {
                         rival::row(self, *rival, empty, plan, standard.as_ref(), interrupted)
                     }
                 };
@@ -351,12 +353,12 @@ impl Subject {
 }
 
 /// A way to move the mechanism, by this product or by another program.
-enum Way<'a> {
+enum Contender<'a> {
     Own(Curve),
     Rival(&'a dyn Rival),
 }
 
-impl Way<'_> {
+impl Contender<'_> {
     fn name(&self) -> CurveName {
         match self {
             Self::Own(curve) => curve.name(),

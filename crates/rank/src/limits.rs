@@ -47,7 +47,7 @@ pub const NEARLY_REDUNDANT: f64 = 1e-3;
 /// `bounds_are_below_and_near_the_truth`.
 pub(crate) const BOUND_SLACK: f64 = 1e-6;
 
-/// Noise that reaches further hides numbers that matter: nothing is zero beside it.
+/// Noise that reaches further hides numbers that matter: nothing is zero relative to it.
 /// Unit: singular value of a matrix of size one. Less: nothing is certified on coarse data. More:
 /// numbers that matter are called zero. Test: `a_number_counts_a_thousand_times_above_its_noise`.
 pub(crate) const NOISE_MAX: f64 = 1e-4;
@@ -148,7 +148,7 @@ pub(crate) const TOLERANCE_MAX: f64 = 1e-5;
 pub(crate) const STATED_MAX: f64 = 0.1;
 
 /// A coefficient above this is not called zero there: that data within the tolerance could make it
-/// zero does not say that they do, and what is told as none must not matter.
+/// zero does not say that they do, and what is reported as none must not matter.
 /// Unit: coefficient of the equilibrated dependencies. Less: coarse tolerances call nothing zero.
 /// More: reactions that matter are called none. Test:
 /// `within_a_tolerance_only_what_is_small_is_zero`.
@@ -185,7 +185,7 @@ pub const COEFFICIENT_ROUNDING: f64 = 1e-12;
 
 // Sparse ranks.
 
-/// How much shall be left of a kept row beside those kept before it, if there are enough of them.
+/// How much shall be left of a kept row next to those kept before it, if there are enough of them.
 /// Long chains have rows of which 1e-3 is left.
 /// Unit: share of the row. Less: kept rows are nearly dependent. More: rows of long chains are
 /// passed over. Test: `of_nearly_parallel_rows_one_is_kept`.

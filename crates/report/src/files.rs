@@ -338,7 +338,7 @@ fn new_file(path: &Path) -> io::Result<File> {
     options.read(true).write(true).create_new(true).open(path)
 }
 
-/// Writes a single file beside its place and renames it; a link at its place is replaced.
+/// Writes a single file next to its place and renames it; a link at its place is replaced.
 ///
 /// # Errors
 /// - [`FileError::Refused`]: it cannot be written; an older file stays as it is.

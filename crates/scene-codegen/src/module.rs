@@ -205,7 +205,7 @@ fn inputs(f: &Function) -> impl Iterator<Item = Symbol> + '_ {
     })
 }
 
-/// Sizes and facts.
+/// Sizes and specification.
 fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
     let prepared = subject.prepared;
     let layout = prepared.mechanism.layout();
@@ -494,7 +494,7 @@ fn face(functions: &Functions, path: &syn::Path) -> TokenStream {
         /// The mechanism as a run takes it.
         #[derive(Clone, Copy, Debug)]
         pub struct Code;
-        static FACTS: #path::code::Facts = #path::code::Facts {
+        static SPEC: #path::code::CodeSpec = #path::code::CodeSpec {
             name: ::std::borrow::Cow::Borrowed(NAME),
             n_q: N_Q,
             n_v: N_V,
@@ -506,7 +506,7 @@ fn face(functions: &Functions, path: &syn::Path) -> TokenStream {
             operations: ::std::borrow::Cow::Borrowed(OPERATIONS),
         };
         impl #path::SceneCode for Code {
-            fn facts(&self) -> &#path::code::Facts { &FACTS }
+            fn spec(&self) -> &#path::code::CodeSpec { &SPEC }
             #(#methods)*
         }
     }

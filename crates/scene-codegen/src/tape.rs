@@ -5,7 +5,7 @@
 use std::cell::RefCell;
 
 use dynamics::SceneCode;
-use dynamics::code::Facts;
+use dynamics::code::CodeSpec;
 use model::record::Input;
 use model::{Function as TimeFunction, System};
 use symbolic::{Op, Program};
@@ -33,7 +33,7 @@ use crate::subject::Subject;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Tape {
-    facts: Facts,
+    spec: CodeSpec,
     functions: Vec<(&'static str, List)>,
     times: Vec<(TimeFunction, f64)>,
 }
@@ -83,7 +83,7 @@ impl Tape {
             };
             (f.signature.name, list)
         });
-        let facts = Facts {
+        let spec = CodeSpec {
             name: prepared.mechanism.name().to_owned().into(),
             n_q: layout.n_q,
             n_v: layout.n_v,
@@ -96,7 +96,7 @@ impl Tape {
         };
         let times = prepared.mechanism.functions();
         Ok(Self {
-            facts,
+            spec,
             functions: list.collect(),
             times: times.map(|(f, offset)| (f.clone(), offset)).collect(),
         })
@@ -165,8 +165,8 @@ fn read(source: Source, a: Arguments<'_>, jets: &[[f64; 3]]) -> f64 {
 }
 
 impl SceneCode for Tape {
-    fn facts(&self) -> &Facts {
-        &self.facts
+    fn spec(&self) -> &CodeSpec {
+        &self.spec
     }
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64 {

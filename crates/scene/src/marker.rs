@@ -31,7 +31,7 @@ const TOLERANCE: Key = tolerance::length(
 /// Keys of a marker in addition to its name.
 pub(crate) const KEYS: [Key; 4] = [BODY, POINT, ANGLE, TOLERANCE];
 
-/// What is told of a marker where another thing is expected.
+/// What is said of a marker where another thing is expected.
 const NAME: &str = "the name of a marker";
 
 /// The markers that were read, with their places.

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use crate::certificate::Rows;
 use crate::large::judge_sparse;
-use crate::mechanism::judge;
+use crate::mechanism::part_verdicts;
 use crate::parts::{Extent, ListedRows, PartAnalysis, Partition};
 use crate::rows::told_of_whole;
 use crate::state::check_configuration;
@@ -221,7 +221,7 @@ pub fn analyse_known(
     q: &[f64],
     known: Known,
 ) -> Result<Analysis, AnalysisError> {
-    analyse_watched(mechanism, t, q, known, |_| ())
+    analyse_with_progress(mechanism, t, q, known, |_| ())
 }
 
 /// Like [`analyse_known`]; after each part it calls `progress` with the number of joints analysed
@@ -230,7 +230,7 @@ pub fn analyse_known(
 ///
 /// # Errors
 /// As [`analyse`].
-pub fn analyse_watched(
+pub fn analyse_with_progress(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
@@ -248,7 +248,7 @@ pub fn analyse_watched(
     })
 }
 
-/// Like [`analyse_watched`], for ranks that have already been decided.
+/// Like [`analyse_with_progress`], for ranks that have already been decided.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -266,7 +266,7 @@ pub fn analyse_decided(
         let found = match &part.certified {
             Some(certified) => {
                 let rows = Rows::new(&own, t, &q, Known::AsStored)?;
-                judge(&own, &evaluated(&own, t, &q), &rows, certified[0].clone())?
+                part_verdicts(&own, &evaluated(&own, t, &q), &rows, certified[0].clone())?
             }
             None => judge_sparse(&own, &evaluated(&own, t, &q), &q)?,
         };
@@ -343,7 +343,7 @@ pub fn analyse_dropping(
         let rows = Rows::new(part, t, q, Known::AsStored)?;
         let certified = rows.decide()?;
         let same = certified.is_decided() && certified.rank == decision.rank;
-        let mut found = judge(part, &s, &rows, decision)?;
+        let mut found = part_verdicts(part, &s, &rows, decision)?;
         found.part.certificate = certified.evidence.certificate.filter(|_| same);
         Ok(found)
     });
@@ -380,7 +380,7 @@ fn judged_alone(
     if part.layout().rows() <= ROWS_MAX {
         let rows = Rows::new(part, t, q, known)?;
         let decision = rows.decide()?;
-        judge(part, &evaluated(part, t, q), &rows, decision)
+        part_verdicts(part, &evaluated(part, t, q), &rows, decision)
     } else {
         judge_sparse(part, &evaluated(part, t, q), q)
     }

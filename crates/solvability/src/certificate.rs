@@ -18,7 +18,7 @@ use rank::{
     RankReading, certify_rank,
 };
 
-use crate::meant::{MeantMatrix, Nearness, Question, Reading};
+use crate::numerical_rank::{Nearness, Question, Reading, UncertainMatrix};
 use crate::state::check_configuration;
 
 /// C of a mechanism without dimensions, with the accuracy of its entries.
@@ -30,7 +30,7 @@ pub(crate) struct Rows<'a> {
     size: f64,
     /// Numbers of the analysed rows in the mechanism, ascending.
     places: Vec<usize>,
-    meant: MeantMatrix,
+    uncertain: UncertainMatrix,
     /// C at a configuration polished in double-double. `None` if that does not help: there are too
     /// many rows, or the kept rows are dependent to the last digit of `f64`.
     extended: Option<DdMatrix>,
@@ -50,26 +50,26 @@ impl<'a> Rows<'a> {
         c: &Matrix,
         uncertainty: &Matrix,
     ) -> Self {
-        Self::of_meant(
+        Self::of_uncertain(
             mechanism,
             (Cow::Borrowed(s), q, size),
-            MeantMatrix::of(mechanism, c.clone(), uncertainty.clone()),
+            UncertainMatrix::of(mechanism, c.clone(), uncertainty.clone()),
         )
     }
 
     fn at(mechanism: &'a Mechanism, scratch: Cow<'a, Scratch>, q: &'a [f64], known: Known) -> Self {
         let size = scene_size(mechanism, q);
-        let meant = MeantMatrix::new(mechanism, &scratch, size, known);
-        Self::of_meant(mechanism, (scratch, q, size), meant)
+        let uncertain = UncertainMatrix::new(mechanism, &scratch, size, known);
+        Self::of_uncertain(mechanism, (scratch, q, size), uncertain)
     }
 
-    fn of_meant(
+    fn of_uncertain(
         mechanism: &'a Mechanism,
         (scratch, q, size): (Cow<'a, Scratch>, &'a [f64], f64),
-        meant: MeantMatrix,
+        uncertain: UncertainMatrix,
     ) -> Self {
         Self {
-            meant,
+            uncertain,
             places: (0..mechanism.layout().rows()).collect(),
             mechanism,
             scratch,
@@ -89,13 +89,13 @@ impl<'a> Rows<'a> {
         check_configuration(mechanism, t, q)?;
         let scratch = Cow::Owned(evaluated(mechanism, t, q));
         let mut rows = Self::at(mechanism, scratch, q, known);
-        if mechanism.layout().rows() <= ROWS_MAX && rows.meant.c.first_non_finite().is_none() {
+        if mechanism.layout().rows() <= ROWS_MAX && rows.uncertain.c.first_non_finite().is_none() {
             let kept = promising_holonomic(mechanism, &rows.scratch, q)?;
             if let Ok(polished) = Polished::at(mechanism, t, q, &kept) {
                 let c = polished
                     .c
                     .scaled(&mechanism.layout().dimension_scaling(rows.size));
-                rows.extended = Some(rows.meant.extended(c));
+                rows.extended = Some(rows.uncertain.extended(c));
             }
         }
         Ok(rows)
@@ -110,7 +110,7 @@ impl<'a> Rows<'a> {
     pub(crate) fn matrix(&self) -> Matrix {
         match &self.extended {
             Some(c) => c.hi(),
-            None => self.meant.c.clone(),
+            None => self.uncertain.c.clone(),
         }
     }
 
@@ -120,8 +120,8 @@ impl<'a> Rows<'a> {
             time: self.scratch.t,
             source,
         };
-        if self.meant.c.first_non_finite().is_some() {
-            return rank::decide(&self.meant.c, 0.0).map_err(failed);
+        if self.uncertain.c.first_non_finite().is_some() {
+            return rank::decide(&self.uncertain.c, 0.0).map_err(failed);
         }
         let question = Question {
             mechanism: self.mechanism,
@@ -134,7 +134,7 @@ impl<'a> Rows<'a> {
             rank: reading,
             nearness,
             has_tolerance,
-        } = self.meant.read(&question);
+        } = self.uncertain.read(&question);
         let mut decision = self.certified(reading).map_err(failed)?;
         if self.places.len() <= TOLERANCE_ROWS {
             self.know_rows(&question, &mut decision, has_tolerance);
@@ -161,7 +161,7 @@ impl<'a> Rows<'a> {
         if asked.is_empty() || !has_tolerance && asked.len() * decision.redundancy > ASKED {
             return;
         }
-        let scaled = decision.scaling.apply(&self.meant.c);
+        let scaled = decision.scaling.apply(&self.uncertain.c);
         let known = question.rows_within_data(&scaled, decision, &asked);
         let turns = has_tolerance.then(|| question.turns(&scaled, decision));
         if let Some(certificate) = &mut decision.evidence.certificate {
@@ -180,23 +180,23 @@ impl<'a> Rows<'a> {
     /// The decision for a rank that has been read, with the evidence from double-double.
     fn certified(&self, reading: RankReading) -> Result<RankDecision, RankError> {
         if let Some(c) = &self.extended {
-            let certified = certify_rank(c, &self.meant.uncertainty, reading.clone())?;
+            let certified = certify_rank(c, &self.uncertain.uncertainty, reading.clone())?;
             if let Some(mut decision) = certified {
                 // A force or lever arm that counts as zero is zero within the accuracy of the data
                 // only.
                 if let Some(certificate) = &mut decision.evidence.certificate
                     && certificate.grounds == Grounds::Vanishes
-                    && self.meant.has_zeros()
+                    && self.uncertain.has_zeros()
                 {
                     certificate.grounds = Grounds::WithinData;
                 }
                 return Ok(decision);
             }
         }
-        let c = DdMatrix::from(&self.meant.c);
-        match certify_rank(&c, &self.meant.uncertainty, reading)? {
+        let c = DdMatrix::from(&self.uncertain.c);
+        match certify_rank(&c, &self.uncertain.uncertainty, reading)? {
             Some(decision) => Ok(decision),
-            None => rank::decide(&self.meant.c, &self.meant.uncertainty),
+            None => rank::decide(&self.uncertain.c, &self.uncertain.uncertainty),
         }
     }
 
@@ -230,7 +230,7 @@ impl<'a> Rows<'a> {
             q: self.q.clone(),
             size: self.size,
             places: rows.iter().map(|&k| self.places[k]).collect(),
-            meant: self.meant.select(rows),
+            uncertain: self.uncertain.select(rows),
             extended: self.extended.as_ref().map(|c| c.select_rows(rows)),
         }
     }

@@ -23,13 +23,13 @@ pub struct Generic {
     /// The smallest redundancy found, which holds at almost all configurations.
     pub redundancy: usize,
     /// The configurations that were compared.
-    pub points: Vec<Elsewhere>,
+    pub points: Vec<OtherConfiguration>,
 }
 
 /// Another configuration.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Elsewhere {
+pub struct OtherConfiguration {
     /// Time (s).
     pub time: f64,
     /// Coordinates, n_q.
@@ -54,7 +54,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     let compared = compared_rows(mechanism, t, q)?;
     let size = scene_size(mechanism, q);
     let units = velocity_units(mechanism, size);
-    let mut points: Vec<Elsewhere> = Vec::new();
+    let mut points: Vec<OtherConfiguration> = Vec::new();
     let mut visited = vec![(t, q.to_vec())];
     for walk in 0..WALKS {
         let from = &visited[visited.len() - 1];
@@ -197,7 +197,7 @@ fn elsewhere(
     mechanism: &Mechanism,
     (t, q): &(f64, Vec<f64>),
     (rows, compared): (&[usize], &[usize]),
-) -> Option<Elsewhere> {
+) -> Option<OtherConfiguration> {
     let mut s = crate::pose::evaluated(mechanism, *t, q);
     // Drives and rows that are redundant within a tolerance were left out of the walk, so the
     // residuals of their rows say nothing about the accuracy of this configuration.
@@ -208,7 +208,7 @@ fn elsewhere(
         .select(compared)
         .decide()
         .ok()?;
-    decision.is_decided().then(|| Elsewhere {
+    decision.is_decided().then(|| OtherConfiguration {
         time: *t,
         q: q.clone(),
         rank: decision.rank,

@@ -83,7 +83,7 @@ pub(crate) struct Judged {
 
 impl Judged {
     /// A part by itself at time t: its decided rank, the ranks of some of its rows, and what
-    /// `verdict` says of each joint and drive. Dependencies are not told.
+    /// `verdict` says of each joint and drive. Dependencies are not listed.
     pub(crate) fn new(
         mechanism: &Mechanism,
         t: f64,

@@ -16,7 +16,7 @@ use rank::{Evidence, SparseRank};
 
 use crate::analysis::analyse;
 use crate::freedoms::PartialRanks;
-use crate::mechanism::{Told, reaction};
+use crate::mechanism::{Detail, reaction};
 use crate::parts::{PartDecision, parts};
 use crate::sparse::{Decided, decide_some};
 
@@ -39,7 +39,7 @@ pub(crate) fn judge_sparse(
     let verdict = |id: ConstraintId| {
         let rows = layout.groups[id.0].rows.clone();
         let own = 0..rows.len();
-        reaction(mechanism, id, s, &all.basis(rows), own, Told::Directions)
+        reaction(mechanism, id, s, &all.basis(rows), own, Detail::Directions)
     };
     let decision = PartDecision::Sparse {
         rows: (&all.found).into(),

@@ -47,9 +47,9 @@ mod large;
 mod limits;
 pub mod make_unique;
 pub mod matrices;
-mod meant;
 mod mechanism;
 pub mod memory;
+mod numerical_rank;
 pub mod parts;
 mod pose;
 pub mod questions;
@@ -70,7 +70,7 @@ pub use along::{
 };
 pub use analysis::{
     Analysis, analyse, analyse_by_cycles, analyse_decided, analyse_dropping, analyse_known,
-    analyse_watched,
+    analyse_with_progress,
 };
 pub use certificate::{certify, inseparable};
 pub use choices::{
@@ -89,12 +89,12 @@ pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use freedoms::{
     FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, WithoutDrives,
 };
-pub use generic::{Elsewhere, Generic, generic, is_permanent};
+pub use generic::{Generic, OtherConfiguration, generic, is_permanent};
 pub use groups::{
     Configuration, Group, GroupVerdict, LinearForm, ReactionForms, RequestError, Term, judge_groups,
 };
 pub use judged::{ComponentVerdict, Dependency, ReactionVerdict, RowVerdict};
-pub use limits::{FRAGILE, KERNEL_MAX, MOTIONS_TOLD, MOVED, ONE_PART};
+pub use limits::{FRAGILE, KERNEL_MAX, MOTIONS_REPORTED, MOVED, ONE_PART};
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use memory::memory_of_verdicts;

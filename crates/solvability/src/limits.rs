@@ -68,12 +68,12 @@ pub(crate) const ROUNDING_OF_MAP: f64 = 1e-14;
 /// none.
 pub(crate) const LARGEST_TURN: f64 = 0.1;
 
-/// A part of a unit vector above this is told, whatever a stated tolerance makes of it: without it
-/// the direction is another one.
-/// Unit: part of a unit vector. Less: small parts are none. More: rounding is told. Test: none.
+/// A part of a unit vector above this is reported, whatever a stated tolerance makes of it: without
+/// it the direction is another one.
+/// Unit: part of a unit vector. Less: small parts are none. More: rounding is reported. Test: none.
 pub(crate) const LARGEST_ROUNDING: f64 = 1e-5;
 
-// The mechanism that is meant.
+// The intended mechanism.
 
 /// From this singular value on no rounding explains a lower rank in a matrix of size one: near a
 /// singular pose, where a singular value moves with the root of the data, it would have to be below
@@ -92,9 +92,9 @@ pub(crate) const CLEAR_OF_NOISE: f64 = 1e3;
 /// confirmed. Test: `a_door_turns_within_its_tolerance`.
 pub(crate) const CONFIRMED: f64 = 0.1;
 
-/// A lower rank is told where the data are nearer to it than this share of the size.
-/// Unit: share of the size. Less: near redundancy is not told. More: sound mechanisms are told to
-/// be near it. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
+/// A lower rank is reported where the data are nearer to it than this share of the size.
+/// Unit: share of the size. Less: near redundancy is not reported. More: sound mechanisms are said
+/// to be near it. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const NEAR_TOLD: f64 = 1e-3;
 
 /// Equations of the first order are wrong by the square of the change, as a share of the size,
@@ -129,8 +129,8 @@ pub(crate) const HOLONOMIC: f64 = 1e-6;
 pub(crate) const RESOLVED: f64 = 1e-13;
 
 /// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the
-/// weakest first. More would be exact zeros beside the near one; leaving them out can only make the
-/// share smaller.
+/// weakest first. More would be exact zeros next to the near one; leaving them out can only make
+/// the share smaller.
 /// Unit: pairs. Less: a share is too small. More: time, and exact zeros are asked for. Test:
 /// `an_angle_tolerance_counts_alone`.
 pub(crate) const PAIRS: usize = 4;
@@ -266,7 +266,7 @@ pub(crate) const DRIVE_HALVINGS: usize = 6;
 
 /// Share of their terms by which drives must differ before a run stops for it with certainty (runs
 /// compare to 1e-11, divided by pivots).
-/// Unit: share of the terms. Less: rounding contradicts. More: runs stop for what was not told.
+/// Unit: share of the terms. Less: rounding contradicts. More: runs stop for what was not reported.
 /// Test: `small_differences_are_told_at_their_time`.
 pub(crate) const RUNS_NOTICE: f64 = 1e-9;
 
@@ -293,7 +293,8 @@ pub(crate) const EDGE: f64 = 1e-10;
 /// Unit: 1. Less: minima are missed. More: time. Test: `minima_of_corners_and_parabolas`.
 pub(crate) const FALL: f64 = 4.0;
 
-/// A sample that is singular beside the best one of the motion is not regular, whatever its value.
+/// A sample that is singular relative to the best one of the motion is not regular, whatever its
+/// value.
 /// Unit: share of the largest singular value. Less: samples near a singular pose are regular. More:
 /// motions without regular samples. Test: none.
 pub(crate) const REGULAR_SAMPLE: f64 = 0.1;
@@ -327,7 +328,7 @@ pub(crate) const SAMPLE_HALVINGS: usize = 8;
 /// `noise_in_the_states_blurs_the_time_by_as_much`.
 pub(crate) const BENT: f64 = 2.0;
 
-/// Directions of the regular motion are those at this share of the nearly singular interval beside
+/// Directions of the regular motion are those at this share of the nearly singular interval next to
 /// the instant.
 /// Unit: share of the nearly singular interval. Less: directions are those of the singular pose.
 /// More: directions are those of elsewhere. Test: `a_pendulum_beside_the_cranks`.
@@ -340,12 +341,12 @@ pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 
 /// Digits of a time that was searched for: it is known as well as the motion, which a run knows to
 /// little more than its tolerance.
-/// Unit: digits. Less: times that differ look the same. More: digits that are not known are told.
+/// Unit: digits. Less: times that differ look the same. More: digits that are not known are shown.
 /// Test: `a_motion_that_turns_back_between_two_samples_passes_twice`.
 pub(crate) const SEARCHED_DIGITS: i32 = 7;
 
 /// Digits of a time that a function of the scene gives.
-/// Unit: digits. Less: times that differ look the same. More: digits that are rounding are told.
+/// Unit: digits. Less: times that differ look the same. More: digits that are rounding are shown.
 /// Test: `a_rest_in_a_singular_pose_is_a_stretch`.
 pub(crate) const GIVEN_DIGITS: i32 = 10;
 
@@ -358,7 +359,7 @@ pub const KERNEL_MAX: usize = 4;
 
 /// The given motion may miss the equations by this share of their coefficients: its directions may
 /// come from neighbouring configurations.
-/// Unit: share of the coefficients. Less: motions beside a singular pose are doubted. More: wrong
+/// Unit: share of the coefficients. Less: motions next to a singular pose are doubted. More: wrong
 /// motions are examined. Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const REGULAR: f64 = 1e-6;
 
@@ -399,7 +400,7 @@ pub(crate) const OTHER_BRANCH: f64 = 1e-3;
 pub(crate) const BRANCH_STARTS: usize = 40;
 
 /// Solutions nearer to each other than this are one.
-/// Unit: share of the motion. Less: one branch is told twice. More: two branches are told as one.
+/// Unit: share of the motion. Less: one branch counts twice. More: two branches count as one.
 /// Test: `branches_nearer_than_a_thousandth_are_one`.
 pub(crate) const SAME_BRANCH: f64 = 1e-6;
 
@@ -410,10 +411,10 @@ pub(crate) const FORM_ROUNDING: f64 = 1e-10;
 
 // Freedoms.
 
-/// Motions that are told; of the others there is a count.
+/// Motions that are reported; of the others there is a count.
 /// Unit: motions. Less: motions are counted only. More: sentences nobody reads. Test:
 /// `of_many_motions_the_first_are_told`.
-pub const MOTIONS_TOLD: usize = 12;
+pub const MOTIONS_REPORTED: usize = 12;
 
 /// A velocity of length one satisfies a form below this: rounding of a null space, far below any
 /// freedom that is worth a word.
@@ -443,7 +444,7 @@ pub(crate) const TRIALS: usize = 2_000_000;
 // Reactions by a choice, units, sensitivity.
 
 /// A number is known to so many roundings of the largest multiplier, each measured by its row.
-/// Unit: roundings of the largest multiplier. Less: rounding is told. More: digits are not. Test:
+/// Unit: roundings of the largest multiplier. Less: rounding is shown. More: digits are not. Test:
 /// none.
 pub(crate) const VALUE_ROUNDINGS: f64 = 4.0;
 
@@ -484,7 +485,7 @@ pub const FRAGILE: f64 = 0.1;
 pub(crate) const BEYOND: f64 = 1.0;
 
 /// From here on "several times" would be too little.
-/// Unit: 1. Less: numbers are not told. More: sentences exaggerate. Test:
+/// Unit: 1. Less: numbers are not given. More: sentences exaggerate. Test:
 /// `sentences_are_for_people`.
 pub(crate) const MANY: f64 = 30.0;
 
@@ -503,8 +504,8 @@ pub(crate) const LOAD_ROUNDING: f64 = 1e-9;
 pub(crate) const PIECE: f64 = 20.0;
 
 /// Of points whose effects differ by less than this factor, as those of two points that coincide,
-/// the first is told: reactions that hang on the same misfit are then told in one sentence.
-/// Unit: 1. Less: one misfit is told in many sentences. More: different misfits are told as one.
+/// the first is named: reactions that hang on the same misfit are then named in one sentence.
+/// Unit: 1. Less: one misfit is named in many sentences. More: different misfits are named as one.
 /// Test: `a_beam_by_hand`.
 pub(crate) const SAME_EFFECT: f64 = 1.01;
 
@@ -520,14 +521,14 @@ pub(crate) const DENSE_MATRICES: usize = 24;
 
 /// A component of a self-stress is zero below this share of its largest one: rounding of the
 /// dependence, drawn or said.
-/// Unit: share of the largest number. Less: rounding is told. More: small numbers are not. Test:
+/// Unit: share of the largest number. Less: rounding is shown. More: small numbers are not. Test:
 /// none.
 pub(crate) const VISIBLE: f64 = 1e-9;
 
 /// Two bodies move as one, and a joint stands at a point, to this share of the size of the
 /// mechanism: above the rounding of a null space, below any distance between joints that a drawing
 /// shows.
-/// Unit: share of the size. Less: one point is told as two. More: two points are told as one. Test:
+/// Unit: share of the size. Less: one point counts as two. More: two points count as one. Test:
 /// `a_four_bar_moves_without_its_motor_only`.
 pub(crate) const SAME_PLACE: f64 = 1e-6;
 
@@ -536,8 +537,8 @@ pub(crate) const SAME_PLACE: f64 = 1e-6;
 /// `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NAMED_BODIES: usize = 6;
 
-/// Names that tell which part is meant.
-/// Unit: names. Less: one does not know which part is meant. More: sentences nobody reads. Test:
+/// Names that tell which part it is.
+/// Unit: names. Less: one does not know which part it is. More: sentences nobody reads. Test:
 /// none.
 pub(crate) const FIRST_NAMED: usize = 3;
 

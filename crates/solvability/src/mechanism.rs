@@ -20,13 +20,13 @@ use crate::words;
 
 /// Verdicts of a mechanism that is one part, at the pose of the scratch, in which Φ and C have been
 /// evaluated and for which the rank has been decided.
-pub(crate) fn judge(
+pub(crate) fn part_verdicts(
     mechanism: &Mechanism,
     s: &Scratch,
     rows: &Rows,
     decision: RankDecision,
 ) -> Result<Judged, AnalysisError> {
-    let mut found = judge_reactions(mechanism, s, rows, decision, Told::Directions)?;
+    let mut found = reaction_verdicts(mechanism, s, rows, decision, Detail::Directions)?;
     if let Some(decision) = found.part.decision.dense() {
         let open = rank::open_rows(decision);
         if !open.is_empty() {
@@ -50,20 +50,20 @@ pub(crate) fn judge(
 
 /// How much is reported for each reaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Told {
+pub(crate) enum Detail {
     /// The verdicts of its wrench, its components and its rows.
     Verdicts,
     /// Also the directions in which it is unique.
     Directions,
 }
 
-/// Like [`judge`], without dependencies and near dependencies.
-pub(crate) fn judge_reactions(
+/// Like [`part_verdicts`], without dependencies and near dependencies.
+pub(crate) fn reaction_verdicts(
     mechanism: &Mechanism,
     s: &Scratch,
     rows: &Rows,
     decision: RankDecision,
-    told: Told,
+    detail: Detail,
 ) -> Result<Judged, AnalysisError> {
     let layout = mechanism.layout();
     let solvability = Solvability::from_decision(&rows.matrix(), decision);
@@ -77,7 +77,7 @@ pub(crate) fn judge_reactions(
     })?;
     let verdict = |id: ConstraintId| {
         let own = layout.groups[id.0].rows.clone();
-        reaction(mechanism, id, s, basis, own, told)
+        reaction(mechanism, id, s, basis, own, detail)
     };
     let decision = PartDecision::Dense(Box::new(decision.clone()));
     Judged::new(mechanism, s.t, rows.size(), decision, ranks, verdict)
@@ -90,7 +90,7 @@ pub(crate) fn reaction(
     s: &Scratch,
     basis: &Basis,
     rows: Range<usize>,
-    told: Told,
+    detail: Detail,
 ) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
     let components = group.components();
@@ -123,9 +123,9 @@ pub(crate) fn reaction(
     };
     // If the number of directions is undecided, none are given; the verdicts above say that it is
     // undecided.
-    let unique_directions = match told {
-        Told::Verdicts => None,
-        Told::Directions => match mapped.unique_directions() {
+    let unique_directions = match detail {
+        Detail::Verdicts => None,
+        Detail::Directions => match mapped.unique_directions() {
             Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
             known => Some(known?),
         },

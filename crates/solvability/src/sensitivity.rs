@@ -14,7 +14,7 @@
 //! body, in directions without symmetry, at rest and with equal masses: a combination of rows of
 //! norm σ has reactions of about 1/σ of it, which change by the fraction moved/(σ·size).
 //!
-//! Data whose uncertainty changes the rank itself are the subject of `meant`.
+//! Data whose uncertainty changes the rank itself are the subject of `numerical_rank`.
 
 mod instant;
 mod joined;

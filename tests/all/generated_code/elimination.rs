@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
-use dynamics::{Facts, Prepared, SceneCode};
+use dynamics::{CodeSpec, Prepared, SceneCode};
 use linalg::KeptRowSaddle;
 use model::{Mechanism, Scratch, System};
 
@@ -28,7 +28,7 @@ pub(super) enum Fault {
 
 /// Code for a mechanism by dense elimination on its kept rows.
 pub(super) struct Elimination {
-    facts: Facts,
+    spec: CodeSpec,
     mechanism: Mechanism,
     fault: Fault,
     pub(super) evaluations: AtomicUsize,
@@ -46,7 +46,7 @@ struct Work {
 impl Elimination {
     pub(super) fn new(p: &Prepared, fault: Fault) -> Arc<Self> {
         let layout = p.mechanism.layout();
-        let facts = Facts {
+        let spec = CodeSpec {
             name: "elimination".into(),
             n_q: layout.n_q,
             n_v: layout.n_v,
@@ -58,7 +58,7 @@ impl Elimination {
             operations: "".into(),
         };
         let code = Self {
-            facts,
+            spec,
             fault,
             evaluations: AtomicUsize::new(0),
             work: Mutex::new(Work {
@@ -72,8 +72,8 @@ impl Elimination {
         {
             let mut work = code.work.lock().expect("one thread");
             code.pose(&mut work, 0.0, &p.q);
-            let saddle = code.factor(&mut work, &code.facts.kept);
-            let mut frame = vec![0.0; (layout.n_v - code.facts.kept.len()) * layout.n_v];
+            let saddle = code.factor(&mut work, &code.spec.kept);
+            let mut frame = vec![0.0; (layout.n_v - code.spec.kept.len()) * layout.n_v];
             saddle.null_frame(&mut frame);
             work.frame = frame;
             work.reference = saddle.orientation_of(&work.frame) * saddle.pivot_ratio();
@@ -89,7 +89,7 @@ impl Elimination {
     }
 
     fn factor(&self, work: &mut Work, kept: &[usize]) -> KeptRowSaddle {
-        let n = self.facts.n_v;
+        let n = self.spec.n_v;
         work.rows.resize(kept.len(), Vec::new());
         for (row, &i) in work.rows.iter_mut().zip(kept) {
             row.resize(n, 0.0);
@@ -115,7 +115,7 @@ impl Elimination {
         saddle
             .solve(force, gamma, &mut x, &mut lambda)
             .expect("factored");
-        let health = if *kept == *self.facts.kept {
+        let health = if *kept == *self.spec.kept {
             saddle.orientation_of(&work.frame) * saddle.pivot_ratio() / work.reference
         } else {
             1.0
@@ -129,9 +129,9 @@ impl Elimination {
         self.mechanism.twist(v, &mut work.s);
         self.mechanism.gamma(&mut work.s);
         self.mechanism.force(&mut work.s);
-        let gamma: Vec<f64> = self.facts.kept.iter().map(|&i| work.s.gamma[i]).collect();
+        let gamma: Vec<f64> = self.spec.kept.iter().map(|&i| work.s.gamma[i]).collect();
         let force = work.s.force.clone();
-        let (a, lambda, health) = self.solve(work, &self.facts.kept, &force, &gamma);
+        let (a, lambda, health) = self.solve(work, &self.spec.kept, &force, &gamma);
         let health = match self.fault {
             Fault::Health(health) if is_faulty(t) => health,
             _ => health,
@@ -156,8 +156,8 @@ fn is_faulty(t: f64) -> bool {
 }
 
 impl SceneCode for Elimination {
-    fn facts(&self) -> &Facts {
-        &self.facts
+    fn spec(&self) -> &CodeSpec {
+        &self.spec
     }
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64 {
@@ -175,7 +175,7 @@ impl SceneCode for Elimination {
     fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64 {
         let (_, found, health) = self.motion(t, q, v);
         lambda.fill(0.0);
-        for (&i, l) in self.facts.kept.iter().zip(found) {
+        for (&i, l) in self.spec.kept.iter().zip(found) {
             lambda[i] = l;
         }
         if let Fault::Multipliers(share) = self.fault {
@@ -205,7 +205,7 @@ impl SceneCode for Elimination {
     fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64 {
         let work = &mut *self.work.lock().expect("one thread");
         self.pose(work, t, q);
-        let kept = &*self.facts.position_kept;
+        let kept = &*self.spec.position_kept;
         let rhs: Vec<f64> = kept.iter().map(|&i| -phi[i]).collect();
         let (found, _, _) = self.solve(work, kept, &vec![0.0; dq.len()], &rhs);
         dq.copy_from_slice(&found);
@@ -219,8 +219,8 @@ impl SceneCode for Elimination {
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64 {
         let work = &mut *self.work.lock().expect("one thread");
         self.pose(work, t, q);
-        let rhs: Vec<f64> = self.facts.kept.iter().map(|&i| -residual[i]).collect();
-        let (found, _, health) = self.solve(work, &self.facts.kept, &vec![0.0; dv.len()], &rhs);
+        let rhs: Vec<f64> = self.spec.kept.iter().map(|&i| -residual[i]).collect();
+        let (found, _, health) = self.solve(work, &self.spec.kept, &vec![0.0; dv.len()], &rhs);
         dv.copy_from_slice(&found);
         health
     }

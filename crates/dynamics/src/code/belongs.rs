@@ -135,7 +135,7 @@ impl Prepared {
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
     pub fn with_code(self, code: Arc<dyn SceneCode>) -> Result<Self, CodeMismatch> {
-        check_facts(&self, &*code)?;
+        check_spec(&self, &*code)?;
         check_values(&self, &*code)?;
         Ok(Self {
             code: Some(code),
@@ -169,14 +169,14 @@ impl Prepared {
     }
 }
 
-fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMismatch> {
-    let (facts, layout) = (code.facts(), prepared.mechanism.layout());
-    let name = || facts.name.to_string();
+fn check_spec(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMismatch> {
+    let (spec, layout) = (code.spec(), prepared.mechanism.layout());
+    let name = || spec.name.to_string();
     let sizes = [
-        ("coordinates", facts.n_q, layout.n_q),
-        ("velocities", facts.n_v, layout.n_v),
-        ("holonomic rows", facts.m, layout.m),
-        ("nonholonomic rows", facts.h, layout.h),
+        ("coordinates", spec.n_q, layout.n_q),
+        ("velocities", spec.n_v, layout.n_v),
+        ("holonomic rows", spec.m, layout.m),
+        ("nonholonomic rows", spec.h, layout.h),
     ];
     for (what, found, expected) in sizes {
         if found != expected {
@@ -189,10 +189,10 @@ fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMism
         }
     }
     let rows = [
-        ("velocity", &facts.kept, &prepared.decision.kept),
+        ("velocity", &spec.kept, &prepared.decision.kept),
         (
             "position",
-            &facts.position_kept,
+            &spec.position_kept,
             &prepared.position_decision.kept,
         ),
     ];
@@ -206,12 +206,12 @@ fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMism
             });
         }
     }
-    if *facts.break_times == *layout.break_times {
+    if *spec.break_times == *layout.break_times {
         Ok(())
     } else {
         Err(CodeMismatch::BreakTimes {
             name: name(),
-            found: facts.break_times.to_vec(),
+            found: spec.break_times.to_vec(),
             expected: layout.break_times.clone(),
         })
     }
@@ -262,7 +262,7 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
     let health = code.acceleration(0.0, &prepared.q, &prepared.v, &mut a);
     if health.is_nan() || health < LEAVE {
         return Err(CodeMismatch::Unhealthy {
-            name: code.facts().name.to_string(),
+            name: code.spec().name.to_string(),
             health,
         });
     }
@@ -295,7 +295,7 @@ fn compare(
     (t, q, v): (f64, &[f64], &[f64]),
 ) -> Result<(), CodeMismatch> {
     let mechanism = motion.mechanism();
-    let (layout, name) = (mechanism.layout(), code.facts().name.as_ref());
+    let (layout, name) = (mechanism.layout(), code.spec().name.as_ref());
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.phi(&mut s);

@@ -13,7 +13,7 @@ use model::{Mechanism, System};
 use super::dropped::check_positions;
 use super::levels::{Moves, Storage, correct_position};
 use crate::error::MotionFault;
-use crate::limits::{FAR_AT_REST, FAR_COMPLETION, FAR_IN_A_STEP, FAR_WAY};
+use crate::limits::{FAR_AT_REST, FAR_COMPLETION, FAR_EXTRAPOLATED, FAR_IN_A_STEP};
 use crate::solve::{Evaluation, KeptEquations};
 
 /// A partition, and the last completed state.
@@ -93,7 +93,7 @@ impl IndependentCoordinates {
         v: &[f64],
     ) -> Result<(), MotionFault> {
         let mechanism = equations.at.mechanism;
-        let far = FAR_COMPLETION + FAR_WAY * self.way_to(t, &equations.at);
+        let far = FAR_COMPLETION + FAR_EXTRAPOLATED * self.way_to(t, &equations.at);
         if self.z.is_empty() {
             self.q.copy_from_slice(q);
         }

@@ -1,4 +1,4 @@
-//! What the caller of a run is asked and told, and the error that it is given.
+//! What the caller of a run is asked and reported, and the error that it is given.
 
 use std::ops::ControlFlow;
 

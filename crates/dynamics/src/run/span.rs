@@ -5,7 +5,7 @@
 use model::{Mechanism, System};
 
 use crate::error::MotionFault;
-use crate::limits::{LED, LED_AT_REST, PEAK};
+use crate::limits::{PEAK, ROW_DEVIATION, ROW_DEVIATION_AT_REST};
 
 /// An accepted step: times, and y0, f0, y1, f1.
 #[derive(Default)]
@@ -66,7 +66,9 @@ impl Span {
         let (column, by) = mechanism.space().largest_difference(q, led_q, size);
         let off = v.iter().zip(led_v).map(|(v, led)| v - led);
         let kink = momentum(mechanism.mass(), off);
-        if by <= LED * way + LED_AT_REST && kink <= LED * speed + PEAK * mean {
+        if by <= ROW_DEVIATION * way + ROW_DEVIATION_AT_REST
+            && kink <= ROW_DEVIATION * speed + PEAK * mean
+        {
             return Ok(());
         }
         let (body, coordinate) = mechanism.coordinate(column);
@@ -95,7 +97,10 @@ impl Span {
             way,
             speed: momentum(mass, (n_q..n_q + n_v).map(fastest)),
             // A long step of a drive may begin and end at rest.
-            mean: momentum(mass, (0..n_v).map(|j| (way + LED_AT_REST) * unit(j) / h)),
+            mean: momentum(
+                mass,
+                (0..n_v).map(|j| (way + ROW_DEVIATION_AT_REST) * unit(j) / h),
+            ),
         }
     }
 

@@ -9,7 +9,7 @@ use pfaff_cli::input::unknown;
 use pfaff_cli::output::{Failure, Outcome};
 use pfaff_cli::work_precision::{Request, plan, subject};
 
-use crate::comparators::Way;
+use crate::comparators::Comparator;
 use crate::work_precision::{of_case, ways};
 
 #[derive(Args)]
@@ -35,7 +35,7 @@ pub(super) struct WorkPrecision {
 
 pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     let subjects = subjects(arguments, console)?;
-    let ways: Vec<Way> = if arguments.own { Vec::new() } else { ways() };
+    let ways: Vec<Comparator> = if arguments.own { Vec::new() } else { ways() };
     let rivals: Vec<&dyn Rival> = ways.iter().map(|way| way as &dyn Rival).collect();
     Request {
         subjects: &subjects,

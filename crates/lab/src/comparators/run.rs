@@ -13,7 +13,7 @@ use super::equations::Equations;
 use super::gbs::Gbs;
 use super::generalized_alpha::GeneralizedAlpha;
 use super::stepping::{Limits, Stepper, Steps, drive};
-use super::way::{Formulation, Method, Way};
+use super::way::{Comparator, Formulation, Method};
 use super::{Fault, KeptRows, MinimumNorm, NullSpace, Proximal, Solver};
 
 /// A state of a run, with its accelerations and reactions.
@@ -56,7 +56,12 @@ const MOST_STEPS: u64 = 1_000_000;
 ///
 /// # Errors
 /// The reason why the run did not reach the end.
-pub fn run(prepared: &Prepared, way: Way, tolerance: f64, times: &[f64]) -> Result<Run, Fault> {
+pub fn run(
+    prepared: &Prepared,
+    way: Comparator,
+    tolerance: f64,
+    times: &[f64],
+) -> Result<Run, Fault> {
     run_within(prepared, way, tolerance, times, Duration::MAX)
 }
 
@@ -66,7 +71,7 @@ pub fn run(prepared: &Prepared, way: Way, tolerance: f64, times: &[f64]) -> Resu
 /// As [`run`].
 pub fn run_within(
     prepared: &Prepared,
-    way: Way,
+    way: Comparator,
     tolerance: f64,
     times: &[f64],
     budget: Duration,

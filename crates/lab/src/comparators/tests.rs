@@ -8,7 +8,7 @@ use super::equations::Equations;
 use super::gbs::Gbs;
 use super::generalized_alpha::GeneralizedAlpha;
 use super::stepping::{Stepper, Trial};
-use super::{Drift, Formulation, KeptRows, Method, Way, run};
+use super::{Comparator, Drift, Formulation, KeptRows, Method, run};
 use crate::mechanisms::cranks::cranks;
 
 const END: f64 = 0.4;
@@ -60,7 +60,7 @@ fn at_end(p: &Prepared, stepper: &mut dyn Stepper, tolerance: f64, n: usize) -> 
 #[test]
 fn errors_fall_with_the_order() {
     let p = falling();
-    let way = Way {
+    let way = Comparator {
         formulation: Formulation::KeptRows,
         method: Method::Dop853,
         drift: Drift::Projection,

@@ -112,7 +112,7 @@ impl Drift {
 
 /// A combination of formulation, method, and treatment of drift.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Way {
+pub struct Comparator {
     /// Treatment of redundancy.
     pub formulation: Formulation,
     /// Integrator.

@@ -1,6 +1,6 @@
 //! Differences between formulations other than the motion: reactions, drift, refusals.
 
-use lab::comparators::{Drift, Formulation, Method, Way, run};
+use lab::comparators::{Comparator, Drift, Formulation, Method, run};
 use lab::mechanisms::cranks::cranks;
 use lab::mechanisms::robot::{robot, steering};
 use model::System;
@@ -10,8 +10,8 @@ use crate::known::{gap, product, started};
 /// Reactions of the robot that the model does not determine.
 const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
-fn way(formulation: Formulation, drift: Drift) -> Way {
-    Way {
+fn way(formulation: Formulation, drift: Drift) -> Comparator {
+    Comparator {
         formulation,
         method: Method::Dop853,
         drift,
@@ -58,7 +58,7 @@ fn drift_is_pulled_back() {
     let p = started(&d);
     let (q, _) = product(&p, 5.0, 1e-12);
     let opening = |drift| {
-        let way = Way {
+        let way = Comparator {
             method: Method::Dopri5,
             ..way(Formulation::KeptRows, drift)
         };

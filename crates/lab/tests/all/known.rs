@@ -1,7 +1,7 @@
 //! Every comparator compared with known motions, and with pfaff if the mechanism is redundant.
 
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
-use lab::comparators::{Drift, Formulation, Method, Way, run};
+use lab::comparators::{Comparator, Drift, Formulation, Method, run};
 use lab::mechanisms::cranks::cranks;
 use lab::mechanisms::robot::{robot, steering};
 use model::{Description, Mechanism, StartOptions, System};
@@ -58,12 +58,12 @@ fn off(p: &Prepared, row: &lab::comparators::Row, instant: &Instant) -> f64 {
 /// Every formulation with projection, by every method; then every treatment of drift by one method.
 /// Proximal iterations without any treatment are omitted: a redundant row with a residual δ causes
 /// an acceleration of k·δ²/μ, so that drift increases itself.
-fn ways() -> Vec<Way> {
+fn ways() -> Vec<Comparator> {
     let mut ways = Vec::new();
     for formulation in Formulation::ALL {
         for method in Method::ALL {
             let drift = Drift::Projection;
-            ways.push(Way {
+            ways.push(Comparator {
                 formulation,
                 method,
                 drift,
@@ -74,7 +74,7 @@ fn ways() -> Vec<Way> {
                 continue;
             }
             let method = Method::Dop853;
-            ways.push(Way {
+            ways.push(Comparator {
                 formulation,
                 method,
                 drift,
@@ -86,7 +86,7 @@ fn ways() -> Vec<Way> {
 
 /// Error bound of a run with a tolerance: a multiple of it for the accurate methods, its power 2/3
 /// for order 2.
-fn bound(way: Way, tolerance: f64, factor: f64) -> f64 {
+fn bound(way: Comparator, tolerance: f64, factor: f64) -> f64 {
     match way.method {
         Method::GeneralizedAlpha => factor * tolerance.powf(2.0 / 3.0),
         _ => factor * tolerance,
@@ -94,7 +94,7 @@ fn bound(way: Way, tolerance: f64, factor: f64) -> f64 {
 }
 
 /// Order 2 would need a million steps.
-fn tolerance(way: Way) -> f64 {
+fn tolerance(way: Comparator) -> f64 {
     match way.method {
         Method::GeneralizedAlpha => 1e-6,
         _ => 1e-9,

@@ -2,14 +2,14 @@
 
 use dynamics::Prepared;
 use joints::SpringDamper;
-use lab::comparators::{Drift, Formulation, Method, Run, Way, run};
+use lab::comparators::{Comparator, Drift, Formulation, Method, Run, run};
 use lab::mechanisms::cranks::cranks;
 use model::{BodyRef, Description, Force};
 
 use crate::known::{gap, started};
 
 fn moved(p: &Prepared, method: Method, tolerance: f64, t_end: f64) -> Run {
-    let way = Way {
+    let way = Comparator {
         formulation: Formulation::KeptRows,
         method,
         drift: Drift::Projection,

@@ -4,21 +4,19 @@
 //!
 //! The size of the whole mechanism is in [`crate::size`].
 
-use joints::Pose;
-
-use super::{Mechanism, N_BODY, pose_of};
+use super::{Mechanism, N_BODY};
 use crate::group::ConstraintId;
 use crate::size::scene_size;
-use crate::system::{Scratch, Site, System};
+use crate::system::{Scratch, System};
 
 /// Takes initial values of joints, drives and forces from a configuration.
 pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
     let poses = mechanism.space.poses(q);
     for c in &mut mechanism.elements.constraints {
-        c.element.initialise(&slots(&c.site, &poses));
+        c.element.initialise(&c.site.poses(&poses));
     }
     for f in &mut mechanism.elements.forces {
-        f.element.initialise(&slots(&f.site, &poses));
+        f.element.initialise(&f.site.poses(&poses));
     }
     mechanism.reach = longest_arms(mechanism, q);
 }
@@ -33,23 +31,18 @@ pub(crate) fn unmet_requirement(
     let groups = mechanism.layout.groups.iter();
     let constraints = mechanism.elements.constraints.iter().zip(groups);
     let mut of_constraints = constraints.filter_map(|(c, group)| {
-        let (element, x) = (&*c.element, slots(&c.site, &poses));
+        let (element, x) = (&*c.element, c.site.poses(&poses));
         let words = element.spec().common.requirements;
         let unmet = (0..words.len()).find(|&k| !element.requirement(k, &x))?;
         Some((group.name.clone(), words[unmet]))
     });
     let mut of_forces = mechanism.elements.forces.iter().filter_map(|f| {
-        let (element, x) = (&*f.element, slots(&f.site, &poses));
+        let (element, x) = (&*f.element, f.site.poses(&poses));
         let words = element.spec().common.requirements;
         let unmet = (0..words.len()).find(|&k| !element.requirement(k, &x))?;
         Some((f.name.clone(), words[unmet]))
     });
     of_constraints.next().or_else(|| of_forces.next())
-}
-
-/// Poses of the bodies of an element.
-fn slots(site: &Site, poses: &[Pose]) -> Vec<Pose> {
-    site.bodies.iter().map(|&b| pose_of(poses, b)).collect()
 }
 
 /// An arm below this many roundings of the position of its body counts as zero: it is the rounding

@@ -5,9 +5,9 @@
 
 use joints::{Pose, Twist};
 
-use super::{Mechanism, N_BODY, pose_of};
+use super::{Mechanism, N_BODY};
 use crate::space::{Space, in_space};
-use crate::system::{Layout, Scratch, Slots, System};
+use crate::system::{Layout, Scratch, Slots, System, pose_of};
 
 /// Largest change by rounding of an angle that is held constant.
 const HELD: f64 = 4.0 * f64::EPSILON;

@@ -4,9 +4,9 @@
 use rank::Circuit;
 
 use super::conflict::{CANCELLED, HeldVelocity, VelocityConflict};
+use super::dependent::DependentVelocities;
 use super::error::StartError;
 use super::options::CorrectionLimit;
-use super::tier::Tier;
 use super::velocity::{Hold, Miss, Start};
 use crate::mechanism::N_BODY;
 use crate::system::{RowLabel, System};
@@ -124,8 +124,8 @@ impl Start<'_> {
     fn fault(&self, rows: &[usize], candidates: &[usize]) -> Result<Fault, StartError> {
         let of = &self.equations;
         let mut v = self.written.clone();
-        let mut tier = Tier::new(of, rows, |j| self.hold[j] == Hold::No)?;
-        tier.follow(of, &mut v)?;
+        let mut dependent = DependentVelocities::new(of, rows, |j| self.hold[j] == Hold::No)?;
+        dependent.follow(of, &mut v)?;
         let takes_part = |circuit: &Circuit, column: usize| {
             let c = of.matrix(&circuit.rows, &[column]);
             let terms = || {
@@ -139,7 +139,7 @@ impl Start<'_> {
             terms().sum::<f64>().abs() > CANCELLED * size
         };
         let shortest = candidates.iter().find_map(|&column| {
-            let open = tier.open(of, &v).filter(|c| takes_part(c, column));
+            let open = dependent.open(of, &v).filter(|c| takes_part(c, column));
             Some((column, open.min_by_key(|c| c.rows.len())?))
         });
         let (column, found, with_others) = match shortest {

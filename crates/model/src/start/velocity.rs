@@ -11,10 +11,10 @@
 use linalg::Matrix;
 
 use super::conflict::VelocityConflict;
+use super::dependent::{DENSE_ROWS, DependentVelocities, Equations, Part, exceeds, shortest};
 use super::error::StartError;
 use super::metric::{ROUNDINGS, SMALL_CORRECTION, largest};
 use super::options::{CorrectionLimit, KeepLevel, StartOptions, kept_columns};
-use super::tier::{DENSE_ROWS, Equations, Part, Tier, exceeds, shortest};
 use crate::mechanism::Mechanism;
 
 /// Velocities that satisfy the constraints.
@@ -184,15 +184,15 @@ impl<'m> Start<'m> {
                 _ => self.written[j],
             };
         }
-        let mut tier = Tier::new(of, rows, |j| hold[j] == Hold::No)?;
-        tier.follow(of, v)?;
+        let mut dependent = DependentVelocities::new(of, rows, |j| hold[j] == Hold::No)?;
+        dependent.follow(of, v)?;
         let given: Vec<usize> = columns
             .iter()
             .copied()
             .filter(|&j| hold[j] == Hold::Given)
             .collect();
         for _ in 0..PASSES {
-            let is_open = tier.open(of, v).next().is_some()
+            let is_open = dependent.open(of, v).next().is_some()
                 || rows.len() > DENSE_ROWS && self.misses(rows, v);
             if given.is_empty() || !is_open {
                 break;
@@ -200,9 +200,9 @@ impl<'m> Start<'m> {
             if rows.len() > DENSE_ROWS {
                 self.correct_many(rows, hold, v)?;
             } else {
-                self.correct(&tier, &given, v)?;
+                self.correct(&dependent, &given, v)?;
             }
-            tier.follow(of, v)?;
+            dependent.follow(of, v)?;
         }
         // A velocity given as zero to rounding is set to zero: the iteration for a locked part
         // would reduce it without end.
@@ -218,11 +218,16 @@ impl<'m> Start<'m> {
     }
 
     /// Adds the shortest correction of given velocities that makes the sums over circuits vanish.
-    fn correct(&self, tier: &Tier, given: &[usize], v: &mut [f64]) -> Result<(), StartError> {
+    fn correct(
+        &self,
+        dependent: &DependentVelocities,
+        given: &[usize],
+        v: &mut [f64],
+    ) -> Result<(), StartError> {
         let of = &self.equations;
         let mut sums: Vec<Vec<f64>> = Vec::new();
         let mut residual = Vec::new();
-        for circuit in &tier.circuits {
+        for circuit in &dependent.circuits {
             let c = of.matrix(&circuit.rows, given);
             let sum = c.transpose_times(&circuit.coefficients);
             let terms = |l: usize| {

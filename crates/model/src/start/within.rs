@@ -108,7 +108,7 @@ pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[
 /// The intended configuration, given that `found` satisfies the rows as well as possible: `found`,
 /// unless it is farther than the uncertainty of positions from a configuration whose residuals are
 /// all explained by the data.
-pub(super) fn meant(
+pub(super) fn within_data(
     mechanism: &Mechanism,
     s: &mut Scratch,
     (rows, weights): Restricting<'_>,

@@ -31,7 +31,7 @@ pub struct MisfitDocument {
     pub at_size: Option<f64>,
 }
 
-/// Largest number of misfits that are told in words; summary.json has all.
+/// Largest number of misfits that are reported in words; summary.json has all.
 const TOLD: usize = 12;
 
 impl MisfitDocument {

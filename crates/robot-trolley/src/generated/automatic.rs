@@ -1749,7 +1749,7 @@ pub fn velocity_correction_of<const L: usize>(
 /// The mechanism as a run takes it.
 #[derive(Clone, Copy, Debug)]
 pub struct Code;
-static FACTS: pfaff::dynamics::code::Facts = pfaff::dynamics::code::Facts {
+static SPEC: pfaff::dynamics::code::CodeSpec = pfaff::dynamics::code::CodeSpec {
     name: ::std::borrow::Cow::Borrowed(NAME),
     n_q: N_Q,
     n_v: N_V,
@@ -1761,8 +1761,8 @@ static FACTS: pfaff::dynamics::code::Facts = pfaff::dynamics::code::Facts {
     operations: ::std::borrow::Cow::Borrowed(OPERATIONS),
 };
 impl pfaff::dynamics::SceneCode for Code {
-    fn facts(&self) -> &pfaff::dynamics::code::Facts {
-        &FACTS
+    fn spec(&self) -> &pfaff::dynamics::code::CodeSpec {
+        &SPEC
     }
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64 {
         let (Some(q), Some(v), Some(a)) = (

@@ -11,7 +11,7 @@ use rank::RankDecision;
 use super::data::AlongError;
 use crate::analysis::Analysis;
 use crate::certificate::{Rows, holding_together};
-use crate::mechanism::{Told, judge, judge_reactions};
+use crate::mechanism::{Detail, part_verdicts, reaction_verdicts};
 use crate::state::{self, State};
 
 /// A motion of a mechanism.
@@ -194,7 +194,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     pub(super) fn complete(&mut self, t: f64) -> Result<Analysis, AlongError> {
         let p = self.at(t)?;
         let rows = Rows::in_double(self.mechanism, &p.s, &p.q);
-        let judged = judge(self.mechanism, &p.s, &rows, self.decide(&p, 0.0)?)?;
+        let judged = part_verdicts(self.mechanism, &p.s, &rows, self.decide(&p, 0.0)?)?;
         Ok(Analysis::of(self.mechanism, t, &p.q, vec![judged]))
     }
 
@@ -203,7 +203,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     pub(super) fn judged(&self, p: &Point, decision: RankDecision) -> Result<Analysis, AlongError> {
         let pose = (&p.s, &p.q[..], self.size);
         let rows = Rows::of_matrix(self.mechanism, pose, &p.c, &p.known);
-        let judged = judge_reactions(self.mechanism, &p.s, &rows, decision, Told::Verdicts)?;
+        let judged = reaction_verdicts(self.mechanism, &p.s, &rows, decision, Detail::Verdicts)?;
         Ok(Analysis::of(self.mechanism, p.t, &p.q, vec![judged]))
     }
 }

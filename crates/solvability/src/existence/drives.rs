@@ -12,7 +12,7 @@ use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
 use rank::{RankDecision, circuits, components, decide_keeping};
 
 use super::{Comparison, ConstraintLevel, Contradiction};
-use crate::generic::{Elsewhere, generic};
+use crate::generic::{OtherConfiguration, generic};
 use crate::state::check_configuration;
 
 /// Contradictions between drives and the other constraints at time t and coordinates q: drives that
@@ -72,7 +72,7 @@ fn lasts(mechanism: &Mechanism, q: &[f64], contradiction: &Contradiction) -> boo
     let (drives, _) = contradiction.split_rows();
     let row = |label: &&RowLabel| labels.iter().position(|other| other == *label);
     let drives: Vec<usize> = drives.iter().filter_map(row).collect();
-    let is_redundant = |there: &Elsewhere| {
+    let is_redundant = |there: &OtherConfiguration| {
         let rows = JointsFirst::of_velocities(mechanism, there.time, &there.q);
         rows.ok().flatten().is_none_or(|rows| {
             let needed = components(&rows.decision).coloops;
@@ -99,7 +99,7 @@ fn walk(
     if is_beyond(mechanism) {
         return Ok(());
     }
-    let mut way = Way {
+    let mut walk = DriveWalk {
         mechanism,
         size: scene_size(mechanism, start),
         t: 0.0,
@@ -112,8 +112,8 @@ fn walk(
             k => t_end * f64::from(k) / f64::from(DRIVE_POSITIONS),
         };
         // If the walk ends early, it is at a place where differing drives already differ.
-        let is_there = way.go(to)?;
-        if !see(way.t, &way.q)? || !is_there {
+        let is_there = walk.go(to)?;
+        if !see(walk.t, &walk.q)? || !is_there {
             break;
         }
     }
@@ -121,7 +121,7 @@ fn walk(
 }
 
 /// The configuration reached by following the drives.
-struct Way<'m> {
+struct DriveWalk<'m> {
     mechanism: &'m Mechanism,
     /// Size of the mechanism (m).
     size: f64,
@@ -130,7 +130,7 @@ struct Way<'m> {
     steps: usize,
 }
 
-impl Way<'_> {
+impl DriveWalk<'_> {
     /// Continues to a later time. Returns whether it has been reached.
     fn go(&mut self, to: f64) -> Result<bool, AnalysisError> {
         while self.t < to {

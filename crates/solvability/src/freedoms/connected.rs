@@ -1,6 +1,6 @@
 //! Sets of bodies connected by joints: each has its own rank and is described separately.
 
-use crate::limits::{MOTIONS_TOLD, ROWS_MAX};
+use crate::limits::{MOTIONS_REPORTED, ROWS_MAX};
 use crate::pose::COLUMNS;
 use model::{Mechanism, Part, System};
 
@@ -9,7 +9,7 @@ use super::{Decided, FreeMotion, FreeMotions, LeftOut, words};
 
 /// The motions described so far.
 #[derive(Default)]
-struct Told {
+struct Described {
     motions: Vec<FreeMotion>,
     freedoms: usize,
     too_large: usize,
@@ -42,20 +42,24 @@ impl<'a> Connected<'a> {
     /// total.
     pub(super) fn motions(&self, t: f64, q: &[f64], decided: &[Decided]) -> FreeMotions {
         let rank: usize = decided.iter().map(|part| part.rank).sum();
-        let mut told = Told::default();
+        let mut described = Described::default();
         for (set, rank) in self.sets.iter().zip(self.ranks(t, q, decided)) {
             match rank {
-                Some(rank) => self.tell(set, t, q, rank, &mut told),
-                None => told.too_large += 1,
+                Some(rank) => self.describe(set, t, q, rank, &mut described),
+                None => described.too_large += 1,
             }
         }
-        let freedoms = self.whole.layout().n_v.saturating_sub(rank + told.freedoms);
-        let reason = match told.too_large {
-            0 => format!("the first {MOTIONS_TOLD} motions are listed"),
+        let freedoms = self
+            .whole
+            .layout()
+            .n_v
+            .saturating_sub(rank + described.freedoms);
+        let reason = match described.too_large {
+            0 => format!("the first {MOTIONS_REPORTED} motions are listed"),
             _ => format!("connected joints of more than {ROWS_MAX} rows are not taken apart"),
         };
         FreeMotions {
-            motions: told.motions,
+            motions: described.motions,
             left_out: (freedoms > 0).then_some(LeftOut { freedoms, reason }),
         }
     }
@@ -152,16 +156,16 @@ impl<'a> Connected<'a> {
         set.iter().all(|b| joined.binary_search(b).is_err())
     }
 
-    fn tell(&self, set: &[usize], t: f64, q: &[f64], rank: usize, told: &mut Told) {
-        let most = MOTIONS_TOLD - told.motions.len().min(MOTIONS_TOLD);
+    fn describe(&self, set: &[usize], t: f64, q: &[f64], rank: usize, described: &mut Described) {
+        let most = MOTIONS_REPORTED - described.motions.len().min(MOTIONS_REPORTED);
         if most == 0 || rank == COLUMNS * set.len() {
             return;
         }
         if self.is_alone(set) {
             let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
             let velocities = (0..COLUMNS).map(|k| set.iter().map(|&b| (b, unit(k))).collect());
-            told.freedoms += COLUMNS;
-            told.motions.push(FreeMotion {
+            described.freedoms += COLUMNS;
+            described.motions.push(FreeMotion {
                 text: words::free(self.whole, set),
                 velocities: velocities.collect(),
             });
@@ -175,21 +179,21 @@ impl<'a> Connected<'a> {
             bodies.filter(|(_, v)| *v != [0.0; COLUMNS]).collect()
         };
         if found.is_free {
-            told.freedoms += COLUMNS;
+            described.freedoms += COLUMNS;
             let velocities = component.rigid_velocities().into_iter();
-            told.motions.push(FreeMotion {
+            described.motions.push(FreeMotion {
                 text: words::free(self.whole, set),
                 velocities: velocities.map(numbered).collect(),
             });
         }
         let driven = self.driven(set);
         for motion in found.motions {
-            if told.motions.len() == MOTIONS_TOLD {
+            if described.motions.len() == MOTIONS_REPORTED {
                 return;
             }
             let (text, velocities) = words::tell(&component, &driven, motion);
-            told.freedoms += 1;
-            told.motions.push(FreeMotion {
+            described.freedoms += 1;
+            described.motions.push(FreeMotion {
                 text,
                 velocities: vec![numbered(velocities)],
             });

@@ -6,7 +6,7 @@ use super::ranks::WithoutDrives;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FreeMotions {
-    /// The motions as text and numbers, at most [`MOTIONS_TOLD`](crate::MOTIONS_TOLD).
+    /// The motions as text and numbers, at most [`MOTIONS_REPORTED`](crate::MOTIONS_REPORTED).
     pub motions: Vec<FreeMotion>,
     /// Freedoms that are not described. `None` if all are.
     pub left_out: Option<LeftOut>,

@@ -1,7 +1,7 @@
 //! Mechanisms whose free motions are derived by hand: a point p of a body at r has the velocity v +
 //! ω × (p − r).
 
-use crate::limits::MOTIONS_TOLD;
+use crate::limits::MOTIONS_REPORTED;
 use joints::{
     Direction, Gear, KnifeEdge, Revolute, RevoluteAngleDrive, Translational,
     TranslationalDisplacementDrive,
@@ -411,7 +411,7 @@ fn of_many_motions_the_first_are_told() {
         );
     }
     let free = freedoms(&d);
-    assert_eq!(free.motions.motions.len(), MOTIONS_TOLD);
+    assert_eq!(free.motions.motions.len(), MOTIONS_REPORTED);
     let left_out = free.motions.left_out.expect("not all are told");
     assert_eq!(left_out.freedoms, 8);
     assert_eq!(left_out.reason, "the first 12 motions are listed");

@@ -15,13 +15,13 @@ const TURNED: &str = "the tolerance leaves open whether the force has this compo
 
 /// Whether a component of a force is zero, given the uncertainty of the direction of the force.
 #[derive(Clone, Copy, Debug)]
-enum Beside {
+enum ForceComponent {
     /// The component is not zero.
-    Some,
+    Nonzero,
     /// The component is zero within the tolerance; `margin` is its margin without the tolerance.
-    None { margin: f64 },
+    Zero { margin: f64 },
     /// Undecided: too large for zero, and too small to be certainly not zero.
-    Open,
+    Undecided,
 }
 
 /// A map W (k × |X|) from the multipliers of rows X to components, with the image of the null space
@@ -40,7 +40,7 @@ pub(crate) struct Mapped<'a> {
     /// Uncertainty of the entries of W within a stated tolerance.
     wobble: Option<Matrix>,
     /// Whether each component is zero within a stated tolerance.
-    beside: Vec<Beside>,
+    within_tolerance: Vec<ForceComponent>,
 }
 
 impl<'a> Mapped<'a> {
@@ -65,7 +65,7 @@ impl<'a> Mapped<'a> {
             }
         }
         Ok(Self {
-            beside: vec![Beside::Some; sizes.len()],
+            within_tolerance: vec![ForceComponent::Nonzero; sizes.len()],
             basis,
             map,
             rows,
@@ -107,9 +107,9 @@ impl<'a> Mapped<'a> {
             // The first order is not valid for larger rotations.
             let is_near = turn >= LARGEST_TURN || share <= rank::BEYOND_DOUBT * turn;
             if share > rank::STATED_ZERO && is_near {
-                self.beside[i] = Beside::Open;
+                self.within_tolerance[i] = ForceComponent::Undecided;
             } else if share > 0.0 && share <= (1.0 / rank::BEYOND_DOUBT) * turn {
-                self.beside[i] = Beside::None {
+                self.within_tolerance[i] = ForceComponent::Zero {
                     margin: self.margin(i),
                 };
                 self.images.row_mut(i).fill(0.0);
@@ -146,16 +146,16 @@ impl<'a> Mapped<'a> {
         let (map, rows) = (self.map.row(k), &self.rows);
         let vanishes = |z: &ExactNullSpace| z.annihilates(combination(map, rows));
         let judged = self.basis.judge(self.margin(k), noise, vanishes);
-        Ok(match self.beside[k] {
+        Ok(match self.within_tolerance[k] {
             _ if !judged.verdict.is_unique() => judged,
-            Beside::Some => judged,
-            Beside::None { margin } => Judgement {
+            ForceComponent::Nonzero => judged,
+            ForceComponent::Zero { margin } => Judgement {
                 margin,
                 within_tolerance: margin > noise.rounding,
                 ..judged
             },
             // The component is unique if its multipliers are; otherwise it is undecided.
-            Beside::Open => {
+            ForceComponent::Undecided => {
                 let noise = self.basis.noise_of_row(map, rows, self.largest);
                 match self.basis.judge(judged.margin, noise, vanishes) {
                     own if own.verdict.is_unique() => own,
@@ -230,10 +230,13 @@ impl<'a> Mapped<'a> {
     /// # Errors
     /// As [`Mapped::unique_directions`].
     pub(crate) fn directions_left_out(&self) -> Result<f64, QueryError> {
-        let none = self.beside.iter().map(|beside| match beside {
-            Beside::None { margin } => *margin,
-            _ => 0.0,
-        });
+        let none = self
+            .within_tolerance
+            .iter()
+            .map(|component| match component {
+                ForceComponent::Zero { margin } => *margin,
+                _ => 0.0,
+            });
         if self.wobble.is_none() {
             return Ok(0.0);
         }

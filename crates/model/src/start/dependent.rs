@@ -193,7 +193,7 @@ pub(super) fn exceeds(size: f64, limit: f64) -> bool {
 }
 
 /// Rows, and the velocities that follow in them.
-pub(super) struct Tier {
+pub(super) struct DependentVelocities {
     parts: Vec<Part>,
     /// The remaining combinations of rows of small sets: no velocity that follows changes these
     /// sums.
@@ -213,7 +213,7 @@ enum Solver {
     Schur(Box<(SparseMatrix, SchurSaddle)>),
 }
 
-impl Tier {
+impl DependentVelocities {
     /// Prepares some rows and the velocities for which `follows` returns `true`.
     ///
     /// # Errors
@@ -223,7 +223,7 @@ impl Tier {
         rows: &[usize],
         follows: impl Fn(usize) -> bool,
     ) -> Result<Self, StartError> {
-        let mut tier = Self {
+        let mut dependent = Self {
             parts: Vec::new(),
             circuits: Vec::new(),
         };
@@ -232,7 +232,9 @@ impl Tier {
             columns.retain(|j| follows(*j));
             if set.len() > DENSE_ROWS {
                 let masses: Vec<f64> = columns.iter().map(|&j| of.weights[j].recip()).collect();
-                tier.parts.extend(Part::schur(of, &set, columns, &masses)?);
+                dependent
+                    .parts
+                    .extend(Part::schur(of, &set, columns, &masses)?);
                 continue;
             }
             let exponents = of.mechanism.layout().dimension_scaling(of.size).cols;
@@ -258,18 +260,18 @@ impl Tier {
                 rows: circuit.rows.iter().map(|&k| set[k]).collect(),
                 ..circuit
             });
-            tier.circuits.extend(left);
+            dependent.circuits.extend(left);
             let rows: Vec<usize> = decision.kept.iter().map(|&k| set[k]).collect();
             if !rows.is_empty() {
                 let c = of.matrix(&rows, &columns);
-                tier.parts.push(Part {
+                dependent.parts.push(Part {
                     rows,
                     columns,
                     solver: Solver::Dense(c),
                 });
             }
         }
-        Ok(tier)
+        Ok(dependent)
     }
 
     /// Adds a correction that removes the residuals of the rows to v, in the velocities that

@@ -13,7 +13,7 @@ use model::{Known, Mechanism, Scratch, System};
 
 /// C without dimensions, with the uncertainty of its entries.
 #[derive(Clone, Debug)]
-pub(crate) struct MeantMatrix {
+pub(crate) struct UncertainMatrix {
     /// (m + h) × n_v; forces and levers that count as zero are set to zero.
     pub(crate) c: Matrix,
     /// Uncertainty of the entries; zero for entries that were set to zero.
@@ -24,7 +24,7 @@ pub(crate) struct MeantMatrix {
     col_blocks: Vec<usize>,
 }
 
-impl MeantMatrix {
+impl UncertainMatrix {
     /// Evaluates C at the pose of the scratch, in which Φ and C have been evaluated, for a
     /// mechanism of this size.
     pub(crate) fn new(mechanism: &Mechanism, s: &Scratch, size: f64, known: Known) -> Self {
@@ -37,7 +37,7 @@ impl MeantMatrix {
 
     /// Starts from C without dimensions and the uncertainty of its entries.
     pub(crate) fn of(mechanism: &Mechanism, c: Matrix, uncertainty: Matrix) -> Self {
-        let mut meant = Self {
+        let mut uncertain = Self {
             col_blocks: (0..c.ncols()).map(col_block).collect(),
             row_blocks: row_blocks(mechanism),
             zeros: Vec::new(),
@@ -45,13 +45,15 @@ impl MeantMatrix {
             uncertainty,
         };
         let mut first = 0;
-        for end in 1..=meant.row_blocks.len() {
-            if end == meant.row_blocks.len() || meant.row_blocks[end] != meant.row_blocks[first] {
-                meant.clear(first..end);
+        for end in 1..=uncertain.row_blocks.len() {
+            if end == uncertain.row_blocks.len()
+                || uncertain.row_blocks[end] != uncertain.row_blocks[first]
+            {
+                uncertain.clear(first..end);
                 first = end;
             }
         }
-        meant
+        uncertain
     }
 
     /// Sets the forces and levers of these rows, which belong to one block, to zero if they are

@@ -11,9 +11,9 @@ use std::sync::Arc;
 
 use model::System;
 
-use super::judge::Watch;
 use super::passage::Now;
 use super::pivots::are_delicate;
+use super::step_end::Watch;
 use crate::code::SceneCode;
 use crate::error::MotionFault;
 use crate::events::{Event, EventKind};
@@ -57,7 +57,7 @@ impl Accepted {
 }
 
 /// Generated code of a motion, and whether it is in use.
-pub(crate) struct Handover {
+pub(crate) struct CodeSwitch {
     code: GeneratedCode,
     projection: CodeProjection,
     phase: Phase,
@@ -82,7 +82,7 @@ pub(crate) struct Departure {
     pub(crate) is_within_step: bool,
 }
 
-impl Handover {
+impl CodeSwitch {
     /// Uses generated code from the state q at time t on.
     pub(crate) fn new(
         code: Arc<dyn SceneCode>,
@@ -194,10 +194,10 @@ impl Handover {
         };
         *steps += 1;
         let is_early = *steps < self.patience;
-        let facts = self.code.0.facts();
+        let spec = self.code.0.spec();
         let has_its_rows = equations.requested_rows.is_none()
-            && *equations.velocity.kept == *facts.kept
-            && *equations.position.kept == *facts.position_kept;
+            && *equations.velocity.kept == *spec.kept
+            && *equations.position.kept == *spec.position_kept;
         if is_early || !has_its_rows || are_delicate(&equations.velocity) {
             return None;
         }
@@ -222,7 +222,7 @@ impl Handover {
         self.evaluations = 0;
         let text = format!(
             "the generated code `{}` is used again: its pivots are at {health:.2} of those that it was generated for. The motion is the same.",
-            facts.name
+            spec.name
         );
         let dropped = &equations.velocity.dropped;
         Some(Event::at(t, EventKind::CodeUsed, dropped, text))
@@ -242,7 +242,7 @@ impl Handover {
         };
         let text = format!(
             "the generated code `{}` is left, because at t = {t} s {doubt}; from here on the equations are interpreted. The motion is the same.",
-            self.code.0.facts().name
+            self.code.0.spec().name
         );
         let dropped = &equations.velocity.dropped;
         self.departure = Some(Departure {

@@ -358,9 +358,9 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     }
     // With digits that are exact, the slides carry a fraction of the free force.
     for tolerance in [None, Some(1e-8)] {
-        let mut meant = cylinders(Some(4));
-        meant.tolerance.length = tolerance;
-        let analysis = analysed(&meant);
+        let mut intended = cylinders(Some(4));
+        intended.tolerance.length = tolerance;
+        let analysis = analysed(&intended);
         assert!(verdicts(&analysis).iter().all(|v| *v == n), "{tolerance:?}");
         assert!(
             slides(&analysis)

@@ -16,8 +16,8 @@ use crate::error::MotionFault;
 use crate::events::Event;
 use crate::guards::GUARDED;
 use crate::limits::{
-    BLIND, BLIND_MAX, BLIND_TOLERANCES, FALLEN, FORESIGHT, JUST_AHEAD, NEARBY, NEAREST,
-    NEAREST_MAX, NEAREST_TOLERANCES, PASSED, SMOOTH, SUSPECT,
+    FALLEN, FORESIGHT, JUST_AHEAD, NEARBY, NEAREST, NEAREST_MAX, NEAREST_TOLERANCES, NO_REACTIONS,
+    NO_REACTIONS_MAX, NO_REACTIONS_TOLERANCES, PASSED, SMOOTH, SUSPECT,
 };
 use crate::options::{MotionOptions, RowChoice};
 use crate::solve::{KeptEquations, KeptRows};
@@ -89,7 +89,7 @@ impl Watch {
 
     /// Relative pivot below which reactions are not reported.
     pub(crate) fn blind(&self) -> f64 {
-        (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX)
+        (NO_REACTIONS_TOLERANCES * self.rtol).clamp(NO_REACTIONS, NO_REACTIONS_MAX)
     }
 
     /// Expected time of a singular configuration, and the factor by which steps over it may exceed
@@ -260,8 +260,8 @@ mod tests {
     use super::*;
 
     /// A row off its motion by the tolerance has reactions wrong by tolerance over pivot: those
-    /// that are told keep three digits, where the tolerance is neither rounding nor loose. Branches
-    /// are told apart with two.
+    /// that are reported keep three digits, where the tolerance is neither rounding nor loose.
+    /// Branches are distinguished with two.
     #[test]
     fn pivots_are_compared_with_what_the_tolerance_leaves_of_them() {
         for (rtol, nearest, blind) in [

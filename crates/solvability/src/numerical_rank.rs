@@ -26,7 +26,7 @@ mod share;
 mod support;
 mod walk;
 
-pub(crate) use matrix::MeantMatrix;
+pub(crate) use matrix::UncertainMatrix;
 pub(crate) use near::Nearness;
 pub(crate) use reading::Reading;
 pub(crate) use share::Question;

@@ -8,7 +8,7 @@ use crate::limits::{CLEAR_OF_NOISE, CLEAR_OF_ROUNDING, CONFIRMED, NEAR_TOLD};
 use linalg::singular_values;
 use rank::{Doubt, Grounds, RankReading, RankStatus};
 
-use super::MeantMatrix;
+use super::UncertainMatrix;
 use super::near::{Certainty, Nearness};
 use super::share::{Question, StatedTolerance};
 
@@ -21,7 +21,7 @@ pub(crate) struct Reading {
     pub(crate) has_tolerance: bool,
 }
 
-impl MeantMatrix {
+impl UncertainMatrix {
     /// Reads the rank and records its evidence.
     pub(crate) fn read(&self, question: &Question<'_>) -> Reading {
         let (m, n) = (self.c.nrows(), self.c.ncols());
