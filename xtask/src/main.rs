@@ -1,6 +1,8 @@
 //! Commands for developers. `cargo xtask codegen` writes the kernels of all joints and forces from
 //! their definitions; with `--check` it only compares them; with `--scene` it writes one mechanism
-//! as one module. `house` measures the code. The others measure run times and write `docs/reports`.
+//! as one module. `house` measures the code, `licences` lists the crates of others in the
+//! command, `platforms` type-checks it for other systems. The others measure run times and write
+//! `docs/reports`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod browser;
@@ -9,6 +11,8 @@ mod codegen;
 mod cold_start;
 mod guards;
 mod house;
+mod licences;
+mod platforms;
 mod right_hand_side;
 mod scene;
 mod tree;
@@ -29,7 +33,9 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   cold-start          times of the commands, process included
   guards              what monitors cost in a run: the same run with them and compiled without
   house [--json] [--check]
-                      lines of code, large types, circles of modules, numeric constants; with --check the limits, as an error where one is exceeded";
+                      lines of code, large types, circles of modules, numeric constants; with --check the limits, as an error where one is exceeded
+  licences [--check]  THIRD-PARTY.md: the crates that the command links, with their licences; --check compares it with Cargo.lock
+  platforms           type-checks the command for all supported platforms that can be installed here";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -53,6 +59,9 @@ fn main() -> ExitCode {
         ["house", flags @ ..] if flags.iter().all(|f| ["--json", "--check"].contains(f)) => {
             house::tell(flags.contains(&"--json"), flags.contains(&"--check"))
         }
+        ["licences"] => licences::write(),
+        ["licences", "--check"] => licences::check(),
+        ["platforms"] => platforms::check(),
         ["help" | "--help" | "-h"] => Ok(USAGE.to_owned()),
         [] => Err(USAGE.to_owned()),
         other => Err(format!("no command `{}`\n{USAGE}", other.join(" "))),

@@ -1,22 +1,42 @@
 //! The origin of runs: machine and date.
 
+use std::env::consts::{ARCH, OS};
+use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
+use std::{env, fs};
 
 /// Processor, number of available cores, operating system.
 #[must_use]
 pub fn machine() -> String {
-    let processor = std::fs::read_to_string("/proc/cpuinfo").ok();
-    let model = processor.as_deref().and_then(|text| {
-        let line = text.lines().find(|line| line.starts_with("model name"))?;
-        Some(line.split_once(':')?.1.trim())
-    });
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     format!(
         "{}, {cores} cores, {} {}",
-        model.unwrap_or("unknown processor"),
-        std::env::consts::OS,
-        std::env::consts::ARCH
+        processor().unwrap_or_else(|| "unknown processor".to_owned()),
+        OS,
+        ARCH
     )
+}
+
+/// The name of the processor, as far as the system tells it without being linked: in a file, in a
+/// variable, or by a program.
+fn processor() -> Option<String> {
+    let name = match OS {
+        "windows" => env::var("PROCESSOR_IDENTIFIER").ok()?,
+        "macos" => {
+            let mut asked = Command::new("sysctl");
+            let told = asked
+                .args(["-n", "machdep.cpu.brand_string"])
+                .output()
+                .ok()?;
+            String::from_utf8(told.stdout).ok()?
+        }
+        _ => {
+            let text = fs::read_to_string("/proc/cpuinfo").ok()?;
+            let line = text.lines().find(|line| line.starts_with("model name"))?;
+            line.split_once(':')?.1.to_owned()
+        }
+    };
+    Some(name.trim().to_owned()).filter(|name| !name.is_empty())
 }
 
 /// Present date and time in UTC, in the form `2026-11-21 16:20 UTC`.

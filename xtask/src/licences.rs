@@ -1,0 +1,294 @@
+//! `THIRD-PARTY.md`: the crates of others that the command `pfaff` links, with their licences and
+//! the texts of these. Written from `cargo tree`, which resolves features as a build does, and from
+//! the sources of the crates.
+//!
+//! cargo-about and cargo-deny do more, but they have to be installed first; this needs what builds
+//! the workspace, and `--check` needs no network.
+
+mod spdx;
+mod texts;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use serde_json::Value;
+
+use self::spdx::taken;
+use self::texts::texts;
+use crate::platforms::PLATFORMS;
+use crate::tree::{cargo, root, said_by};
+
+const FILE: &str = "THIRD-PARTY.md";
+const WRITE: &str = "`cargo xtask licences` writes it anew";
+
+/// What is linked into the command, and what only builds it.
+const LINKED: &str = "normal,no-proc-macro";
+const BUILDING: &str = "normal,build";
+
+/// A crate of others.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Package {
+    name: String,
+    version: String,
+    /// SPDX expression.
+    licence: String,
+    repository: String,
+}
+
+/// Crates with the systems on which they are used.
+type Packages = BTreeMap<Package, BTreeSet<&'static str>>;
+
+/// Whether cargo may download what it lacks.
+#[derive(Clone, Copy, PartialEq)]
+enum Network {
+    Allowed,
+    None,
+}
+
+/// Writes the file.
+pub(crate) fn write() -> Result<String, String> {
+    let (mut linked, mut building) = (Packages::new(), Packages::new());
+    let mut sources = BTreeMap::new();
+    for (target, system) in PLATFORMS {
+        let of = |edges| packages(target, edges, Network::Allowed);
+        add(&mut linked, of(LINKED)?, system);
+        add(&mut building, of(BUILDING)?, system);
+        sources.extend(metadata(target)?);
+    }
+    building.retain(|package, _| !linked.contains_key(package));
+    for package in linked.keys().chain(building.keys()) {
+        taken(&package.licence).map_err(|e| format!("{}: {e}", package.name))?;
+    }
+    let text = document(&linked, &building, &sources)?;
+    let summary = format!(
+        "{FILE}: {} crates linked, {} only for building",
+        linked.len(),
+        building.len()
+    );
+    fs::write(root().join(FILE), text).map_err(|e| format!("{FILE}: {e}"))?;
+    Ok(summary)
+}
+
+/// Compares the tables of the file with what is locked, without a network. A platform whose crates
+/// are not on this machine is compared with `Cargo.lock` by name and version alone.
+pub(crate) fn check() -> Result<String, String> {
+    let text =
+        fs::read_to_string(root().join(FILE)).map_err(|e| format!("{FILE}: {e}; {WRITE}"))?;
+    let lock =
+        fs::read_to_string(root().join("Cargo.lock")).map_err(|e| format!("Cargo.lock: {e}"))?;
+    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| ")).collect();
+    let (mut faults, mut said) = (Vec::new(), Vec::new());
+    let mut now: BTreeMap<&str, Result<BTreeSet<String>, ()>> = BTreeMap::new();
+    for (target, system) in PLATFORMS {
+        let of = |edges| packages(target, edges, Network::None);
+        match of(LINKED).and_then(|linked| Ok((linked, of(BUILDING)?))) {
+            Ok((linked, building)) => {
+                for package in linked.iter().chain(&building) {
+                    if let Err(e) = taken(&package.licence) {
+                        faults.push(format!("{}: {e}", package.name));
+                    }
+                }
+                let known = now.entry(system).or_insert_with(|| Ok(BTreeSet::new()));
+                if let Ok(known) = known {
+                    known.extend(linked.iter().chain(&building).map(Package::cells));
+                }
+            }
+            Err(_) => {
+                now.insert(system, Err(()));
+                said.push(format!(
+                    "{target} is not compared: its crates are not on this machine"
+                ));
+            }
+        }
+    }
+    for (system, known) in now {
+        let written: BTreeSet<String> = rows
+            .iter()
+            .filter_map(|row| row.trim_end_matches(" |").rsplit_once(" | "))
+            .filter(|(_, on)| *on == "all" || on.split(", ").any(|on| on == system))
+            .map(|(cells, _)| cells.to_owned())
+            .collect();
+        match known {
+            Ok(known) => {
+                let differ = written.symmetric_difference(&known);
+                faults.extend(differ.map(|row| format!("{system}: {row}")));
+            }
+            Err(()) => faults.extend(written.iter().filter_map(|row| {
+                let mut cells = row.trim_start_matches("| ").split(" | ");
+                let (name, version) = (cells.next()?, cells.next()?);
+                let locked = format!("name = \"{name}\"\nversion = \"{version}\"\n");
+                (!lock.contains(&locked)).then(|| format!("not in Cargo.lock: {name} {version}"))
+            })),
+        }
+    }
+    if said.len() == PLATFORMS.len() {
+        faults.push("no platform could be compared: build the command first".to_owned());
+    }
+    if faults.is_empty() {
+        said.insert(0, format!("{FILE} is that of Cargo.lock"));
+        return Ok(said.join("\n"));
+    }
+    faults.sort();
+    faults.dedup();
+    Err(format!(
+        "{FILE} is not that of Cargo.lock; {WRITE}:\n{}",
+        faults.join("\n")
+    ))
+}
+
+impl Package {
+    /// The cells of a row, without the systems.
+    fn cells(&self) -> String {
+        let Self {
+            name,
+            version,
+            licence,
+            repository,
+        } = self;
+        format!("| {name} | {version} | {licence} | {repository}")
+    }
+}
+
+fn add(all: &mut Packages, more: BTreeSet<Package>, system: &'static str) {
+    for package in more {
+        all.entry(package).or_default().insert(system);
+    }
+}
+
+/// The crates of others on which the command depends on a platform, by edges of these kinds.
+fn packages(target: &str, edges: &str, network: Network) -> Result<BTreeSet<Package>, String> {
+    let mut tree = cargo(&root());
+    tree.args(["tree", "--locked", "-p", "pfaff-cli", "--prefix", "none"]);
+    tree.args([
+        "--target",
+        target,
+        "--edges",
+        edges,
+        "--format",
+        "{p}|{l}|{r}",
+    ]);
+    if network == Network::None {
+        tree.arg("--offline");
+    }
+    let lines = said_by(&mut tree)?;
+    Ok(lines.lines().filter_map(package).collect())
+}
+
+/// A line such as `either v1.2.3|MIT OR Apache-2.0|https://…`. Returns `None` for crates of the
+/// workspace, which have a path.
+fn package(line: &str) -> Option<Package> {
+    let mut parts = line.split('|');
+    let (name, licence) = (parts.next()?, parts.next()?);
+    let repository = parts.next()?.trim_end_matches(" (*)");
+    let (name, version) = name.split_once(" v")?;
+    if version.contains("(/") || version.contains(":\\") {
+        return None;
+    }
+    Some(Package {
+        name: name.to_owned(),
+        version: version.split(' ').next()?.to_owned(),
+        licence: licence.to_owned(),
+        repository: repository.to_owned(),
+    })
+}
+
+/// What the sources of a crate say of it.
+struct Source {
+    manifest: String,
+    /// Without their addresses.
+    authors: Vec<String>,
+}
+
+/// The sources of all crates of a platform, by name and version.
+fn metadata(target: &str) -> Result<BTreeMap<(String, String), Source>, String> {
+    let mut metadata = cargo(&root());
+    metadata.args([
+        "metadata",
+        "--locked",
+        "--format-version=1",
+        "--filter-platform",
+        target,
+    ]);
+    let said: Value = serde_json::from_str(&said_by(&mut metadata)?).map_err(|e| e.to_string())?;
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let packages = said["packages"]
+        .as_array()
+        .map(Vec::as_slice)
+        .unwrap_or_default();
+    let source = |p: &Value| {
+        let authors = p["authors"]
+            .as_array()
+            .map(Vec::as_slice)
+            .unwrap_or_default();
+        let name = |author: &Value| Some(author.as_str()?.split('<').next()?.trim().to_owned());
+        let source = Source {
+            manifest: text(&p["manifest_path"]),
+            authors: authors.iter().filter_map(name).collect(),
+        };
+        ((text(&p["name"]), text(&p["version"])), source)
+    };
+    Ok(packages.iter().map(source).collect())
+}
+
+fn document(
+    linked: &Packages,
+    building: &Packages,
+    sources: &BTreeMap<(String, String), Source>,
+) -> Result<String, String> {
+    let systems: BTreeSet<&str> = PLATFORMS.iter().map(|(_, system)| *system).collect();
+    let table = |packages: &Packages| {
+        let mut rows = String::from(
+            "| crate | version | licence | source | on |\n| --- | --- | --- | --- | --- |\n",
+        );
+        for (package, on) in packages {
+            let names: Vec<&str> = on.iter().copied().collect();
+            let on = if names.len() == systems.len() {
+                "all".to_owned()
+            } else {
+                names.join(", ")
+            };
+            rows.push_str(&format!("{} | {on} |\n", package.cells()));
+        }
+        rows
+    };
+    let mut out = format!(
+        "# Licences of others\n\nWritten by `cargo xtask licences`; `.ci/run` compares it with `Cargo.lock`. \
+         The command `pfaff` itself is licensed under MIT or Apache-2.0.\n\n\
+         ## Linked into the command\n\n{}\n## Used for building it alone\n\n{}",
+        table(linked),
+        table(building),
+    );
+    out.push_str(
+        "\n## Texts\n\nOf several licences that a crate offers, the first of these is taken:\n\n",
+    );
+    for (name, reason) in spdx::ALLOWED {
+        out.push_str(&format!("- {name}: {reason}\n"));
+    }
+    for (text, crates) in texts(linked.keys(), sources)? {
+        // A fence that is longer than any in the text.
+        out.push_str(&format!(
+            "\n### {}\n\n````text\n{text}\n````\n",
+            crates.join("; ")
+        ));
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::package;
+
+    #[test]
+    fn lines_of_the_tree_are_crates_of_others() {
+        let found = package("toml v1.2.1+spec-1.1.0|MIT OR Apache-2.0|https://a.b/c (*)");
+        let found = found.expect("a crate of others");
+        assert_eq!(
+            found.cells(),
+            "| toml | 1.2.1+spec-1.1.0 | MIT OR Apache-2.0 | https://a.b/c"
+        );
+        let procedural = package("serde_derive v1.0.2 (proc-macro)|MIT|").expect("of others");
+        assert_eq!(procedural.version, "1.0.2");
+        assert!(package("pfaff-model v0.1.0 (/home/x/crates/model)|MIT|").is_none());
+        assert!(package("pfaff-model v0.1.0 (C:\\x\\crates\\model)|MIT|").is_none());
+    }
+}
