@@ -117,7 +117,7 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(code, self.source, span, message, label).help(help));
     }
 
-    /// Passes over warnings with this code from now on.
+    /// Leaves out warnings with this code.
     pub(crate) fn silence(&mut self, code: Code) {
         self.silenced.push(code);
     }
@@ -132,9 +132,6 @@ impl<'s> Findings<'s> {
         label: &str,
         help: &str,
     ) {
-        if self.silenced.contains(&code) {
-            return;
-        }
         let (listed, more) = self.warned.entry(code).or_default();
         if *listed == WARNED {
             *more += 1;
@@ -151,6 +148,7 @@ impl<'s> Findings<'s> {
     /// The warnings in the order of the file. The last one of a kind says how many are not listed.
     pub(crate) fn take_warnings(&mut self) -> Vec<Diagnostic> {
         let mut warnings = std::mem::take(&mut self.warnings);
+        warnings.retain(|d| !self.silenced.contains(&d.code));
         warnings.sort_by_key(|d| d.primary.span.start);
         for (code, (_, more)) in std::mem::take(&mut self.warned) {
             let of_kind = warnings.iter_mut().rfind(|d| d.code == code);

@@ -365,7 +365,6 @@ struct Heading {
 
 impl Heading {
     fn read(mut table: Table, findings: &mut Findings) -> Self {
-        silence::read(&mut table, findings);
         let name = table.required(&NAME, findings).and_then(|field| {
             let name = field.text(NAME.expected, findings)?;
             if let Some((reason, label)) = section::unfit(name) {
@@ -395,6 +394,7 @@ impl Heading {
         for key in &language::read::SCENE_KEYS {
             table.optional(key);
         }
+        silence::read(&mut table, findings);
         table.close(findings);
         Self {
             name: name.unwrap_or_default(),

@@ -148,15 +148,10 @@ type = "angle"
                  its initial value"
             )],
         );
-        let shown = format!("warning: {warning}");
-        contains(
-            &stdout(&with_scene(&["check", "-"], &scene(motion))),
-            &[&shown],
-        );
-        contains(
-            &stdout(&with_scene(&["analyze", "-"], &scene(motion))),
-            &[&shown],
-        );
+        for (command, head) in [("check", "warning[P0191]"), ("analyze", "warning")] {
+            let said = stdout(&with_scene(&[command, "-"], &scene(motion)));
+            contains(&said, &[&format!("{head}: {warning}")]);
+        }
         let advised: Vec<&str> = warning
             .split('`')
             .filter(|x| x.starts_with("motion = "))
