@@ -99,7 +99,8 @@ impl Command {
             | Self::View(View { json, .. })
             | Self::Diff(Diff { json, .. })
             | Self::Explain(Explain { json, .. }) => *json,
-            Self::Stress(Elsewhere { arguments }) | Self::Generate(Elsewhere { arguments }) => {
+            Self::Stress(LaboratoryCommand { arguments })
+            | Self::Generate(LaboratoryCommand { arguments }) => {
                 arguments.iter().any(|argument| argument == "--json")
             }
             Self::Schema | Self::Completions(_) | Self::Man(_) => false,
