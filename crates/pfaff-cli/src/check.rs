@@ -43,8 +43,8 @@ pub(crate) struct Checked {
     velocity: Option<f64>,
     /// Entries of the text that are probably mistakes, with their places.
     problems: Vec<Diagnostic>,
-    /// The same as sentences, then the reason why the mechanism cannot be moved, if that is the only
-    /// fault, and what the start shows.
+    /// The same as sentences, then the reason why the mechanism cannot be moved, if that is the
+    /// only fault, and what the start shows.
     warnings: Vec<String>,
     /// The freedoms; `None` if the rank was not computed because the mechanism is large.
     freedoms: Option<Freedoms>,

@@ -18,7 +18,8 @@ use crate::findings::Findings;
 
 pub(crate) use mechanism::check;
 
-/// Degrees are written in multiples of this; an angle in radians is a multiple of it by chance only.
+/// Degrees are written in multiples of this; an angle in radians is a multiple of it only by
+/// chance.
 const ROUND_DEGREES: f64 = 5.0;
 
 /// Least number that looks like degrees: below it are the angles within a turn, 2π = 6.28.

@@ -404,8 +404,9 @@ impl Heading {
     }
 }
 
-/// Reports what the mechanism refuses, or else what is not plausible in it. The existence of bodies has already been checked, and so
-/// have names, including those of tables that could not be read.
+/// Reports what the mechanism refuses, or else what is not plausible in it. The existence of
+/// bodies has already been checked, and so have names, including those of tables that could not be
+/// read.
 fn check(description: &Description, source: &SourceMap, unit: LengthUnit, findings: &mut Findings) {
     let errors = match Mechanism::build(description) {
         Ok(built) => return plausible::check(description, &built, source, unit, findings),

@@ -73,8 +73,8 @@ pub(super) fn texts<'p>(
     Ok(texts)
 }
 
-/// The text of a licence for crates whose sources have none: that of this workspace, with the authors
-/// left to the heading.
+/// The text of a licence for crates whose sources have none: that of this workspace, with the
+/// authors left to the heading.
 fn standard(taken: &[&str]) -> Result<Option<String>, String> {
     if taken != ["MIT"] {
         return Ok(None);

@@ -129,7 +129,14 @@ fn impossible_orders_are_refused_before_anything_is_written() {
     // The scene has exclusive use of standard output.
     let both = lab(&["generate", "lattice", "--n", "1", "--json"]);
     assert_eq!(both.status.code(), Some(2));
-    assert!(stderr(&both).contains("--out"));
+    let both: Value = serde_json::from_slice(&both.stdout).expect("one JSON document");
+    assert_eq!(both["code"], "P0001");
+    assert!(
+        both["error"]
+            .as_str()
+            .is_some_and(|text| text.contains("--out")),
+        "{both}"
+    );
     let refusal = lab(&["generate", "lattice", "--n", "0", "--out", path, "--json"]);
     let refusal: Value = serde_json::from_slice(&refusal.stdout).expect("one JSON document");
     assert_eq!(

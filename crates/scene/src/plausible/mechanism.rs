@@ -12,8 +12,8 @@ use crate::source_map::{BODY_KEYS, PLACE_KEYS, SourceMap};
 /// small crank has some 5, and the inertia of a rod in kg·cm² read as kg·m² has 58.
 const LARGEST_GYRATION: f64 = 20.0;
 
-/// Smallest radius of gyration, in arms of the body. A rod has 0.6, a small bob on a light rod 0.01;
-/// the inertia of a rod in kg·m² read as kg·mm² has 0.0006.
+/// Smallest radius of gyration, in arms of the body. A rod has 0.6, a small bob on a light rod
+/// 0.01; the inertia of a rod in kg·m² read as kg·mm² has 0.0006.
 const SMALLEST_GYRATION: f64 = 1e-3;
 
 /// Most sizes of a mechanism from the centre of mass of a body to a joint of it. Lengths in cm read
