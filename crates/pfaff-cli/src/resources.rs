@@ -58,7 +58,7 @@ impl Resources {
     /// Refuses a computation that needs more memory than is allowed.
     pub(crate) fn allow(self, bytes: usize, what: &str) -> Result<(), Failure> {
         let needed = Bytes(bytes as u64);
-        let (allowed, by) = match (self.max_memory, available()) {
+        let (allowed, by) = match (self.max_memory, available().map(Bytes)) {
             (Some(limit), _) => (limit, "--max-memory allows"),
             (None, Some(left)) => (left, "the machine has left"),
             (None, None) => return Ok(()),
@@ -128,13 +128,13 @@ impl std::fmt::Display for Bytes {
     }
 }
 
-/// The memory of the machine that is still available, if the system reports it.
+/// The memory (bytes) of the machine that is still available, if the system reports it.
 #[cfg(not(target_os = "linux"))]
-fn available() -> Option<Bytes> {
+fn available() -> Option<u64> {
     let mut system = sysinfo::System::new().ok()?;
     system.refresh_memory();
     // A system that is not known reports 0.
-    Some(Bytes(system.available_memory())).filter(|bytes| bytes.0 > 0)
+    Some(system.available_memory()).filter(|bytes| *bytes > 0)
 }
 
 /// Texts of at least this size (bytes) take long to read.

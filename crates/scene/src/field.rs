@@ -16,7 +16,7 @@ use crate::expression::{Fault, Problem, Quantity, Scope, decimal};
 use crate::findings::Findings;
 use crate::language::Language;
 use crate::mistake::Mistake;
-use crate::plausible::{self, Number};
+use crate::plausible::angles::{Degrees, Number, degrees};
 use crate::table::Table;
 use crate::{expression, nearest, units};
 
@@ -121,7 +121,7 @@ impl<'t> Field<'t> {
         findings: &mut Findings,
     ) -> Option<f64> {
         let number = self.judged_later(expected, of, findings)?;
-        plausible::degrees(slice::from_ref(self), &[number], findings);
+        warn_of_degrees(slice::from_ref(self), &[number], findings);
         Some(number.value)
     }
 
@@ -363,8 +363,25 @@ fn each(
     let numbers = all(items, |item| {
         item.judged_later("a number", of(k.next()?), findings)
     })?;
-    plausible::degrees(items, &numbers, findings);
+    warn_of_degrees(items, &numbers, findings);
     Some(numbers.iter().map(|number| number.value).collect())
+}
+
+/// Warns if numbers of these fields look like degrees.
+fn warn_of_degrees(fields: &[Field], numbers: &[Number], findings: &mut Findings) {
+    let Some(language) = fields.first().map(|field| field.language) else {
+        return;
+    };
+    if let Some(Degrees { at, message, help }) = degrees(numbers, language) {
+        let Field { subject, key, .. } = &fields[at];
+        findings.warning(
+            const { Code::new(192) },
+            fields[at].span(),
+            format!("{subject}: `{key}` {message}"),
+            "in radians",
+            &help,
+        );
+    }
 }
 
 /// Reads all values, even after one that cannot be read.

@@ -4,8 +4,9 @@ pub(crate) mod read;
 
 use std::collections::BTreeMap;
 
+use model::words::rounded;
+
 use crate::expression::{self, Bases, Quantity, Scope};
-use crate::plausible::LengthUnit;
 
 /// What the numbers of a file mean.
 pub(crate) struct Language {
@@ -33,6 +34,21 @@ impl Units {
         length: "m",
         angle: "rad",
     };
+}
+
+/// The unit of lengths without one.
+#[derive(Clone, Copy)]
+pub(crate) struct LengthUnit {
+    pub(crate) name: &'static str,
+    pub(crate) metres: f64,
+}
+
+impl LengthUnit {
+    /// A moment of inertia, given in kg·m².
+    pub(crate) fn inertia(self, si: f64) -> String {
+        let number = rounded(si / self.metres.powi(2));
+        format!("{number} kg·{}²", self.name)
+    }
 }
 
 /// Metres and radians.

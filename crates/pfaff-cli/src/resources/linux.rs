@@ -3,11 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::Bytes;
-
-/// The memory that is still available, if the system reports it: of the machine, of the control
+/// The memory (bytes) that is still available, if the system reports it: of the machine, of the control
 /// groups of this process, and of its address space.
-pub(super) fn available() -> Option<Bytes> {
+pub(super) fn available() -> Option<u64> {
     let read = |path: &Path| fs::read_to_string(path).ok();
     let machine =
         read(Path::new("/proc/meminfo")).and_then(|text| kibibytes(&text, "MemAvailable:"));
@@ -26,12 +24,7 @@ pub(super) fn available() -> Option<Bytes> {
         let status = read(Path::new("/proc/self/status"))?;
         Some(most.saturating_sub(kibibytes(&status, "VmSize:")?))
     });
-    machine
-        .into_iter()
-        .chain(groups)
-        .chain(space)
-        .min()
-        .map(Bytes)
+    machine.into_iter().chain(groups).chain(space).min()
 }
 
 /// The number of bytes in a line of a table of the system in kB.

@@ -2,10 +2,11 @@
 //! joint holds, and joints far away.
 
 use model::codes::Code;
+use model::words::rounded;
 use model::{Body, BodyRef, ConstraintId, Description, Mechanism, System};
 
-use super::{LengthUnit, short};
 use crate::findings::Findings;
+use crate::language::LengthUnit;
 use crate::source_map::{BODY_KEYS, PLACE_KEYS, SourceMap};
 
 /// Largest radius of gyration, in arms of the body. All mass within an arm gives 1; a flywheel on a
@@ -171,10 +172,10 @@ fn far(
             format!(
                 "joint `{}` is {} m from the centre of mass of body `{}`, {} times the size of this mechanism, {} m",
                 joint.name,
-                short(arm),
+                rounded(arm),
                 d.bodies[body].name,
-                short(arm / size),
-                short(size)
+                rounded(arm / size),
+                rounded(size)
             ),
             "far away",
             &format!(
@@ -213,9 +214,9 @@ fn inertia(
             format!(
                 "body `{}`: with its mass of {} kg the inertia has a radius of gyration of {} m, and points of the body are up to {} m from its centre of mass",
                 body.name,
-                short(body.mass),
-                short(radius),
-                short(arm)
+                rounded(body.mass),
+                rounded(radius),
+                rounded(arm)
             ),
             if is_large { "too large" } else { "too small" },
             &format!(

@@ -1,0 +1,71 @@
+//! Angles without a unit that look like degrees.
+
+use std::f64::consts::TAU;
+
+use linalg::Dd;
+use model::words::rounded;
+
+use crate::dimension::Dimension;
+use crate::expression::Quantity;
+use crate::language::Language;
+
+/// Degrees are written in multiples of this; an angle in radians is a multiple of it only by
+/// chance.
+const ROUND_DEGREES: f64 = 5.0;
+
+/// Least number that looks like degrees: below it are the angles within a turn, 2π = 6.28.
+const LEAST_DEGREES: f64 = 10.0;
+
+/// Largest number that looks like degrees: one turn. Motions of many turns are beyond it.
+const MOST_DEGREES: f64 = 360.0;
+
+/// A number as it was read.
+#[derive(Clone, Copy)]
+pub(crate) struct Number {
+    pub(crate) value: f64,
+    /// Whether it is an angle that has no unit and counts in radians.
+    is_bare_angle: bool,
+}
+
+impl Number {
+    pub(crate) fn new(value: f64, written: &Quantity, of: Dimension, angle: Dd) -> Self {
+        let is_bare = written.dimension.is_none() && angle == Dd::ONE;
+        Self {
+            value,
+            is_bare_angle: is_bare && of == Dimension::ANGLE,
+        }
+    }
+}
+
+/// Which of the angles looks like degrees, and what to write instead.
+pub(crate) struct Degrees {
+    /// Its index.
+    pub(crate) at: usize,
+    /// What is wrong with it.
+    pub(crate) message: String,
+    pub(crate) help: String,
+}
+
+/// Angles without a unit look like degrees if all of them are multiples of five and not all are
+/// within ±2π. Numbers of one list are judged together.
+pub(crate) fn degrees(numbers: &[Number], language: &Language) -> Option<Degrees> {
+    let angles = || numbers.iter().enumerate().filter(|(_, n)| n.is_bare_angle);
+    let is_round = |x: f64| x.abs() <= MOST_DEGREES && x % ROUND_DEGREES == 0.0;
+    if !angles().all(|(_, number)| is_round(number.value)) {
+        return None;
+    }
+    let (at, number) = angles().find(|(_, number)| number.value.abs() >= LEAST_DEGREES)?;
+    let degrees = number.value;
+    let turns = rounded(degrees / TAU);
+    let help = if language.computes {
+        format!("write `\"{degrees} deg\"`, or `\"{degrees} rad\"` for radians")
+    } else {
+        let radians = degrees.to_radians();
+        format!("write `{radians}`, or `\"{degrees} deg\"` with `format = 2` in `[scene]`")
+    };
+    Some(Degrees {
+        at,
+        message: format!("is {degrees} rad, which is {turns} turns: it looks like degrees"),
+        help,
+    })
+}
