@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The memory (bytes) that is still available, if the system reports it: of the machine, of the control
-/// groups of this process, and of its address space.
+/// The memory (bytes) that is still available, if the system reports it: of the machine, of the
+/// control groups of this process, and of its address space.
 pub(super) fn available() -> Option<u64> {
     let read = |path: &Path| fs::read_to_string(path).ok();
     let machine =

@@ -141,7 +141,7 @@ fn units_say_what_an_angle_is() {
     );
     assert_eq!(
         scene.warnings[0].message,
-        "body `crank`: `angle` is 45 rad, which is 7.162 turns: it looks like degrees"
+        "body `crank`: `angle` is 45 rad, which is 7.16197 turns: it looks like degrees"
     );
 }
 
@@ -174,8 +174,8 @@ fn gravity_is_that_of_a_planet() {
     assert_eq!(
         said(&with(G, "[0, -386.1]")),
         (
-            "`[scene]`: `gravity` is 386.1 m/s², 39.37 times that of the Earth: it looks like in/s²".to_owned(),
-            "write `gravity = [0, -9.807]`".to_owned()
+            "`[scene]`: `gravity` is 386.1 m/s², 39.3712 times that of the Earth: it looks like in/s²".to_owned(),
+            "write `gravity = [0, -9.80694]`".to_owned()
         )
     );
     // The same numbers in a scene of millimetres.
@@ -241,7 +241,7 @@ fn units_do_not_change_what_is_plausible() {
     };
     assert_eq!(
         warning.message,
-        "body `rod`: with its mass of 3 kg the inertia has a radius of gyration of 0.0001732 m, and points of the body are up to 0.3 m from its centre of mass"
+        "body `rod`: with its mass of 3 kg the inertia has a radius of gyration of 0.000173205 m, and points of the body are up to 0.3 m from its centre of mass"
     );
     let help = warning.help.as_deref().unwrap_or_default();
     assert!(
@@ -313,7 +313,7 @@ fn a_joint_a_hundred_sizes_away_is_told() {
     let scene = read(&with(AT, &format!("points = {MM}"))).expect("a scene");
     assert_eq!(
         scene.warnings[0].message,
-        "joint `S` is 300 m from the centre of mass of body `rod`, 1732 times the size of this mechanism, 0.1732 m"
+        "joint `S` is 300 m from the centre of mass of body `rod`, 1732.05 times the size of this mechanism, 0.173205 m"
     );
     // Far from the origin everything is as near to each other as before.
     let moved = "position = [1000000.4, 0.0]";
