@@ -43,7 +43,7 @@ pub enum ArgumentError {
         /// The shape of the parameter.
         expected: Shape,
     },
-    /// A number is NaN or infinite.
+    /// A number is NaN, infinite or above [`LARGEST`].
     NotFinite {
         /// Name of the parameter.
         parameter: &'static str,
@@ -96,7 +96,10 @@ impl fmt::Display for ArgumentError {
                 expected,
             } => write!(f, "`{parameter}` must be {expected}"),
             Self::NotFinite { parameter, value } => {
-                write!(f, "`{parameter}` is {value}, need finite numbers")
+                write!(
+                    f,
+                    "`{parameter}` is {value:?}, need finite numbers up to {LARGEST:e}"
+                )
             }
             Self::Negative { parameter, value } => {
                 write!(f, "`{parameter}` is {value}, need a number ≥ 0")
@@ -164,7 +167,7 @@ impl<'a> Reader<'a> {
         let Argument::Pair(p) = argument else {
             return Err(mismatch(parameter, argument));
         };
-        finite(parameter, p)?;
+        usable(parameter, p)?;
         Ok(*p)
     }
 
@@ -177,7 +180,7 @@ impl<'a> Reader<'a> {
         let Argument::Pair(v) = argument else {
             return Err(mismatch(parameter, argument));
         };
-        finite(parameter, v)?;
+        usable(parameter, v)?;
         Direction::new(*v).ok_or(ArgumentError::NoDirection {
             parameter: parameter.name,
             vector: *v,
@@ -193,8 +196,8 @@ impl<'a> Reader<'a> {
         let Argument::Pairs([a, b]) = argument else {
             return Err(mismatch(parameter, argument));
         };
-        finite(parameter, a)?;
-        finite(parameter, b)?;
+        usable(parameter, a)?;
+        usable(parameter, b)?;
         Line::new(*a, *b).ok_or(ArgumentError::NoDirection {
             parameter: parameter.name,
             vector: [b[0] - a[0], b[1] - a[1]],
@@ -214,7 +217,7 @@ impl<'a> Reader<'a> {
         let Ok(values) = <[f64; N]>::try_from(values.as_slice()) else {
             return Err(mismatch(parameter, argument));
         };
-        finite(parameter, &values)?;
+        usable(parameter, &values)?;
         let Shape::Numbers(units) = parameter.shape else {
             return Err(mismatch(parameter, argument));
         };
@@ -254,12 +257,24 @@ fn mismatch(parameter: &'static Parameter, argument: &Argument) -> ArgumentError
     }
 }
 
-fn finite(parameter: &'static Parameter, values: &[f64]) -> Result<(), ArgumentError> {
-    match values.iter().find(|x| !x.is_finite()) {
+fn usable(parameter: &'static Parameter, values: &[f64]) -> Result<(), ArgumentError> {
+    match values.iter().find(|x| !is_usable(**x)) {
         Some(&value) => Err(ArgumentError::NotFinite {
             parameter: parameter.name,
             value,
         }),
         None => Ok(()),
     }
+}
+
+/// The largest magnitude of a number that describes a mechanism, in its SI unit. Constraint
+/// equations and their derivatives multiply up to four of them, and norms square such products:
+/// above, rows overflow, and what is known of a mechanism whose rows are not numbers would be said
+/// of another one. The observable universe has 1e27 m and 1e53 kg.
+pub const LARGEST: f64 = 1e60;
+
+/// Whether a number may describe a mechanism: it is finite and not above [`LARGEST`].
+#[must_use]
+pub fn is_usable(x: f64) -> bool {
+    x.abs() <= LARGEST
 }

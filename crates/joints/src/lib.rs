@@ -26,7 +26,7 @@ pub mod ring;
 pub mod spec;
 pub mod visitor;
 
-pub use arguments::{Argument, ArgumentError};
+pub use arguments::{Argument, ArgumentError, LARGEST, is_usable};
 pub use constraint::{Constraint, Element};
 pub use definition::Definition;
 pub use force::{Force, ForceElement};

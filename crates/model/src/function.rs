@@ -5,6 +5,8 @@ mod lines;
 mod parts;
 mod spline;
 
+use joints::LARGEST;
+
 use crate::codes::Code;
 use lines::Lines;
 use spline::Spline;
@@ -54,8 +56,8 @@ struct Step {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FunctionError {
-    /// A number is NaN or infinite.
-    #[error("`{name}` is {value}, need finite numbers")]
+    /// A number is NaN, infinite or above [`LARGEST`](joints::LARGEST).
+    #[error("`{name}` is {value:?}, need finite numbers up to {LARGEST:e}")]
     NotFinite {
         /// Name of the number.
         name: &'static str,
@@ -124,16 +126,16 @@ impl Function {
     /// # Errors
     /// If the rate is not finite.
     pub fn constant_rate(rate: f64) -> Result<Self, FunctionError> {
-        finite("rate", &[rate])?;
+        usable("rate", &[rate])?;
         Self::polynomial(&[0.0, rate])
     }
 
     /// `Σ coefficients[k]·tᵏ`
     ///
     /// # Errors
-    /// If a coefficient is not finite.
+    /// If a coefficient is not finite, or above [`LARGEST`].
     pub fn polynomial(coefficients: &[f64]) -> Result<Self, FunctionError> {
-        finite("coefficients", coefficients)?;
+        usable("coefficients", coefficients)?;
         Ok(Self(Law::Polynomial(coefficients.to_vec())))
     }
 
@@ -147,10 +149,10 @@ impl Function {
         phase: f64,
         offset: f64,
     ) -> Result<Self, FunctionError> {
-        finite("amplitude", &[amplitude])?;
-        finite("omega", &[omega])?;
-        finite("phase", &[phase])?;
-        finite("offset", &[offset])?;
+        usable("amplitude", &[amplitude])?;
+        usable("omega", &[omega])?;
+        usable("phase", &[phase])?;
+        usable("offset", &[offset])?;
         Ok(Self(Law::Harmonic {
             amplitude,
             omega,
@@ -165,11 +167,11 @@ impl Function {
     /// # Errors
     /// If a number is not finite or a step has no duration.
     pub fn steps(start: f64, steps: &[[f64; 3]]) -> Result<Self, FunctionError> {
-        finite("start", &[start])?;
+        usable("start", &[start])?;
         for (k, &[from, to, by]) in steps.iter().enumerate() {
-            finite("from", &[from])?;
-            finite("to", &[to])?;
-            finite("by", &[by])?;
+            usable("from", &[from])?;
+            usable("to", &[to])?;
+            usable("by", &[by])?;
             if to <= from {
                 return Err(FunctionError::EmptyStep {
                     step: k + 1,
@@ -294,8 +296,8 @@ fn points(
     values: &[f64],
     follows: impl Fn(f64, f64) -> bool,
 ) -> Result<(), FunctionError> {
-    finite("times", times)?;
-    finite("values", values)?;
+    usable("times", times)?;
+    usable("values", values)?;
     if times.len() != values.len() {
         return Err(FunctionError::Uneven {
             times: times.len(),
@@ -315,8 +317,8 @@ fn points(
     Ok(())
 }
 
-fn finite(name: &'static str, values: &[f64]) -> Result<(), FunctionError> {
-    match values.iter().find(|x| !x.is_finite()) {
+fn usable(name: &'static str, values: &[f64]) -> Result<(), FunctionError> {
+    match values.iter().find(|x| !joints::is_usable(**x)) {
         Some(&value) => Err(FunctionError::NotFinite { name, value }),
         None => Ok(()),
     }
@@ -412,5 +414,10 @@ mod tests {
             Function::constant(f64::NAN),
             Err(FunctionError::NotFinite { .. })
         ));
+        assert!(Function::constant(-LARGEST).is_ok());
+        assert_eq!(
+            Function::constant(1.1e60).unwrap_err().to_string(),
+            "`coefficients` is 1.1e60, need finite numbers up to 1e60"
+        );
     }
 }

@@ -4,6 +4,8 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use joints::{LARGEST, is_usable};
+
 use crate::nearest::{list, nearest};
 
 /// The terms of a sum; at least one.
@@ -100,7 +102,7 @@ pub enum CombinationProblem {
         available: String,
     },
     /// A factor that is too large.
-    #[error("the factor `{text}` is not a finite number")]
+    #[error("the factor `{text}` is not a finite number up to {LARGEST:e}")]
     NotFinite {
         /// The factor.
         text: String,
@@ -323,7 +325,7 @@ impl<'a> Scanner<'a> {
         let Ok(value) = number.parse::<f64>() else {
             return Ok(1.0);
         };
-        if !value.is_finite() {
+        if !is_usable(value) {
             return Err(CombinationError {
                 problem: CombinationProblem::NotFinite {
                     text: number.to_owned(),
@@ -470,7 +472,7 @@ mod tests {
             ),
             (
                 "1e999*W3.N",
-                "0..5: the factor `1e999` is not a finite number",
+                "0..5: the factor `1e999` is not a finite number up to 1e60",
             ),
         ] {
             assert_eq!(read(text), Err(expected.to_owned()), "{text}");

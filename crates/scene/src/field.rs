@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::rc::Rc;
 use std::slice;
 
+use joints::{LARGEST, is_usable};
 use model::Law;
 use model::codes::Code;
 use model::law::Operation;
@@ -168,15 +169,15 @@ impl<'t> Field<'t> {
             self.mismatch(expected, findings);
             return None;
         };
-        if !value.is_finite() {
+        if !is_usable(value) {
             findings.error(
                 Mistake::NotFinite,
                 self.span(),
                 format!(
-                    "{}: `{}` is {value}, need a finite number",
+                    "{}: `{}` is {value:?}, need a finite number up to {LARGEST:e}",
                     self.subject, self.key
                 ),
-                "not a finite number",
+                "not a usable number",
             );
             return None;
         }

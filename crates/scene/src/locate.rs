@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use dynamics::{MotionError, MotionFault};
+use joints::is_usable;
 use model::codes::Code;
 use model::start::VelocityConflict;
 use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError, Stated};
@@ -38,7 +39,7 @@ impl Coded for MotionError {
 pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic {
     let (span, label) = match error {
         BuildError::NoBodies => (map.section("scene", ""), "no `[[body]]` in this scene"),
-        BuildError::Gravity { .. } => (map.section("scene", "gravity"), "not finite"),
+        BuildError::Gravity { .. } => (map.section("scene", "gravity"), "not a usable number"),
         BuildError::DuplicateName { name } => {
             let uses = uses(map, name);
             let mut diagnostics = duplicates(map, &uses[0], error);
@@ -55,8 +56,8 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
             (span, "choose another name")
         }
         BuildError::NotFinite { body, field, .. } => (
-            body_key(map, d, body, field, |x| !x.is_finite()),
-            "not finite",
+            body_key(map, d, body, field, |x| !is_usable(x)),
+            "not a usable number",
         ),
         BuildError::Negative { body, field, .. } => (
             body_key(map, d, body, field, |x| x < 0.0),
@@ -95,7 +96,9 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
             }),
             "at least one body must be able to move",
         ),
-        BuildError::Marker { name, .. } => (place_key(map, name, &["point"]), "not finite"),
+        BuildError::Marker { name, .. } => {
+            (place_key(map, name, &["point"]), "not a usable number")
+        }
         BuildError::SameMarker { name } | BuildError::UnknownMarker { name, .. } => (
             place_key(map, name, &["markers"]),
             "give two different places",

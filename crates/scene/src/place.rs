@@ -5,6 +5,7 @@
 use std::ops::Range;
 
 use joints::spec::{Parameter, Shape, Spec};
+use joints::{LARGEST, is_usable};
 use model::{BodyRef, Marker};
 
 use crate::body::Bodies;
@@ -133,11 +134,11 @@ fn global(
             Point::Of(marker) => body.to_local(&bodies.list, bodies.global(marker)),
             Point::At(point) => body.to_local(&bodies.list, point),
         };
-        if local.iter().any(|x| !x.is_finite()) {
+        if !local.iter().all(|x| is_usable(*x)) {
             findings.error(Mistake::NotFinite,
                 at.span(),
                 format!(
-                    "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number",
+                    "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}",
                     at.subject,
                     bodies.name(body)
                 ),

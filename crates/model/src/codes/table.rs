@@ -166,8 +166,8 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(
         111,
-        "A number is not finite",
-        "Write a finite number; places that are far apart need a finite difference, too.",
+        "A number is not finite, or above 1e60",
+        "Write a finite number in a unit that keeps it below 1e60; places that are far apart need such a difference, too.",
         Example::Scene(
             "check -",
             scene!("\n[[body]]\nname = \"bar\"\nmass = inf\ninertia = 0.1\n"),
@@ -265,8 +265,8 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(
         122,
-        "A number of a body or an element is not finite",
-        "Write a finite number.",
+        "A number of a body or an element is not finite, or above 1e60",
+        "Write a finite number; up to 1e60 their products can be computed.",
         LIBRARY,
     ),
     entry(
@@ -280,8 +280,8 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(
         124,
-        "Gravity is not finite",
-        "Write two finite numbers.",
+        "Gravity is not finite, or above 1e60",
+        "Write two finite numbers up to 1e60.",
         LIBRARY,
     ),
     entry(
@@ -363,8 +363,8 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(
         134,
-        "A number of a marker is not finite",
-        "Write finite numbers.",
+        "A number of a marker is not finite, or above 1e60",
+        "Write finite numbers up to 1e60.",
         LIBRARY,
     ),
     entry(
@@ -490,7 +490,7 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(
         148,
-        "An expression has no finite value",
+        "An expression has no finite value up to 1e60",
         "Look for a division by zero, or a function outside of its domain.",
         Example::Scene(
             "check -",

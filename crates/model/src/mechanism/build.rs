@@ -4,6 +4,7 @@ use crate::codes::Code;
 use std::collections::HashSet;
 
 use joints::spec::{ConstraintSpec, Level, Role, Spec};
+use joints::{LARGEST, is_usable};
 
 use super::check;
 use super::work::held_bodies;
@@ -34,7 +35,7 @@ pub enum BuildError {
     #[error("`ground` is the name of the ground and is always there")]
     Ground,
     /// A number of a body is NaN or infinite.
-    #[error("body `{body}`: {field} is {value}, need finite numbers")]
+    #[error("body `{body}`: {field} is {value:?}, need finite numbers up to {LARGEST:e}")]
     NotFinite {
         /// The body.
         body: String,
@@ -63,7 +64,7 @@ pub enum BuildError {
         value: f64,
     },
     /// Gravity is NaN or infinite.
-    #[error("gravity is [{x}, {y}], need finite numbers")]
+    #[error("gravity is [{x:?}, {y:?}], need finite numbers up to {LARGEST:e}")]
     Gravity {
         /// Its x component.
         x: f64,
@@ -117,7 +118,7 @@ pub enum BuildError {
         name: String,
     },
     /// A point of a joint, drive or force is NaN or infinite.
-    #[error("`{name}`: a point is [{x}, {y}], need finite numbers")]
+    #[error("`{name}`: a point is [{x:?}, {y:?}], need finite numbers up to {LARGEST:e}")]
     Point {
         /// The joint, drive or force.
         name: String,
@@ -127,7 +128,9 @@ pub enum BuildError {
         y: f64,
     },
     /// A number of a marker is NaN or infinite.
-    #[error("marker `{name}` is at [{x}, {y}], turned by {angle}, need finite numbers")]
+    #[error(
+        "marker `{name}` is at [{x:?}, {y:?}], turned by {angle:?}, need finite numbers up to {LARGEST:e}"
+    )]
     Marker {
         /// The marker.
         name: String,
@@ -267,7 +270,7 @@ impl Mechanism {
 
 /// Whether a number is not a valid tolerance.
 fn is_wrong(value: &f64) -> bool {
-    !(value.is_finite() && *value > 0.0)
+    !(is_usable(*value) && *value > 0.0)
 }
 
 /// Checks that the tolerances of the scene are finite and positive.
@@ -312,7 +315,7 @@ fn check_bodies(d: &Description, errors: &mut Vec<BuildError>) {
         errors.push(BuildError::NoBodies);
     }
     let [x, y] = d.gravity;
-    if !(x.is_finite() && y.is_finite()) {
+    if !(is_usable(x) && is_usable(y)) {
         errors.push(BuildError::Gravity { x, y });
     }
     for b in &d.bodies {
@@ -330,7 +333,7 @@ fn check_bodies(d: &Description, errors: &mut Vec<BuildError>) {
         ];
         for (field, value) in fields {
             let body = b.name.clone();
-            if !value.is_finite() {
+            if !is_usable(value) {
                 errors.push(BuildError::NotFinite { body, field, value });
             } else if value < 0.0 && matches!(field, "mass" | "inertia") {
                 errors.push(BuildError::Negative { body, field, value });
@@ -428,7 +431,7 @@ fn check_place(
     errors: &mut Vec<BuildError>,
 ) {
     let name = || name.to_owned();
-    let is_none = |p: &&[f64; 2]| !p.iter().all(|x| x.is_finite());
+    let is_none = |p: &&[f64; 2]| !p.iter().all(|x| is_usable(*x));
     if let Some(&[x, y]) = points.iter().find(is_none) {
         errors.push(BuildError::Point { name: name(), x, y });
     }

@@ -1,5 +1,7 @@
 //! Faults of markers and measures.
 
+use joints::is_usable;
+
 use super::BuildError;
 use crate::description::Description;
 use crate::observed::Observed;
@@ -17,7 +19,7 @@ pub(super) fn observed(d: &Description, errors: &mut Vec<BuildError>) {
             });
         }
         let ([x, y], angle) = (marker.point, marker.angle.unwrap_or_default());
-        if ![x, y, angle].iter().all(|x| x.is_finite()) {
+        if ![x, y, angle].iter().all(|x| is_usable(*x)) {
             errors.push(BuildError::Marker {
                 name: name(),
                 x,

@@ -548,8 +548,18 @@ fn files_of_others_are_replaced_by_force_only() {
 }
 
 #[test]
-fn a_step_longer_than_all_rows_is_interrupted() {
-    let (folder, scene) = place("faults-one-row", "50000.0");
+fn a_run_of_one_row_is_interrupted() {
+    one_row_interrupted("dop853");
+}
+
+#[test]
+fn an_implicit_run_of_one_row_is_interrupted() {
+    one_row_interrupted("radau5");
+}
+
+/// A run whose only row of output is far away ends within a second after a signal.
+fn one_row_interrupted(method: &str) {
+    let (folder, scene) = place(&format!("faults-one-row-{method}"), "50000.0");
     let text = fs::read_to_string(&scene).expect("readable");
     fs::write(
         &scene,
@@ -557,7 +567,8 @@ fn a_step_longer_than_all_rows_is_interrupted() {
     )
     .expect("writable");
     let out = Folder(folder.0.join("out"));
-    let child = begun(&["simulate", &scene, "--out", out.text()], Stdio::piped());
+    let arguments = ["simulate", &scene, "--method", method, "--out", out.text()];
+    let child = begun(&arguments, Stdio::piped());
     wait_until("it runs", || out.0.join("trajectory.csv.part").exists());
     std::thread::sleep(Duration::from_millis(200));
     let begin = Instant::now();

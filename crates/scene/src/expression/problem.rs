@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use joints::LARGEST;
+
 use super::unit::names_of;
 use crate::dimension::Dimension;
 
@@ -66,7 +68,7 @@ pub(crate) enum Problem {
     DivisionByZero,
     #[error("{name} is not defined for this value")]
     Undefined { name: &'static str },
-    #[error("the result is too large for a number")]
+    #[error("the result is not a number up to {LARGEST:e}")]
     Overflow,
 }
 

@@ -6,6 +6,7 @@
 
 use std::f64::consts::PI;
 
+use joints::is_usable;
 use linalg::Dd;
 
 use super::problem::Problem;
@@ -135,9 +136,9 @@ impl Quantity {
         }
     }
 
-    /// Refuses what is not finite.
+    /// Refuses what no description may have.
     fn checked(self) -> Result<Self, Problem> {
-        if self.value.hi().is_finite() && self.error.is_finite() {
+        if is_usable(self.value.hi()) && self.error.is_finite() {
             Ok(self)
         } else {
             Err(Problem::Overflow)

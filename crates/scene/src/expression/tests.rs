@@ -87,7 +87,7 @@ fn exact_values_are_the_doubles_next_to_them() {
         ("max(2, -7)", NONE, 2.0),
         ("abs(-rod)", LENGTH, 0.3),
         ("300 mm / 600 mm", ANGLE, 0.5),
-        ("1e308*1", NONE, 1e308),
+        ("1e60*1", NONE, 1e60),
         ("1e-320", NONE, 1e-320),
         (
             "123456789012345678901234567890",
@@ -231,7 +231,11 @@ fn faults_have_their_places() {
             NONE,
             "0..11: `tan` is not defined for this value",
         ),
-        ("log(0)", NONE, "0..6: the result is too large for a number"),
+        (
+            "log(0)",
+            NONE,
+            "0..6: the result is not a number up to 1e60",
+        ),
         (
             "atan2(0, 0)",
             NONE,
@@ -240,7 +244,7 @@ fn faults_have_their_places() {
         (
             "1e200*1e200",
             NONE,
-            "0..11: the result is too large for a number",
+            "0..11: the result is not a number up to 1e60",
         ),
         (
             "(-8)^0.5",

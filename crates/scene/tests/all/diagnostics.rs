@@ -149,14 +149,14 @@ fn values() {
         (
             "mass = 1.0",
             "mass = «nan»",
-            "body `frame`: `mass` is NaN, need a finite number",
-            "not a finite number",
+            "body `frame`: `mass` is NaN, need a finite number up to 1e60",
+            "not a usable number",
         ),
         (
             "mass = 1.0",
             "mass = «1e999»",
-            "body `frame`: `mass` is inf, need a finite number",
-            "not a finite number",
+            "body `frame`: `mass` is inf, need a finite number up to 1e60",
+            "not a usable number",
         ),
         (
             "mass = 1.0",
@@ -166,9 +166,15 @@ fn values() {
         ),
         (
             "position = [1.0, 2.0]",
+            "position = [1.0, «-1.1e60»]",
+            "body `crank`: `position` is -1.1e60, need a finite number up to 1e60",
+            "not a usable number",
+        ),
+        (
+            "position = [1.0, 2.0]",
             "position = [1.0, «-inf»]",
-            "body `crank`: `position` is -inf, need a finite number",
-            "not a finite number",
+            "body `crank`: `position` is -inf, need a finite number up to 1e60",
+            "not a usable number",
         ),
         (
             "position = [1.0, 2.0]",
@@ -722,7 +728,7 @@ members = ["J", "K", "L"]
         [
             "x.toml:3:1: error: `[scene]` has no key `nme`",
             "x.toml:8:8: error: body `a`: mass is -1, need a number ≥ 0",
-            "x.toml:9:11: error: body `a`: `inertia` is NaN, need a finite number",
+            "x.toml:9:11: error: body `a`: `inertia` is NaN, need a finite number up to 1e60",
             "x.toml:12:8: error: the name `a` is used twice",
             "x.toml:15:1: error: body `a` has no key `colour`",
             "x.toml:17:1: error: body number 3 needs the key `name`: a text",
@@ -798,17 +804,17 @@ fn dropped_rows_are_checked_beside_other_faults() {
     );
 }
 
-/// Finite numbers whose difference overflows.
+/// Usable numbers whose difference is none.
 #[test]
 fn places_too_far_away_are_refused() {
     let text = SCENE
-        .replace("position = [1.0, 2.0]", "position = [1.7e308, 2.0]")
-        .replace("at = [1.0, 2.0]", "at = [-1.7e308, 2.0]");
+        .replace("position = [1.0, 2.0]", "position = [1e60, 2.0]")
+        .replace("at = [1.0, 2.0]", "at = [-1e60, 2.0]");
     assert_eq!(
         lines(&read(&text).expect_err("infinitely far")),
         [
             "x.toml:27:6: error: joint `W`: `at` and the position of `crank` are too far apart: \
-             their difference is not a finite number"
+             their difference is not a finite number up to 1e60"
         ]
     );
 }
