@@ -8,6 +8,7 @@ use crate::key::{Key, TYPE, Takes};
 use crate::marker::Markers;
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
+use crate::plausible;
 use crate::source_map::Entry;
 use crate::table::Table;
 
@@ -98,9 +99,11 @@ fn between(
             _ => markers.index(item, findings).map(Some),
         });
     let read: Vec<Option<Option<usize>>> = read.collect();
-    match read[..] {
-        [only] => Some([None, only?]),
-        [first, second] => Some([first?, second?]),
-        _ => None,
-    }
+    let between = match read[..] {
+        [only] => [None, only?],
+        [first, second] => [first?, second?],
+        _ => return None,
+    };
+    plausible::measure(&field, between, &markers.list, findings);
+    Some(between)
 }

@@ -10,6 +10,7 @@ mod mechanism;
 
 use model::codes::Code;
 use model::words::rounded;
+use model::{BodyRef, Marker};
 
 use crate::dimension::Dimension;
 use crate::expression::units;
@@ -84,5 +85,29 @@ pub(crate) fn output_step(step: &Field, [each, end]: [f64; 2], findings: &mut Fi
         ),
         "longer than the run",
         "write a shorter one, or leave it out for 200 steps",
+    );
+}
+
+/// Warns of a measure between two places of one body, which never changes.
+pub(crate) fn measure(
+    field: &Field,
+    between: [Option<usize>; 2],
+    markers: &[Marker],
+    findings: &mut Findings,
+) {
+    let body = |k: Option<usize>| k.map_or(BodyRef::Ground, |k| markers[k].body);
+    let [first, second] = between;
+    if first == second || body(first) != body(second) {
+        return;
+    }
+    findings.warning(
+        const { Code::new(198) },
+        field.span(),
+        format!(
+            "{}: its markers move together, with one body: it never changes",
+            field.subject
+        ),
+        "on one body",
+        "name markers of two bodies, or one marker alone to measure it from the ground",
     );
 }

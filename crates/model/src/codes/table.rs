@@ -523,7 +523,7 @@ pub const TABLE: &[Entry] = &[
     entry(
         180,
         "A warning that is to be silenced does not exist",
-        "Write the codes of warnings, P0190 to P0197; errors cannot be silenced.",
+        "Write the codes of warnings, P0190 to P0198; errors cannot be silenced.",
         Example::Scene(
             "check -",
             "[scene]\nname = \"bar\"\nspace = \"plane\"\nsilence = [\"P0100\"]\n",
@@ -604,6 +604,17 @@ pub const TABLE: &[Entry] = &[
         Example::Scene(
             "check -",
             bar!("\n[simulate]\nt_end = 1.0\noutput_step = 10.0\n"),
+        ),
+    ),
+    entry(
+        198,
+        "A measure is between two markers of one body (warning)",
+        "It never changes: name markers of two bodies, or one marker alone to measure it from the ground.",
+        Example::Scene(
+            "check -",
+            bar!(
+                "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[marker]]\nname = \"foot\"\nbody = \"bar\"\npoint = [0.0, 0.0]\n\n[[marker]]\nname = \"tip\"\nbody = \"bar\"\npoint = [1.0, 0.0]\n\n[[measure]]\nname = \"swing\"\ntype = \"angle\"\nmarkers = [\"foot\", \"tip\"]\n"
+            ),
         ),
     ),
     entry(

@@ -251,6 +251,35 @@ fn units_do_not_change_what_is_plausible() {
 }
 
 #[test]
+fn a_measure_within_one_body_never_changes() {
+    let warned = |markers: &str| {
+        let marker = |name: &str, body: &str| {
+            format!("\n[[marker]]\nname = \"{name}\"\nbody = \"{body}\"\npoint = [0.0, 0.1]\n")
+        };
+        let places = [
+            marker("P", "rod"),
+            marker("Q", "rod"),
+            marker("R", "crank"),
+            marker("W", "ground"),
+        ];
+        let text = format!(
+            "{CRANK}{}\n[[measure]]\nname = \"m\"\ntype = \"angle\"\nmarkers = {markers}\n",
+            places.concat()
+        );
+        warned(&text)
+    };
+    for constant in ["[\"P\", \"Q\"]", "[\"ground\", \"W\"]", "[\"W\"]"] {
+        assert_eq!(
+            warned(constant),
+            [("P0198".to_owned(), constant.to_owned())]
+        );
+    }
+    for moving in ["[\"P\", \"R\"]", "[\"P\"]", "[\"W\", \"Q\"]"] {
+        assert_eq!(warned(moving), [], "{moving}");
+    }
+}
+
+#[test]
 fn bodies_without_joints_beside_others_are_told() {
     let weight = "[[body]]\nname = \"weight\"\nmass = 1.0\ninertia = 0.0\nposition = [0.0, -1.0]\n";
     let text = format!("{CRANK}\n{weight}");
