@@ -193,8 +193,8 @@ pub enum MotionFault {
     },
     /// No step passes a singular configuration.
     #[error(
-        "between t = {t0} s and t = {t1} s the mechanism is in or passes a singular configuration that it does not leave \
-         smoothly: the constraints do not determine how it goes on", t0 = rounded(*from), t1 = rounded(*to))]
+        "{} the mechanism is in or passes a singular configuration that it does not leave \
+         smoothly: the constraints do not determine how it goes on", instant(*from, *to))]
     SingularPassage {
         /// The last time reached before it (s).
         from: f64,
@@ -405,5 +405,15 @@ mod tests {
             "just above the allowed 1.381e-13"
         );
         assert_eq!(above(f64::NAN, 1e-9), "more than 1.000e-9");
+    }
+}
+
+/// Where something lies between two times: one, if they are read as the same.
+fn instant(from: f64, to: f64) -> String {
+    let [from, to] = [from, to].map(rounded);
+    if from == to {
+        format!("at t = {from} s")
+    } else {
+        format!("between t = {from} s and t = {to} s")
     }
 }

@@ -56,7 +56,7 @@ struct Step {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FunctionError {
-    /// A number is NaN, infinite or above [`LARGEST`](joints::LARGEST).
+    /// A number is NaN, infinite or above [`LARGEST`].
     #[error("`{name}` is {value:?}, need finite numbers up to {LARGEST:e}")]
     NotFinite {
         /// Name of the number.

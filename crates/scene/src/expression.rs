@@ -458,7 +458,10 @@ fn cosine(x: Quantity) -> Result<Quantity, Problem> {
 
 fn tangent(x: Quantity) -> Result<Quantity, Problem> {
     let ratio = sine(x)?.over(cosine(x)?);
-    ratio.map_err(|_| Problem::Undefined { name: "`tan`" })
+    ratio.map_err(|_| Problem::Undefined {
+        name: "`tan`",
+        value: x.to_f64(),
+    })
 }
 
 #[cfg(test)]

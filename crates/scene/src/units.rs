@@ -94,6 +94,12 @@ pub(crate) fn advice(text: &str) -> Option<String> {
     ))
 }
 
+/// The number with its unit with which a text begins.
+pub(crate) fn with_unit(text: &str) -> Option<&str> {
+    let (number, between, unit) = split(text)?;
+    text.get(..number.len() + between.len() + unit.len())
+}
+
 /// A number, spaces, and the unit after them.
 fn split(text: &str) -> Option<(&str, &str, &str)> {
     // The longest beginning that is a number: the `e` of `2 e` or `2eggs` is not an exponent.

@@ -193,7 +193,7 @@ fn set_changes_the_scene_of_every_command() {
         let output = pfaff(&[&command[..], &["--set", "L=r/2"]].concat());
         assert_eq!(output.status.code(), Some(2), "{command:?}");
         assert!(
-            stderr(&output).contains("`asin` is not defined for this value"),
+            stderr(&output).contains("`asin` is not defined for 1.73205"),
             "{command:?}: {}",
             stderr(&output)
         );

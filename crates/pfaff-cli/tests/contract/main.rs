@@ -13,6 +13,7 @@ mod explain;
 mod failures;
 #[cfg(target_os = "linux")]
 mod faults;
+mod first_minutes;
 mod folder;
 mod fragile;
 mod freedoms;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use joints::LARGEST;
+use model::words::rounded;
 
 use super::unit::names_of;
 use crate::dimension::Dimension;
@@ -66,8 +67,8 @@ pub(crate) enum Problem {
     Pi,
     #[error("division by zero")]
     DivisionByZero,
-    #[error("{name} is not defined for this value")]
-    Undefined { name: &'static str },
+    #[error("{name} is not defined for {}", rounded(*.value))]
+    Undefined { name: &'static str, value: f64 },
     #[error("the result is not a number up to {LARGEST:e}")]
     Overflow,
 }

@@ -214,7 +214,10 @@ impl Quantity {
         }
         let value = x.powf(y);
         if value.is_nan() {
-            return Err(Problem::Undefined { name: "a power" });
+            return Err(Problem::Undefined {
+                name: "a power",
+                value: x,
+            });
         }
         let relative = (y / x).abs() * (self.error + self.value.lo().abs())
             + x.abs().ln().abs() * (exponent.error + exponent.value.lo().abs());
@@ -240,7 +243,10 @@ impl Quantity {
             .map(|d| d.root().ok_or(Problem::Root { of: d }));
         let dimension = root.transpose()?;
         if self.to_f64() < 0.0 {
-            return Err(Problem::Undefined { name: "`sqrt`" });
+            return Err(Problem::Undefined {
+                name: "`sqrt`",
+                value: self.to_f64(),
+            });
         }
         let value = self.value.abs().sqrt();
         // Near zero the root of the error.
@@ -261,7 +267,7 @@ impl Quantity {
         let x = self.value.hi();
         let (y, slope) = (f(x), derivative(x));
         if y.is_nan() {
-            return Err(Problem::Undefined { name });
+            return Err(Problem::Undefined { name, value: x });
         }
         let along = |change: f64| if change == 0.0 { 0.0 } else { slope * change };
         let error = along(self.error).abs() + f64::EPSILON * y.abs();
@@ -279,7 +285,10 @@ impl Quantity {
         let (a, b) = (y.value.hi(), x.value.hi());
         let radius = a.hypot(b);
         if radius == 0.0 {
-            return Err(Problem::Undefined { name: "`atan2`" });
+            return Err(Problem::Undefined {
+                name: "`atan2`",
+                value: 0.0,
+            });
         }
         let (cos, sin) = (b / radius, a / radius);
         let turn = (cos * y.value.lo() - sin * x.value.lo()) / radius;

@@ -45,7 +45,10 @@ pub(super) fn fault(text: &str, span: Range<usize>) -> Option<Fault> {
     let at = text.floor_char_boundary(span.start);
     let begin = text[..at].rfind('\n').map_or(0, |k| k + 1);
     let end = text[at..].find('\n').map_or(text.len(), |k| at + k);
-    let (message, help) = meant(text[begin..end].trim_end(), at - begin)?;
+    // The file is not read yet, so its format is what a line of it says.
+    let says_format = |line: &str| line.replace(' ', "").starts_with("format=2");
+    let computes = text.lines().any(says_format);
+    let (message, help) = meant(text[begin..end].trim_end(), at - begin, computes)?;
     Some(Fault {
         span,
         message: message.to_owned(),
@@ -55,7 +58,8 @@ pub(super) fn fault(text: &str, span: Range<usize>) -> Option<Fault> {
 }
 
 /// The fault of a line that cannot be read from this place on, and what to write instead.
-fn meant(line: &str, at: usize) -> Option<(&'static str, String)> {
+/// `computes`: texts are expressions.
+fn meant(line: &str, at: usize, computes: bool) -> Option<(&'static str, String)> {
     if line.starts_with('[') && is_key(line.trim_matches(['[', ']', ' '])) {
         return Some((
             "the brackets of a section do not fit",
@@ -98,7 +102,7 @@ fn meant(line: &str, at: usize) -> Option<(&'static str, String)> {
     } else {
         value
     };
-    number(key, value).or_else(|| word(key, value))
+    number(key, value, computes).or_else(|| word(key, value))
 }
 
 /// Whether a word can be a key without quotes.
@@ -116,10 +120,14 @@ const COMPUTED: (&str, &str) = (
 );
 
 /// A value that begins with a number.
-fn number(key: &str, value: &str) -> Option<(&'static str, String)> {
+fn number(key: &str, value: &str, computes: bool) -> Option<(&'static str, String)> {
     let digits = value.find(|c: char| !(c.is_ascii_digit() || "+-.eE_".contains(c)));
     let (number, rest) = value.split_at(digits?);
     if let Some(help) = units::advice(value) {
+        let help = match units::with_unit(value) {
+            Some(quoted) if computes => format!("units stand in quotes: write `\"{quoted}\"`"),
+            _ => help,
+        };
         return Some(("a number with a unit", help));
     }
     if !units::is_number(number) {

@@ -762,6 +762,24 @@ fn a_text_that_is_not_toml_is_judged_line_by_line() {
     );
 }
 
+/// Where texts are computed, a unit needs quotes only.
+#[test]
+fn a_unit_without_quotes_gets_them() {
+    let help = |format: &str| {
+        let text = format!(
+            "[scene]\nname = \"a\"\nspace = \"plane\"\n{format}\n[simulate]\nt_end = 2 min # long\n"
+        );
+        let problems = read(&text).expect_err("no TOML");
+        assert_eq!(problems.len(), 1, "{problems:#?}");
+        problems[0].help.clone().unwrap_or_default()
+    };
+    assert_eq!(
+        help("format = 2"),
+        "units stand in quotes: write `\"2 min\"`"
+    );
+    assert!(help("").ends_with("write `120` instead of `2 min`"));
+}
+
 /// The text after a bracket that is never closed is not reported as separate faults.
 #[test]
 fn a_bracket_that_is_never_closed_hides_its_consequences() {
