@@ -393,6 +393,16 @@ fn above(residual: f64, tolerance: f64) -> String {
     }
 }
 
+/// Where something lies between two times: one, if they are read as the same.
+fn instant(from: f64, to: f64) -> String {
+    let [from, to] = [from, to].map(rounded);
+    if from == to {
+        format!("at t = {from} s")
+    } else {
+        format!("between t = {from} s and t = {to} s")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::above;
@@ -405,15 +415,5 @@ mod tests {
             "just above the allowed 1.381e-13"
         );
         assert_eq!(above(f64::NAN, 1e-9), "more than 1.000e-9");
-    }
-}
-
-/// Where something lies between two times: one, if they are read as the same.
-fn instant(from: f64, to: f64) -> String {
-    let [from, to] = [from, to].map(rounded);
-    if from == to {
-        format!("at t = {from} s")
-    } else {
-        format!("between t = {from} s and t = {to} s")
     }
 }
