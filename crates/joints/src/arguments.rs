@@ -267,10 +267,9 @@ fn usable(parameter: &'static Parameter, values: &[f64]) -> Result<(), ArgumentE
     }
 }
 
-/// The largest magnitude of a number that describes a mechanism, in its SI unit. Constraint
-/// equations and their derivatives multiply up to four of them, and norms square such products:
-/// above, rows overflow, and what is known of a mechanism whose rows are not numbers would be said
-/// of another one. The observable universe has 1e27 m and 1e53 kg.
+/// The largest magnitude of a number that describes a mechanism, in its SI unit. Products of five
+/// such numbers are finite; above it, products in rows and in their rounding bounds overflow, and
+/// wrong verdicts were seen from 1e100 on. The observable universe has 1e27 m and 1e53 kg.
 pub const LARGEST: f64 = 1e60;
 
 /// Whether a number may describe a mechanism: it is finite and not above [`LARGEST`].

@@ -116,7 +116,7 @@ impl Function {
     /// The constant function.
     ///
     /// # Errors
-    /// If it is not finite.
+    /// If it is not usable ([`LARGEST`]).
     pub fn constant(value: f64) -> Result<Self, FunctionError> {
         Self::polynomial(&[value])
     }
@@ -124,7 +124,7 @@ impl Function {
     /// `rate·t`
     ///
     /// # Errors
-    /// If the rate is not finite.
+    /// If the rate is not usable ([`LARGEST`]).
     pub fn constant_rate(rate: f64) -> Result<Self, FunctionError> {
         usable("rate", &[rate])?;
         Self::polynomial(&[0.0, rate])
@@ -142,7 +142,7 @@ impl Function {
     /// `amplitude·sin(omega·t + phase) + offset`
     ///
     /// # Errors
-    /// If a number is not finite.
+    /// If a number is not usable.
     pub fn harmonic(
         amplitude: f64,
         omega: f64,
@@ -165,7 +165,7 @@ impl Function {
     /// `by·(10s³ − 15s⁴ + 6s⁵)`.
     ///
     /// # Errors
-    /// If a number is not finite or a step has no duration.
+    /// If a number is not usable or a step has no duration.
     pub fn steps(start: f64, steps: &[[f64; 3]]) -> Result<Self, FunctionError> {
         usable("start", &[start])?;
         for (k, &[from, to, by]) in steps.iter().enumerate() {
@@ -190,7 +190,7 @@ impl Function {
     /// The natural cubic spline through a table, continued as a straight line on both sides.
     ///
     /// # Errors
-    /// If there are fewer than two points, times are not increasing, or a number is not finite.
+    /// If there are fewer than two points, times are not increasing, or a number is not usable.
     pub fn table(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later > earlier)?;
         Ok(Self(Law::Table(Spline::natural(times, values))))
@@ -209,7 +209,7 @@ impl Function {
     ///
     /// # Errors
     /// If there are fewer than two points, times decrease, more than two are equal, the first or
-    /// last two are equal, or a number is not finite.
+    /// last two are equal, or a number is not usable.
     pub fn lines(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later >= earlier)?;
         let last = times.len() - 1;

@@ -122,7 +122,7 @@ fn label(error: &ArgumentError) -> &'static str {
     match error {
         ArgumentError::Negative { .. } => "may not be negative",
         ArgumentError::NoDirection { .. } => "has no direction",
-        ArgumentError::NotFinite { .. } => "not finite",
+        ArgumentError::NotFinite { .. } => "not a usable number",
         _ => "not possible",
     }
 }

@@ -71,8 +71,8 @@ pub enum BuildError {
         /// Its y component.
         y: f64,
     },
-    /// A tolerance is not a finite number > 0.
-    #[error("{of}: {field} is {value}, need a finite number > 0")]
+    /// A tolerance is not a finite number > 0 up to [`LARGEST`].
+    #[error("{of}: {field} is {value:?}, need a finite number > 0 up to {LARGEST:e}")]
     Tolerance {
         /// The item for which it is stated.
         of: Stated,

@@ -194,7 +194,7 @@ fn what_is_stated_later_replaces_that_of_the_scene_alone() {
     let refused = mechanism.set_tolerance(wrong).expect_err("0 is none");
     assert_eq!(
         refused.to_string(),
-        "the scene: angle tolerance is 0, need a finite number > 0"
+        "the scene: angle tolerance is 0.0, need a finite number > 0 up to 1e60"
     );
     assert_eq!(mechanism.tolerance(), stated_later);
 }
@@ -210,7 +210,7 @@ fn what_is_no_tolerance_is_named_with_its_owner() {
         let faults = Mechanism::build(&d).err().expect("four faults");
         let told: Vec<String> = faults.iter().map(ToString::to_string).collect();
         let expected = ["the scene", "body `right`", "joint `edge`", "drive `motor`"]
-            .map(|of| format!("{of}: tolerance is {wrong}, need a finite number > 0"));
+            .map(|of| format!("{of}: tolerance is {wrong:?}, need a finite number > 0 up to 1e60"));
         assert_eq!(told, expected);
     }
 }

@@ -93,6 +93,35 @@ fn first_minutes_slips_are_answered_as_the_page_says() {
     }
 }
 
+#[test]
+fn first_minutes_slips_of_commands_are_answered_as_the_page_says() {
+    let page = flat(&page("README.md"));
+    for (arguments, answers) in [
+        (
+            &["run", "four-bar.toml"][..],
+            [
+                "unrecognized subcommand 'run'",
+                "a similar subcommand exists: 'simulate'",
+            ],
+        ),
+        (
+            &["simulate", "four-bar.toml", "-o", "run"],
+            [
+                "unexpected argument '-o' found",
+                "a similar argument exists: '--out'",
+            ],
+        ),
+    ] {
+        let output = pfaff(arguments);
+        assert_eq!(output.status.code(), Some(2));
+        let said = flat(&stderr(&output));
+        for answer in answers {
+            assert!(said.contains(answer), "{arguments:?}: {said}");
+            assert!(page.contains(answer), "the page lacks: {answer}");
+        }
+    }
+}
+
 /// The swing of the rocker between its dead positions, and a point of the coupler after half a
 /// turn, where the intersection of two circles gives it.
 #[test]

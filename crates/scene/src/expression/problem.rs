@@ -104,7 +104,7 @@ impl Problem {
             Self::Pi => "needs its unit",
             Self::DivisionByZero => "is zero",
             Self::Undefined { .. } => "not a number",
-            Self::Overflow => "not finite",
+            Self::Overflow => "not a usable number",
         }
     }
 

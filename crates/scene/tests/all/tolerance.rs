@@ -89,9 +89,9 @@ fn every_wrong_one_has_its_place() {
     assert_eq!(
         told,
         [
-            "0: the scene: tolerance is 0, need a finite number > 0",
-            "-2.0: body `b`: tolerance is -2, need a finite number > 0",
-            "-3.0: joint `A`: tolerance is -3, need a finite number > 0",
+            "0: the scene: tolerance is 0.0, need a finite number > 0 up to 1e60",
+            "-2.0: body `b`: tolerance is -2.0, need a finite number > 0 up to 1e60",
+            "-3.0: joint `A`: tolerance is -3.0, need a finite number > 0 up to 1e60",
         ]
     );
     let text = with("angle_tolerance = -1.0\n", "");
