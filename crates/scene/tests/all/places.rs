@@ -227,7 +227,7 @@ fn faults_have_their_places() {
             (
                 "tolerance = 1e-5",
                 "tolerance = «0.0»",
-                "marker `tip`: tolerance is 0, need a finite number > 0",
+                "marker `tip`: tolerance is 0.0, need a finite number > 0 up to 1e60",
                 "expected a number > 0",
             ),
             (
