@@ -71,16 +71,13 @@ pub(crate) fn file_name(definition: &str) -> String {
     name + ".toml"
 }
 
-/// All files there are.
+/// All files of planar definitions; the spatial ones are in the folder `space`.
 pub(crate) fn files() -> BTreeSet<String> {
     let entries = fs::read_dir(directory()).expect("tests/golden exists");
     entries
-        .map(|e| {
-            e.expect("readable")
-                .file_name()
-                .to_string_lossy()
-                .into_owned()
-        })
+        .map(|e| e.expect("readable"))
+        .filter(|e| e.path().is_file())
+        .map(|e| e.file_name().to_string_lossy().into_owned())
         .collect()
 }
 
