@@ -1,23 +1,60 @@
-//! `crates/joints/definitions/*.rs` → `crates/joints/src/generated/`.
+//! `crates/joints/definitions/*.rs` → `crates/joints/src/generated/`, and for space
+//! `definitions/space/*.rs` → `generated/space3/`.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use ::codegen::{Expansion, Kind, expand_file, snake_case};
+use ::codegen::{Expansion, Kind, Space, expand_file, snake_case};
 
 use crate::tree::root;
 
 const DEFINITIONS: &str = "crates/joints/definitions";
 const GENERATED: &str = "crates/joints/src/generated";
 
+/// The folders of a space, below those of all; and how its definitions are listed.
+struct Family {
+    definitions: &'static str,
+    generated: &'static str,
+    /// Words for its definitions.
+    adjective: &'static str,
+    /// Prefix of the functions that visit them.
+    prefix: &'static str,
+    /// The bound of their visitors.
+    visitor: &'static str,
+    /// What its list begins with.
+    head: &'static str,
+}
+
+const FAMILIES: [Family; 2] = [
+    Family {
+        definitions: "",
+        generated: "",
+        adjective: "planar",
+        prefix: "plane_",
+        visitor: "Visitor",
+        head: "use crate::visitor::Visitor;\n\npub mod space3;\n",
+    },
+    Family {
+        definitions: "space/",
+        generated: "space3/",
+        adjective: "spatial",
+        prefix: "",
+        visitor: "Visitor<Space3>",
+        head: "use crate::space::Space3;\nuse crate::visitor::Visitor;\n\n",
+    },
+];
+
 /// Writes all generated files and removes those whose definition no longer exists.
 pub(crate) fn write() -> Result<String, String> {
     let root = root();
     let files = generate(&root)?;
     let folder = root.join(GENERATED);
-    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    for name in present(&folder)? {
+    for Family { generated, .. } in &FAMILIES {
+        let folder = folder.join(generated);
+        fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    }
+    for name in all_present(&folder)? {
         if !files.contains_key(&name) {
             let path = folder.join(&name);
             fs::remove_file(&path).map_err(|e| format!("{}: {e}", path.display()))?;
@@ -36,7 +73,7 @@ pub(crate) fn check() -> Result<String, String> {
     let files = generate(&root)?;
     let folder = root.join(GENERATED);
     let mend = "run `cargo xtask codegen` and commit the result";
-    for name in present(&folder)? {
+    for name in all_present(&folder)? {
         if !files.contains_key(&name) {
             return Err(format!(
                 "{GENERATED}/{name} has no definition any more: {mend}"
@@ -75,25 +112,45 @@ fn present(folder: &Path) -> Result<Vec<String>, String> {
     Ok(names)
 }
 
+/// Names of the generated files of all spaces, as they are found.
+fn all_present(folder: &Path) -> Result<Vec<String>, String> {
+    let mut all = Vec::new();
+    for Family { generated, .. } in &FAMILIES {
+        let names = present(&folder.join(generated))?.into_iter();
+        all.extend(names.map(|name| format!("{generated}{name}")));
+    }
+    Ok(all)
+}
+
 /// All generated files by name.
 fn generate(root: &Path) -> Result<BTreeMap<String, String>, String> {
-    let folder = root.join(DEFINITIONS);
     let mut files = BTreeMap::new();
-    let mut expansions = Vec::new();
-    for name in present(&folder)? {
-        let path = folder.join(&name);
-        let source = fs::read_to_string(&path)
-            .map_err(|e| format!("{}: {e}", path.display()))?
-            .replace("\r\n", "\n");
-        let runtime = "crate".parse().map_err(|e| format!("{e}"))?;
-        let expansion = expand_file(&source, &runtime).map_err(|e| located(&name, &e))?;
-        if name != format!("{}.rs", snake_case(&expansion.name)) {
-            return Err(format!("{DEFINITIONS}/{name} defines `{}`", expansion.name));
+    for family in &FAMILIES {
+        let folder = root.join(DEFINITIONS).join(family.definitions);
+        let mut expansions = Vec::new();
+        for file in present(&folder)? {
+            let name = format!("{}{file}", family.definitions);
+            let path = folder.join(&file);
+            let source = fs::read_to_string(&path)
+                .map_err(|e| format!("{}: {e}", path.display()))?
+                .replace("\r\n", "\n");
+            let runtime = "crate".parse().map_err(|e| format!("{e}"))?;
+            let expansion = expand_file(&source, &runtime).map_err(|e| located(&name, &e))?;
+            if file != format!("{}.rs", snake_case(&expansion.name)) {
+                return Err(format!("{DEFINITIONS}/{name} defines `{}`", expansion.name));
+            }
+            if (expansion.space == Space::Plane) != family.definitions.is_empty() {
+                return Err(format!(
+                    "{DEFINITIONS}/{name} is of another space than its folder"
+                ));
+            }
+            let text = print(&name, &expansion)?;
+            files.insert(format!("{}{file}", family.generated), text);
+            expansions.push(expansion);
         }
-        files.insert(name.clone(), print(&name, &expansion)?);
-        expansions.push(expansion);
+        let index = print_index(family, &expansions)?;
+        files.insert(format!("{}mod.rs", family.generated), index);
     }
-    files.insert("mod.rs".to_owned(), print_index(&expansions)?);
     Ok(files)
 }
 
@@ -116,10 +173,18 @@ fn print(name: &str, expansion: &Expansion) -> Result<String, String> {
 }
 
 /// The module that lists all definitions and passes them to visitors.
-fn print_index(expansions: &[Expansion]) -> Result<String, String> {
+fn print_index(family: &Family, expansions: &[Expansion]) -> Result<String, String> {
     use std::fmt::Write;
+    let Family {
+        definitions,
+        adjective,
+        prefix,
+        visitor,
+        head,
+        ..
+    } = family;
     let mut text = format!(
-        "//! Generated by `cargo xtask codegen` from `{DEFINITIONS}/`. Do not edit.\n\nuse crate::visitor::Visitor;\n\n"
+        "//! Generated by `cargo xtask codegen` from `{DEFINITIONS}/{definitions}`. Do not edit.\n\n{head}"
     );
     let mut modules = String::new();
     let (mut constraints, mut forces) = (String::new(), String::new());
@@ -146,10 +211,10 @@ fn print_index(expansions: &[Expansion]) -> Result<String, String> {
         prettyplease::unparse(
             &syn::parse_str(&format!(
                 "{modules}
-                /// Shows all planar constraints to a visitor, in alphabetical order.
-                pub fn plane_constraints<V: Visitor>(visitor: &mut V) {{ {constraints} }}
-                /// Shows all planar forces to a visitor, in alphabetical order.
-                pub fn plane_forces<V: Visitor>(visitor: &mut V) {{ {forces} }}"
+                /// Shows all {adjective} constraints to a visitor, in alphabetical order.
+                pub fn {prefix}constraints<V: {visitor}>(visitor: &mut V) {{ {constraints} }}
+                /// Shows all {adjective} forces to a visitor, in alphabetical order.
+                pub fn {prefix}forces<V: {visitor}>(visitor: &mut V) {{ {forces} }}"
             ))
             .map_err(|e| e.to_string())?
         )

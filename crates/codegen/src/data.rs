@@ -4,12 +4,14 @@
 
 use proc_macro2::Ident;
 use quote::{format_ident, quote};
-use symbolic::{Derivation, Expr, Scalar};
+use symbolic::{Expr, Scalar};
 
+use crate::defined::Along;
 use crate::elaborate::{Model, not_polynomial};
 use crate::identity;
 use crate::kernel::kernel;
 use crate::parse::{Definition, Kept, ParamKind};
+use crate::vector::cross;
 
 /// Numbers that form one quantity, as the two components of a point.
 #[derive(Clone)]
@@ -25,15 +27,31 @@ pub(crate) struct Datum {
     pub(crate) symbols: Vec<Expr>,
 }
 
+impl Datum {
+    /// Number of its numbers: axes have the three of a rotation, an angle by cosine and sine one.
+    pub(crate) fn count(&self) -> usize {
+        match self.shape {
+            Shape::Axes(_) => 3,
+            Shape::Turn => 1,
+            _ => self.symbols.len(),
+        }
+    }
+}
+
 /// The meaning of the numbers of a datum.
 #[derive(Clone)]
 pub(crate) enum Shape {
     Point(Ident),
     Direction(Ident),
+    /// Axes, by nine symbols; the numbers are a rotation vector.
+    Axes(Ident),
     Line,
+    Plane,
     /// One number with its unit, and its index in a list of several.
     Number(Ident, Option<usize>),
     Kept(Ident),
+    /// An angle kept by its cosine and sine; the number is its change.
+    Turn,
     KeptVector(Ident),
 }
 
@@ -55,6 +73,8 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
         match &p.kind {
             ParamKind::Point(slot) => push(name, Shape::Point(slot.clone()), values),
             ParamKind::Direction(slot) => push(name, Shape::Direction(slot.clone()), values),
+            ParamKind::Axes { slot, .. } => push(name, Shape::Axes(slot.clone()), values),
+            ParamKind::GroundPlane => push(name, Shape::Plane, values),
             ParamKind::GroundLine => {
                 let (start, along) = model.inputs.line(&name);
                 push(name, Shape::Line, &[start, along].concat());
@@ -102,17 +122,56 @@ pub(crate) fn of_measure(model: &Model, unit: Ident) -> Datum {
     }
 }
 
+/// The initial angle of the measure of a drive in space.
+pub(crate) fn of_turn(model: &Model) -> Datum {
+    Datum {
+        name: "measure_0".to_owned(),
+        shape: Shape::Turn,
+        field: format_ident!("measure_0"),
+        overridden_by: None,
+        symbols: model.inputs.turn_0.to_vec(),
+    }
+}
+
 /// The derivation with respect to each number, in order.
-pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Derivation> {
-    let numbers = data.iter().flat_map(|d| d.symbols.iter().copied());
-    numbers.map(|number| by(model, number)).collect()
+pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Along> {
+    let mut all = Vec::new();
+    for datum in data {
+        for k in 0..datum.count() {
+            all.push(by(model, datum, k));
+        }
+    }
+    all
+}
+
+/// The images of the symbols of a datum along its number `k`.
+fn images(model: &mut Model, datum: &Datum, k: usize) -> Vec<(Expr, Expr)> {
+    let g = &mut model.g;
+    match datum.shape {
+        Shape::Axes(_) => {
+            let (zero, one) = (g.number(0.0), g.number(1.0));
+            let turn: Vec<Expr> = (0..3).map(|j| if j == k { one } else { zero }).collect();
+            let mut images = Vec::new();
+            for direction in datum.symbols.chunks(3) {
+                let turned = cross(g, &turn, direction);
+                images.extend(direction.iter().copied().zip(turned));
+            }
+            images
+        }
+        Shape::Turn => {
+            let (cos, sin) = (datum.symbols[0], datum.symbols[1]);
+            vec![(cos, g.neg(sin)), (sin, cos)]
+        }
+        _ => vec![(datum.symbols[k], g.number(1.0))],
+    }
 }
 
 /// The derivation with respect to one number. The images of computed values are their own
 /// derivatives, each found with those of the values before it.
-fn by(model: &mut Model, number: Expr) -> Derivation {
-    let mut images = vec![(number, model.g.number(1.0))];
-    let mut along = Derivation::new(&model.g, &images);
+fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
+    let mut images = images(model, datum, k);
+    let number = datum.symbols[k];
+    let mut along = model.inputs.derivation(&model.g, &images);
     for k in 0..model.kept.len() {
         if !model.is_computed(&model.kept[k]) {
             continue;
@@ -121,11 +180,11 @@ fn by(model: &mut Model, number: Expr) -> Derivation {
         let pairs: Vec<(Expr, Expr)> = pairs.map(|(&symbol, &value)| (symbol, value)).collect();
         for (symbol, value) in pairs {
             let slope = along.apply(&mut model.g, value);
-            if !identity::is_zero(&model.g, &model.inputs, slope) {
+            if !identity::is_zero(&mut model.g, &model.inputs, slope) {
                 images.push((symbol, polynomial(model, slope, symbol, number)));
             }
         }
-        along = Derivation::new(&model.g, &images);
+        along = model.inputs.derivation(&model.g, &images);
     }
     along
 }
@@ -136,6 +195,7 @@ fn polynomial(model: &mut Model, slope: Expr, of: Expr, by: Expr) -> Expr {
     if !not_polynomial(model, slope) {
         return slope;
     }
+    let slope = model.expand(slope);
     let printed = kernel(model, &[slope], Scalar::F64);
     let (statements, outputs) = (&printed.statements, &printed.outputs);
     let access = quote!({ #(#statements)* #(#outputs)* }).to_string();

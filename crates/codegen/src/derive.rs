@@ -6,16 +6,16 @@
 
 use proc_macro2::Ident;
 use quote::format_ident;
-use symbolic::{Derivation, Expr};
+use symbolic::Expr;
 
+use crate::defined::Along;
 use crate::elaborate::{ConstraintBody, Model, Source};
 use crate::identity;
+use crate::space::Space;
+use crate::vector::{Components, Frame, Vector, cross, dot};
 
 /// A sparse block: (row, column) and value.
 pub(crate) type Sparse = Vec<([usize; 2], Expr)>;
-
-/// Degrees of freedom of a planar body.
-pub(crate) const N_DOF: usize = 3;
 
 /// An entry of C.
 pub(crate) struct Entry {
@@ -35,7 +35,7 @@ pub(crate) struct ConstraintKernels {
     pub(crate) gamma: Vec<Expr>,
     pub(crate) wrench: Sparse,
     pub(crate) component: Vec<Expr>,
-    pub(crate) place: [Expr; 2],
+    pub(crate) place: Components,
     pub(crate) d_force_dx: Sparse,
     pub(crate) d_residual_dx: Sparse,
     pub(crate) d_gamma_dv: Sparse,
@@ -46,10 +46,34 @@ pub(crate) struct ConstraintKernels {
 }
 
 impl ConstraintKernels {
+    /// Replaces all symbols that stand for something.
+    fn expand(&mut self, model: &mut Model) {
+        let dense = [
+            &mut self.phi,
+            &mut self.b,
+            &mut self.gamma,
+            &mut self.component,
+            &mut self.place,
+            &mut self.d_phi_dp,
+            &mut self.d_residual_dp,
+        ];
+        let sparse = [
+            &mut self.wrench,
+            &mut self.d_force_dx,
+            &mut self.d_residual_dx,
+            &mut self.d_gamma_dv,
+            &mut self.d_velocity_dx,
+        ];
+        expand_all(model, dense.into_iter().flatten());
+        expand_all(model, sparse.into_iter().flatten().map(|(_, e)| e));
+        expand_all(model, self.c.iter_mut().map(|entry| &mut entry.value));
+    }
+
     /// The unit of the measure that a driven row prescribes: it is an angle if the row does not
     /// depend on the velocities of origins.
-    pub(crate) fn unit_of_measure(&self) -> Ident {
-        if self.c.iter().all(|e| e.column % N_DOF == N_DOF - 1) {
+    pub(crate) fn unit_of_measure(&self, space: Space) -> Ident {
+        let rotates = |e: &Entry| space.is_rotation(e.column % space.n_dof());
+        if self.c.iter().all(rotates) {
             format_ident!("Angle")
         } else {
             format_ident!("Length")
@@ -69,8 +93,9 @@ pub(crate) enum Component {
     None,
     /// The component of the force along the body's vector.
     Along,
-    /// The force along the measure that this motion moves: `−∂Φ/∂motion` for each multiplier.
-    Motion(Expr),
+    /// The force along the measure that a motion moves: the negative of this derivative of Φ for each
+    /// multiplier.
+    Motion(Along),
 }
 
 /// Derives the kernels of a constraint, or reports which row restricts no motion. Rows of Ψ are
@@ -80,7 +105,7 @@ pub(crate) fn constraint(
     model: &mut Model,
     body: &ConstraintBody,
     component: &Component,
-    data: &[Derivation],
+    data: &[Along],
 ) -> Result<ConstraintKernels, usize> {
     let columns = columns(model);
     let velocity: Vec<Expr> = if body.holonomic {
@@ -104,11 +129,10 @@ pub(crate) fn constraint(
         })
         .collect();
     let place = body.place.to_ground(&mut model.g, &model.turns);
-    let wrench = wrench(model, &c, place, body.rows.len());
+    let wrench = wrench(model, &c, &place, body.rows.len());
     let component = match component {
         Component::None => Vec::new(),
-        Component::Motion(motion) => {
-            let along = Derivation::partial(&mut model.g, *motion);
+        Component::Motion(along) => {
             let rows = body.rows.iter();
             rows.map(|&row| {
                 let slope = along.apply(&mut model.g, row);
@@ -119,7 +143,7 @@ pub(crate) fn constraint(
         Component::Along => {
             let (_, along) = body.component.as_ref().expect("the definition has one");
             let along = along.to_ground(&mut model.g, &model.turns);
-            force_along(model, &c, along, body.rows.len())
+            force_along(model, &c, &along, body.rows.len())
         }
     };
     let restricts_start = body
@@ -127,8 +151,27 @@ pub(crate) fn constraint(
         .iter()
         .map(|&row| !keeps_start(model, row))
         .collect();
-    let residuals = residuals(model, &c, &gamma);
-    let d_force_dx = force_derivatives(model, &c, &columns);
+    let residuals = match model.inputs.space {
+        Space::Plane => residuals(model, &c, &gamma),
+        Space::Space3 => {
+            let full = model.inputs.full_time_derivation(&mut model.g);
+            let rows = velocity.iter();
+            rows.map(|&e| full.apply(&mut model.g, e)).collect()
+        }
+    };
+    let d_force_dx = match model.inputs.space {
+        Space::Plane => force_derivatives(model, &c, &columns),
+        Space::Space3 => {
+            let power = weighted(model, &body.rows, &body.vectors);
+            let power = if body.holonomic {
+                model.time.apply(&mut model.g, power)
+            } else {
+                power
+            };
+            let forces = along_velocities(model, power);
+            along_columns(model, &forces, &columns)
+        }
+    };
     let d_residual_dx = along_columns(model, &residuals, &columns);
     let d_gamma_dv = velocity_derivatives(model, &gamma);
     let d_velocity_dx = along_columns(model, &velocity, &columns);
@@ -137,9 +180,16 @@ pub(crate) fn constraint(
     } else {
         Vec::new()
     };
-    let d_phi_dp = gradient(model, &phi, data);
-    let d_residual_dp = gradient(model, &residuals, data);
-    Ok(ConstraintKernels {
+    let vectors = if body.holonomic { &body.vectors[..] } else { &[] };
+    let d_phi_dp = gradient(model, &phi, vectors, data);
+    let d_residual_dp = match model.inputs.space {
+        Space::Plane => gradient(model, &residuals, &[], data),
+        Space::Space3 => {
+            let vectors = second_rates(model, body);
+            gradient(model, &residuals, &vectors, data)
+        }
+    };
+    let mut kernels = ConstraintKernels {
         phi,
         restricts_start,
         c,
@@ -154,7 +204,13 @@ pub(crate) fn constraint(
         d_velocity_dx,
         d_phi_dp,
         d_residual_dp,
-    })
+    };
+    kernels.expand(model);
+    Ok(kernels)
+}
+
+fn expand_all<'a>(model: &mut Model, all: impl Iterator<Item = &'a mut Expr>) {
+    all.for_each(|e| *e = model.expand(*e));
 }
 
 /// Derives the kernels of a force: `Q = Σ law·∂coordinate/∂x`.
@@ -167,14 +223,22 @@ pub(crate) fn force(model: &mut Model, terms: &[(Expr, Expr)]) -> ForceKernels {
             let parts: Vec<(f64, Expr)> = terms
                 .iter()
                 .map(|&(law, coordinate)| {
-                    let lever = along.apply(&mut model.g, coordinate);
+                    let is_rate = model.depends_on(coordinate, |s| matches!(s, Source::Twist { .. }));
+                    let lever = if is_rate {
+                        let n_dof = model.inputs.space.n_dof();
+                        let v = model.inputs.slots[k / n_dof].twist[k % n_dof];
+                        let by = model.inputs.partial(&mut model.g, v);
+                        by.apply(&mut model.g, coordinate)
+                    } else {
+                        along.apply(&mut model.g, coordinate)
+                    };
                     (1.0, model.g.mul(law, lever))
                 })
                 .collect();
             (k, model.g.sum(&parts))
         })
         .collect();
-    q.retain(|(_, e)| !identity::is_zero(&model.g, &model.inputs, *e));
+    q.retain(|(_, e)| !identity::is_zero(&mut model.g, &model.inputs, *e));
     let mut dq_dx = Vec::new();
     for &(row, e) in &q {
         for (column, along) in columns.iter().enumerate() {
@@ -186,23 +250,28 @@ pub(crate) fn force(model: &mut Model, terms: &[(Expr, Expr)]) -> ForceKernels {
     for (at, _) in &mut dq_dv {
         at[0] = q[at[0]].0;
     }
+    let entries = q.iter_mut().map(|(_, e)| e);
+    let derivatives = dq_dx.iter_mut().chain(&mut dq_dv).map(|(_, e)| e);
+    expand_all(model, entries.chain(derivatives));
     ForceKernels { q, dq_dx, dq_dv }
 }
 
 /// The derivation along each degree of freedom of each slot.
-fn columns(model: &mut Model) -> Vec<Derivation> {
-    (0..model.inputs.slots.len() * N_DOF)
-        .map(|k| model.inputs.along_dof(&mut model.g, k / N_DOF, k % N_DOF))
+fn columns(model: &mut Model) -> Vec<Along> {
+    let n_dof = model.inputs.space.n_dof();
+    (0..model.inputs.slots.len() * n_dof)
+        .map(|k| model.inputs.along_dof(&mut model.g, k / n_dof, k % n_dof))
         .collect()
 }
 
 fn c_block(model: &mut Model, velocity: &[Expr], n: usize) -> Vec<Entry> {
+    let n_dof = model.inputs.space.n_dof();
     let mut c = Vec::new();
     for (row, &e) in velocity.iter().enumerate() {
         for column in 0..n {
-            let v = model.inputs.slots[column / N_DOF].twist[column % N_DOF];
-            let value = Derivation::partial(&mut model.g, v).apply(&mut model.g, e);
-            if !identity::is_zero(&model.g, &model.inputs, value) {
+            let v = model.inputs.slots[column / n_dof].twist[column % n_dof];
+            let value = model.inputs.partial(&mut model.g, v).apply(&mut model.g, e);
+            if !identity::is_zero(&mut model.g, &model.inputs, value) {
                 let varies =
                     |s: &Source| matches!(s, Source::Pose { .. } | Source::Function { .. });
                 let constant = !model.depends_on(value, varies);
@@ -224,11 +293,12 @@ fn b_rows(model: &mut Model, velocity: &[Expr]) -> Vec<Expr> {
         .inputs
         .slots
         .iter()
-        .flat_map(|s| s.twist.map(|v| (v, zero)))
+        .flat_map(|s| s.twist.iter().map(|&v| (v, zero)))
         .collect();
     let b: Vec<Expr> = velocity
         .iter()
         .map(|&e| {
+            let e = model.expand(e);
             let drift = model.g.substitute(e, &at_rest);
             model.g.neg(drift)
         })
@@ -240,23 +310,30 @@ fn b_rows(model: &mut Model, velocity: &[Expr]) -> Vec<Expr> {
     }
 }
 
-/// `[Fx, Fy, T]` on the first body about the place, for each multiplier: the force is `−C_vᵀ`; the
-/// torque is `−C_ωᵀ` at the mass centre, transferred to the place with the arm from the body's
-/// origin.
-fn wrench(model: &mut Model, c: &[Entry], place: [Expr; 2], rows: usize) -> Sparse {
-    let [x, y, ..] = model.inputs.slots[0].pose;
-    let lever = [model.g.sub(place[0], x), model.g.sub(place[1], y)];
+/// Force and moment on the first body about the place, for each multiplier: the force is `−C_vᵀ`; the
+/// moment is `−C_ωᵀ` at the mass centre, transferred to the place with the arm from the body's origin.
+/// In space `−C_ωᵀ` has components in the body, the moment those of the ground.
+fn wrench(model: &mut Model, c: &[Entry], place: &Components, rows: usize) -> Sparse {
+    let (space, dim) = (model.inputs.space, model.inputs.space.dim());
+    let lever: Components = (0..dim)
+        .map(|k| model.g.sub(place[k], model.inputs.slots[0].pose[k]))
+        .collect();
     let mut map = Vec::new();
-    for component in 0..N_DOF {
+    for component in 0..space.n_dof() {
         for row in 0..rows {
             push(&mut map, model, component, row, |m| {
-                let [cx, cy, cw] = [0, 1, 2].map(|k| entry(m, c, row, k));
-                match component {
-                    0 => m.g.neg(cx),
-                    1 => m.g.neg(cy),
-                    _ => {
-                        let (a, b) = (m.g.mul(lever[0], cy), m.g.mul(lever[1], cx));
-                        m.g.sum(&[(1.0, a), (-1.0, b), (-1.0, cw)])
+                let all: Components = (0..space.n_dof()).map(|k| entry(m, c, row, k)).collect();
+                let (force, moment) = all.split_at(dim);
+                match (space, component.checked_sub(dim)) {
+                    (_, None) => m.g.neg(force[component]),
+                    (Space::Plane, _) => {
+                        let (a, b) = (m.g.mul(lever[0], force[1]), m.g.mul(lever[1], force[0]));
+                        m.g.sum(&[(1.0, a), (-1.0, b), (-1.0, moment[0])])
+                    }
+                    (Space::Space3, Some(k)) => {
+                        let transferred = cross(&mut m.g, &lever, force)[k];
+                        let own = m.turns[0].clone().to_ground(&mut m.g, moment)[k];
+                        m.g.sub(transferred, own)
                     }
                 }
             });
@@ -266,12 +343,12 @@ fn wrench(model: &mut Model, c: &[Entry], place: [Expr; 2], rows: usize) -> Spar
 }
 
 /// Coefficients of the component along a vector of the force on the first body.
-fn force_along(model: &mut Model, c: &[Entry], along: [Expr; 2], rows: usize) -> Vec<Expr> {
+fn force_along(model: &mut Model, c: &[Entry], along: &Components, rows: usize) -> Vec<Expr> {
     (0..rows)
         .map(|row| {
-            let [cx, cy] = [0, 1].map(|k| entry(model, c, row, k));
-            let (x, y) = (model.g.mul(cx, along[0]), model.g.mul(cy, along[1]));
-            model.g.sum(&[(-1.0, x), (-1.0, y)])
+            let force: Components = (0..along.len()).map(|k| entry(model, c, row, k)).collect();
+            let along = dot(&mut model.g, &force, along);
+            model.g.neg(along)
         })
         .collect()
 }
@@ -295,7 +372,7 @@ fn keeps_start(model: &Model, row: Expr) -> bool {
 }
 
 /// `∂(Cᵀλ)/∂x`
-fn force_derivatives(model: &mut Model, c: &[Entry], columns: &[Derivation]) -> Sparse {
+fn force_derivatives(model: &mut Model, c: &[Entry], columns: &[Along]) -> Sparse {
     let forces: Vec<Expr> = (0..columns.len())
         .map(|column| {
             let terms: Vec<(f64, Expr)> = c
@@ -311,6 +388,7 @@ fn force_derivatives(model: &mut Model, c: &[Entry], columns: &[Derivation]) -> 
 
 /// `C·a − Γ`, row by row.
 fn residuals(model: &mut Model, c: &[Entry], gamma: &[Expr]) -> Vec<Expr> {
+    let n_dof = model.inputs.space.n_dof();
     gamma
         .iter()
         .enumerate()
@@ -319,7 +397,7 @@ fn residuals(model: &mut Model, c: &[Entry], gamma: &[Expr]) -> Vec<Expr> {
                 .iter()
                 .filter(|e| e.row == row)
                 .map(|e| {
-                    let a = model.inputs.slots[e.column / N_DOF].acceleration[e.column % N_DOF];
+                    let a = model.inputs.slots[e.column / n_dof].acceleration[e.column % n_dof];
                     (1.0, model.g.mul(e.value, a))
                 })
                 .collect();
@@ -330,17 +408,17 @@ fn residuals(model: &mut Model, c: &[Entry], gamma: &[Expr]) -> Vec<Expr> {
 }
 
 /// `∂(λᵀ·rows)/∂p` for each number p of the data.
-fn gradient(model: &mut Model, rows: &[Expr], data: &[Derivation]) -> Vec<Expr> {
-    let terms: Vec<(f64, Expr)> = rows
-        .iter()
-        .enumerate()
-        .map(|(row, &e)| (1.0, model.g.mul(model.inputs.lambda[row], e)))
-        .collect();
-    let sum = model.g.sum(&terms);
+fn gradient(
+    model: &mut Model,
+    rows: &[Expr],
+    vectors: &[(usize, Vector)],
+    data: &[Along],
+) -> Vec<Expr> {
+    let sum = weighted(model, rows, vectors);
     data.iter()
         .map(|along| {
             let slope = along.apply(&mut model.g, sum);
-            if identity::is_zero(&model.g, &model.inputs, slope) {
+            if identity::is_zero(&mut model.g, &model.inputs, slope) {
                 model.g.number(0.0)
             } else {
                 slope
@@ -349,8 +427,56 @@ fn gradient(model: &mut Model, rows: &[Expr], data: &[Derivation]) -> Vec<Expr> 
         .collect()
 }
 
+/// `λᵀ·rows`. In space, rows that are the components of a vector are multiplied as vectors.
+fn weighted(model: &mut Model, rows: &[Expr], vectors: &[(usize, Vector)]) -> Expr {
+    let mut terms: Vec<(f64, Expr)> = Vec::new();
+    let mut row = 0;
+    while row < rows.len() {
+        let vector = vectors.iter().find(|(first, _)| *first == row);
+        match vector {
+            Some((_, vector)) if model.inputs.space == Space::Space3 => {
+                let dim = model.inputs.space.dim();
+                let lambda = model.inputs.lambda[row..row + dim].to_vec();
+                let lambda = Vector::new(Frame::Ground, lambda);
+                terms.push((1.0, vector.dot(&mut model.g, &lambda, &model.turns)));
+                row += dim;
+            }
+            _ => {
+                let product = model.g.mul(model.inputs.lambda[row], rows[row]);
+                terms.push((1.0, product));
+                row += 1;
+            }
+        }
+    }
+    model.g.sum(&terms)
+}
+
+/// The vectors among the rows of `C·a − Γ`.
+fn second_rates(model: &mut Model, body: &ConstraintBody) -> Vec<(usize, Vector)> {
+    let full = model.inputs.full_time_derivation(&mut model.g);
+    let vectors = body.vectors.iter().map(|(first, v)| {
+        let velocity = if body.holonomic {
+            v.rate(&mut model.g, &model.turns, &model.time)
+        } else {
+            v.clone()
+        };
+        (*first, velocity.rate(&mut model.g, &model.turns, &full))
+    });
+    vectors.collect()
+}
+
+/// Partial derivatives of a scalar by the velocities.
+fn along_velocities(model: &mut Model, e: Expr) -> Vec<Expr> {
+    let slots = model.inputs.slots.iter();
+    let twists: Vec<Expr> = slots.flat_map(|s| s.twist.iter().copied()).collect();
+    twists
+        .into_iter()
+        .map(|v| model.inputs.partial(&mut model.g, v).apply(&mut model.g, e))
+        .collect()
+}
+
 /// Derivatives of `rows` along each degree of freedom.
-fn along_columns(model: &mut Model, rows: &[Expr], columns: &[Derivation]) -> Sparse {
+fn along_columns(model: &mut Model, rows: &[Expr], columns: &[Along]) -> Sparse {
     let mut out = Vec::new();
     for (row, &e) in rows.iter().enumerate() {
         for (column, along) in columns.iter().enumerate() {
@@ -362,12 +488,13 @@ fn along_columns(model: &mut Model, rows: &[Expr], columns: &[Derivation]) -> Sp
 
 /// Partial derivatives of `rows` with respect to the velocities.
 fn velocity_derivatives(model: &mut Model, rows: &[Expr]) -> Sparse {
+    let n_dof = model.inputs.space.n_dof();
     let mut out = Vec::new();
     for (row, &e) in rows.iter().enumerate() {
-        for column in 0..model.inputs.slots.len() * N_DOF {
-            let v = model.inputs.slots[column / N_DOF].twist[column % N_DOF];
+        for column in 0..model.inputs.slots.len() * n_dof {
+            let v = model.inputs.slots[column / n_dof].twist[column % n_dof];
             push(&mut out, model, row, column, |m| {
-                Derivation::partial(&mut m.g, v).apply(&mut m.g, e)
+                m.inputs.partial(&mut m.g, v).apply(&mut m.g, e)
             });
         }
     }
@@ -382,7 +509,7 @@ fn push(
     value: impl FnOnce(&mut Model) -> Expr,
 ) {
     let value = value(model);
-    if !identity::is_zero(&model.g, &model.inputs, value) {
+    if !identity::is_zero(&mut model.g, &model.inputs, value) {
         out.push(([row, column], value));
     }
 }

@@ -19,6 +19,7 @@ use proc_macro2::Ident;
 use symbolic::{Expr, Graph};
 
 use crate::parse::{Definition, Kept, Param, ParamKind};
+use crate::space::Space;
 pub(crate) use check::not_polynomial;
 use expression::as_scalar;
 pub(crate) use inputs::{Inputs, Source};
@@ -27,17 +28,27 @@ use scope::Scope;
 use value::Value;
 
 /// Names of fields, locals and patterns of the generated type, which no parameter can have.
-const RESERVED: [&str; 5] = ["motion", "measure_0", "reader", "arguments", "None"];
+const RESERVED: [&str; 7] = [
+    "motion",
+    "motion_cos",
+    "motion_sin",
+    "measure_0",
+    "reader",
+    "arguments",
+    "None",
+];
 
 /// Names of types and traits in the generated module, which no definition can have.
-const RESERVED_TYPES: [&str; 36] = [
+const RESERVED_TYPES: [&str; 40] = [
     "Argument",
     "ArgumentError",
+    "Axes",
     "Constraint",
     "ConstraintSpec",
     "Datum",
     "DatumShape",
     "Definition",
+    "Derivatives",
     "Direction",
     "Element",
     "Entry",
@@ -45,6 +56,7 @@ const RESERVED_TYPES: [&str; 36] = [
     "Force",
     "ForceElement",
     "ForceSpec",
+    "GroundPlane",
     "Level",
     "Line",
     "Measure",
@@ -61,6 +73,7 @@ const RESERVED_TYPES: [&str; 36] = [
     "Row",
     "Shape",
     "Some",
+    "Space3",
     "Spec",
     "T",
     "Twist",
@@ -112,6 +125,7 @@ pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
         Body::Force(scope.forces()?)
     };
     check_use(&scope)?;
+    scope.model.expand_printed();
     Ok(scope.model)
 }
 
@@ -145,20 +159,42 @@ impl<'a> Scope<'a> {
         Ok(match &p.kind {
             ParamKind::Point(slot) => {
                 let slot = self.slot(slot)?;
-                let pair = self.model.inputs.pair(&name);
-                self.model
-                    .name_rotated(slot, pair, &arm_name(self.definition, p, slot));
-                Value::Point { slot, pair }
+                let local = self.model.inputs.values(&name).to_vec();
+                let arm = arm_name(self.definition, p, slot);
+                self.model.name_rotated(slot, local.clone(), &arm);
+                Value::Point { slot, local }
             }
             ParamKind::Direction(slot) => {
                 let slot = self.slot(slot)?;
-                let pair = self.model.inputs.pair(&name);
-                self.model.name_rotated(slot, pair, &name);
-                Value::Direction { slot, pair }
+                let local = self.model.inputs.values(&name).to_vec();
+                self.model.name_rotated(slot, local.clone(), &name);
+                Value::Direction { slot, local }
+            }
+            ParamKind::Axes { slot: at, like, .. } => {
+                self.only_in(Space::Space3, &p.name, "`Axes`")?;
+                let slot = self.slot(at)?;
+                if let Some(like) = like {
+                    self.check_like(like, p)?;
+                }
+                let axes = self.model.inputs.axes(&name);
+                for (local, letter) in axes.iter().zip(["u", "v", "w"]) {
+                    let name = format!("{name}_{letter}");
+                    self.model.name_rotated(slot, local.clone(), &name);
+                }
+                Value::Axes { slot, axes }
             }
             ParamKind::GroundLine => {
+                self.only_in(Space::Plane, &p.name, "`GroundLine`")?;
                 let (start, along) = self.model.inputs.line(&name);
                 Value::Line { start, along }
+            }
+            ParamKind::GroundPlane => {
+                self.only_in(Space::Space3, &p.name, "`GroundPlane`")?;
+                let values = self.model.inputs.values(&name);
+                Value::Plane {
+                    start: values[..3].to_vec(),
+                    normal: values[3..].to_vec(),
+                }
             }
             ParamKind::Numbers(units) => Value::List(
                 (0..units.len())
@@ -181,6 +217,31 @@ impl<'a> Scope<'a> {
                 }
             },
         })
+    }
+
+    /// Refuses what exists in the other space only.
+    fn only_in(&self, space: Space, at: &Ident, what: &str) -> syn::Result<()> {
+        if self.definition.space == space {
+            return Ok(());
+        }
+        Err(syn::Error::new_spanned(
+            at,
+            format!("{what} is a kind of a `{}` definition", space.word()),
+        ))
+    }
+
+    /// The parameter after `like` must be axes that stand before.
+    fn check_like(&self, like: &Ident, own: &Param) -> syn::Result<()> {
+        let before = self.definition.params.iter();
+        let mut before = before.take_while(|p| p.name != own.name);
+        let is_axes = |p: &Param| matches!(p.kind, ParamKind::Axes { .. });
+        if before.any(|p| p.name == *like && is_axes(p)) {
+            return Ok(());
+        }
+        Err(syn::Error::new_spanned(
+            like,
+            format!("`{like}` is no `Axes` parameter before `{}`", own.name),
+        ))
     }
 
     fn declare(&mut self, name: &Ident, value: Value) -> syn::Result<()> {
@@ -212,7 +273,7 @@ impl<'a> Scope<'a> {
                 Kept::Number(_) => vec![as_scalar(value, &b.value)?],
                 Kept::Vector(slot) => {
                     let slot = self.slot(slot)?;
-                    self.pair_in(slot, value, &b.value)?.to_vec()
+                    self.local_in(slot, value, &b.value)?
                 }
             };
             self.refuse_all(&b.value, check::START)?;
@@ -246,12 +307,12 @@ impl<'a> Scope<'a> {
         }
         let symbols = self.model.inputs.kept(&mut self.model.g, &field, &kind);
         let of_start = values.iter().any(|&v| self.model.depends_on_start(v));
-        let value = match (&kind, symbols.as_slice()) {
-            (Kept::Vector(slot), &[x, y]) => Value::Pair {
+        let value = match &kind {
+            Kept::Vector(slot) => Value::Local {
                 slot: self.slot(slot)?,
-                pair: [x, y],
+                local: symbols.clone(),
             },
-            _ => Value::Scalar(symbols[0]),
+            Kept::Number(_) => Value::Scalar(symbols[0]),
         };
         self.model.kept.push(KeptValue {
             field,

@@ -6,13 +6,14 @@ mod parts;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use symbolic::{Counts, Derivation, Expr, Scalar};
+use symbolic::{Counts, Expr, Scalar};
 
-use crate::data::{derivations, of_measure, stored};
+use crate::data::{derivations, of_measure, of_turn, stored};
 use crate::derive::{self, Component, ConstraintKernels, Sparse};
 use crate::elaborate::{Body, ConstraintBody, Measure, Model};
 use crate::kernel::kernel;
 use crate::parse::Definition;
+use crate::space::Space;
 use parts::{Driven, Type};
 
 /// The module of a constraint: its type and one type for the drive of each measure.
@@ -42,6 +43,7 @@ pub(crate) fn constraint(
         name: format_ident!("{}{}Drive", d.name, parts::camel(name)),
         by: match measure {
             Measure::Of(_) => Driven::Measure,
+            Measure::Angle { .. } => Driven::Turn,
             Measure::Kept(_) => Driven::Rows,
         },
     };
@@ -80,35 +82,62 @@ pub(crate) fn constraint(
                 let terms = [(1.0, value), (-1.0, model.inputs.measure_0), (-1.0, motion)];
                 (vec![model.g.sum(&terms)], vec![quote!(#measure)])
             }
+            Measure::Angle { sin, cos } => {
+                (vec![turned(&mut model, [cos, sin])], vec![quote!(#measure)])
+            }
             Measure::Kept(kept) => {
                 let moved = model.g.add(kept, motion);
                 let of_joint = body.rows.iter();
-                let rows = of_joint.map(|&row| model.g.substitute(row, &[(kept, moved)]));
+                let rows = of_joint.map(|&row| {
+                    let row = model.expand(row);
+                    model.g.substitute(row, &[(kept, moved)])
+                });
                 (rows.collect(), body.at.clone())
             }
         };
         let driven = ConstraintBody {
             holonomic: true,
             rows,
+            vectors: Vec::new(),
             at,
             place: body.place.clone(),
             component: None,
             measures: vec![(measure.clone(), *value)],
         };
         let mut by_data = by_data.clone();
-        if matches!(drive.by, Driven::Measure) {
-            by_data.push(Derivation::partial(&mut model.g, model.inputs.measure_0));
+        let own = match drive.by {
+            Driven::Measure => Some(of_measure(&model, format_ident!("Length"))),
+            Driven::Turn => Some(of_turn(&model)),
+            Driven::Rows => None,
+        };
+        if let Some(own) = &own {
+            by_data.extend(derivations(&mut model, std::slice::from_ref(own)));
         }
-        let component = Component::Motion(motion);
+        let component = Component::Motion(match drive.by {
+            Driven::Turn => {
+                let [cos, sin] = model.inputs.motion_turn.map(|jet| jet[0]);
+                let minus = model.g.neg(sin);
+                let images = [(cos, minus), (sin, cos)];
+                model.inputs.derivation(&model.g, &images)
+            }
+            Driven::Measure | Driven::Rows => model.inputs.partial(&mut model.g, motion),
+        });
         let kernels = derive::constraint(&mut model, &driven, &component, &by_data)
             .map_err(|row| idle(&driven.at, row))?;
         let mut data = data.clone();
         let (rows, doc) = match drive.by {
             Driven::Measure => {
-                data.push(of_measure(&model, kernels.unit_of_measure()));
+                data.push(of_measure(&model, kernels.unit_of_measure(d.space)));
                 (
                     vec![measure.to_string()],
                     "a function of time: measure − initial measure − f(t) = 0",
+                )
+            }
+            Driven::Turn => {
+                data.extend(own);
+                (
+                    vec![measure.to_string()],
+                    "a function of time: sin(measure − initial measure − f(t)) = 0",
                 )
             }
             Driven::Rows => (
@@ -126,9 +155,11 @@ pub(crate) fn constraint(
             scene_type: measure.to_string(),
             data,
         };
+        let mut driven = driven;
+        driven.measures[0].1 = expanded(&mut model, *value);
         items.push(constraint_type(d, &model, &drive, &kernels, &driven, text));
     }
-    let uses = parts::uses(runtime, true);
+    let uses = parts::uses(runtime, d.space, true);
     Ok(quote!(#uses #(#items)*))
 }
 
@@ -144,10 +175,7 @@ fn constraint_type(
     let structure = parts::structure(d, model, name, &t.doc, t.driven);
     let spec = facts::constraint_spec(d, t, k, body, text);
     let from_arguments = parts::from_arguments(d, model, t.driven);
-    let measure = t.driven.and_then(|_| match body.measures[0].1 {
-        Measure::Of(value) => Some(value),
-        Measure::Kept(_) => None,
-    });
+    let measure = t.driven.map(|_| body.measures[0].1);
     let initialise = parts::initialise(model, measure);
     let requirement = parts::requirement(model);
     let points = parts::points(d);
@@ -175,18 +203,19 @@ fn constraint_type(
     let b = kernel_of("b", "b", &k.b, Signature::Position);
     let gamma = kernel_of("gamma", "Γ", &k.gamma, Signature::Velocity);
     let what = "Entries of the wrench map";
-    let wrench = sparse("wrench", what, &k.wrench, Signature::Position);
+    let wrench = sparse("wrench", what, &k.wrench, Signature::Wrench);
     let what = "Coefficients of the named component";
     let component = kernel_of("component", what, &k.component, Signature::Position);
     let place = {
         let kernel = kernel(model, &k.place, Scalar::Generic);
         let doc = counted("The place of the reaction", kernel.counts);
-        let (statements, [x, y]) = (&kernel.statements, [&kernel.outputs[0], &kernel.outputs[1]]);
+        let (statements, outputs) = (&kernel.statements, &kernel.outputs);
+        let dim = parts::index(d.space.dim());
         quote! {
             #[doc = #doc]
-            fn place(&self, x: &[Pose<T>]) -> [T; 2] {
+            fn place(&self, x: &[Pose<T>]) -> [T; #dim] where T: Real {
                 #(#statements)*
-                [#x, #y]
+                [#(#outputs),*]
             }
         }
     };
@@ -199,21 +228,30 @@ fn constraint_type(
     let d_phi_dp = kernel_of("d_phi_dp", "∂(λᵀΦ)/∂p", &k.d_phi_dp, Signature::Force);
     let what = "∂(λᵀ(C·a − Γ))/∂p";
     let d_residual_dp = kernel_of("d_residual_dp", what, &k.d_residual_dp, Signature::Work);
+    let Traits {
+        constraint,
+        definition,
+        derivatives,
+        element,
+        visitor,
+        ..
+    } = Traits::of(d.space);
     quote! {
         #structure
         #drives
 
         // The methods of the trait have fixed signatures; not every definition uses every argument.
         #[allow(unused_variables)]
-        impl Constraint for #name {
+        impl #constraint for #name {
             #spec
             #from_arguments
-            fn visit_drives<V: Visitor>(visitor: &mut V) { #(#visit)* }
-            fn element<T: Ring>(&self) -> &dyn Element<T> { self }
+            fn visit_drives<V: #visitor>(visitor: &mut V) { #(#visit)* }
+            fn element<T: Ring>(&self) -> &dyn #element { self }
+            fn derivatives<T: Ring>(&self) -> &dyn #derivatives { self }
         }
 
         #[allow(unused_variables)]
-        impl Definition for #name {
+        impl #definition for #name {
             #initialise
             #requirement
             #points
@@ -222,7 +260,7 @@ fn constraint_type(
 
         #[allow(unused_variables)]
         #[allow(clippy::too_many_arguments)]
-        impl<T: Ring> Element<T> for #name {
+        impl<T: Ring> #element for #name {
             fn spec(&self) -> &'static ConstraintSpec { &Self::SPEC }
             #phi
             #c_constant
@@ -232,12 +270,78 @@ fn constraint_type(
             #wrench
             #component
             #place
+            #d_phi_dp
+        }
+
+        #[allow(unused_variables)]
+        #[allow(clippy::too_many_arguments)]
+        impl<T: Ring> #derivatives for #name {
             #d_force_dx
             #d_residual_dx
             #d_gamma_dv
             #d_velocity_dx
-            #d_phi_dp
             #d_residual_dp
+        }
+    }
+}
+
+/// The measure as it is printed.
+fn expanded(model: &mut Model, measure: Measure) -> Measure {
+    match measure {
+        Measure::Of(e) => Measure::Of(model.expand(e)),
+        Measure::Kept(e) => Measure::Kept(e),
+        Measure::Angle { sin, cos } => Measure::Angle {
+            sin: model.expand(sin),
+            cos: model.expand(cos),
+        },
+    }
+}
+
+/// The row of the drive of an angle θ in space, `sin(θ − θ₀ − f)`, from cosine and sine of the angle.
+fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
+    let [cos_0, sin_0] = model.inputs.turn_0;
+    let [cos_f, sin_f] = model.inputs.motion_turn.map(|jet| jet[0]);
+    let g = &mut model.g;
+    let mut product = |a, b| g.mul(a, b);
+    let (a, b) = (product(sin, cos_0), product(cos, sin_0));
+    let (c, d) = (product(cos, cos_0), product(sin, sin_0));
+    let (sin_since, cos_since) = (g.sub(a, b), g.add(c, d));
+    let (a, b) = (g.mul(sin_since, cos_f), g.mul(cos_since, sin_f));
+    g.sub(a, b)
+}
+
+/// The traits that the generated types of a space implement; those of the plane are their defaults.
+struct Traits {
+    constraint: TokenStream,
+    definition: TokenStream,
+    element: TokenStream,
+    derivatives: TokenStream,
+    visitor: TokenStream,
+    force: TokenStream,
+    force_element: TokenStream,
+}
+
+impl Traits {
+    fn of(space: Space) -> Self {
+        match space {
+            Space::Plane => Self {
+                constraint: quote!(Constraint),
+                definition: quote!(Definition),
+                element: quote!(Element<T>),
+                derivatives: quote!(Derivatives<T>),
+                visitor: quote!(Visitor),
+                force: quote!(Force),
+                force_element: quote!(ForceElement<T>),
+            },
+            Space::Space3 => Self {
+                constraint: quote!(Constraint<Space3>),
+                definition: quote!(Definition<Space3>),
+                element: quote!(Element<T, Space3>),
+                derivatives: quote!(Derivatives<T, Space3>),
+                visitor: quote!(Visitor<Space3>),
+                force: quote!(Force<Space3>),
+                force_element: quote!(ForceElement<T, Space3>),
+            },
         }
     }
 }
@@ -276,26 +380,32 @@ pub(crate) fn force(
         &values(&k.dq_dv),
         Signature::Velocity,
     );
-    let uses = parts::uses(runtime, false);
+    let uses = parts::uses(runtime, d.space, false);
+    let Traits {
+        definition,
+        force,
+        force_element,
+        ..
+    } = Traits::of(d.space);
     Ok(quote! {
         #uses
         #structure
 
-        impl Force for #name {
+        impl #force for #name {
             #spec
             #from_arguments
-            fn element<T: Real>(&self) -> &dyn ForceElement<T> { self }
+            fn element<T: Real>(&self) -> &dyn #force_element { self }
         }
 
         #[allow(unused_variables)]
-        impl Definition for #name {
+        impl #definition for #name {
             #initialise
             #requirement
             #points
         }
 
         #[allow(unused_variables)]
-        impl<T: Real> ForceElement<T> for #name {
+        impl<T: Real> #force_element for #name {
             fn spec(&self) -> &'static ForceSpec { &Self::SPEC }
             #q
             #dq_dx
@@ -309,6 +419,8 @@ pub(crate) fn force(
 enum Signature {
     /// No other arguments.
     Position,
+    /// No other arguments, numbers with quotients.
+    Wrench,
     /// `v`
     Velocity,
     /// `lambda`
@@ -328,9 +440,10 @@ fn method(name: &str, what: &str, model: &Model, outputs: &[Expr], s: Signature)
     let a = matches!(s, Residual | Work).then(|| quote!(a: &[Twist<T>],));
     let lambda = matches!(s, Force | Work).then(|| quote!(lambda: &[T],));
     let body = kernel.into_out();
+    let bound = matches!(s, Signature::Wrench).then(|| quote!(where T: Real));
     quote! {
         #[doc = #doc]
-        fn #name(&self, x: &[Pose<T>], #v #a f: &[[T; 3]], #lambda out: &mut [T]) { #body }
+        fn #name(&self, x: &[Pose<T>], #v #a f: &[[T; 3]], #lambda out: &mut [T]) #bound { #body }
     }
 }
 

@@ -83,33 +83,72 @@ impl Number for Measured {
 }
 
 /// Whether `e` vanishes at every configuration.
-pub(crate) fn is_zero(g: &Graph, inputs: &Inputs, e: Expr) -> bool {
+pub(crate) fn is_zero(g: &mut Graph, inputs: &Inputs, e: Expr) -> bool {
+    let e = inputs.defined.expand(g, e);
     g.is_zero(e)
         || (0..POINTS).all(|point| {
-            let at = |s| {
-                let angle = |key: &str| 6.0 * sample(point, key);
-                let name = g.name(s);
-                match inputs.source(s) {
-                    Source::Pose { slot, field: "cos" } => angle(&slot.to_string()).cos(),
-                    Source::Pose { slot, field: "sin" } => angle(&slot.to_string()).sin(),
-                    Source::Pose {
-                        slot,
-                        field: "angle",
-                    } => angle(&slot.to_string()),
-                    Source::Parameter { access } if access.contains(".xy()") => {
-                        let direction = angle(access.split('.').nth(1).unwrap_or_default());
-                        if access.ends_with("[0]") {
-                            direction.cos()
-                        } else {
-                            direction.sin()
-                        }
-                    }
-                    _ => 0.5 + sample(point, name),
-                }
-            };
+            let at = |s| value(inputs, g.name(s), inputs.source(s), point);
             let Measured { value, size } = g.evaluate(e, &|s| Measured::from(at(s)));
             value.abs() <= ROUNDING * size
         })
+}
+
+/// The value of an input at a point.
+fn value(inputs: &Inputs, name: &str, source: &Source, point: u64) -> f64 {
+    let angle = |key: &str| 6.0 * sample(point, key);
+    // The last index of an access like `self.axis.uvw()[1][2]`.
+    let index = |access: &str, back: usize| {
+        let digits = access.split(['[', ']']).rev().filter(|part| !part.is_empty());
+        let digit = digits.clone().nth(back);
+        digit.and_then(|digit| digit.parse::<usize>().ok()).unwrap_or_default()
+    };
+    match source {
+        Source::Pose { slot, field: "cos" } => angle(&slot.to_string()).cos(),
+        Source::Pose { slot, field: "sin" } => angle(&slot.to_string()).sin(),
+        Source::Pose {
+            slot,
+            field: "angle",
+        } => angle(&slot.to_string()),
+        Source::Pose { slot, field } if field.starts_with("rot") => {
+            rotation(point, &slot.to_string())[index(field, 1)][index(field, 0)]
+        }
+        Source::Parameter { access } if access.contains(".xy()") => {
+            let direction = angle(access.split('.').nth(1).unwrap_or_default());
+            if access.ends_with("[0]") {
+                direction.cos()
+            } else {
+                direction.sin()
+            }
+        }
+        Source::Parameter { access } if access.contains(".xyz()") || access.contains(".uvw()") => {
+            let axes = rotation(point, access.split('.').nth(1).unwrap_or_default());
+            match access.contains(".uvw()") {
+                true => axes[index(access, 1)][index(access, 0)],
+                false => axes[0][index(access, 0)],
+            }
+        }
+        Source::Kept { access, .. } if access == "self.measure_0[0]" => angle("measure_0").cos(),
+        Source::Kept { access, .. } if access == "self.measure_0[1]" => angle("measure_0").sin(),
+        Source::Function { order: 0, .. } if inputs.is_motion_turn(name, 0) => {
+            angle("motion").cos()
+        }
+        Source::Function { order: 0, .. } if inputs.is_motion_turn(name, 1) => {
+            angle("motion").sin()
+        }
+        _ => 0.5 + sample(point, name),
+    }
+}
+
+/// A rotation that depends on nothing but its arguments, by rows.
+fn rotation(point: u64, key: &str) -> [[f64; 3]; 3] {
+    let e = ["w", "x", "y", "z"].map(|part| 0.1 + sample(point, &format!("{key}.{part}")));
+    let square: f64 = e.iter().map(|e| e * e).sum();
+    let [w, x, y, z] = e.map(|e| e / square.sqrt());
+    [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+    ]
 }
 
 /// A number in [0, 1) that depends on nothing but its arguments (FNV-1a).

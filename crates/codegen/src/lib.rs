@@ -6,7 +6,9 @@
 //! | --- | --- |
 //! | [`invocation`](Invocation) | tokens of a macro call → runtime path, definition, text |
 //! | [`parse`] | tokens → [`parse::Definition`] |
+//! | [`Space`] | sizes, and what kernels read of a body |
 //! | `vector` | vectors as sums of parts in frames: products of parts of one frame need no rotation |
+//! | `defined` | rotated vectors and products of vectors of space, differentiated as a whole |
 //! | `elaborate` | expressions of the language → scalars of the graph, with shapes checked |
 //! | `data` | the numbers that a constraint stores, and the derivatives with respect to them |
 //! | `identity` | is an expression zero for every pose? |
@@ -17,6 +19,7 @@
 //! | `nearest` | hints for misspelt names |
 
 mod data;
+mod defined;
 mod derive;
 mod elaborate;
 mod emit;
@@ -26,6 +29,7 @@ mod kernel;
 mod names;
 mod nearest;
 pub mod parse;
+mod space;
 #[cfg(test)]
 mod testing;
 mod vector;
@@ -36,6 +40,7 @@ use quote::quote;
 pub use invocation::Invocation;
 pub use names::{kebab_case, snake_case};
 pub use parse::{Definition, Kind};
+pub use space::Space;
 
 /// A definition with its generated module.
 pub struct Expansion {
@@ -43,6 +48,8 @@ pub struct Expansion {
     pub name: String,
     /// Constraint or force.
     pub kind: Kind,
+    /// The space of its bodies.
+    pub space: Space,
     /// Items of the module: the type, its facts and its kernels.
     pub items: TokenStream,
 }
@@ -68,6 +75,7 @@ pub fn expand(
     Ok(Expansion {
         name: definition.name.to_string(),
         kind,
+        space: definition.space,
         items,
     })
 }

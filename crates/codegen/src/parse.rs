@@ -1,10 +1,11 @@
 //! The syntax of the definition language, as a tree. Its meaning is resolved later, in `elaborate`.
 //!
 //! ```text
-//! plane Name(slot, …) {
+//! plane Name(slot, …) {               or   space Name(slot, …) {
 //!     /// What it does.
 //!     params { /// What it is for.
-//!              name: Kind, … }         Point in slot · Direction in slot · GroundLine · a unit ·
+//!              name: Kind, … }         Point in slot · Direction in slot · Axes in slot [like name]
+//!                                      [optional] · GroundLine · a unit ·
 //!                                      [unit, …] · Function<unit> · [Function<unit>, …]; `= expr` makes a
 //!                                      number optional
 //!     points apart;                    the place in a scene is one point for each Point, not a common one

@@ -1,12 +1,12 @@
 //! Cases: parameters, poses and motions drawn according to the specification of a definition,
 //! ordinary and awkward ones.
 
-use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
 use joints::Argument;
-use joints::plane::{N_DOF, Pose, Twist};
 use joints::spec::{Parameter, Shape, Spec, Unit};
+
+use crate::bodies::{Bodies, axes};
 
 /// Number of ordinary cases of one check.
 pub const ORDINARY_CASES: usize = 1000;
@@ -22,13 +22,14 @@ pub(crate) const MOTIONS: usize = 4;
 pub enum Kind {
     /// None: coordinates within ±2, angles within ±π.
     Ordinary,
-    /// All frames have the same angle.
+    /// All frames have the same orientation.
     ParallelFrames,
-    /// Angles are 0, ±π/2 or ±π, and directions are along a frame axis.
+    /// Angles are 0, ±π/2 or ±π, in space such or a third of a turn, and directions are along a frame
+    /// axis.
     RightAngles,
     /// Angles differ from ±π by 1e-9.
     NearPi,
-    /// Angles of about ±1000.
+    /// Angles of about ±1000; in space quaternions of about this length.
     LargeAngles,
     /// Coordinates within ±1000.
     FarApart,
@@ -59,36 +60,44 @@ impl Kind {
     ];
 }
 
-/// Velocities, accelerations and multipliers.
+/// Velocities and accelerations, one for each degree of freedom of each slot, and multipliers.
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {
-    pub(crate) v: Vec<Twist>,
-    pub(crate) a: Vec<Twist>,
+    pub(crate) v: Vec<f64>,
+    pub(crate) a: Vec<f64>,
     pub(crate) lambda: Vec<f64>,
 }
 
 /// One case: all arguments of the kernels of a definition.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub(crate) struct Case<S: Bodies> {
     /// Its number among the cases of the check.
-    pub index: usize,
+    pub(crate) index: usize,
     /// Its special property.
-    pub kind: Kind,
+    pub(crate) kind: Kind,
     /// Values of the parameters.
-    pub arguments: Vec<Argument>,
+    pub(crate) arguments: Vec<Argument>,
     /// The assembled start, at which initial values are taken.
-    pub start: Vec<Pose>,
+    pub(crate) start: Vec<S::Pose<f64>>,
     /// The poses at which kernels are evaluated.
-    pub x: Vec<Pose>,
+    pub(crate) x: Vec<S::Pose<f64>>,
     /// The functions of time, as values with two derivatives.
-    pub f: Vec<[f64; 3]>,
+    pub(crate) f: Vec<[f64; 3]>,
+    /// Whether the last function of time enters by its cosine and sine.
+    pub(crate) turning: bool,
     pub(crate) motions: Vec<Motion>,
     pub(crate) spec: &'static Spec,
 }
 
-impl Case {
-    /// All cases for a definition with so many rows.
-    pub(crate) fn all(seed: u64, spec: &'static Spec, rows: usize) -> impl Iterator<Item = Self> {
+impl<S: Bodies> Case<S> {
+    /// All cases for a definition with so many rows; `turning` if its last function of time enters
+    /// by cosine and sine.
+    pub(crate) fn all(
+        seed: u64,
+        spec: &'static Spec,
+        rows: usize,
+        turning: bool,
+    ) -> impl Iterator<Item = Self> {
         let kinds = std::iter::repeat_n(Kind::Ordinary, ORDINARY_CASES).chain(
             Kind::AWKWARD
                 .into_iter()
@@ -101,16 +110,17 @@ impl Case {
             arguments: spec
                 .parameters
                 .iter()
-                .map(|p| argument(p, kind, &mut random))
+                .map(|p| argument::<S>(p, kind, &mut random))
                 .collect(),
-            start: poses(spec.slots.len(), kind, &mut random),
-            x: poses(spec.slots.len(), kind, &mut random),
+            start: poses::<S>(spec.slots.len(), kind, &mut random),
+            x: poses::<S>(spec.slots.len(), kind, &mut random),
             f: spec
                 .functions()
                 .map(|_| std::array::from_fn(|_| random.within(2.0)))
                 .collect(),
+            turning,
             motions: (0..MOTIONS)
-                .map(|_| motion(spec.slots.len(), rows, kind, &mut random))
+                .map(|_| motion::<S>(spec.slots.len(), rows, kind, &mut random))
                 .collect(),
             spec,
         })
@@ -126,23 +136,17 @@ impl Case {
     pub(crate) fn with_another_start(&self, attempt: u64) -> Self {
         let mut random = Random(attempt ^ ((self.index as u64) << 32));
         Self {
-            start: poses(self.x.len(), Kind::Ordinary, &mut random),
+            start: poses::<S>(self.x.len(), Kind::Ordinary, &mut random),
             ..self.clone()
         }
     }
 
     /// The case with all bodies moved as one rigid body: poses, start and motions.
     pub(crate) fn moved(&self) -> Self {
-        let turn = Pose::new(0.7, -1.3, 0.9);
-        let poses = |x: &[Pose]| x.iter().map(|p| compose(&turn, p)).collect();
-        let twists = |v: &[Twist]| -> Vec<Twist> {
-            v.iter()
-                .map(|v| Twist {
-                    x: turn.cos * v.x - turn.sin * v.y,
-                    y: turn.cos * v.y + turn.sin * v.x,
-                    omega: v.omega,
-                })
-                .collect()
+        let poses = |x: &[S::Pose<f64>]| x.iter().map(S::carried).collect();
+        let twists = |v: &[f64]| -> Vec<f64> {
+            let bodies = v.chunks(S::N_DOF);
+            bodies.flat_map(S::carried_velocities).collect()
         };
         Self {
             start: poses(&self.start),
@@ -163,16 +167,17 @@ impl Case {
     /// The largest coordinate of poses, start and parameters, at least 1: round-off of 1 ε in it
     /// moves Φ by this number times ‖C‖·ε.
     pub(crate) fn size(&self) -> f64 {
-        let poses = self
-            .x
-            .iter()
-            .chain(&self.start)
-            .flat_map(|p| [p.x, p.y, p.angle]);
+        let poses = self.x.iter().chain(&self.start).flat_map(|p| {
+            let ([x, y, z], angle) = S::origin(p);
+            [x, y, z, angle]
+        });
         let arguments = self.arguments.iter().flat_map(|a| match a {
             Argument::Pair(p) => p.to_vec(),
+            Argument::Triple(p) => p.to_vec(),
             Argument::Pairs([a, b]) => vec![a[0], a[1], b[0], b[1]],
+            Argument::Triples([a, b]) => [*a, *b].concat(),
             Argument::Numbers(n) => n.clone(),
-            Argument::Absent => Vec::new(),
+            Argument::Axis(..) | Argument::Axes(_) | Argument::Absent => Vec::new(),
         });
         let functions = self.f.iter().flatten().copied();
         poses
@@ -182,7 +187,7 @@ impl Case {
     }
 }
 
-impl fmt::Display for Case {
+impl<S: Bodies> fmt::Display for Case<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "  case {} ({:?})", self.index, self.kind)?;
         for (parameter, argument) in self.spec.parameters.iter().zip(&self.arguments) {
@@ -191,7 +196,7 @@ impl fmt::Display for Case {
         for (name, poses) in [("start", &self.start), ("pose", &self.x)] {
             write!(f, "  {name}")?;
             for p in poses {
-                write!(f, " (x {:?}, y {:?}, angle {:?})", p.x, p.y, p.angle)?;
+                write!(f, " {}", S::words(p))?;
             }
             writeln!(f)?;
         }
@@ -199,24 +204,25 @@ impl fmt::Display for Case {
     }
 }
 
-fn compose(outer: &Pose, inner: &Pose) -> Pose {
-    let [x, y] = outer.to_global([inner.x, inner.y]);
-    Pose::new(x, y, outer.angle + inner.angle)
-}
-
-fn argument(parameter: &Parameter, kind: Kind, random: &mut Random) -> Argument {
+fn argument<S: Bodies>(parameter: &Parameter, kind: Kind, random: &mut Random) -> Argument {
     if parameter.optional && random.below(2) == 0 {
         return Argument::Absent;
     }
     match parameter.shape {
         Shape::Point { .. } if matches!(kind, Kind::ZeroOffsets | Kind::CoincidentPoints) => {
-            Argument::Pair([0.0, 0.0])
+            S::argument([0.0; 3])
         }
-        Shape::Point { .. } => Argument::Pair(random.pair(2.0)),
+        Shape::Point { .. } => S::argument(vector::<S>(2.0, random)),
         Shape::Direction { .. } if kind == Kind::RightAngles => {
-            Argument::Pair([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][random.below(4)])
+            let along = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][random.below(4)];
+            S::argument([along[0], along[1], 0.0])
         }
-        Shape::Direction { .. } => Argument::Pair(random.pair(1.0)),
+        Shape::Direction { .. } => S::argument(vector::<S>(1.0, random)),
+        Shape::Axes { .. } => axes(kind, random),
+        Shape::GroundPlane => {
+            let mut triple = || vector::<S>(2.0, random);
+            Argument::Triples([triple(), triple()])
+        }
         Shape::GroundLine => Argument::Pairs([random.pair(2.0), random.pair(2.0)]),
         Shape::Numbers(units) => {
             Argument::Numbers(units.iter().map(|&u| number(u, random)).collect())
@@ -233,50 +239,38 @@ fn number(unit: Unit, random: &mut Random) -> f64 {
     }
 }
 
-fn poses(n: usize, kind: Kind, random: &mut Random) -> Vec<Pose> {
+/// As many numbers as a vector has components.
+fn vector<S: Bodies>(reach: f64, random: &mut Random) -> [f64; 3] {
+    let mut vector = [0.0; 3];
+    vector[..S::DIM].fill_with(|| random.within(reach));
+    vector
+}
+
+fn poses<S: Bodies>(n: usize, kind: Kind, random: &mut Random) -> Vec<S::Pose<f64>> {
     let base = match kind {
-        Kind::FarTogether => [1e3, -1e3],
-        _ => [0.0, 0.0],
+        Kind::FarTogether => 1e3,
+        _ => 0.0,
     };
     let reach = if kind == Kind::FarApart { 1e3 } else { 2.0 };
-    let draw = |random: &mut Random| {
-        let [x, y] = random.pair(reach);
-        let sign = [-1.0, 1.0][random.below(2)];
-        let angle = match kind {
-            Kind::RightAngles => [0.0, FRAC_PI_2, -FRAC_PI_2, PI, -PI][random.below(5)],
-            Kind::NearPi => sign * (PI + [1e-9, -1e-9][random.below(2)]),
-            Kind::LargeAngles => sign * (1e3 + random.within(PI)),
-            _ => random.within(PI),
-        };
-        Pose::new(base[0] + x, base[1] + y, angle)
-    };
-    let first = draw(random);
+    let first = S::draw(kind, base, reach, random);
     (0..n)
         .map(|slot| match kind {
             _ if slot == 0 => first,
             Kind::Coincident | Kind::CoincidentPoints => first,
-            Kind::ParallelFrames => Pose {
-                angle: first.angle,
-                cos: first.cos,
-                sin: first.sin,
-                ..draw(random)
-            },
-            _ => draw(random),
+            Kind::ParallelFrames => {
+                S::with_orientation(&S::draw(kind, base, reach, random), &first)
+            }
+            _ => S::draw(kind, base, reach, random),
         })
         .collect()
 }
 
-fn motion(slots: usize, rows: usize, kind: Kind, random: &mut Random) -> Motion {
+fn motion<S: Bodies>(slots: usize, rows: usize, kind: Kind, random: &mut Random) -> Motion {
     let speed = if kind == Kind::AtRest { 0.0 } else { 2.0 };
-    let mut twists = |reach: f64| -> Vec<Twist> {
-        (0..slots)
-            .map(|_| {
-                let [x, y, omega]: [f64; N_DOF] = std::array::from_fn(|_| random.within(reach));
-                Twist { x, y, omega }
-            })
-            .collect()
+    let mut numbers = |reach: f64| -> Vec<f64> {
+        (0..S::N_DOF * slots).map(|_| random.within(reach)).collect()
     };
-    let (v, a) = (twists(speed), twists(5.0));
+    let (v, a) = (numbers(speed), numbers(5.0));
     Motion {
         v,
         a,
@@ -285,7 +279,7 @@ fn motion(slots: usize, rows: usize, kind: Kind, random: &mut Random) -> Motion 
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014): reproducible on every platform, without a dependency.
-pub(crate) struct Random(pub(crate) u64);
+pub struct Random(pub(crate) u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
@@ -302,11 +296,11 @@ impl Random {
         reach * (2.0 * unit - 1.0)
     }
 
-    fn pair(&mut self, reach: f64) -> [f64; 2] {
+    pub(crate) fn pair(&mut self, reach: f64) -> [f64; 2] {
         [self.within(reach), self.within(reach)]
     }
 
-    fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.next() >> 33) as usize % n
     }
 }

@@ -1,9 +1,10 @@
 //! One check for constraints and forces: all cases of a definition, and what holds in each.
 
-use joints::plane::{N_DOF, Pose};
+use joints::Space;
 use joints::spec::Shape;
 
 use crate::block::Block;
+use crate::bodies::Bodies;
 use crate::case::{Case, Kind, Motion};
 use crate::derivative::{Curve, Differences, Differentiate, DualNumbers};
 use crate::failure::{Claim, Failure, Oracle, Property, fact};
@@ -15,7 +16,7 @@ use crate::subject::{By, Derivative, Subject};
 pub(crate) fn check<S: Subject>(seed: u64) -> Result<(), Failure> {
     let mut patterns = S::patterns()?;
     let mut seen = S::Seen::default();
-    for case in Case::all(seed, &S::COMMON, S::ROWS.len()) {
+    for case in Case::all(seed, &S::COMMON, S::ROWS.len(), S::TURNING) {
         let (subject, case) = assembled::<S>(&case)?;
         let check = Check {
             subject: &subject,
@@ -43,9 +44,9 @@ pub(crate) fn check<S: Subject>(seed: u64) -> Result<(), Failure> {
 const STARTS: u64 = 20;
 
 /// The subject of a case, with a start where its requirements hold.
-fn assembled<S: Subject>(case: &Case) -> Result<(S, Case), Failure> {
+fn assembled<S: Subject>(case: &Case<S::Space>) -> Result<(S, Case<S::Space>), Failure> {
     let spec = &S::COMMON;
-    let fail = |property, entry| fact(spec.name, property, entry, [0.0, 1.0], Some(case));
+    let fail = |property, entry| fact(spec.name, property, entry, [0.0, 1.0], Some(case as &dyn std::fmt::Display));
     let mut subject =
         S::from_arguments(&case.arguments).map_err(|e| fail(Property::Arguments, e.to_string()))?;
     let mut case = case.clone();
@@ -64,9 +65,9 @@ fn assembled<S: Subject>(case: &Case) -> Result<(S, Case), Failure> {
 }
 
 /// One case of one definition.
-pub(crate) struct Check<'a, S> {
+pub(crate) struct Check<'a, S: Subject> {
     pub(crate) subject: &'a S,
-    pub(crate) case: &'a Case,
+    pub(crate) case: &'a Case<S::Space>,
 }
 
 /// A kernel along a curve.
@@ -87,7 +88,8 @@ impl<S: Subject> Curve for Path<'_, S> {
 impl<S: Subject> Check<'_, S> {
     /// A kernel at the state itself.
     pub(crate) fn at(&self, kernel: S::Kernel, motion: &Motion) -> Block {
-        self.curve(kernel, Along::Time, motion).at(0.0)
+        let state = Along::Time.state(self.case, motion, 0.0);
+        self.subject.final_kernel(kernel, &state)
     }
 
     /// The blocks of all motions, side by side.
@@ -166,9 +168,9 @@ impl<S: Subject> Check<'_, S> {
 
     /// Generalised forces on all slots add up to no force and no moment, each.
     pub(crate) fn balance(&self, loads: &[&[f64]], floor: f64) -> Result<(), Failure> {
-        let sums = loads.iter().map(|load| resultant(&self.case.x, load));
+        let sums = loads.iter().map(|load| resultant::<S>(&self.case.x, load));
         let sums = Block::beside(&sums.collect::<Vec<_>>());
-        let none = Block::filled(N_DOF, loads.len(), 0.0);
+        let none = Block::filled(n_dof::<S>(), loads.len(), 0.0);
         self.claim(Property::Balance, Oracle::identity(floor), &sums, &none)
     }
 
@@ -223,19 +225,25 @@ impl<S: Subject> Check<'_, S> {
 
 /// Whether a definition relates bodies to each other, by what its spec says.
 pub(crate) fn is_internal<S: Subject>() -> bool {
-    let on_ground = |p: &joints::spec::Parameter| p.shape == Shape::GroundLine;
+    let on_ground = |p: &joints::spec::Parameter| {
+        matches!(p.shape, Shape::GroundLine | Shape::GroundPlane)
+    };
     S::COMMON.slots.len() > 1 && !S::COMMON.parameters.iter().any(on_ground)
 }
 
 /// Force and moment about the global origin of a generalised force on all slots.
-fn resultant(x: &[Pose], q: &[f64]) -> Block {
-    let mut sum = [0.0; N_DOF];
-    for (x, q) in x.iter().zip(q.chunks(N_DOF)) {
-        sum[0] += q[0];
-        sum[1] += q[1];
-        sum[2] += q[2] + x.x * q[1] - x.y * q[0];
+fn resultant<S: Subject>(x: &[<S::Space as Space>::Pose<f64>], q: &[f64]) -> Block {
+    let mut sum = vec![0.0; n_dof::<S>()];
+    for (x, q) in x.iter().zip(q.chunks(n_dof::<S>())) {
+        let wrench = S::Space::wrench(x, q, [0.0; 3]);
+        sum.iter_mut().zip(wrench).for_each(|(sum, w)| *sum += w);
     }
-    Block::column(sum.to_vec())
+    Block::column(sum)
+}
+
+/// Number of degrees of freedom of a body.
+pub(crate) fn n_dof<S: Subject>() -> usize {
+    <S::Space as Space>::N_DOF
 }
 
 /// An entry of a property in words; blocks of several motions stand side by side.
@@ -246,8 +254,8 @@ pub(crate) fn entry<S: Subject>(property: Property, row: usize, column: usize) -
         None => format!("motion {row}"),
     };
     let dof = |column: usize| {
-        let slot = S::COMMON.slots[column / N_DOF % S::COMMON.slots.len()];
-        format!("{slot}.{}", ["x", "y", "rotation"][column % N_DOF])
+        let slot = S::COMMON.slots[column / n_dof::<S>() % S::COMMON.slots.len()];
+        format!("{slot}.{}", S::Space::DOFS[column % n_dof::<S>()])
     };
     let of_dof = || format!("column {}, motion {}", dof(column), column / n);
     match property {
@@ -260,9 +268,11 @@ pub(crate) fn entry<S: Subject>(property: Property, row: usize, column: usize) -
         Property::B | Property::Velocity | Property::Gamma | Property::GammaFromPhi => {
             format!("{}, motion {column}", row_name(row))
         }
-        Property::Wrench => format!("{}, {}", ["Fx", "Fy", "T"][row], row_name(column)),
-        Property::Balance => format!("sum of {}, {}", ["Fx", "Fy", "T"][row], row_name(column)),
-        Property::Place => format!("{}, column {}", ["x", "y"][row], dof(column)),
+        Property::Wrench => format!("{}, {}", S::Space::COMPONENTS[row], row_name(column)),
+        Property::Balance => {
+            format!("sum of {}, {}", S::Space::COMPONENTS[row], row_name(column))
+        }
+        Property::Place => format!("{}, column {}", ["x", "y", "z"][row], dof(column)),
         _ => row_name(row),
     }
 }

@@ -4,22 +4,23 @@ mod data;
 mod identities;
 
 use std::collections::BTreeSet;
+use std::marker::PhantomData;
 
-use joints::plane::N_DOF;
 use joints::spec::{Level, Row, Spec};
-use joints::{Argument, ArgumentError, Constraint, Definition, Element};
+use joints::{Argument, ArgumentError, Constraint, Definition, Derivatives, Element};
 
 use crate::block::Block;
+use crate::bodies::Bodies;
 use crate::check::{Check, entry};
 use crate::failure::{DUAL_TOLERANCE, Failure, Property, fact};
 use crate::number::Number;
 use crate::pattern::Pattern;
-use crate::state::{State, stacked};
+use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, dense, sparse};
 use identities::phi_at_start;
 
 /// A constraint as a subject of the harness.
-pub(crate) struct OfConstraint<K>(K);
+pub(crate) struct OfConstraint<K, S>(K, PhantomData<S>);
 
 /// Kernels of a constraint, and what is made of them.
 #[derive(Clone, Copy)]
@@ -77,12 +78,14 @@ pub(crate) struct Seen {
     depends_on_time: bool,
 }
 
-impl<K: Constraint> Subject for OfConstraint<K> {
+impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
+    type Space = S;
     type Kernel = Kernel;
     type Seen = Seen;
 
     const COMMON: Spec = K::SPEC.common;
     const ROWS: &'static [Row] = K::SPEC.rows;
+    const TURNING: bool = K::SPEC.turning;
     const SLOPE: Kernel = Kernel::C;
     const INVARIANTS: &'static [(Kernel, &'static str)] = &[
         (Kernel::Phi, "Φ"),
@@ -93,44 +96,59 @@ impl<K: Constraint> Subject for OfConstraint<K> {
     ];
 
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
-        K::from_arguments(arguments).map(Self)
+        K::from_arguments(arguments).map(|k| Self(k, PhantomData))
     }
 
-    fn definition(&mut self) -> &mut dyn Definition {
+    fn definition(&mut self) -> &mut dyn Definition<S> {
         &mut self.0
     }
 
-    fn kernel<D: Number>(&self, kernel: Kernel, at: &State<D>) -> Block<D> {
+    fn kernel<D: Number>(&self, kernel: Kernel, at: &State<S, D>) -> Block<D> {
         let k = self.0.element::<D>();
-        let State { x, v, a, f, lambda } = at;
+        let State { x, f, lambda, .. } = at;
+        let v = &State::<S, D>::twists(&at.v);
         let (m, n) = (Self::ROWS.len(), Self::columns());
         match kernel {
             Kernel::Phi if K::SPEC.level == Level::Nonholonomic => {
                 Block::filled(m, 1, D::from(0.0))
             }
             Kernel::Phi => dense(m, |out| k.phi(x, f, out)),
-            Kernel::C => sparse([m, n], &c_pattern::<K>(), |out| c_entries(k, x, f, out)),
+            Kernel::C => sparse([m, n], &c_pattern::<K, S>(), |out| c_entries(k, x, f, out)),
             Kernel::B if !K::SPEC.rheonomic => dense(m, |out| {
                 out.fill(D::from(0.0));
                 k.b(x, f, out);
             }),
             Kernel::B => dense(m, |out| k.b(x, f, out)),
             Kernel::Velocity => {
-                let velocity = self.kernel(Kernel::C, at).times(&stacked(v));
+                let velocity = self.kernel(Kernel::C, at).times(&at.v);
                 velocity.zip(&self.kernel(Kernel::B, at), |e, b| e - b)
             }
             Kernel::Gamma => dense(m, |out| k.gamma(x, v, f, out)),
             Kernel::Force => self.kernel(Kernel::C, at).transpose_times(lambda),
             Kernel::Residual => {
-                let inertia = self.kernel(Kernel::C, at).times(&stacked(a));
+                let inertia = self.kernel(Kernel::C, at).times(&at.a);
                 inertia.zip(&self.kernel(Kernel::Gamma, at), |e, g| e - g)
             }
-            Kernel::Wrench => sparse([N_DOF, m], K::SPEC.wrench, |out| k.wrench(x, f, out)),
+            Kernel::Wrench => sparse([S::N_DOF, m], K::SPEC.wrench, |out| k.wrench(x, f, out)),
             Kernel::Component => {
                 let rows = K::SPEC.component.map_or(0, |_| m);
                 dense(rows, |out| k.component(x, f, out))
             }
-            Kernel::Place => Block::column(k.place(x).to_vec()),
+            Kernel::Place => Block::column(k.place(x).as_ref().to_vec()),
+            Kernel::DPhiDp => dense(K::SPEC.n_data(), |out| k.d_phi_dp(x, f, lambda, out)),
+            _ => unreachable!("a kernel that is not differentiated"),
+        }
+    }
+
+    fn final_kernel(&self, kernel: Kernel, at: &State<S, f64>) -> Block {
+        let k: &dyn Derivatives<f64, S> = &self.0;
+        let State { x, f, lambda, .. } = at;
+        let (v, a) = (
+            &State::<S, f64>::twists(&at.v),
+            &State::<S, f64>::twists(&at.a),
+        );
+        let (m, n) = (Self::ROWS.len(), Self::columns());
+        match kernel {
             Kernel::DForceDx => sparse([n, n], K::SPEC.d_force_dx, |out| {
                 k.d_force_dx(x, f, lambda, out);
             }),
@@ -143,10 +161,10 @@ impl<K: Constraint> Subject for OfConstraint<K> {
             Kernel::DVelocityDx => sparse([m, n], K::SPEC.d_velocity_dx, |out| {
                 k.d_velocity_dx(x, v, f, out);
             }),
-            Kernel::DPhiDp => dense(K::SPEC.n_data(), |out| k.d_phi_dp(x, f, lambda, out)),
             Kernel::DResidualDp => dense(K::SPEC.n_data(), |out| {
                 k.d_residual_dp(x, v, a, f, lambda, out);
             }),
+            _ => self.kernel(kernel, at),
         }
     }
 
@@ -158,8 +176,8 @@ impl<K: Constraint> Subject for OfConstraint<K> {
             Ok((kernel, pattern))
         };
         let patterns = [
-            of(W::C, "C", [m, n], &c_pattern::<K>()),
-            of(W::Wrench, "the wrench map", [N_DOF, m], spec.wrench),
+            of(W::C, "C", [m, n], &c_pattern::<K, S>()),
+            of(W::Wrench, "the wrench map", [S::N_DOF, m], spec.wrench),
             of(W::DForceDx, "∂(Cᵀλ)/∂x", [n, n], spec.d_force_dx),
             of(W::DResidualDx, "∂(C·a − Γ)/∂x", [m, n], spec.d_residual_dx),
             of(W::DGammaDv, "∂Γ/∂v", [m, n], spec.d_gamma_dv),
@@ -179,7 +197,8 @@ impl<K: Constraint> Subject for OfConstraint<K> {
     /// Kernels write exactly the entries that are theirs.
     fn before(check: &Check<'_, Self>) -> Result<(), Failure> {
         let k = &check.subject.0;
-        let (x, f) = (&check.case.x, &check.case.f);
+        let at = Along::Time.state(check.case, &check.case.motions[0], 0.0);
+        let (x, f) = (&at.x, &at.f);
         let unwritten = |n| vec![f64::NAN; n];
         let (mut constant, mut varying) = (unwritten(K::SPEC.c.len()), unwritten(K::SPEC.c.len()));
         let mut b = unwritten(Self::ROWS.len());
@@ -188,7 +207,7 @@ impl<K: Constraint> Subject for OfConstraint<K> {
         k.b(x, f, &mut b);
         let entries = K::SPEC.c.iter().zip(constant.iter().zip(&varying));
         let c = entries.flat_map(|(e, (c, v))| {
-            let name = entry::<Self>(Property::C, e.row, N_DOF * e.slot + e.dof);
+            let name = entry::<Self>(Property::C, e.row, S::N_DOF * e.slot + e.dof);
             [
                 (format!("c_constant, {name}"), !c.is_nan(), e.constant),
                 (format!("c, {name}"), !v.is_nan(), !e.constant),
@@ -242,13 +261,18 @@ impl<K: Constraint> Subject for OfConstraint<K> {
 }
 
 /// Row and column of each entry of C.
-fn c_pattern<K: Constraint>() -> Vec<[usize; 2]> {
+fn c_pattern<K: Constraint<S>, S: Bodies>() -> Vec<[usize; 2]> {
     let entries = K::SPEC.c.iter();
-    entries.map(|e| [e.row, N_DOF * e.slot + e.dof]).collect()
+    entries.map(|e| [e.row, S::N_DOF * e.slot + e.dof]).collect()
 }
 
 /// Entries of C in the order of the pattern, constant and varying ones.
-fn c_entries<D: Number>(k: &dyn Element<D>, x: &[joints::Pose<D>], f: &[[D; 3]], out: &mut [D]) {
+fn c_entries<S: Bodies, D: Number>(
+    k: &dyn Element<D, S>,
+    x: &[S::Pose<D>],
+    f: &[[D; 3]],
+    out: &mut [D],
+) {
     let mut constant = vec![f64::NAN; out.len()];
     k.c_constant(&mut constant);
     k.c(x, f, out);

@@ -4,7 +4,6 @@
 use std::fmt;
 
 use crate::block::Block;
-use crate::case::Case;
 
 /// A property of all definitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,8 +138,8 @@ pub struct Failure {
     pub scale: f64,
     /// The largest difference allowed, relative to the scale.
     pub tolerance: f64,
-    /// The case, if the property belongs to a single case.
-    pub case: Option<Box<Case>>,
+    /// The case in words, if the property belongs to a single case.
+    pub case: Option<String>,
 }
 
 impl Failure {
@@ -235,7 +234,7 @@ impl Claim<'_> {
     pub(crate) fn decide(
         &self,
         definition: &'static str,
-        case: &Case,
+        case: &dyn fmt::Display,
         entry: impl Fn(usize, usize) -> String,
     ) -> Result<(), Failure> {
         let (found, expected) = (self.found, self.expected);
@@ -260,7 +259,7 @@ impl Claim<'_> {
             expected: expected.get(row, column),
             scale,
             tolerance,
-            case: Some(Box::new(case.clone())),
+            case: Some(case.to_string()),
         })
     }
 }
@@ -272,7 +271,7 @@ pub(crate) fn fact(
     property: Property,
     entry: String,
     [found, expected]: [f64; 2],
-    case: Option<&Case>,
+    case: Option<&dyn fmt::Display>,
 ) -> Failure {
     Failure {
         definition,
@@ -285,6 +284,6 @@ pub(crate) fn fact(
         expected,
         scale: 1.0,
         tolerance: 0.0,
-        case: case.map(|c| Box::new(c.clone())),
+        case: case.map(ToString::to_string),
     }
 }

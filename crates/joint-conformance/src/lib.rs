@@ -25,6 +25,7 @@
 //! velocities are against the ground). A joint against the ground takes the ground as a slot.
 
 mod block;
+mod bodies;
 mod case;
 mod check;
 mod constraint;
@@ -36,28 +37,31 @@ mod pattern;
 mod state;
 mod subject;
 
-pub use case::{AWKWARD_CASES, Case, Kind, ORDINARY_CASES};
+pub use bodies::Bodies;
+pub use case::{AWKWARD_CASES, Kind, ORDINARY_CASES};
 pub use failure::{DIFFERENCE_TOLERANCE, DUAL_TOLERANCE, Failure, Property, Reference};
 
 use check::check;
 use constraint::OfConstraint;
 use force::OfForce;
-use joints::{Constraint, Force, Visitor, plane_constraints, plane_forces};
+use joints::{Constraint, Force, Visitor, plane_constraints, plane_forces, space3};
 
 /// Checks a constraint definition and the drives of its measures.
 ///
 /// # Errors
 /// The first property that is violated.
-pub fn check_constraint<K: Constraint>(seed: u64) -> Result<(), Failure> {
-    check_visited(seed, |checks| checks.constraint::<K>())
+pub fn check_constraint<K: Constraint<S>, S: Bodies>(seed: u64) -> Result<(), Failure> {
+    let mut checks = Checks::new(seed);
+    Visitor::<S>::constraint::<K>(&mut checks);
+    checks.result
 }
 
 /// Checks a force definition.
 ///
 /// # Errors
 /// The first property that is violated.
-pub fn check_force<F: Force>(seed: u64) -> Result<(), Failure> {
-    check::<OfForce<F>>(seed)
+pub fn check_force<F: Force<S>, S: Bodies>(seed: u64) -> Result<(), Failure> {
+    check::<OfForce<F, S>>(seed)
 }
 
 /// Checks all definitions of the library.
@@ -65,18 +69,11 @@ pub fn check_force<F: Force>(seed: u64) -> Result<(), Failure> {
 /// # Errors
 /// The first violated property of the first definition with one.
 pub fn check_all(seed: u64) -> Result<(), Failure> {
-    check_visited(seed, |checks| {
-        plane_constraints(checks);
-        plane_forces(checks);
-    })
-}
-
-fn check_visited(seed: u64, visit: impl Fn(&mut Checks)) -> Result<(), Failure> {
-    let mut checks = Checks {
-        seed,
-        result: Ok(()),
-    };
-    visit(&mut checks);
+    let mut checks = Checks::new(seed);
+    plane_constraints(&mut checks);
+    plane_forces(&mut checks);
+    space3::constraints(&mut checks);
+    space3::forces(&mut checks);
     checks.result
 }
 
@@ -86,21 +83,30 @@ struct Checks {
     result: Result<(), Failure>,
 }
 
-impl Visitor for Checks {
-    fn constraint<K: Constraint>(&mut self) {
+impl Checks {
+    fn new(seed: u64) -> Self {
+        Self {
+            seed,
+            result: Ok(()),
+        }
+    }
+}
+
+impl<S: Bodies> Visitor<S> for Checks {
+    fn constraint<K: Constraint<S>>(&mut self) {
         self.drive::<K>();
         K::visit_drives(self);
     }
 
-    fn drive<K: Constraint>(&mut self) {
+    fn drive<K: Constraint<S>>(&mut self) {
         if self.result.is_ok() {
-            self.result = check::<OfConstraint<K>>(self.seed);
+            self.result = check::<OfConstraint<K, S>>(self.seed);
         }
     }
 
-    fn force<F: Force>(&mut self) {
+    fn force<F: Force<S>>(&mut self) {
         if self.result.is_ok() {
-            self.result = check::<OfForce<F>>(self.seed);
+            self.result = check::<OfForce<F, S>>(self.seed);
         }
     }
 }

@@ -7,7 +7,7 @@ use joints::Real;
 use num_dual::DualNum;
 
 /// A number that poses can be made of: cosine and sine come from the number itself.
-pub(crate) trait Number: Real {
+pub trait Number: Real {
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
 }

@@ -1,8 +1,7 @@
 //! What a kernel takes, and what of it moves while a derivative is taken: one degree of freedom of
 //! one body, time, or everything along the motion.
 
-use joints::plane::{N_DOF, Pose, Twist};
-
+use crate::bodies::Bodies;
 use crate::case::{Case, Motion};
 use crate::number::Number;
 
@@ -20,75 +19,77 @@ pub(crate) enum Along {
 }
 
 /// What kernels take, at one point of a curve.
-pub(crate) struct State<D> {
-    pub(crate) x: Vec<Pose<D>>,
-    pub(crate) v: Vec<Twist<D>>,
-    pub(crate) a: Vec<Twist<D>>,
+pub(crate) struct State<S: Bodies, D: Number> {
+    pub(crate) x: Vec<S::Pose<D>>,
+    /// Velocities and accelerations as numbers.
+    pub(crate) v: Vec<D>,
+    pub(crate) a: Vec<D>,
     pub(crate) f: Vec<[D; 3]>,
     pub(crate) lambda: Vec<D>,
 }
 
+impl<S: Bodies, D: Number> State<S, D> {
+    /// Twists of the slots.
+    pub(crate) fn twists(numbers: &[D]) -> Vec<S::Twist<D>> {
+        numbers.chunks(S::N_DOF).map(S::twist).collect()
+    }
+}
+
 impl Along {
     /// The state at τ.
-    pub(crate) fn state<D: Number>(self, case: &Case, motion: &Motion, tau: D) -> State<D> {
+    pub(crate) fn state<S: Bodies, D: Number>(
+        self,
+        case: &Case<S>,
+        motion: &Motion,
+        tau: D,
+    ) -> State<S, D> {
         let line = |start: f64, rate: f64| D::from(start) + D::from(rate) * tau;
         let unit = |column: usize, k: usize| if column == k { 1.0 } else { 0.0 };
-        let x = case
-            .x
+        let rates: Vec<f64> = (0..motion.v.len())
+            .map(|k| match self {
+                Self::Pose(column) => unit(column, k),
+                Self::Motion => motion.v[k],
+                Self::Twist(_) | Self::Time => 0.0,
+            })
+            .collect();
+        let bodies = case.x.iter().zip(rates.chunks(S::N_DOF));
+        let v = motion.v.iter().enumerate().map(|(k, &v)| match self {
+            Self::Twist(column) => line(v, unit(column, k)),
+            _ => D::from(v),
+        });
+        let mut f: Vec<[D; 3]> = case
+            .f
             .iter()
-            .zip(&motion.v)
-            .enumerate()
-            .map(|(slot, (x, v))| {
-                let rate = |dof: usize| match self {
-                    Self::Pose(column) => unit(column, N_DOF * slot + dof),
-                    Self::Motion => [v.x, v.y, v.omega][dof],
-                    Self::Twist(_) | Self::Time => 0.0,
-                };
-                let angle = line(x.angle, rate(2));
-                let (sin, cos) = angle.sin_cos();
-                Pose {
-                    x: line(x.x, rate(0)),
-                    y: line(x.y, rate(1)),
-                    angle,
-                    cos,
-                    sin,
-                }
-            });
-        let v = motion.v.iter().enumerate().map(|(slot, v)| {
-            let rate = |dof: usize| match self {
-                Self::Twist(column) => unit(column, N_DOF * slot + dof),
-                _ => 0.0,
-            };
-            Twist {
-                x: line(v.x, rate(0)),
-                y: line(v.y, rate(1)),
-                omega: line(v.omega, rate(2)),
-            }
-        });
-        let a = motion.a.iter().map(|a| Twist {
-            x: D::from(a.x),
-            y: D::from(a.y),
-            omega: D::from(a.omega),
-        });
-        let f = case.f.iter().map(|&[f, f_t, f_tt]| match self {
-            Self::Time | Self::Motion => [
-                line(f, f_t) + D::from(0.5 * f_tt) * tau * tau,
-                line(f_t, f_tt),
-                D::from(f_tt),
-            ],
-            _ => [f, f_t, f_tt].map(D::from),
-        });
+            .map(|&[f, f_t, f_tt]| match self {
+                Self::Time | Self::Motion => [
+                    line(f, f_t) + D::from(0.5 * f_tt) * tau * tau,
+                    line(f_t, f_tt),
+                    D::from(f_tt),
+                ],
+                _ => [f, f_t, f_tt].map(D::from),
+            })
+            .collect();
+        if case.turning
+            && let Some(angle) = f.pop()
+        {
+            f.extend(turn(angle));
+        }
         State {
-            x: x.collect(),
+            x: bodies.map(|(x, v)| S::moved(x, v, tau)).collect(),
             v: v.collect(),
-            a: a.collect(),
-            f: f.collect(),
+            a: motion.a.iter().map(|&a| D::from(a)).collect(),
+            f,
             lambda: motion.lambda.iter().map(|&l| D::from(l)).collect(),
         }
     }
 }
 
-/// Twists as one vector, degree of freedom by degree of freedom.
-pub(crate) fn stacked<D: Copy>(twists: &[Twist<D>]) -> Vec<D> {
-    twists.iter().flat_map(|t| [t.x, t.y, t.omega]).collect()
+/// Cosine and sine of an angle, each with two derivatives.
+fn turn<D: Number>([f, f_t, f_tt]: [D; 3]) -> [[D; 3]; 2] {
+    let (sin, cos) = f.sin_cos();
+    let square = f_t * f_t;
+    [
+        [cos, -(sin * f_t), -(cos * square) - sin * f_tt],
+        [sin, cos * f_t, cos * f_tt - sin * square],
+    ]
 }

@@ -1,10 +1,10 @@
 //! What the harness needs of a definition, be it a constraint or a force.
 
-use joints::plane::N_DOF;
 use joints::spec::{Row, Spec};
 use joints::{Argument, ArgumentError, Definition, Ring};
 
 use crate::block::Block;
+use crate::bodies::Bodies;
 use crate::check::Check;
 use crate::failure::{Failure, Property};
 use crate::number::Number;
@@ -13,6 +13,8 @@ use crate::state::State;
 
 /// A definition with values for its parameters, as the harness sees it.
 pub(crate) trait Subject: Sized {
+    /// The space of its bodies.
+    type Space: Bodies;
     /// The names of its kernels, and of what is made of them.
     type Kernel: Copy + 'static;
     /// What has to be seen in some case, whichever.
@@ -22,6 +24,8 @@ pub(crate) trait Subject: Sized {
     const COMMON: Spec;
     /// Its rows, each with a multiplier; forces have none.
     const ROWS: &'static [Row];
+    /// Whether its last function of time enters by its cosine and sine.
+    const TURNING: bool = false;
     /// The kernel that says what an error of the coordinates does.
     const SLOPE: Self::Kernel;
     /// Kernels whose norm stays if all bodies are moved as one, with their names.
@@ -29,18 +33,24 @@ pub(crate) trait Subject: Sized {
 
     /// Columns of its blocks: the degrees of freedom of its slots.
     fn columns() -> usize {
-        N_DOF * Self::COMMON.slots.len()
+        <Self::Space as joints::Space>::N_DOF * Self::COMMON.slots.len()
     }
 
     /// The subject with these values for its parameters.
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError>;
 
     /// The definition itself.
-    fn definition(&mut self) -> &mut dyn Definition;
+    fn definition(&mut self) -> &mut dyn Definition<Self::Space>;
 
     /// A kernel as a dense block. What the kernel leaves alone stays NaN, so that no comparison
     /// passes over it.
-    fn kernel<D: Number>(&self, kernel: Self::Kernel, at: &State<D>) -> Block<D>;
+    fn kernel<D: Number>(&self, kernel: Self::Kernel, at: &State<Self::Space, D>) -> Block<D>;
+
+    /// The same for plain numbers, also of kernels that are not differentiated themselves: their code
+    /// is then compiled for one number type.
+    fn final_kernel(&self, kernel: Self::Kernel, at: &State<Self::Space, f64>) -> Block {
+        self.kernel(kernel, at)
+    }
 
     /// Kernels with a pattern.
     ///

@@ -3,14 +3,23 @@
 
 use std::fmt;
 
-use crate::plane::{Direction, Line};
+use crate::plane::Line;
 use crate::spec::{Parameter, Shape};
+use crate::{plane, space3};
 
 /// One value, in the order of the definition's parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Argument {
-    /// A point, or a vector that is converted to a direction.
+    /// A point of the plane, or a vector that is converted to a direction.
     Pair([f64; 2]),
+    /// A point of space, or a vector that is converted to a direction.
+    Triple([f64; 3]),
+    /// A vector along an axis of space, and one across it, if it matters.
+    Axis([f64; 3], Option<[f64; 3]>),
+    /// A point and a vector of space.
+    Triples([[f64; 3]; 2]),
+    /// Axes of space, for example those of another body.
+    Axes(space3::Axes),
     /// Two points.
     Pairs([[f64; 2]; 2]),
     /// One or more numbers, as many as the parameter has.
@@ -42,6 +51,8 @@ pub enum ArgumentError {
         parameter: &'static str,
         /// The shape of the parameter.
         expected: Shape,
+        /// Number of components of vectors.
+        dim: usize,
     },
     /// A number is NaN, infinite or above [`LARGEST`].
     NotFinite {
@@ -62,7 +73,16 @@ pub enum ArgumentError {
         /// Name of the parameter.
         parameter: &'static str,
         /// The vector that should give the direction.
-        vector: [f64; 2],
+        vector: Vec<f64>,
+    },
+    /// The direction across an axis lies along it.
+    NotAcross {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The vector along the axis.
+        axis: [f64; 3],
+        /// The vector that should give a direction across it.
+        cross: [f64; 3],
     },
 }
 
@@ -76,7 +96,8 @@ impl ArgumentError {
             | Self::Shape { parameter, .. }
             | Self::NotFinite { parameter, .. }
             | Self::Negative { parameter, .. }
-            | Self::NoDirection { parameter, .. } => Some(parameter),
+            | Self::NoDirection { parameter, .. }
+            | Self::NotAcross { parameter, .. } => Some(parameter),
         }
     }
 }
@@ -94,7 +115,8 @@ impl fmt::Display for ArgumentError {
             Self::Shape {
                 parameter,
                 expected,
-            } => write!(f, "`{parameter}` must be {expected}"),
+                dim,
+            } => write!(f, "`{parameter}` must be {}", expected.words(*dim)),
             Self::NotFinite { parameter, value } => {
                 write!(
                     f,
@@ -104,18 +126,32 @@ impl fmt::Display for ArgumentError {
             Self::Negative { parameter, value } => {
                 write!(f, "`{parameter}` is {value}, need a number ≥ 0")
             }
-            Self::NoDirection {
+            Self::NoDirection { parameter, vector } => write!(
+                f,
+                "`{parameter}` has no direction: the vector is ({}), of length zero",
+                listed(vector)
+            ),
+            Self::NotAcross {
                 parameter,
-                vector: [x, y],
+                axis,
+                cross,
             } => write!(
                 f,
-                "`{parameter}` has no direction: the vector is ({x}, {y}), of length zero"
+                "the direction ({}) across `{parameter}` lies along the axis ({})",
+                listed(cross),
+                listed(axis)
             ),
         }
     }
 }
 
 impl std::error::Error for ArgumentError {}
+
+/// Numbers with commas.
+fn listed(numbers: &[f64]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    numbers.join(", ")
+}
 
 /// Reads checked values one after the other; used by generated constructors.
 pub struct Reader<'a> {
@@ -158,33 +194,104 @@ impl<'a> Reader<'a> {
         self.next += 1;
     }
 
-    /// Reads a point.
+    /// Reads a point of the plane.
     ///
     /// # Errors
     /// If it is missing, of another shape or not finite.
     pub fn point(&mut self) -> Result<[f64; 2], ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Pair(p) = argument else {
-            return Err(mismatch(parameter, argument));
+            return Err(mismatch(parameter, argument, 2));
         };
         usable(parameter, p)?;
         Ok(*p)
     }
 
-    /// Reads a direction and normalises it.
+    /// Reads a point of space.
+    ///
+    /// # Errors
+    /// If it is missing, of another shape or not finite.
+    pub fn point3(&mut self) -> Result<[f64; 3], ArgumentError> {
+        let (parameter, argument) = self.take();
+        let Argument::Triple(p) = argument else {
+            return Err(mismatch(parameter, argument, 3));
+        };
+        usable(parameter, p)?;
+        Ok(*p)
+    }
+
+    /// Reads a direction of the plane and normalises it.
     ///
     /// # Errors
     /// If it is missing, of another shape, not finite or of length zero.
-    pub fn direction(&mut self) -> Result<Direction, ArgumentError> {
+    pub fn direction(&mut self) -> Result<plane::Direction, ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Pair(v) = argument else {
-            return Err(mismatch(parameter, argument));
+            return Err(mismatch(parameter, argument, 2));
         };
         usable(parameter, v)?;
-        Direction::new(*v).ok_or(ArgumentError::NoDirection {
+        plane::Direction::new(*v).ok_or_else(|| no_direction(parameter, v))
+    }
+
+    /// Reads a direction of space and normalises it.
+    ///
+    /// # Errors
+    /// If it is missing, of another shape, not finite or of length zero.
+    pub fn direction3(&mut self) -> Result<space3::Direction, ArgumentError> {
+        let (parameter, argument) = self.take();
+        let Argument::Triple(v) = argument else {
+            return Err(mismatch(parameter, argument, 3));
+        };
+        usable(parameter, v)?;
+        space3::Direction::new(*v).ok_or_else(|| no_direction(parameter, v))
+    }
+
+    /// Reads an axis with the directions across it. An optional one that is absent has the axes of
+    /// the frame.
+    ///
+    /// # Errors
+    /// If it is missing, of another shape, not finite, of length zero, or if the direction across it
+    /// lies along it.
+    pub fn axes(&mut self) -> Result<space3::Axes, ArgumentError> {
+        let (parameter, argument) = self.take();
+        let (axis, cross) = match argument {
+            Argument::Axes(axes) => return Ok(*axes),
+            Argument::Triple(axis) => (axis, &None),
+            Argument::Axis(axis, cross) => (axis, cross),
+            Argument::Absent if parameter.optional => return Ok(space3::Axes::FRAME),
+            _ => return Err(mismatch(parameter, argument, 3)),
+        };
+        usable(parameter, axis)?;
+        if space3::Direction::new(*axis).is_none() {
+            return Err(no_direction(parameter, axis));
+        }
+        if let Some(cross) = cross {
+            usable(parameter, cross)?;
+            if space3::Direction::new(*cross).is_none() {
+                return Err(no_direction(parameter, cross));
+            }
+        }
+        space3::Axes::new(*axis, *cross).ok_or(ArgumentError::NotAcross {
             parameter: parameter.name,
-            vector: *v,
+            axis: *axis,
+            cross: cross.unwrap_or_default(),
         })
+    }
+
+    /// Reads a plane of the ground: a point and a normal. An optional one that is absent is z = 0.
+    ///
+    /// # Errors
+    /// If it is missing, of another shape, not finite, or the normal has length zero.
+    pub fn ground_plane(&mut self) -> Result<space3::GroundPlane, ArgumentError> {
+        let (parameter, argument) = self.take();
+        let [point, normal] = match argument {
+            Argument::Triples(both) => both,
+            Argument::Absent if parameter.optional => return Ok(space3::GroundPlane::Z),
+            _ => return Err(mismatch(parameter, argument, 3)),
+        };
+        usable(parameter, point)?;
+        usable(parameter, normal)?;
+        space3::GroundPlane::new(*point, *normal).ok_or_else(|| no_direction(parameter, normal))
     }
 
     /// Reads a line of the ground.
@@ -194,14 +301,11 @@ impl<'a> Reader<'a> {
     pub fn line(&mut self) -> Result<Line, ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Pairs([a, b]) = argument else {
-            return Err(mismatch(parameter, argument));
+            return Err(mismatch(parameter, argument, 2));
         };
         usable(parameter, a)?;
         usable(parameter, b)?;
-        Line::new(*a, *b).ok_or(ArgumentError::NoDirection {
-            parameter: parameter.name,
-            vector: [b[0] - a[0], b[1] - a[1]],
-        })
+        Line::new(*a, *b).ok_or_else(|| no_direction(parameter, &[b[0] - a[0], b[1] - a[1]]))
     }
 
     /// Reads `N` numbers.
@@ -212,14 +316,14 @@ impl<'a> Reader<'a> {
     pub fn numbers<const N: usize>(&mut self) -> Result<[f64; N], ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Numbers(values) = argument else {
-            return Err(mismatch(parameter, argument));
+            return Err(mismatch(parameter, argument, 2));
         };
         let Ok(values) = <[f64; N]>::try_from(values.as_slice()) else {
-            return Err(mismatch(parameter, argument));
+            return Err(mismatch(parameter, argument, 2));
         };
         usable(parameter, &values)?;
         let Shape::Numbers(units) = parameter.shape else {
-            return Err(mismatch(parameter, argument));
+            return Err(mismatch(parameter, argument, 2));
         };
         for (&value, unit) in values.iter().zip(units) {
             if value < 0.0 && !unit.may_be_negative() {
@@ -245,7 +349,15 @@ impl<'a> Reader<'a> {
     }
 }
 
-fn mismatch(parameter: &'static Parameter, argument: &Argument) -> ArgumentError {
+fn no_direction(parameter: &'static Parameter, vector: &[f64]) -> ArgumentError {
+    ArgumentError::NoDirection {
+        parameter: parameter.name,
+        vector: vector.to_vec(),
+    }
+}
+
+/// `dim` is the number of components of a vector.
+fn mismatch(parameter: &'static Parameter, argument: &Argument, dim: usize) -> ArgumentError {
     match argument {
         Argument::Absent => ArgumentError::Missing {
             parameter: parameter.name,
@@ -253,6 +365,7 @@ fn mismatch(parameter: &'static Parameter, argument: &Argument) -> ArgumentError
         _ => ArgumentError::Shape {
             parameter: parameter.name,
             expected: parameter.shape,
+            dim,
         },
     }
 }

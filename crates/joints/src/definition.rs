@@ -1,18 +1,18 @@
 //! Common parts of constraints and forces as trait objects: the numbers that they store.
 
-use crate::plane::Pose;
+use crate::space::{Plane, Space};
 
 /// A definition with values for its parameters and the values stored at the start.
-pub trait Definition: Send + Sync {
+pub trait Definition<S: Space = Plane>: Send + Sync {
     /// Stores the values that the definition takes from the assembled start.
-    fn initialise(&mut self, x: &[Pose]);
+    fn initialise(&mut self, x: &[S::Pose<f64>]);
 
     /// Whether requirement `k` of the definition holds at the assembled start.
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool;
+    fn requirement(&self, k: usize, x: &[S::Pose<f64>]) -> bool;
 
     /// Points at which the definition acts, each in the frame of its body: the parameters that are
     /// points, in their order. Empty if a definition has none.
-    fn points(&self) -> Vec<[f64; 2]> {
+    fn points(&self) -> Vec<S::Vector<f64>> {
         Vec::new()
     }
 

@@ -6,7 +6,8 @@
 //! | --- | --- |
 //! | [`ring`] | the number types of kernels |
 //! | [`recorded`] | a number type that records its operations |
-//! | [`plane`] | poses and twists of planar bodies |
+//! | [`space`] | the plane and space as types |
+//! | [`plane`], [`space3`] | poses and twists of bodies, and directions fixed in them |
 //! | [`spec`] | specifications of definitions: rows, parameters, patterns, counts |
 //! | [`arguments`] | values for the parameters of a definition |
 //! | [`definition`] | the numbers stored by constraints and forces |
@@ -23,16 +24,19 @@ pub mod generated;
 pub mod plane;
 pub mod recorded;
 pub mod ring;
+pub mod space;
+pub mod space3;
 pub mod spec;
 pub mod visitor;
 
 pub use arguments::{Argument, ArgumentError, LARGEST, is_usable};
-pub use constraint::{Constraint, Element};
+pub use constraint::{Constraint, Derivatives, Element};
 pub use definition::Definition;
 pub use force::{Force, ForceElement};
 pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};
 pub use recorded::Recorded;
 pub use ring::{Magnitude, Real, Ring};
+pub use space::{Plane, Space, Space3};
 pub use spec::{ConstraintSpec, ForceSpec};
 pub use visitor::Visitor;

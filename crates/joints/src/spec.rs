@@ -102,21 +102,48 @@ pub enum Shape {
         /// The slot.
         slot: usize,
     },
+    /// An axis of space in the frame of the body in this slot, with the directions across it.
+    Axes {
+        /// The slot.
+        slot: usize,
+        /// The parameter, by its index, whose axes these are at the described start unless they
+        /// are given.
+        like: Option<usize>,
+    },
     /// A straight line of the ground through two points.
     GroundLine,
+    /// A plane of the ground: a point, and a vector across it.
+    GroundPlane,
     /// Numbers with their units; one number is written without brackets.
     Numbers(&'static [Unit]),
     /// Functions of time with the units of their values.
     Functions(&'static [Unit]),
 }
 
-impl fmt::Display for Shape {
+impl Shape {
+    /// The shape in words, with as many coordinates as vectors have components.
+    #[must_use]
+    pub fn words(self, dim: usize) -> impl fmt::Display {
+        ShapeWords { shape: self, dim }
+    }
+}
+
+/// A shape in words.
+struct ShapeWords {
+    shape: Shape,
+    dim: usize,
+}
+
+impl fmt::Display for ShapeWords {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Point { .. } => f.write_str("a point [x, y]"),
-            Self::Direction { .. } => f.write_str("a direction [x, y]"),
-            Self::GroundLine => f.write_str("two points [[x, y], [x, y]]"),
-            Self::Numbers(units) => {
+        let vector = if self.dim == 3 { "[x, y, z]" } else { "[x, y]" };
+        match self.shape {
+            Shape::Point { .. } => write!(f, "a point {vector}"),
+            Shape::Direction { .. } => write!(f, "a direction {vector}"),
+            Shape::Axes { .. } => write!(f, "the direction {vector} of an axis"),
+            Shape::GroundLine => write!(f, "two points [{vector}, {vector}]"),
+            Shape::GroundPlane => write!(f, "a plane {{ point = {vector}, normal = {vector} }}"),
+            Shape::Numbers(units) => {
                 let range = if units.iter().any(|unit| unit.may_be_negative()) {
                     ""
                 } else {
@@ -127,8 +154,8 @@ impl fmt::Display for Shape {
                     _ => write!(f, "{} numbers{range} ({})", units.len(), list(units)),
                 }
             }
-            Self::Functions([unit]) => write!(f, "a number or a function of time ({unit})"),
-            Self::Functions(units) => {
+            Shape::Functions([unit]) => write!(f, "a number or a function of time ({unit})"),
+            Shape::Functions(units) => {
                 write!(
                     f,
                     "{} numbers or functions of time ({})",
@@ -232,12 +259,15 @@ pub struct ConstraintSpec {
     /// Entries (component, row) of the map from multipliers to the wrench on the first body that
     /// are not identically zero.
     pub wrench: &'static [[usize; 2]],
-    /// A named force component in addition to Fx, Fy and T.
+    /// A named force component in addition to those of the wrench.
     pub component: Option<&'static str>,
     /// A note for readers of its reaction, without the name of the joint.
     pub note: Option<&'static str>,
     /// Relative coordinates that a drive may prescribe.
     pub measures: &'static [Measure],
+    /// Whether kernels take the cosine and the sine of the function of time in place of the
+    /// function itself, each with two derivatives: drives of angles in space.
+    pub turning: bool,
     /// Pattern (row of the block, column of the block) of `∂(Cᵀλ)/∂x`.
     pub d_force_dx: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂(C·a − Γ)/∂x`.
@@ -256,7 +286,7 @@ impl ConstraintSpec {
     #[must_use]
     pub const fn n_data(&self) -> usize {
         match self.data {
-            [.., last] => last.first + last.shape.count(),
+            [.., last] => last.first + last.count,
             [] => 0,
         }
     }
@@ -271,60 +301,62 @@ pub struct Datum {
     pub shape: DatumShape,
     /// Index of its first number among those of the constraint.
     pub first: usize,
+    /// Number of its numbers.
+    pub count: usize,
 }
 
 impl Datum {
-    /// The datum whose numbers begin at `first`.
+    /// The datum with `count` numbers from `first` on.
     #[must_use]
-    pub const fn new(name: &'static str, shape: DatumShape, first: usize) -> Self {
-        Self { name, shape, first }
+    pub const fn new(name: &'static str, shape: DatumShape, first: usize, count: usize) -> Self {
+        Self {
+            name,
+            shape,
+            first,
+            count,
+        }
     }
 
     /// Indices of its numbers among those of the constraint.
     #[must_use]
     pub fn numbers(&self) -> Range<usize> {
-        self.first..self.first + self.shape.count()
+        self.first..self.first + self.count
     }
 }
 
 /// Kind of the numbers of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DatumShape {
-    /// Two numbers: a point in the frame of the body in this slot (m).
+    /// As many numbers as a vector has components: a point in the frame of the body in this slot (m).
     Point {
         /// The slot.
         slot: usize,
     },
-    /// Two numbers: components of a unit vector in the frame of the body in this slot. Only changes
-    /// perpendicular to it are meaningful.
+    /// Components of a unit vector in the frame of the body in this slot. Only changes perpendicular
+    /// to it are meaningful.
     Direction {
+        /// The slot.
+        slot: usize,
+    },
+    /// Three numbers: the rotation vector of axes in the frame of the body in this slot (rad), zero
+    /// as they are.
+    Axes {
         /// The slot.
         slot: usize,
     },
     /// Four numbers: x and y of the start of a line of the ground (m), and of its unit vector.
     Line,
+    /// Six numbers: a point of a plane of the ground (m), and its unit normal.
+    Plane,
     /// One number. An optional one that is not given has its value at the start.
     Number(Unit),
-    /// One number stored at the start.
+    /// One number stored at the start; an angle that is stored by its cosine and sine is 0 as it is.
     Kept(Unit),
-    /// Two numbers: components, in the frame of the body in this slot, of a vector stored at the
-    /// start (m).
+    /// Components, in the frame of the body in this slot, of a vector stored at the start (m).
     KeptVector {
         /// The slot.
         slot: usize,
     },
-}
-
-impl DatumShape {
-    /// Number of values that it has.
-    #[must_use]
-    pub const fn count(self) -> usize {
-        match self {
-            Self::Number(_) | Self::Kept(_) => 1,
-            Self::Point { .. } | Self::Direction { .. } | Self::KeptVector { .. } => 2,
-            Self::Line => 4,
-        }
-    }
 }
 
 /// Purpose of a constraint.
@@ -381,7 +413,8 @@ pub struct Entry {
     pub row: usize,
     /// Body slot.
     pub slot: usize,
-    /// Degree of freedom of the body: 0 x, 1 y, 2 rotation.
+    /// Degree of freedom of the body: 0 x, 1 y, 2 rotation in the plane; 0 x, 1 y, 2 z, 3 to 5
+    /// rotations in space.
     pub dof: usize,
     /// Whether it depends on parameters only.
     pub constant: bool,

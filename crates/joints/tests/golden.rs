@@ -1,5 +1,5 @@
 //! Φ, velocity rows and forces compared with tables computed by hand, one file for each definition
-//! in `tests/golden`: no derivative detects a wrong sign, a wrong axis or a missing row.
+//! in `tests/golden`, for space in its folder `space`: no derivative detects a wrong sign, a wrong axis or a missing row.
 //!
 //! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the derivation of the
 //! numbers is in its comments.
@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use joints::spec::Level;
-use joints::{Constraint, Definition, Force, ForceElement, Visitor};
-use table::{Golden, read};
+use joints::{Constraint, Definition, Force, ForceElement, Plane, Space3, Visitor};
+use table::{Golden, Tabled, read};
 
 /// Smallest number of poses that determine Φ, a velocity row or a force.
 const POSES: usize = 3;
@@ -24,11 +24,11 @@ fn every_definition_agrees_with_its_table() {
     let mut tables = Tables::default();
     joints::plane_constraints(&mut tables);
     joints::plane_forces(&mut tables);
-    assert_eq!(
-        tables.seen,
-        table::files(),
-        "files without a definition, or the other way round"
-    );
+    tables.are_complete::<Plane>();
+    let mut tables = Tables::default();
+    joints::space3::constraints(&mut tables);
+    joints::space3::forces(&mut tables);
+    tables.are_complete::<Space3>();
 }
 
 #[derive(Default)]
@@ -36,15 +36,25 @@ struct Tables {
     seen: BTreeSet<String>,
 }
 
-impl Visitor for Tables {
-    fn constraint<K: Constraint>(&mut self) {
+impl Tables {
+    fn are_complete<S: Tabled>(&self) {
+        assert_eq!(
+            self.seen,
+            table::files::<S>(),
+            "files without a definition, or the other way round"
+        );
+    }
+}
+
+impl<S: Tabled> Visitor<S> for Tables {
+    fn constraint<K: Constraint<S>>(&mut self) {
         self.drive::<K>();
         K::visit_drives(self);
     }
 
-    fn drive<K: Constraint>(&mut self) {
+    fn drive<K: Constraint<S>>(&mut self) {
         let name = K::SPEC.common.name;
-        let poses = read(name);
+        let poses = read::<S>(name);
         let pinned = |g: &&Golden| match K::SPEC.level {
             Level::Holonomic => g.phi.is_some(),
             Level::Nonholonomic => g.velocity.is_some(),
@@ -54,29 +64,33 @@ impl Visitor for Tables {
             "{name}: fewer than {POSES} poses"
         );
         for (number, golden) in poses.iter().enumerate() {
-            constraint::<K>(golden, &format!("{name}, pose {}", number + 1));
+            constraint::<K, S>(golden, &format!("{name}, pose {}", number + 1));
         }
         self.seen.insert(table::file_name(name));
     }
 
-    fn force<K: Force>(&mut self) {
+    fn force<K: Force<S>>(&mut self) {
         let name = K::SPEC.common.name;
-        let poses = read(name);
+        let poses = read::<S>(name);
         let pinned = poses.iter().filter(|g| g.q.is_some()).count();
         assert!(pinned >= POSES, "{name}: fewer than {POSES} poses");
         for (number, golden) in poses.iter().enumerate() {
-            force::<K>(golden, &format!("{name}, pose {}", number + 1));
+            force::<K, S>(golden, &format!("{name}, pose {}", number + 1));
         }
         self.seen.insert(table::file_name(name));
     }
 }
 
-fn constraint<K: Constraint>(golden: &Golden, place: &str) {
+fn constraint<K: Constraint<S>, S: Tabled>(golden: &Golden, place: &str) {
     assert!(golden.q.is_none(), "{place}: `q` is for forces");
-    let mut k = K::from_arguments(&golden.arguments(&K::SPEC.common)).expect(place);
-    let (x, v, f) = (golden.x(), golden.v(), golden.f());
-    k.initialise(&golden.start());
-    requirements(golden, place, |r| k.requirement(r, &golden.start()));
+    let mut k = K::from_arguments(&golden.arguments::<S>(&K::SPEC.common)).expect(place);
+    let (x, v, mut f) = (golden.x::<S>(), golden.v::<S>(), golden.f());
+    if K::SPEC.turning {
+        let angle = f.pop().unwrap_or_default();
+        f.extend(turn(angle));
+    }
+    k.initialise(&golden.start::<S>());
+    requirements(golden, place, |r| k.requirement(r, &golden.start::<S>()));
     let m = K::SPEC.rows.len();
     let mut out = vec![0.0; m];
     if K::SPEC.level == Level::Holonomic {
@@ -90,15 +104,15 @@ fn constraint<K: Constraint>(golden: &Golden, place: &str) {
     k.b(&x, &f, &mut b);
     let mut velocity: Vec<f64> = b.iter().map(|b| -b).collect();
     for (entry, c) in K::SPEC.c.iter().zip(&c) {
-        let twist = &v[entry.slot];
-        velocity[entry.row] += c * [twist.x, twist.y, twist.omega][entry.dof];
+        velocity[entry.row] += c * v[S::N_DOF * entry.slot + entry.dof];
     }
     compare(golden.velocity.as_ref(), &velocity, place, "C·v − b");
-    k.gamma(&x, &v, &f, &mut out);
+    let twists: Vec<_> = v.chunks(S::N_DOF).map(S::twist).collect();
+    k.gamma(&x, &twists, &f, &mut out);
     compare(golden.gamma.as_ref(), &out, place, "Γ");
     let mut map = vec![0.0; K::SPEC.wrench.len()];
     k.wrench(&x, &f, &mut map);
-    let mut wrench = vec![0.0; 3];
+    let mut wrench = vec![0.0; S::N_DOF];
     let lambda = golden.lambda();
     if golden.wrench.is_some() {
         assert_eq!(
@@ -119,20 +133,32 @@ fn constraint<K: Constraint>(golden: &Golden, place: &str) {
         place,
         "the component",
     );
-    compare(golden.place.as_ref(), &k.place(&x), place, "the place");
+    let point = k.place(&x);
+    compare(golden.place.as_ref(), point.as_ref(), place, "the place");
 }
 
-fn force<K: Force>(golden: &Golden, place: &str) {
+/// Cosine and sine of an angle, each with two derivatives.
+fn turn([f, f_t, f_tt]: [f64; 3]) -> [[f64; 3]; 2] {
+    let (sin, cos) = f.sin_cos();
+    [
+        [cos, -sin * f_t, -cos * f_t * f_t - sin * f_tt],
+        [sin, cos * f_t, cos * f_tt - sin * f_t * f_t],
+    ]
+}
+
+fn force<K: Force<S>, S: Tabled>(golden: &Golden, place: &str) {
     assert!(
         golden.only_force(),
         "{place}: only `q` and `requirements` are for forces"
     );
-    let mut k = K::from_arguments(&golden.arguments(&K::SPEC.common)).expect(place);
-    k.initialise(&golden.start());
-    requirements(golden, place, |r| k.requirement(r, &golden.start()));
+    let mut k = K::from_arguments(&golden.arguments::<S>(&K::SPEC.common)).expect(place);
+    k.initialise(&golden.start::<S>());
+    requirements(golden, place, |r| k.requirement(r, &golden.start::<S>()));
     let mut out = vec![0.0; K::SPEC.q.len()];
-    k.q(&golden.x(), &golden.v(), &golden.f(), &mut out);
-    let mut q = vec![0.0; 3 * K::SPEC.common.slots.len()];
+    let v = golden.v::<S>();
+    let twists: Vec<_> = v.chunks(S::N_DOF).map(S::twist).collect();
+    k.q(&golden.x::<S>(), &twists, &golden.f(), &mut out);
+    let mut q = vec![0.0; S::N_DOF * K::SPEC.common.slots.len()];
     for (&at, value) in K::SPEC.q.iter().zip(&out) {
         q[at] = *value;
     }

@@ -46,6 +46,17 @@ impl Derivation {
         Self { images }
     }
 
+    /// The derivation with these images in addition.
+    ///
+    /// # Panics
+    /// As [`Derivation::new`].
+    #[must_use]
+    pub fn with(&self, g: &Graph, images: &[(Expr, Expr)]) -> Self {
+        let mut all = Self::new(g, images);
+        all.images.extend(&self.images);
+        all
+    }
+
     /// The partial derivative with respect to one input.
     #[must_use]
     pub fn partial(g: &mut Graph, by: Expr) -> Self {

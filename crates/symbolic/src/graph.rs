@@ -119,6 +119,22 @@ impl Graph {
         self.intern(Node::Symbol(id))
     }
 
+    /// Number of inputs so far.
+    #[must_use]
+    pub fn number_of_symbols(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The expression of an input.
+    ///
+    /// # Panics
+    /// If the input belongs to another graph.
+    #[must_use]
+    pub fn symbol_expr(&self, s: Symbol) -> Expr {
+        let known = self.table.get(&Key::Symbol(s));
+        *known.expect("an input of this graph")
+    }
+
     /// The input that a handle refers to, if it is one.
     #[must_use]
     pub fn as_symbol(&self, e: Expr) -> Option<Symbol> {

@@ -5,10 +5,14 @@ use quote::ToTokens;
 use symbolic::Expr;
 
 use super::check;
+use super::expression::as_scalar;
 use super::model::{ConstraintBody, Measure};
 use super::scope::Scope;
+use super::value::Value;
 use crate::elaborate::Source;
 use crate::parse::{Definition, Kept};
+use crate::space::Space;
+use crate::vector::Vector;
 
 /// A scalar row with the source text of its expression.
 type Row<'a> = (Expr, &'a syn::Expr);
@@ -30,7 +34,8 @@ impl<'a> Scope<'a> {
             (None, Some(psi)) => (false, psi),
             (None, None) => unreachable!("the parser requires phi or psi"),
         };
-        let rows = self.rows(expr)?;
+        let mut vectors = Vec::new();
+        let rows = self.rows(expr, &mut vectors)?;
         check_row_count(d, expr, rows.len())?;
         for &(row, at) in &rows {
             if holonomic {
@@ -60,9 +65,12 @@ impl<'a> Scope<'a> {
         for (name, e) in &d.measures {
             let measure = match e {
                 Some(e) => {
-                    let value = self.scalar(e)?;
+                    let value = self.value(e)?;
                     self.refuse_all(e, check::MEASURE)?;
-                    Measure::Of(value)
+                    match value {
+                        Value::Angle { sin, cos } => Measure::Angle { sin, cos },
+                        other => Measure::Of(as_scalar(other, e)?),
+                    }
                 }
                 None => Measure::Kept(self.moved(name, &rows)?),
             };
@@ -75,6 +83,7 @@ impl<'a> Scope<'a> {
         Ok(ConstraintBody {
             holonomic,
             rows,
+            vectors,
             at,
             place: place_value,
             component,
@@ -115,26 +124,42 @@ impl<'a> Scope<'a> {
         let mut terms = Vec::new();
         for (law, coordinate) in &definition.forces {
             let (l, c) = (self.scalar(law)?, self.scalar(coordinate)?);
-            self.refuse_all(coordinate, check::COORDINATE)?;
+            let refusals = match definition.space {
+                Space::Plane => check::COORDINATE,
+                Space::Space3 => check::COORDINATE_OR_RATE,
+            };
+            self.refuse_all(coordinate, refusals)?;
             terms.push((l, c));
         }
         Ok(terms)
     }
 
-    /// Scalars of a list of scalars and vectors, vectors as their global components.
-    fn rows(&mut self, e: &'a syn::Expr) -> syn::Result<Vec<Row<'a>>> {
+    /// Scalars of a list of scalars and vectors, vectors as their global components; these are noted
+    /// with the numbers of their first rows.
+    fn rows(
+        &mut self,
+        e: &'a syn::Expr,
+        vectors: &mut Vec<(usize, Vector)>,
+    ) -> syn::Result<Vec<Row<'a>>> {
         match e {
-            syn::Expr::Paren(inner) => self.rows(&inner.expr),
-            syn::Expr::Group(inner) => self.rows(&inner.expr),
+            syn::Expr::Paren(inner) => self.rows(&inner.expr, vectors),
+            syn::Expr::Group(inner) => self.rows(&inner.expr, vectors),
             syn::Expr::Array(list) => {
                 let mut rows = Vec::new();
                 for entry in &list.elems {
-                    rows.extend(self.rows(entry)?);
+                    let mut own = Vec::new();
+                    let scalars = self.rows(entry, &mut own)?;
+                    let before = rows.len();
+                    vectors.extend(own.into_iter().map(|(first, v)| (before + first, v)));
+                    rows.extend(scalars);
                 }
                 Ok(rows)
             }
             _ => {
                 let value = self.value(e)?;
+                if let Value::Vector(v) = &value {
+                    vectors.push((0, v.clone()));
+                }
                 let scalars = self.components(value, e)?;
                 Ok(scalars.into_iter().map(|row| (row, e)).collect())
             }
@@ -162,7 +187,13 @@ fn check_row_count(d: &Definition, expr: &syn::Expr, found: usize) -> syn::Resul
     );
     error.combine(syn::Error::new_spanned(
         expr,
-        format!("this has {} (a vector counts as two, x and y)", rows(found)),
+        match d.space {
+            Space::Plane => format!("this has {} (a vector counts as two, x and y)", rows(found)),
+            Space::Space3 => format!(
+                "this has {} (a vector counts as three, x, y and z)",
+                rows(found)
+            ),
+        },
     ));
     Err(error)
 }

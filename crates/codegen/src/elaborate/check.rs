@@ -1,7 +1,7 @@
 //! The inputs that each part of a definition may depend on. An error points at the smallest wrong
 //! part of the expression, also if that part is used through a `let`.
 
-use symbolic::{Derivation, Expr, Node};
+use symbolic::{Expr, Node};
 
 use super::inputs::Source;
 use super::model::Model;
@@ -50,9 +50,9 @@ pub(super) const PSI: &[Refusal] = &[
     },
 ];
 
-/// The place of a reaction.
+/// The place of a reaction. It may divide: no kernel but that of the place itself reads it, unless a
+/// moment about it is carried, whose kernel must be a polynomial.
 pub(super) const PLACE: &[Refusal] = &[
-    NO_QUOTIENT,
     Refusal {
         bad: moves,
         why: "a place depends on positions and parameters, not on velocities",
@@ -96,6 +96,13 @@ pub(super) const COORDINATE: &[Refusal] = &[Refusal {
           the velocity into the law",
 }];
 
+/// The coordinate along which a force does work, or a velocity, linear in those of the bodies, on
+/// which its power depends: Q = law·∂velocity/∂v.
+pub(super) const COORDINATE_OR_RATE: &[Refusal] = &[Refusal {
+    bad: not_linear,
+    why: "a force acts on a relative position, or on a velocity that is linear in those of the bodies",
+}];
+
 /// Arguments of `rate` and `velocity`.
 pub(super) const DIFFERENTIABLE: &[Refusal] = &[
     Refusal {
@@ -132,14 +139,16 @@ fn uses_second_rate(model: &mut Model, e: Expr) -> bool {
 }
 
 fn not_linear(model: &mut Model, e: Expr) -> bool {
-    let twists: Vec<Expr> = model.inputs.slots.iter().flat_map(|s| s.twist).collect();
+    let slots = model.inputs.slots.iter();
+    let twists: Vec<Expr> = slots.flat_map(|s| s.twist.iter().copied()).collect();
     twists.into_iter().any(|v| {
-        let slope = Derivation::partial(&mut model.g, v).apply(&mut model.g, e);
+        let slope = model.inputs.partial(&mut model.g, v).apply(&mut model.g, e);
         moves(model, slope)
     })
 }
 
 pub(crate) fn not_polynomial(model: &mut Model, e: Expr) -> bool {
+    let e = model.expand(e);
     let mut seen = std::collections::BTreeSet::new();
     let mut stack = vec![e];
     while let Some(e) = stack.pop() {

@@ -9,8 +9,9 @@ use super::model::Model;
 use super::scope::Scope;
 use super::value::Value;
 use crate::nearest::hint;
+use crate::space::Space;
 use crate::parse::Definition;
-use crate::vector::Vector;
+use crate::vector::{Components, Vector};
 
 /// Allowed magnitudes of numbers: products of a few of them, and of their derivatives, do not
 /// overflow.
@@ -83,7 +84,7 @@ impl<'a> Scope<'a> {
     pub(super) fn components(&mut self, value: Value, at: &syn::Expr) -> syn::Result<Vec<Expr>> {
         match value {
             Value::Scalar(e) => Ok(vec![e]),
-            Value::Vector(v) => Ok(v.to_ground(&mut self.model.g, &self.model.turns).to_vec()),
+            Value::Vector(v) => Ok(v.to_ground(&mut self.model.g, &self.model.turns)),
             Value::List(values) => {
                 let mut rows = Vec::new();
                 for v in values {
@@ -96,15 +97,15 @@ impl<'a> Scope<'a> {
     }
 
     /// Components in the frame of the body in a slot.
-    pub(super) fn pair_in(
+    pub(super) fn local_in(
         &self,
         slot: usize,
         value: Value,
         at: &syn::Expr,
-    ) -> syn::Result<[Expr; 2]> {
+    ) -> syn::Result<Components> {
         match value {
-            Value::Pair { slot: own, pair } if own == slot => Ok(pair),
-            Value::Pair { slot: own, .. } => Err(self.wrong_frame(at, own, slot)),
+            Value::Local { slot: own, local } if own == slot => Ok(local),
+            Value::Local { slot: own, .. } => Err(self.wrong_frame(at, own, slot)),
             other => Err(wrong(
                 at,
                 &format!(
@@ -136,7 +137,10 @@ impl<'a> Scope<'a> {
         let known: Vec<&str> = self.values.keys().map(String::as_str).collect();
         let mut message = format!("unknown name `{key}`");
         if self.definition.slots.contains(name) {
-            message.push_str(": it is a body slot, write `origin(…)` or `angle(…)` of it");
+            message.push_str(match self.definition.space {
+                Space::Plane => ": it is a body slot, write `origin(…)` or `angle(…)` of it",
+                Space::Space3 => ": it is a body slot, write `origin(…)` or `spin(…)` of it",
+            });
         } else {
             message.push_str(&hint(&key, &known));
         }
@@ -185,12 +189,22 @@ impl<'a> Scope<'a> {
         };
         let list = match self.value(&e.expr)? {
             Value::List(list) => list,
-            Value::Pair { pair, .. } => pair.map(Value::Scalar).to_vec(),
-            Value::Vector(v) => v
-                .to_ground(&mut self.model.g, &self.model.turns)
-                .map(Value::Scalar)
-                .to_vec(),
-            other => return Err(wrong(&e.expr, "a list, a vector or a pair", &other)),
+            Value::Local { local, .. } => local.into_iter().map(Value::Scalar).collect(),
+            Value::Axes { slot, axes } => axes
+                .into_iter()
+                .map(|local| Value::Direction { slot, local })
+                .collect(),
+            Value::Vector(v) => {
+                let components = v.to_ground(&mut self.model.g, &self.model.turns);
+                components.into_iter().map(Value::Scalar).collect()
+            }
+            other => {
+                return Err(wrong(
+                    &e.expr,
+                    "a list, a vector or components in a frame",
+                    &other,
+                ));
+            }
         };
         let n = list.len();
         list.into_iter().nth(at).ok_or_else(|| {
@@ -329,9 +343,13 @@ fn no_operator(b: &syn::ExprBinary, op: &BinOp, left: &Value, right: &Value) -> 
                 "the point of body i that a parameter `s` gives is `point(i, s)`"
             }
             Value::Direction { .. } => "the vector that a parameter `n` gives is `direction(i, n)`",
-            Value::Pair { .. } => {
+            Value::Local { .. } => {
                 "the vector with components `c` in the frame of body i is `vector(i, c)`"
             }
+            Value::Axes { .. } => {
+                "of axes `a`, `direction(i, a[0])` and `direction(i, a[1])` lie across, `direction(i, a[2])` along"
+            }
+            Value::Plane { .. } => "a plane has a point `start(plane)` and a vector `normal(plane)`",
             Value::Line { .. } => "a line has a point `start(line)` and a direction `along(line)`",
             _ => continue,
         };

@@ -8,25 +8,34 @@ use super::expression::wrong;
 use super::scope::Scope;
 use super::value::Value;
 use crate::nearest::{hint, list};
-use crate::vector::{Frame, Vector};
+use crate::space::Space;
+use crate::vector::{Components, Frame, Vector};
 
-/// Names of the functions with their numbers of arguments.
-const FUNCTIONS: [(&str, usize); 15] = [
+/// Names of the functions of both spaces with their numbers of arguments.
+const FUNCTIONS: [(&str, usize); 11] = [
     ("point", 2),
     ("direction", 2),
     ("vector", 2),
     ("local", 2),
     ("origin", 1),
-    ("angle", 1),
-    ("start", 1),
-    ("along", 1),
     ("velocity", 1),
     ("rate", 1),
-    ("perp", 1),
     ("norm", 1),
     ("sin", 1),
     ("cos", 1),
     ("dot", 2),
+];
+
+/// Names of the functions of the plane.
+const PLANE: [(&str, usize); 4] = [("angle", 1), ("start", 1), ("along", 1), ("perp", 1)];
+
+/// Names of the functions of space.
+const SPACE3: [(&str, usize); 5] = [
+    ("angle", 2),
+    ("spin", 1),
+    ("cross", 2),
+    ("start", 1),
+    ("normal", 1),
 ];
 
 impl<'a> Scope<'a> {
@@ -41,13 +50,20 @@ impl<'a> Scope<'a> {
                 "expected the name of a function",
             ));
         };
-        let Some(&(function, arity)) = FUNCTIONS.iter().find(|(f, _)| name == f) else {
-            let known: Vec<&str> = FUNCTIONS.iter().map(|f| f.0).collect();
+        let (own, other, other_word) = match self.definition.space {
+            Space::Plane => (&PLANE[..], &SPACE3[..], Space::Space3.word()),
+            Space::Space3 => (&SPACE3[..], &PLANE[..], Space::Plane.word()),
+        };
+        let functions = || FUNCTIONS.iter().chain(own);
+        let Some(&(function, arity)) = functions().find(|(f, _)| name == f) else {
+            let known: Vec<&str> = functions().map(|f| f.0).collect();
             let text = name.to_string();
-            return Err(syn::Error::new_spanned(
-                &name,
-                format!("unknown function `{text}`{}", hint(&text, &known)),
-            ));
+            let message = if other.iter().any(|(f, _)| name == f) {
+                format!("`{text}` is a function of a `{other_word}` definition")
+            } else {
+                format!("unknown function `{text}`{}", hint(&text, &known))
+            };
+            return Err(syn::Error::new_spanned(&name, message));
         };
         let args: Vec<&'a syn::Expr> = call.args.iter().collect();
         if args.len() != arity {
@@ -66,23 +82,43 @@ impl<'a> Scope<'a> {
                 let slot = self.slot_argument(args[0])?;
                 let v = self.vector(args[1])?;
                 let model = &mut self.model;
-                let pair = v.in_body(&mut model.g, slot, &model.turns);
-                Ok(Value::Pair { slot, pair })
+                let local = v.in_body(&mut model.g, slot, &model.turns);
+                Ok(Value::Local { slot, local })
             }
             "origin" => {
                 let slot = self.slot_argument(args[0])?;
                 Ok(Value::Vector(self.origin(slot)))
             }
-            "angle" => {
+            "angle" if arity == 1 => {
                 let slot = self.slot_argument(args[0])?;
                 Ok(Value::Scalar(self.model.inputs.slots[slot].pose[2]))
             }
+            "angle" => self.angle_about(args[0], args[1]),
+            "spin" => {
+                let slot = self.slot_argument(args[0])?;
+                let omega = self.model.inputs.slots[slot].twist[3..].to_vec();
+                Ok(Value::Vector(Vector::new(Frame::Body(slot), omega)))
+            }
+            "cross" => {
+                let (a, b) = (self.vector(args[0])?, self.vector(args[1])?);
+                let model = &mut self.model;
+                Ok(Value::Vector(a.cross(&mut model.g, &b, &model.turns)))
+            }
             "start" | "along" => match self.value(args[0])? {
                 Value::Line { start, along } => {
-                    let pair = if function == "start" { start } else { along };
-                    Ok(Value::Vector(Vector::new(Frame::Ground, pair)))
+                    let components = if function == "start" { start } else { along };
+                    Ok(Value::Vector(Vector::new(Frame::Ground, components)))
+                }
+                Value::Plane { start, .. } if function == "start" => {
+                    Ok(Value::Vector(Vector::new(Frame::Ground, start)))
                 }
                 other => Err(wrong(args[0], "a line", &other)),
+            },
+            "normal" => match self.value(args[0])? {
+                Value::Plane { normal, .. } => {
+                    Ok(Value::Vector(Vector::new(Frame::Ground, normal)))
+                }
+                other => Err(wrong(args[0], "a plane", &other)),
             },
             "perp" => {
                 let v = self.vector(args[0])?;
@@ -130,34 +166,56 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// `r_i`, or `r_i + R_i·s`, or `R_i·s`.
+    /// The angle of the axes `to` against the axes `from` about their common w: by its sine
+    /// v·u' and its cosine u·u'.
+    fn angle_about(&mut self, from: &'a syn::Expr, to: &'a syn::Expr) -> syn::Result<Value> {
+        let mut axes = Vec::new();
+        for e in [from, to] {
+            match self.value(e)? {
+                Value::Axes { slot, axes: own } => axes.push(
+                    own.map(|local| Vector::new(Frame::Body(slot), local)),
+                ),
+                other => return Err(wrong(e, "an `Axes` parameter", &other)),
+            }
+        }
+        let ([u, v, _], [other, ..]) = (&axes[0], &axes[1]);
+        let model = &mut self.model;
+        Ok(Value::Angle {
+            sin: v.dot(&mut model.g, other, &model.turns),
+            cos: u.dot(&mut model.g, other, &model.turns),
+        })
+    }
+
+    /// `r_i`, or `r_i + R_i·s`, or `R_i·s`; `vector(ground, [a, b, c])` has ground components.
     fn placed(
         &mut self,
         function: &str,
         slot: &syn::Expr,
         what: &'a syn::Expr,
     ) -> syn::Result<Value> {
+        if function == "vector" && is_ground(slot) {
+            let value = self.value(what)?;
+            let components = self.listed(value, what)?;
+            return Ok(Value::Vector(Vector::new(Frame::Ground, components)));
+        }
         let at = self.slot_argument(slot)?;
-        let pair = match (function, self.value(what)?) {
-            ("point", Value::Point { slot: own, pair })
-            | ("direction", Value::Direction { slot: own, pair }) => {
+        let local = match (function, self.value(what)?) {
+            ("point", Value::Point { slot: own, local })
+            | ("direction", Value::Direction { slot: own, local }) => {
                 if own != at {
                     return Err(self.wrong_frame(what, own, at));
                 }
-                pair
+                local
             }
-            ("vector", value @ Value::Pair { .. }) => self.pair_in(at, value, what)?,
-            ("vector", Value::List(list)) => match list.as_slice() {
-                [Value::Scalar(x), Value::Scalar(y)] => [*x, *y],
-                _ => return Err(wrong(what, "two components", &Value::List(list))),
-            },
+            ("vector", value @ Value::Local { .. }) => self.local_in(at, value, what)?,
+            ("vector", value @ Value::List(_)) => self.listed(value, what)?,
             ("point", other) => return Err(wrong(what, "a `Point` parameter", &other)),
             ("direction", other) => {
                 return Err(wrong(what, "a `Direction` parameter", &other));
             }
-            (_, other) => return Err(wrong(what, "two components", &other)),
+            (_, other) => return Err(wrong(what, self.components_in_words(), &other)),
         };
-        let turned = Vector::new(Frame::Body(at), pair);
+        let turned = Vector::new(Frame::Body(at), local);
         Ok(Value::Vector(match function {
             "point" => self
                 .origin(at)
@@ -166,9 +224,32 @@ impl<'a> Scope<'a> {
         }))
     }
 
+    /// The scalars of a list, as many as a vector has components.
+    fn listed(&self, value: Value, at: &syn::Expr) -> syn::Result<Components> {
+        let Value::List(list) = &value else {
+            return Err(wrong(at, self.components_in_words(), &value));
+        };
+        let scalar = |value: &Value| match value {
+            Value::Scalar(e) => Some(*e),
+            _ => None,
+        };
+        let scalars: Option<Components> = list.iter().map(scalar).collect();
+        scalars
+            .filter(|s| s.len() == self.definition.space.dim())
+            .ok_or_else(|| wrong(at, self.components_in_words(), &value))
+    }
+
+    fn components_in_words(&self) -> &'static str {
+        match self.definition.space {
+            Space::Plane => "two components",
+            Space::Space3 => "three components",
+        }
+    }
+
     fn origin(&self, slot: usize) -> Vector {
-        let [x, y, ..] = self.model.inputs.slots[slot].pose;
-        Vector::new(Frame::Ground, [x, y])
+        let dim = self.definition.space.dim();
+        let r = self.model.inputs.slots[slot].pose[..dim].to_vec();
+        Vector::new(Frame::Ground, r)
     }
 
     fn slot_argument(&self, e: &syn::Expr) -> syn::Result<usize> {
@@ -192,4 +273,9 @@ impl<'a> Scope<'a> {
             )
         })
     }
+}
+
+/// Whether the frame is the ground.
+fn is_ground(slot: &syn::Expr) -> bool {
+    matches!(slot, syn::Expr::Path(p) if p.path.is_ident("ground"))
 }

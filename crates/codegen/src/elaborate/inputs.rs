@@ -4,11 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
-use symbolic::{Derivation, Expr, Graph, Symbol};
+use quote::quote;
+use symbolic::{Expr, Graph, Symbol};
 
+use crate::defined::{Along, Defined};
 use crate::parse::{Definition, Kept, ParamKind};
-use crate::vector::Turn;
+use crate::space::{AXES, Space};
+use crate::vector::{Components, Turn, cross};
 
 /// The location from which a kernel reads an input.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +39,8 @@ impl Source {
     pub(crate) fn access(&self) -> (TokenStream, bool) {
         let index = Literal::usize_unsuffixed;
         let of_slot = |array: TokenStream, slot: usize, field: &str| {
-            let (slot, field) = (index(slot), format_ident!("{field}"));
+            let slot = index(slot);
+            let field: TokenStream = field.parse().expect("a field of a pose or twist");
             quote!(#array[#slot].#field)
         };
         let tokens = match self {
@@ -66,71 +69,78 @@ impl Source {
 
 /// Symbols of one body slot.
 pub(crate) struct Slot {
-    /// x, y, angle, cos, sin
-    pub(crate) pose: [Expr; 5],
-    /// x, y, omega
-    pub(crate) twist: [Expr; 3],
-    /// x, y, angular
-    pub(crate) acceleration: [Expr; 3],
+    /// In the order of [`Space::pose`].
+    pub(crate) pose: Vec<Expr>,
+    /// In the order of [`Space::twist`], as `acceleration`.
+    pub(crate) twist: Vec<Expr>,
+    pub(crate) acceleration: Vec<Expr>,
 }
 
 /// All inputs of the kernels of one definition.
 pub(crate) struct Inputs {
+    pub(crate) space: Space,
     sources: BTreeMap<Symbol, Source>,
     /// Values of each parameter, in the order of its components.
     params: BTreeMap<String, Vec<Expr>>,
     taken: BTreeSet<String>,
     pub(crate) slots: Vec<Slot>,
+    /// Vectors and products of space that are differentiated as a whole.
+    pub(crate) defined: Defined,
     /// Jets of the functions of time.
     pub(crate) functions: Vec<[Expr; 3]>,
     /// The jet of a drive's motion and the initial value of its measure.
     pub(crate) motion: [Expr; 3],
     pub(crate) measure_0: Expr,
+    /// For angles in space: the jets of the cosine and the sine of the motion, and the cosine and
+    /// sine of the initial angle.
+    pub(crate) motion_turn: [[Expr; 3]; 2],
+    pub(crate) turn_0: [Expr; 2],
     pub(crate) lambda: Vec<Expr>,
 }
 
 /// Arguments of kernels: an input with one of these names is renamed.
 pub(crate) const ARGUMENTS: [&str; 6] = ["x", "v", "a", "f", "lambda", "out"];
 
-const POSE: [&str; 5] = ["x", "y", "angle", "cos", "sin"];
-const TWIST: [&str; 3] = ["x", "y", "omega"];
-
 impl Inputs {
     pub(crate) fn new(g: &mut Graph, d: &Definition) -> Self {
+        let zero = g.number(0.0);
         let mut inputs = Self {
+            space: d.space,
             sources: BTreeMap::new(),
             params: BTreeMap::new(),
             taken: ARGUMENTS.map(str::to_owned).into(),
             slots: Vec::new(),
+            defined: Defined::default(),
             functions: Vec::new(),
-            motion: [g.number(0.0); 3],
-            measure_0: g.number(0.0),
+            motion: [zero; 3],
+            measure_0: zero,
+            motion_turn: [[zero; 3]; 2],
+            turn_0: [zero; 2],
             lambda: Vec::new(),
         };
-        let zero = g.number(0.0);
         for (slot, name) in d.slots.iter().enumerate() {
+            let of_slot = |symbol: &str| symbol.replace("{}", &name.to_string());
             let mut s = Slot {
-                pose: [zero; 5],
-                twist: [zero; 3],
-                acceleration: [zero; 3],
+                pose: Vec::new(),
+                twist: Vec::new(),
+                acceleration: Vec::new(),
             };
-            for (k, field) in POSE.into_iter().enumerate() {
-                let symbol = match k {
-                    0 | 1 => format!("r_{name}_{field}"),
-                    _ => format!("{field}_{name}"),
-                };
-                s.pose[k] = inputs.add(g, &symbol, Source::Pose { slot, field });
+            for &(field, symbol) in d.space.pose() {
+                let source = Source::Pose { slot, field };
+                s.pose.push(inputs.add(g, &of_slot(symbol), source));
             }
-            for (k, field) in TWIST.into_iter().enumerate() {
-                let (velocity, acceleration) = match k {
-                    2 => (format!("omega_{name}"), format!("alpha_{name}")),
-                    _ => (format!("v_{name}_{field}"), format!("a_{name}_{field}")),
-                };
-                s.twist[k] = inputs.add(g, &velocity, Source::Twist { slot, field });
-                s.acceleration[k] =
-                    inputs.add(g, &acceleration, Source::Acceleration { slot, field });
+            for &(field, [velocity, acceleration]) in d.space.twist() {
+                let source = Source::Twist { slot, field };
+                s.twist.push(inputs.add(g, &of_slot(velocity), source));
+                let source = Source::Acceleration { slot, field };
+                let a = inputs.add(g, &of_slot(acceleration), source);
+                s.acceleration.push(a);
             }
             inputs.slots.push(s);
+        }
+        if d.space == Space::Space3 {
+            let slots = inputs.slots.iter();
+            inputs.defined = Defined::new(slots.map(rotation).collect());
         }
         for p in &d.params {
             inputs.add_param(g, &p.name.to_string(), &p.kind, p.default.is_some());
@@ -145,6 +155,16 @@ impl Inputs {
                 access: "self.measure_0".into(),
             },
         );
+        if d.space == Space::Space3 {
+            inputs.motion_turn = [("motion_cos", index), ("motion_sin", index + 1)]
+                .map(|(name, index)| inputs.add_jet(g, name, index));
+            inputs.turn_0 = ["cos", "sin"].map(|part| {
+                let k = usize::from(part == "sin");
+                let field = "measure_0".to_owned();
+                let access = format!("self.measure_0[{k}]");
+                inputs.add(g, &format!("{part}_0"), Source::Kept { field, access })
+            });
+        }
         for row in 0..d.rows.len().max(1) {
             let lambda = inputs.add(g, &format!("lambda_{row}"), Source::Lambda { row });
             inputs.lambda.push(lambda);
@@ -153,21 +173,36 @@ impl Inputs {
     }
 
     fn add_param(&mut self, g: &mut Graph, name: &str, kind: &ParamKind, optional: bool) {
+        let axes = &AXES[..self.space.dim()];
         let values = match kind {
-            ParamKind::Point(_) => self.add_numbers(
-                g,
-                &[
-                    (format!("{name}_x"), format!("{name}[0]")),
-                    (format!("{name}_y"), format!("{name}[1]")),
-                ],
-            ),
-            ParamKind::Direction(_) => self.add_numbers(
-                g,
-                &[
-                    (format!("{name}_local_x"), format!("{name}.xy()[0]")),
-                    (format!("{name}_local_y"), format!("{name}.xy()[1]")),
-                ],
-            ),
+            ParamKind::Point(_) => {
+                let numbers = axes.iter().enumerate();
+                let numbers: Vec<_> = numbers
+                    .map(|(k, axis)| (format!("{name}_{axis}"), format!("{name}[{k}]")))
+                    .collect();
+                self.add_numbers(g, &numbers)
+            }
+            ParamKind::Direction(_) => {
+                let parts = axes.concat();
+                let numbers = axes.iter().enumerate();
+                let numbers: Vec<_> = numbers
+                    .map(|(k, axis)| {
+                        let local = format!("{name}_local_{axis}");
+                        (local, format!("{name}.{parts}()[{k}]"))
+                    })
+                    .collect();
+                self.add_numbers(g, &numbers)
+            }
+            ParamKind::Axes { .. } => {
+                let numbers: Vec<_> = (0..9)
+                    .map(|n| {
+                        let (row, k) = (n / 3, n % 3);
+                        let symbol = format!("{name}_local_{}{}", ["u", "v", "w"][row], AXES[k]);
+                        (symbol, format!("{name}.uvw()[{row}][{k}]"))
+                    })
+                    .collect();
+                self.add_numbers(g, &numbers)
+            }
             ParamKind::GroundLine => self.add_numbers(
                 g,
                 &[
@@ -177,6 +212,17 @@ impl Inputs {
                     (format!("{name}_along_y"), format!("{name}.along().xy()[1]")),
                 ],
             ),
+            ParamKind::GroundPlane => {
+                let point = AXES.iter().enumerate().map(|(k, axis)| {
+                    (format!("{name}_point_{axis}"), format!("{name}.point()[{k}]"))
+                });
+                let normal = AXES.iter().enumerate().map(|(k, axis)| {
+                    let access = format!("{name}.normal().xyz()[{k}]");
+                    (format!("{name}_normal_{axis}"), access)
+                });
+                let numbers: Vec<_> = point.chain(normal).collect();
+                self.add_numbers(g, &numbers)
+            }
             ParamKind::Number(_) if optional => Vec::new(),
             ParamKind::Number(_) => self.add_numbers(g, &[(name.to_owned(), name.to_owned())]),
             ParamKind::Numbers(units) => {
@@ -243,10 +289,11 @@ impl Inputs {
     pub(crate) fn kept(&mut self, g: &mut Graph, field: &str, kind: &Kept) -> Vec<Expr> {
         let components = match kind {
             Kept::Number(_) => vec![(field.to_owned(), format!("self.{field}"))],
-            Kept::Vector(_) => vec![
-                (format!("{field}_x"), format!("self.{field}[0]")),
-                (format!("{field}_y"), format!("self.{field}[1]")),
-            ],
+            Kept::Vector(_) => {
+                let axes = AXES[..self.space.dim()].iter().enumerate();
+                axes.map(|(k, axis)| (format!("{field}_{axis}"), format!("self.{field}[{k}]")))
+                    .collect()
+            }
         };
         components
             .into_iter()
@@ -267,16 +314,21 @@ impl Inputs {
         &self.params[name]
     }
 
-    /// Components of a point or a direction.
-    pub(crate) fn pair(&self, name: &str) -> [Expr; 2] {
+    /// Start and direction of a line.
+    pub(crate) fn line(&self, name: &str) -> (Components, Components) {
         let values = self.values(name);
-        [values[0], values[1]]
+        (vec![values[0], values[2]], vec![values[1], values[3]])
     }
 
-    /// Start and direction of a line.
-    pub(crate) fn line(&self, name: &str) -> ([Expr; 2], [Expr; 2]) {
+    /// Components of the directions u, v and w of a parameter of axes.
+    pub(crate) fn axes(&self, name: &str) -> [Components; 3] {
         let values = self.values(name);
-        ([values[0], values[2]], [values[1], values[3]])
+        [0, 1, 2].map(|k| values[3 * k..3 * k + 3].to_vec())
+    }
+
+    /// Whether the input of this name is the cosine (0) or the sine (1) of a drive's motion.
+    pub(crate) fn is_motion_turn(&self, name: &str, part: usize) -> bool {
+        self.space == Space::Space3 && name.trim_end_matches('_') == ["motion_cos", "motion_sin"][part]
     }
 
     pub(crate) fn source(&self, s: Symbol) -> &Source {
@@ -284,50 +336,114 @@ impl Inputs {
     }
 
     pub(crate) fn turns(&self) -> Vec<Turn> {
-        self.slots
-            .iter()
-            .map(|s| Turn {
+        let slots = self.slots.iter().enumerate();
+        slots.map(|(slot, s)| self.turn(slot, s)).collect()
+    }
+
+    fn turn(&self, slot: usize, s: &Slot) -> Turn {
+        match self.space {
+            Space::Plane => Turn::Plane {
                 cos: s.pose[3],
                 sin: s.pose[4],
                 omega: s.twist[2],
-            })
-            .collect()
+            },
+            Space::Space3 => Turn::Space3 {
+                slot,
+                omega: [s.twist[3], s.twist[4], s.twist[5]],
+                defined: self.defined.clone(),
+            },
+        }
     }
 
     /// The derivation of the pose of a slot along a unit velocity of one degree of freedom.
-    pub(crate) fn along_dof(&self, g: &mut Graph, slot: usize, dof: usize) -> Derivation {
+    pub(crate) fn along_dof(&self, g: &mut Graph, slot: usize, dof: usize) -> Along {
+        let (zero, one) = (g.number(0.0), g.number(1.0));
+        let mut velocity = vec![zero; self.space.n_dof()];
+        velocity[dof] = one;
+        let images = self.pose_rates(g, slot, &velocity);
+        let images: Vec<_> = images.into_iter().filter(|i| !g.is_zero(i.1)).collect();
+        let still = vec![zero; 3];
+        let mut spins = vec![still; if self.space == Space::Space3 { self.slots.len() } else { 0 }];
+        if let Some(spin) = spins.get_mut(slot) {
+            *spin = velocity[3..].to_vec();
+        }
+        Along::new(g, &self.defined, &images, spins)
+    }
+
+    /// The derivation with these images of inputs that are no poses.
+    pub(crate) fn derivation(&self, g: &Graph, images: &[(Expr, Expr)]) -> Along {
+        Along::new(g, &self.defined, images, Vec::new())
+    }
+
+    /// The partial derivative by an input that is no pose.
+    pub(crate) fn partial(&self, g: &mut Graph, by: Expr) -> Along {
         let one = g.number(1.0);
-        let [x, y, angle, cos, sin] = self.slots[slot].pose;
-        match dof {
-            0 => Derivation::new(g, &[(x, one)]),
-            1 => Derivation::new(g, &[(y, one)]),
-            _ => {
-                let minus_sin = g.neg(sin);
-                Derivation::new(g, &[(angle, one), (cos, minus_sin), (sin, cos)])
+        self.derivation(g, &[(by, one)])
+    }
+
+    /// Each number of the pose of a slot with its rate at these velocities.
+    fn pose_rates(&self, g: &mut Graph, slot: usize, v: &[Expr]) -> Vec<(Expr, Expr)> {
+        let s = &self.slots[slot];
+        let dim = self.space.dim();
+        let mut rates: Vec<Expr> = v[..dim].to_vec();
+        match self.turn(slot, s) {
+            Turn::Plane { cos, sin, .. } => {
+                let omega = v[dim];
+                let turned = g.mul(sin, omega);
+                let minus_sin = g.neg(turned);
+                let plus_cos = g.mul(cos, omega);
+                rates.extend([omega, minus_sin, plus_cos]);
+            }
+            // R·[ω]×: the rows of R are vectors of the body, as seen from there.
+            Turn::Space3 { .. } => {
+                for row in rotation(s) {
+                    rates.extend(cross(g, &row, &v[dim..]));
+                }
             }
         }
+        s.pose.iter().copied().zip(rates).collect()
     }
 
     /// `d/dt` along the motion, without the terms in the accelerations.
-    pub(crate) fn time_derivation(&self, g: &mut Graph) -> Derivation {
-        let mut images = Vec::new();
+    pub(crate) fn time_derivation(&self, g: &mut Graph) -> Along {
+        let images = self.rates(g);
+        Along::new(g, &self.defined, &images, self.time_spins()).in_time()
+    }
+
+    /// `d/dt` along the motion, with the terms in the accelerations.
+    pub(crate) fn full_time_derivation(&self, g: &mut Graph) -> Along {
+        let mut images = self.rates(g);
         for s in &self.slots {
-            let [x, y, angle, cos, sin] = s.pose;
-            let [vx, vy, omega] = s.twist;
-            let turned = g.mul(sin, omega);
-            let minus_sin = g.neg(turned);
-            let plus_cos = g.mul(cos, omega);
-            images.extend([
-                (x, vx),
-                (y, vy),
-                (angle, omega),
-                (cos, minus_sin),
-                (sin, plus_cos),
-            ]);
+            images.extend(s.twist.iter().copied().zip(s.acceleration.iter().copied()));
         }
-        for jet in self.functions.iter().chain([&self.motion]) {
+        Along::new(g, &self.defined, &images, self.time_spins()).in_time()
+    }
+
+    fn time_spins(&self) -> Vec<Components> {
+        match self.space {
+            Space::Plane => Vec::new(),
+            Space::Space3 => self.slots.iter().map(|s| s.twist[3..].to_vec()).collect(),
+        }
+    }
+
+    /// Rates of poses and functions of time.
+    fn rates(&self, g: &mut Graph) -> Vec<(Expr, Expr)> {
+        let mut images = Vec::new();
+        for slot in 0..self.slots.len() {
+            images.extend(self.pose_rates(g, slot, &self.slots[slot].twist));
+        }
+        let motion = [&self.motion].into_iter().chain(match self.space {
+            Space::Plane => &[][..],
+            Space::Space3 => &self.motion_turn,
+        });
+        for jet in self.functions.iter().chain(motion) {
             images.extend([(jet[0], jet[1]), (jet[1], jet[2])]);
         }
-        Derivation::new(g, &images)
+        images
     }
+}
+
+/// R of a slot of space, by rows.
+fn rotation(s: &Slot) -> [[Expr; 3]; 3] {
+    [0, 1, 2].map(|row| [0, 1, 2].map(|k| s.pose[3 + 3 * row + k]))
 }

@@ -1,19 +1,21 @@
 //! A definition as mathematics, after names are resolved.
 
 use proc_macro2::{Ident, TokenStream};
-use symbolic::{Derivation, Expr, Graph};
+use symbolic::{Expr, Graph};
 
 use super::inputs::{self, Inputs, Source};
 use super::value::Value;
+use crate::defined::Along;
 use crate::parse::Kept;
-use crate::vector::{Frame, Turn, Vector};
+use crate::space::AXES;
+use crate::vector::{Components, Frame, Turn, Vector};
 
 /// A definition as mathematics.
 pub(crate) struct Model {
     pub(crate) g: Graph,
     pub(crate) inputs: Inputs,
     /// Total time derivative without the terms in the accelerations.
-    pub(crate) time: Derivation,
+    pub(crate) time: Along,
     pub(crate) turns: Vec<Turn>,
     /// Sub-expressions that have a name.
     pub(crate) names: Vec<(Expr, String)>,
@@ -50,6 +52,8 @@ pub(crate) struct ConstraintBody {
     /// Whether `rows` are Φ; otherwise they are Ψ·q̇ + ψ.
     pub(crate) holonomic: bool,
     pub(crate) rows: Vec<Expr>,
+    /// Vectors whose ground components are rows, with the first of them.
+    pub(crate) vectors: Vec<(usize, Vector)>,
     /// The source text of each row, for the positions of errors.
     pub(crate) at: Vec<TokenStream>,
     pub(crate) place: Vector,
@@ -65,6 +69,9 @@ pub(crate) enum Measure {
     /// A value kept from the start: the motion is added to it in the rows of the joint, and these
     /// rows take the place of the joint's.
     Kept(Expr),
+    /// An angle θ in space: its row is sin(θ − initial angle − motion), which is a polynomial in
+    /// the sines and cosines, so that full turns need no count.
+    Angle { sin: Expr, cos: Expr },
 }
 
 /// A condition on the start.
@@ -72,6 +79,21 @@ pub(crate) enum Condition {
     Compare(Comparison, Expr, Expr),
     And(Box<Condition>, Box<Condition>),
     Or(Box<Condition>, Box<Condition>),
+}
+
+impl Condition {
+    fn visit(&mut self, f: &mut impl FnMut(&mut Expr)) {
+        match self {
+            Self::Compare(_, a, b) => {
+                f(a);
+                f(b);
+            }
+            Self::And(a, b) | Self::Or(a, b) => {
+                a.visit(f);
+                b.visit(f);
+            }
+        }
+    }
 }
 
 /// How two scalars are compared.
@@ -86,10 +108,31 @@ pub(crate) enum Comparison {
 impl Model {
     /// Whether an expression depends on inputs of some origin.
     pub(crate) fn depends_on(&self, e: Expr, origin: impl Fn(&Source) -> bool) -> bool {
-        self.g
-            .inputs(e)
+        let inputs = self.inputs.defined.inputs(&self.g, e);
+        inputs
             .into_iter()
             .any(|s| origin(self.inputs.source(s)))
+    }
+
+    /// The expression with every symbol replaced that stands for a rotated vector or a product.
+    pub(crate) fn expand(&mut self, e: Expr) -> Expr {
+        self.inputs.defined.expand(&mut self.g, e)
+    }
+
+    /// Replaces these symbols in all that is printed without further derivatives.
+    pub(super) fn expand_printed(&mut self) {
+        let Self {
+            g,
+            inputs,
+            names,
+            kept,
+            requirements,
+            ..
+        } = self;
+        let mut expand = |e: &mut Expr| *e = inputs.defined.expand(g, *e);
+        names.iter_mut().for_each(|(e, _)| expand(e));
+        kept.iter_mut().flat_map(|k| &mut k.values).for_each(&mut expand);
+        requirements.iter_mut().for_each(|c| c.visit(&mut expand));
     }
 
     /// Whether a kept value is computed only from other numbers, so that it changes with them.
@@ -108,14 +151,14 @@ impl Model {
     }
 
     /// Names the ground components of a vector that is fixed in a body.
-    pub(super) fn name_rotated(&mut self, slot: usize, pair: [Expr; 2], name: &str) {
+    pub(super) fn name_rotated(&mut self, slot: usize, local: Components, name: &str) {
         let Model {
             g, turns, names, ..
         } = self;
-        let vector = Vector::new(Frame::Body(slot), pair);
-        for (_, [x, y]) in vector.rotated_parts(g, turns) {
-            names.push((x, format!("{name}_x")));
-            names.push((y, format!("{name}_y")));
+        let vector = Vector::new(Frame::Body(slot), local);
+        for (_, components) in vector.rotated_parts(g, turns) {
+            let components = components.into_iter().zip(AXES);
+            names.extend(components.map(|(e, axis)| (e, format!("{name}_{axis}"))));
         }
     }
 
@@ -123,12 +166,16 @@ impl Model {
     pub(super) fn name_value(&mut self, name: &str, value: &Value) {
         let pieces: Vec<(Expr, String)> = match value {
             Value::Scalar(e) => vec![(*e, name.to_owned())],
-            Value::Pair { pair: [a, b], .. } => {
-                vec![(*a, format!("{name}_0")), (*b, format!("{name}_1"))]
+            Value::Local { local, .. } => {
+                let entries = local.iter().enumerate();
+                entries.map(|(k, e)| (*e, format!("{name}_{k}"))).collect()
             }
             Value::Vector(v) => {
-                let [x, y] = v.to_ground(&mut self.g, &self.turns);
-                vec![(x, format!("{name}_x")), (y, format!("{name}_y"))]
+                let components = v.to_ground(&mut self.g, &self.turns).into_iter();
+                let components = components.zip(AXES);
+                components
+                    .map(|(e, axis)| (e, format!("{name}_{axis}")))
+                    .collect()
             }
             _ => Vec::new(),
         };

@@ -2,32 +2,47 @@
 
 use symbolic::Expr;
 
-use crate::vector::Vector;
+use crate::vector::{Components, Vector};
 
 /// The value of an expression, with its shape.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     Scalar(Expr),
     Vector(Vector),
-    /// Two components in the frame of a body.
-    Pair {
+    /// Components in the frame of a body.
+    Local {
         slot: usize,
-        pair: [Expr; 2],
+        local: Components,
     },
     /// A point parameter.
     Point {
         slot: usize,
-        pair: [Expr; 2],
+        local: Components,
     },
-    /// A direction parameter.
+    /// A direction parameter, or one of three axes.
     Direction {
         slot: usize,
-        pair: [Expr; 2],
+        local: Components,
+    },
+    /// A parameter of three axes u, v, w.
+    Axes {
+        slot: usize,
+        axes: [Components; 3],
+    },
+    /// An angle in space, by its sine and cosine.
+    Angle {
+        sin: Expr,
+        cos: Expr,
     },
     /// A line of the ground.
     Line {
-        start: [Expr; 2],
-        along: [Expr; 2],
+        start: Components,
+        along: Components,
+    },
+    /// A plane of the ground.
+    Plane {
+        start: Components,
+        normal: Components,
     },
     List(Vec<Value>),
 }
@@ -37,10 +52,13 @@ impl Value {
         match self {
             Self::Scalar(_) => "a scalar",
             Self::Vector(_) => "a vector",
-            Self::Pair { .. } => "a pair of components in a frame",
+            Self::Local { .. } => "components in a frame",
             Self::Point { .. } => "a point parameter",
             Self::Direction { .. } => "a direction parameter",
+            Self::Axes { .. } => "a parameter of axes",
+            Self::Angle { .. } => "an angle in space, which only a measure can be",
             Self::Line { .. } => "a line",
+            Self::Plane { .. } => "a plane",
             Self::List(_) => "a list",
         }
     }
@@ -52,10 +70,13 @@ impl Value {
         match self {
             Self::Scalar(e) => vec![*e],
             Self::Vector(v) => v.components().collect(),
-            Self::Pair { pair, .. } | Self::Point { pair, .. } | Self::Direction { pair, .. } => {
-                pair.to_vec()
-            }
+            Self::Local { local, .. }
+            | Self::Point { local, .. }
+            | Self::Direction { local, .. } => local.clone(),
+            Self::Axes { axes, .. } => axes.concat(),
+            Self::Angle { sin, cos } => vec![*sin, *cos],
             Self::Line { start, along } => start.iter().chain(along).copied().collect(),
+            Self::Plane { start, normal } => start.iter().chain(normal).copied().collect(),
             Self::List(values) => values.iter().flat_map(Self::scalars).collect(),
         }
     }

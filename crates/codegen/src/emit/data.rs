@@ -13,7 +13,8 @@ pub(super) fn facts(d: &Definition, data: &[Datum]) -> TokenStream {
     let mut first = 0;
     let data = data.iter().map(|datum| {
         let (name, at) = (&datum.name, index(first));
-        first += datum.symbols.len();
+        let count = index(datum.count());
+        first += datum.count();
         let shape = match &datum.shape {
             Shape::Point(slot) => {
                 let slot = parts::slot(d, slot);
@@ -23,7 +24,13 @@ pub(super) fn facts(d: &Definition, data: &[Datum]) -> TokenStream {
                 let slot = parts::slot(d, slot);
                 quote!(Direction { slot: #slot })
             }
+            Shape::Axes(slot) => {
+                let slot = parts::slot(d, slot);
+                quote!(Axes { slot: #slot })
+            }
+            Shape::Turn => quote!(Kept(Unit::Angle)),
             Shape::Line => quote!(Line),
+            Shape::Plane => quote!(Plane),
             Shape::Number(unit, _) => quote!(Number(Unit::#unit)),
             Shape::Kept(unit) => quote!(Kept(Unit::#unit)),
             Shape::KeptVector(slot) => {
@@ -31,22 +38,31 @@ pub(super) fn facts(d: &Definition, data: &[Datum]) -> TokenStream {
                 quote!(KeptVector { slot: #slot })
             }
         };
-        quote!(Datum::new(#name, DatumShape::#shape, #at))
+        quote!(Datum::new(#name, DatumShape::#shape, #at, #count))
     });
     quote!(&[#(#data),*])
 }
 
 /// `data` and `set_data`.
 pub(super) fn methods(model: &Model, data: &[Datum]) -> TokenStream {
-    let numbers = data.iter().flat_map(|d| &d.symbols).enumerate();
-    let reads = numbers.map(|(k, &e)| {
+    // Axes and angles by cosine and sine have changes only: none yet.
+    let numbers = data.iter().flat_map(|d| {
+        let changes = d.count() < d.symbols.len();
+        let symbols = d.symbols.iter().take(d.count());
+        symbols.map(move |&e| (!changes).then_some(e))
+    });
+    let reads = numbers.enumerate().map(|(k, e)| {
+        let k = index(k);
+        let Some(e) = e else {
+            return quote!(out[#k] = 0.0;);
+        };
         let symbol = model.g.as_symbol(e).expect("data are inputs");
-        let (k, (access, _)) = (index(k), model.inputs.source(symbol).access());
+        let (access, _) = model.inputs.source(symbol).access();
         quote!(out[#k] = #access;)
     });
     let mut first = 0;
     let writes = data.iter().map(|datum| {
-        let n = datum.symbols.len();
+        let n = datum.count();
         let number: Vec<TokenStream> = (first..first + n)
             .map(|k| {
                 let k = index(k);
@@ -70,11 +86,20 @@ pub(super) fn methods(model: &Model, data: &[Datum]) -> TokenStream {
 fn write(datum: &Datum, number: &[TokenStream]) -> TokenStream {
     let field = &datum.field;
     match (&datum.shape, number) {
-        (Shape::Direction(_), [x, y]) => {
-            quote!(self.#field = Direction::from_data([#x, #y]);)
+        (Shape::Direction(_), components) => {
+            quote!(self.#field = Direction::from_data([#(#components),*]);)
         }
+        (Shape::Axes(_), turn) => quote!(self.#field = self.#field.turned([#(#turn),*]);),
+        (Shape::Turn, [angle]) => quote! {
+            let (sin, cos) = f64::sin_cos(#angle);
+            let [c, s] = self.#field;
+            self.#field = [c * cos - s * sin, s * cos + c * sin];
+        },
         (Shape::Line, [x, y, along_x, along_y]) => {
             quote!(self.#field = Line::from_data([#x, #y], [#along_x, #along_y]);)
+        }
+        (Shape::Plane, [x, y, z, normal @ ..]) => {
+            quote!(self.#field = GroundPlane::from_data([#x, #y, #z], [#(#normal),*]);)
         }
         (Shape::Number(_, Some(k)), [x]) => {
             let k = index(*k);

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::{data, parts};
-use crate::derive::{ConstraintKernels, ForceKernels, N_DOF, Sparse};
+use crate::derive::{ConstraintKernels, ForceKernels, Sparse};
 use crate::elaborate::{ConstraintBody, Model, Source};
 use crate::parse::{Definition, Param, ParamKind};
 use parts::{Driven, Type, index};
@@ -16,7 +16,8 @@ pub(super) fn constraint_spec(
     body: &ConstraintBody,
     text: &str,
 ) -> TokenStream {
-    let motion = t.driven.map(|_| k.unit_of_measure());
+    let n_dof = d.space.n_dof();
+    let motion = t.driven.map(|_| k.unit_of_measure(d.space));
     let common = common(d, &t.name.to_string(), &t.scene_type, &t.doc, motion, text);
     let role = if t.driven.is_some() {
         quote!(Role::Drive)
@@ -40,7 +41,7 @@ pub(super) fn constraint_spec(
             }
         });
     let c = k.c.iter().map(|e| {
-        let [row, slot, dof] = [e.row, e.column / N_DOF, e.column % N_DOF].map(index);
+        let [row, slot, dof] = [e.row, e.column / n_dof, e.column % n_dof].map(index);
         if e.constant {
             quote!(Entry::constant(#row, #slot, #dof))
         } else {
@@ -60,10 +61,11 @@ pub(super) fn constraint_spec(
         let (name, by) = (drive.measure.to_string(), drive.by);
         let drive = drive.name.to_string();
         match by {
-            Driven::Measure => quote!(Measure::new(#name, #drive)),
+            Driven::Measure | Driven::Turn => quote!(Measure::new(#name, #drive)),
             Driven::Rows => quote!(Measure::kept(#name, #drive)),
         }
     });
+    let turning = t.driven == Some(Driven::Turn);
     let wrench = pattern(&k.wrench);
     let d_force_dx = pattern(&k.d_force_dx);
     let d_residual_dx = pattern(&k.d_residual_dx);
@@ -82,6 +84,7 @@ pub(super) fn constraint_spec(
             component: #component,
             note: #note,
             measures: &[#(#measures),*],
+            turning: #turning,
             d_force_dx: #d_force_dx,
             d_residual_dx: #d_residual_dx,
             d_gamma_dv: #d_gamma_dv,
@@ -181,16 +184,34 @@ fn parameter(d: &Definition, p: &Param) -> TokenStream {
             let slot = parts::slot(d, s);
             quote!(Shape::Direction { slot: #slot })
         }
+        ParamKind::Axes { slot, like, .. } => {
+            let slot = parts::slot(d, slot);
+            let like = match like {
+                Some(like) => {
+                    let k = d.params.iter().position(|p| p.name == *like);
+                    let k = index(k.expect("checked while elaborating"));
+                    quote!(Some(#k))
+                }
+                None => quote!(None),
+            };
+            quote!(Shape::Axes { slot: #slot, like: #like })
+        }
         ParamKind::GroundLine => quote!(Shape::GroundLine),
+        ParamKind::GroundPlane => quote!(Shape::GroundPlane),
         ParamKind::Number(unit) => quote!(Shape::Numbers(&[Unit::#unit])),
         ParamKind::Numbers(units) => quote!(Shape::Numbers(&[#(Unit::#units),*])),
         ParamKind::Function(unit) => quote!(Shape::Functions(&[Unit::#unit])),
         ParamKind::Functions(units) => quote!(Shape::Functions(&[#(Unit::#units),*])),
     };
     let doc = p.doc.join(" ");
-    match p.default {
-        Some(_) => quote!(Parameter::optional(#name, #shape, #doc)),
-        None => quote!(Parameter::required(#name, #shape, #doc)),
+    let optional = matches!(
+        p.kind,
+        ParamKind::Axes { optional: true, .. } | ParamKind::GroundPlane
+    );
+    if optional || p.default.is_some() {
+        quote!(Parameter::optional(#name, #shape, #doc))
+    } else {
+        quote!(Parameter::required(#name, #shape, #doc))
     }
 }
 

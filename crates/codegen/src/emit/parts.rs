@@ -5,9 +5,10 @@ use quote::{format_ident, quote};
 use symbolic::{Expr, Scalar};
 
 use crate::data::Datum;
-use crate::elaborate::{Comparison, Condition, KeptValue, Model};
+use crate::elaborate::{Comparison, Condition, KeptValue, Measure, Model};
 use crate::kernel::kernel;
 use crate::names::kebab_case;
+use crate::space::Space;
 use crate::parse::{Definition, Kept, Param, ParamKind};
 
 /// The differences between a constraint and the drives of its measures.
@@ -36,6 +37,8 @@ pub(super) struct Drive {
 pub(super) enum Driven {
     /// By a row of its own.
     Measure,
+    /// By a row of its own for an angle in space, by cosine and sine.
+    Turn,
     /// By the rows of the joint, in their place.
     Rows,
 }
@@ -60,10 +63,24 @@ pub(super) fn scene_type(d: &Definition) -> String {
 }
 
 /// The imports that the generated items need.
-pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
+pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> TokenStream {
     let (traits, specs) = if constraint {
         (
-            quote!(Constraint, Definition, Element, Ring, Visitor),
+            match space {
+                Space::Plane => {
+                    quote!(Constraint, Definition, Derivatives, Element, Real, Ring, Visitor)
+                }
+                Space::Space3 => quote!(
+                    Constraint,
+                    Definition,
+                    Derivatives,
+                    Element,
+                    Real,
+                    Ring,
+                    Space3,
+                    Visitor
+                ),
+            },
             quote!(
                 ConstraintSpec,
                 Datum,
@@ -82,9 +99,16 @@ pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
         )
     } else {
         (
-            quote!(Definition, Force, ForceElement, Real),
+            match space {
+                Space::Plane => quote!(Definition, Force, ForceElement, Real),
+                Space::Space3 => quote!(Definition, Force, ForceElement, Real, Space3),
+            },
             quote!(ForceSpec, Parameter, Shape, Spec, Unit, Variant),
         )
+    };
+    let kinematics = match space {
+        Space::Plane => quote!(plane::{Direction, Line, Pose, Twist}),
+        Space::Space3 => quote!(space3::{Axes, Direction, GroundPlane, Pose, Twist}),
     };
     quote! {
         #[allow(unused_imports)]
@@ -92,7 +116,7 @@ pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
         #[allow(unused_imports)]
         use #runtime::arguments::{Argument, ArgumentError, Reader};
         #[allow(unused_imports)]
-        use #runtime::plane::{Direction, Line, Pose, Twist};
+        use #runtime::#kinematics;
         #[allow(unused_imports)]
         use #runtime::spec::{#specs};
     }
@@ -108,7 +132,7 @@ pub(super) fn structure(
 ) -> TokenStream {
     let doc: Vec<String> = doc.iter().map(|line| format!(" {line}")).collect();
     let params = d.params.iter().filter_map(|p| {
-        let (name, ty) = (&p.name, field_type(p)?);
+        let (name, ty) = (&p.name, field_type(d.space, p)?);
         let doc = param_doc(p, d);
         Some(quote!(#[doc = #doc] pub #name: #ty,))
     });
@@ -116,7 +140,7 @@ pub(super) fn structure(
         let name = format_ident!("{}", k.field);
         let ty = match k.kind {
             Kept::Number(_) => quote!(f64),
-            Kept::Vector(_) => quote!([f64; 2]),
+            Kept::Vector(_) => vector(d.space),
         };
         let doc = match &k.overridden_by {
             Some(p) => format!(" `{p}`, or its value at the assembled start; set by `initialise`."),
@@ -124,12 +148,17 @@ pub(super) fn structure(
         };
         quote!(#[doc = #doc] pub #name: #ty,)
     });
-    let measure = (driven == Some(Driven::Measure)).then(|| {
-        quote! {
+    let measure = match driven {
+        Some(Driven::Measure) => Some(quote! {
             #[doc = " Value of the measure at the assembled start; set by `initialise`."]
             pub measure_0: f64,
-        }
-    });
+        }),
+        Some(Driven::Turn) => Some(quote! {
+            #[doc = " Cosine and sine of the measure at the assembled start; set by `initialise`."]
+            pub measure_0: [f64; 2],
+        }),
+        Some(Driven::Rows) | None => None,
+    };
     quote! {
         #(#[doc = #doc])*
         #[derive(Clone, Debug, PartialEq)]
@@ -149,13 +178,13 @@ pub(super) fn drives(
     name: &Ident,
     drives: &[Drive],
 ) -> Option<TokenStream> {
-    let params = d.params.iter().filter(|p| field_type(p).is_some());
+    let params = d.params.iter().filter(|p| field_type(d.space, p).is_some());
     let fields: Vec<Ident> = params
         .map(|p| p.name.clone())
         .chain(model.kept.iter().map(|k| format_ident!("{}", k.field)))
         .collect();
     let methods = drives.iter().map(|Drive { measure, name, by }| {
-        let measure_0 = (*by == Driven::Measure).then(|| quote!(measure_0: 0.0));
+        let measure_0 = measure_0(*by);
         let doc = format!(" The drive of its {measure}, with the same parameters.");
         let method = format_ident!("{measure}_drive");
         quote! {
@@ -180,7 +209,12 @@ fn param_doc(p: &Param, d: &Definition) -> String {
     let takes = match &p.kind {
         ParamKind::Point(s) => format!("Point in the frame of {} (m).", slot(s)),
         ParamKind::Direction(s) => format!("Unit vector in the frame of {}.", slot(s)),
+        ParamKind::Axes { slot: s, .. } => format!(
+            "Axis, and directions across it, in the frame of {}.",
+            slot(s)
+        ),
         ParamKind::GroundLine => "Line of the ground.".to_owned(),
+        ParamKind::GroundPlane => "Plane of the ground, z = 0 unless it is given.".to_owned(),
         ParamKind::Number(u) | ParamKind::Function(u) => format!("Unit: {}.", unit(u)),
         ParamKind::Numbers(u) | ParamKind::Functions(u) => {
             let units: Vec<_> = u.iter().map(unit).collect();
@@ -195,11 +229,13 @@ fn param_doc(p: &Param, d: &Definition) -> String {
 }
 
 /// Functions of time are not fields: they are passed as jets.
-fn field_type(p: &Param) -> Option<TokenStream> {
+fn field_type(space: Space, p: &Param) -> Option<TokenStream> {
     Some(match &p.kind {
-        ParamKind::Point(_) => quote!([f64; 2]),
+        ParamKind::Point(_) => vector(space),
         ParamKind::Direction(_) => quote!(Direction),
+        ParamKind::Axes { .. } => quote!(Axes),
         ParamKind::GroundLine => quote!(Line),
+        ParamKind::GroundPlane => quote!(GroundPlane),
         ParamKind::Number(_) if p.default.is_some() => quote!(Option<f64>),
         ParamKind::Number(_) => quote!(f64),
         ParamKind::Numbers(units) => {
@@ -208,6 +244,21 @@ fn field_type(p: &Param) -> Option<TokenStream> {
         }
         ParamKind::Function(_) | ParamKind::Functions(_) => return None,
     })
+}
+
+/// The type of the components of a vector.
+fn vector(space: Space) -> TokenStream {
+    let dim = index(space.dim());
+    quote!([f64; #dim])
+}
+
+/// The field of the initial measure, before the start is known.
+fn measure_0(by: Driven) -> Option<TokenStream> {
+    match by {
+        Driven::Measure => Some(quote!(measure_0: 0.0)),
+        Driven::Turn => Some(quote!(measure_0: [1.0, 0.0])),
+        Driven::Rows => None,
+    }
 }
 
 /// A number without suffix.
@@ -229,9 +280,17 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Drive
         .map(|p| {
             let name = &p.name;
             match &p.kind {
-                ParamKind::Point(_) => quote!(let #name = reader.point()?;),
-                ParamKind::Direction(_) => quote!(let #name = reader.direction()?;),
+                ParamKind::Point(_) => match d.space {
+                    Space::Plane => quote!(let #name = reader.point()?;),
+                    Space::Space3 => quote!(let #name = reader.point3()?;),
+                },
+                ParamKind::Direction(_) => match d.space {
+                    Space::Plane => quote!(let #name = reader.direction()?;),
+                    Space::Space3 => quote!(let #name = reader.direction3()?;),
+                },
+                ParamKind::Axes { .. } => quote!(let #name = reader.axes()?;),
                 ParamKind::GroundLine => quote!(let #name = reader.line()?;),
+                ParamKind::GroundPlane => quote!(let #name = reader.ground_plane()?;),
                 ParamKind::Number(_) if p.default.is_some() => {
                     quote!(let #name = reader.optional_number()?;)
                 }
@@ -247,16 +306,20 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Drive
     let fields = d
         .params
         .iter()
-        .filter(|p| field_type(p).is_some())
+        .filter(|p| field_type(d.space, p).is_some())
         .map(|p| &p.name);
     let kept = model.kept.iter().map(|k| {
         let name = format_ident!("{}", k.field);
         match k.kind {
             Kept::Number(_) => quote!(#name: 0.0,),
-            Kept::Vector(_) => quote!(#name: [0.0; 2],),
+            Kept::Vector(_) => {
+                let dim = index(d.space.dim());
+                quote!(#name: [0.0; #dim],)
+            }
         }
     });
-    let measure = (driven == Some(Driven::Measure)).then(|| quote!(measure_0: 0.0,));
+    let measure = driven.and_then(measure_0);
+    let measure = measure.map(|field| quote!(#field,));
     // Without parameters only the number of arguments is checked.
     let reader = if reads.is_empty() {
         quote!(Reader::new(Self::SPEC.common.parameters, arguments)?;)
@@ -273,7 +336,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Drive
 }
 
 /// The method that computes the values kept from the start. Each value may use those before it.
-pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
+pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> TokenStream {
     let kept = model.kept.iter().map(|k| {
         let field = format_ident!("{}", k.field);
         let value = kept_value(model, k);
@@ -290,10 +353,23 @@ pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
             None => quote!(self.#field = #value;),
         }
     });
-    let measure = measure.map(|e| {
-        let printed = kernel(model, &[e], Scalar::F64);
-        let (statements, outputs) = (&printed.statements, &printed.outputs);
-        quote!(self.measure_0 = { #(#statements)* #(#outputs)* };)
+    let measure = measure.map(|measure| match measure {
+        Measure::Of(e) => {
+            let printed = kernel(model, &[e], Scalar::F64);
+            let (statements, outputs) = (&printed.statements, &printed.outputs);
+            quote!(self.measure_0 = { #(#statements)* #(#outputs)* };)
+        }
+        Measure::Angle { sin, cos } => {
+            let printed = kernel(model, &[cos, sin], Scalar::F64);
+            let (statements, outputs) = (&printed.statements, &printed.outputs);
+            quote! {
+                let [c, s]: [f64; 2] = { #(#statements)* [#(#outputs),*] };
+                // Axes across each other have no angle: any serves.
+                let length = c.hypot(s);
+                self.measure_0 = if length > 0.0 { [c / length, s / length] } else { [1.0, 0.0] };
+            }
+        }
+        Measure::Kept(_) => TokenStream::new(),
     });
     quote! {
         fn initialise(&mut self, x: &[Pose]) { #(#kept)* #measure }
@@ -345,8 +421,9 @@ pub(super) fn points(d: &Definition) -> TokenStream {
         ParamKind::Point(_) => Some(&p.name),
         _ => None,
     });
+    let vector = vector(d.space);
     quote! {
-        fn points(&self) -> Vec<[f64; 2]> { vec![#(self.#points),*] }
+        fn points(&self) -> Vec<#vector> { vec![#(self.#points),*] }
     }
 }
 

@@ -8,6 +8,7 @@ use syn::{Attribute, Ident, LitStr, Token, braced, bracketed, parenthesized};
 use super::kind::{Initial, doc_lines};
 use super::tree::{Binding, Definition, Kind, Param, name};
 use crate::nearest::hint;
+use crate::space::Space;
 
 mod kw {
     syn::custom_keyword!(apart);
@@ -15,6 +16,7 @@ mod kw {
     syn::custom_keyword!(kept);
     syn::custom_keyword!(on);
     syn::custom_keyword!(plane);
+    syn::custom_keyword!(space);
 }
 
 /// First words of items.
@@ -32,14 +34,18 @@ const CONSTRAINT: [&str; 7] = [
 ];
 const FORCE: [&str; 1] = ["force"];
 
-/// `plane Name(slot, …) { … }`
+/// `plane Name(slot, …) { … }` or `space Name(slot, …) { … }`
 pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Definition> {
-    if !input.peek(kw::plane) {
+    let space = if input.parse::<Option<kw::plane>>()?.is_some() {
+        Space::Plane
+    } else if input.parse::<Option<kw::space>>()?.is_some() {
+        Space::Space3
+    } else {
         return Err(input.error(
-            "expected `plane Name(i, j) { … }`: the space of the definition, its name, its body slots",
+            "expected `plane Name(i, j) { … }` or `space Name(i, j) { … }`: the space of the definition, its name, \
+             its body slots",
         ));
-    }
-    input.parse::<kw::plane>()?;
+    };
     let own_name = name(input)?;
     let slots;
     parenthesized!(slots in input);
@@ -57,6 +63,7 @@ pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Defi
         return Err(input.error("nothing may follow the definition"));
     }
     let mut d = Definition {
+        space,
         doc: doc_lines(&items.call(Attribute::parse_outer)?)?,
         name: own_name,
         slots,

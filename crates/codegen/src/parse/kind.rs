@@ -7,6 +7,11 @@ use syn::{Attribute, Expr, Ident, Token, bracketed};
 use super::tree::{Binding, Kept, Param, ParamKind, name};
 use crate::nearest::hint;
 
+mod kw {
+    syn::custom_keyword!(like);
+    syn::custom_keyword!(optional);
+}
+
 /// Units that a parameter may have: the variants of `joints::spec::Unit` except `PerLength`.
 pub const UNITS: [&str; 12] = [
     "Length",
@@ -24,7 +29,14 @@ pub const UNITS: [&str; 12] = [
 ];
 
 /// Kinds of parameters in addition to units.
-const KINDS: [&str; 4] = ["Point", "Direction", "GroundLine", "Function"];
+const KINDS: [&str; 6] = [
+    "Point",
+    "Direction",
+    "Axes",
+    "GroundLine",
+    "GroundPlane",
+    "Function",
+];
 
 /// Kinds of initial values in addition to units.
 const INITIAL_KINDS: [&str; 2] = ["Vector", "PerLength"];
@@ -57,7 +69,21 @@ impl Parse for ParamKind {
         match word.to_string().as_str() {
             "Point" => Ok(Self::Point(in_slot(input)?)),
             "Direction" => Ok(Self::Direction(in_slot(input)?)),
+            "Axes" => {
+                let slot = in_slot(input)?;
+                let like = match input.parse::<Option<kw::like>>()? {
+                    Some(_) => Some(name(input)?),
+                    None => None,
+                };
+                let optional = input.parse::<Option<kw::optional>>()?.is_some();
+                Ok(Self::Axes {
+                    slot,
+                    like,
+                    optional,
+                })
+            }
             "GroundLine" => Ok(Self::GroundLine),
+            "GroundPlane" => Ok(Self::GroundPlane),
             "Function" => {
                 input.parse::<Token![<]>()?;
                 let unit = unit(input.parse()?, &[])?;

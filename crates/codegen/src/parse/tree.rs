@@ -3,6 +3,8 @@
 use syn::parse::ParseStream;
 use syn::{Expr, Ident, LitStr};
 
+use crate::space::Space;
+
 /// The kind of a definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -14,6 +16,8 @@ pub enum Kind {
 
 /// One definition, as written.
 pub struct Definition {
+    /// The space of its bodies.
+    pub space: Space,
     /// Its name.
     pub name: Ident,
     /// Names of its body slots.
@@ -69,8 +73,20 @@ pub enum ParamKind {
     Point(Ident),
     /// A direction in the frame of the body in a slot.
     Direction(Ident),
+    /// An axis in the frame of the body in a slot, with directions across it; they are those of
+    /// another parameter unless they are given, or those of the frame if `optional`.
+    Axes {
+        /// The slot.
+        slot: Ident,
+        /// The parameter whose axes they are, as described.
+        like: Option<Ident>,
+        /// Whether the axes of the frame serve if none are given.
+        optional: bool,
+    },
     /// A line of the ground.
     GroundLine,
+    /// A plane of the ground; z = 0 unless it is given.
+    GroundPlane,
     /// One number with its unit.
     Number(Ident),
     /// Several numbers.
@@ -96,7 +112,7 @@ pub struct Binding {
 pub enum Kept {
     /// One number with its unit.
     Number(Ident),
-    /// Two components in the frame of the body in a slot.
+    /// Components in the frame of the body in a slot.
     Vector(Ident),
 }
 

@@ -2,16 +2,18 @@
 //! plain numbers, so that no dual number goes through them: the references are differences through
 //! `set_data`, and, for the second kernel, dual numbers through the poses of the first.
 
+use std::marker::PhantomData;
+
 use joints::Constraint;
 use joints::spec::{DatumShape, Level};
 
 use super::{Kernel, OfConstraint};
 use crate::block::{Block, dot};
+use crate::bodies::Bodies;
 use crate::case::Motion;
 use crate::check::Check;
 use crate::derivative::{DualNumbers, by_differences};
 use crate::failure::{Claim, Failure, Oracle, Property};
-use crate::state::stacked;
 use crate::subject::By;
 
 /// Added to each number in turn: nothing that a case draws.
@@ -30,7 +32,7 @@ const ALL: [Kernel; 6] = [
     Kernel::Place,
 ];
 
-impl<K: Constraint> Check<'_, OfConstraint<K>> {
+impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     /// All that concerns the numbers that the constraint stores.
     pub(super) fn data(&self) -> Result<(), Failure> {
         let numbers = self.numbers();
@@ -56,8 +58,8 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
     }
 
     /// The answer of `ask` for the constraint with these numbers.
-    fn with_data<T>(&self, numbers: &[f64], ask: impl Fn(&Check<'_, OfConstraint<K>>) -> T) -> T {
-        let mut subject = OfConstraint(self.subject.0.clone());
+    fn with_data<T>(&self, numbers: &[f64], ask: impl Fn(&Check<'_, OfConstraint<K, S>>) -> T) -> T {
+        let mut subject = OfConstraint(self.subject.0.clone(), PhantomData);
         subject.0.set_data(numbers);
         ask(&Check {
             subject: &subject,
@@ -71,16 +73,18 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
         for datum in K::SPEC.data {
             let name = datum.name;
             self.data_fact(&format!("place of `{name}`"), datum.first != next)?;
-            next += datum.shape.count();
+            next += datum.count;
             let values = &numbers[datum.numbers()];
             let untold = values.iter().any(|x| !x.is_finite());
             self.data_fact(&format!("numbers of `{name}`"), untold)?;
             let unit = match datum.shape {
                 DatumShape::Direction { .. } => values,
                 DatumShape::Line => &values[2..],
+                DatumShape::Plane => &values[3..],
                 _ => continue,
             };
-            let off = (unit[0].hypot(unit[1]) - 1.0).abs() > UNIT;
+            let length = unit.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let off = (length - 1.0).abs() > UNIT;
             self.data_fact(&format!("length of the unit vector of `{name}`"), off)?;
         }
         Ok(())
@@ -99,7 +103,14 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
         let same = self.with_data(numbers, bits);
         let changed = bits(self) != same;
         self.data_fact("kernels after `set_data` of the same numbers", changed)?;
-        for k in 0..numbers.len() {
+        // Changes of axes, and of angles by cosine and sine, are carried out, not stored.
+        let is_change = |k: usize| {
+            K::SPEC.data.iter().any(|d| {
+                let turns = K::SPEC.turning && d.name == "measure_0";
+                d.numbers().contains(&k) && (turns || matches!(d.shape, DatumShape::Axes { .. }))
+            })
+        };
+        for k in (0..numbers.len()).filter(|&k| !is_change(k)) {
             let mut other = numbers.to_vec();
             other[k] += ANOTHER;
             let (told, back) = self.with_data(&other, |check| {
@@ -131,7 +142,7 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
     fn residual_by_data(&self, m: &Motion) -> Block {
         let by_pose = self.derivative::<DualNumbers>(Kernel::DPhiDp, By::Poses, m);
         let along_v = self.derivative::<DualNumbers>(Kernel::DPhiDp, By::MotionTwice, m);
-        let along_a = by_pose.times(&stacked(&m.a));
+        let along_a = by_pose.times(&m.a);
         along_a.zip(&along_v, |a, v| a + v)
     }
 
@@ -160,7 +171,7 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
     }
 }
 
-fn bits<K: Constraint>(check: &Check<'_, OfConstraint<K>>) -> Vec<u64> {
+fn bits<K: Constraint<S>, S: Bodies>(check: &Check<'_, OfConstraint<K, S>>) -> Vec<u64> {
     let m = &check.case.motions[0];
     let block = |kernel| check.at(kernel, m).map(f64::to_bits).entries().to_vec();
     ALL.into_iter().flat_map(block).collect()

@@ -2,18 +2,18 @@
 //! forces, the start.
 
 use joints::Constraint;
-use joints::plane::{N_DOF, Pose};
 use joints::spec::{Level, Role};
 
 use super::{Kernel, OfConstraint};
 use crate::block::Block;
+use crate::bodies::Bodies;
 use crate::case::{Case, Kind};
 use crate::check::{Check, is_internal};
 use crate::derivative::DualNumbers;
 use crate::failure::{DUAL_TOLERANCE, Failure, Property};
 use crate::subject::{By, Subject};
 
-impl<K: Constraint> Check<'_, OfConstraint<K>> {
+impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     fn first(&self, kernel: Kernel) -> Block {
         self.at(kernel, &self.case.motions[0])
     }
@@ -23,14 +23,11 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
         let x = &self.case.x;
         let c = self.first(Kernel::C);
         let place = self.first(Kernel::Place);
-        let lever = [place.get(0, 0) - x[0].x, place.get(1, 0) - x[0].y];
-        let mut expected = Block::filled(N_DOF, c.rows(), 0.0);
+        let mut expected = Block::filled(S::N_DOF, c.rows(), 0.0);
         for row in 0..c.rows() {
-            let force = [-c.get(row, 0), -c.get(row, 1)];
-            expected.set(0, row, force[0]);
-            expected.set(1, row, force[1]);
-            let moment = lever[0] * force[1] - lever[1] * force[0];
-            expected.set(2, row, -c.get(row, 2) - moment);
+            let q: Vec<f64> = (0..S::N_DOF).map(|k| -c.get(row, k)).collect();
+            let wrench = S::wrench(&x[0], &q, point(&place)).into_iter();
+            wrench.enumerate().for_each(|(k, w)| expected.set(k, row, w));
         }
         self.identity(Property::Wrench, &self.first(Kernel::Wrench), &expected)
     }
@@ -46,8 +43,12 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
             let power = Block::column(power.collect());
             return self.identity(Property::Power, &power, &self.first(Kernel::B));
         }
-        let bound = |row| match wrench.get(0, row).hypot(wrench.get(1, row)) {
-            0.0 => wrench.get(2, row).abs(),
+        let length = |row, components: std::ops::Range<usize>| -> f64 {
+            let squares = components.map(|k| wrench.get(k, row) * wrench.get(k, row));
+            squares.sum::<f64>().sqrt()
+        };
+        let bound = |row| match length(row, 0..S::DIM) {
+            0.0 => length(row, S::DIM..S::N_DOF),
             force => force,
         };
         // Equal where within the bound, else the bound: what exceeds it is the error.
@@ -68,11 +69,11 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
         let (x, motion) = (&self.case.x, &self.case.motions[0]);
         let found = self.derivative::<DualNumbers>(Kernel::Place, By::Poses, motion);
         let place = self.first(Kernel::Place);
-        let mut expected = Block::filled(2, OfConstraint::<K>::columns(), 0.0);
-        expected.set(0, 0, 1.0);
-        expected.set(1, 1, 1.0);
-        expected.set(0, 2, -(place.get(1, 0) - x[0].y));
-        expected.set(1, 2, place.get(0, 0) - x[0].x);
+        let mut expected = Block::filled(S::DIM, OfConstraint::<K, S>::columns(), 0.0);
+        let velocities = S::point_velocities(&x[0], point(&place));
+        for (column, velocity) in velocities.into_iter().enumerate() {
+            (0..S::DIM).for_each(|k| expected.set(k, column, velocity[k]));
+        }
         self.identity(Property::Place, &found, &expected)
     }
 
@@ -80,7 +81,7 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
     pub(super) fn rows_balance(&self) -> Result<(), Failure> {
         let holonomic = K::SPEC.level == Level::Holonomic;
         let ordinary = self.case.kind == Kind::Ordinary;
-        if !(ordinary && holonomic && is_internal::<OfConstraint<K>>()) {
+        if !(ordinary && holonomic && is_internal::<OfConstraint<K, S>>()) {
             return Ok(());
         }
         let case = self.closed();
@@ -94,7 +95,7 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
         )
     }
 
-    fn with<'s>(&'s self, case: &'s Case) -> Check<'s, OfConstraint<K>> {
+    fn with<'s>(&'s self, case: &'s Case<S>) -> Check<'s, OfConstraint<K, S>> {
         Check {
             subject: self.subject,
             case,
@@ -103,7 +104,7 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
 
     /// The case with its poses moved until Φ = 0, or nearly so: corrections along one row of C
     /// after the other, which need no rank.
-    fn closed(&self) -> Case {
+    fn closed(&self) -> Case<S> {
         const SWEEPS: usize = 100;
         let mut case = self.case.clone();
         for _ in 0..SWEEPS {
@@ -118,9 +119,9 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
                 if phi == 0.0 || square == 0.0 {
                     continue;
                 }
-                for (x, c) in case.x.iter_mut().zip(c.row(row).chunks(N_DOF)) {
-                    let [dx, dy, turn] = [0, 1, 2].map(|dof| -c[dof] * phi / square);
-                    *x = Pose::new(x.x + dx, x.y + dy, x.angle + turn);
+                for (x, c) in case.x.iter_mut().zip(c.row(row).chunks(S::N_DOF)) {
+                    let d: Vec<f64> = c.iter().map(|c| -c * phi / square).collect();
+                    *x = S::moved(x, &d, 1.0);
                 }
             }
         }
@@ -139,8 +140,15 @@ impl<K: Constraint> Check<'_, OfConstraint<K>> {
     }
 }
 
+/// A column of coordinates as a point.
+fn point(place: &Block) -> [f64; 3] {
+    std::array::from_fn(|k| if k < place.rows() { place.get(k, 0) } else { 0.0 })
+}
+
 /// Φ at the start, functions of time zero.
-pub(super) fn phi_at_start<K: Constraint>(check: &Check<'_, OfConstraint<K>>) -> Block {
+pub(super) fn phi_at_start<K: Constraint<S>, S: Bodies>(
+    check: &Check<'_, OfConstraint<K, S>>,
+) -> Block {
     let start = Case {
         x: check.case.start.clone(),
         f: vec![[0.0; 3]; check.case.f.len()],

@@ -6,7 +6,7 @@ use joints::generated::{
 };
 use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
 use joints::{
-    Argument, ArgumentError, Constraint, Definition, Element, Force, ForceElement, Pose, Real,
+    Argument, ArgumentError, Constraint, Definition, Derivatives, Element, Force, ForceElement, Pose, Real,
     Ring, Twist, Visitor,
 };
 
@@ -64,7 +64,7 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
         if WRONG == wrong::DATUM {
             // The first datum is a point, which is not a unit vector, and the others are missing.
             const WRONG_SHAPE: [Datum; 1] =
-                [Datum::new("s_i", DatumShape::Direction { slot: 0 }, 0)];
+                [Datum::new("s_i", DatumShape::Direction { slot: 0 }, 0, 2)];
             spec.data = &WRONG_SHAPE;
         }
         spec
@@ -75,6 +75,9 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     }
     fn visit_drives<V: Visitor>(_: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {
+        self
+    }
+    fn derivatives<T: Ring>(&self) -> &dyn Derivatives<T> {
         self
     }
 }
@@ -141,7 +144,10 @@ impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
         self.0.element::<T>().gamma(x, v, f, out);
         change(out, WRONG == wrong::GAMMA);
     }
-    fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+    fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T])
+    where
+        T: Real,
+    {
         self.0.element::<T>().wrench(x, f, out);
         change(out, WRONG == wrong::WRENCH);
     }
@@ -151,7 +157,10 @@ impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
             out.iter_mut().for_each(|e| *e = *e + *e);
         }
     }
-    fn place(&self, x: &[Pose<T>]) -> [T; 2] {
+    fn place(&self, x: &[Pose<T>]) -> [T; 2]
+    where
+        T: Real,
+    {
         let [x_p, y_p] = self.0.element::<T>().place(x);
         if WRONG == wrong::PLACE {
             [y_p, x_p]
@@ -159,8 +168,15 @@ impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
             [x_p, y_p]
         }
     }
+    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        self.0.element::<T>().d_phi_dp(x, f, lambda, out);
+        change(out, WRONG == wrong::D_PHI_DP);
+    }
+}
+
+impl<T: Ring, K: Constraint, const WRONG: u8> Derivatives<T> for Mutant<K, WRONG> {
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        self.0.element::<T>().d_force_dx(x, f, lambda, out);
+        self.0.derivatives::<T>().d_force_dx(x, f, lambda, out);
         change(out, WRONG == wrong::D_FORCE_DX);
     }
     fn d_residual_dx(
@@ -172,21 +188,17 @@ impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
         out: &mut [T],
     ) {
         let mut all = vec![T::from(0.0); K::SPEC.d_residual_dx.len()];
-        self.0.element::<T>().d_residual_dx(x, v, a, f, &mut all);
+        self.0.derivatives::<T>().d_residual_dx(x, v, a, f, &mut all);
         out.copy_from_slice(&all[all.len() - out.len()..]);
         change(out, WRONG == wrong::D_RESIDUAL_DX);
     }
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.element::<T>().d_gamma_dv(x, v, f, out);
+        self.0.derivatives::<T>().d_gamma_dv(x, v, f, out);
         change(out, WRONG == wrong::D_GAMMA_DV);
     }
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.element::<T>().d_velocity_dx(x, v, f, out);
+        self.0.derivatives::<T>().d_velocity_dx(x, v, f, out);
         change(out, WRONG == wrong::D_VELOCITY_DX);
-    }
-    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        self.0.element::<T>().d_phi_dp(x, f, lambda, out);
-        change(out, WRONG == wrong::D_PHI_DP);
     }
     fn d_residual_dp(
         &self,
@@ -197,7 +209,7 @@ impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
         lambda: &[T],
         out: &mut [T],
     ) {
-        self.0.element::<T>().d_residual_dp(x, v, a, f, lambda, out);
+        self.0.derivatives::<T>().d_residual_dp(x, v, a, f, lambda, out);
         change(out, WRONG == wrong::D_RESIDUAL_DP);
     }
 }
@@ -286,83 +298,83 @@ type Cylinder<const WRONG: u8> = Mutant<DistanceLengthDrive, WRONG>;
 #[test]
 fn a_definition_without_a_change_passes() {
     const NONE: u8 = u8::MAX;
-    assert!(check_constraint::<Drive<NONE>>(SEED).is_ok());
-    assert!(check_force::<ForceMutant<SpringDamper, NONE>>(SEED).is_ok());
+    assert!(check_constraint::<Drive<NONE>, _>(SEED).is_ok());
+    assert!(check_force::<ForceMutant<SpringDamper, NONE>, _>(SEED).is_ok());
 }
 
 #[test]
 fn a_wrong_entry_of_any_constraint_kernel_is_named() {
     use Property as P;
     let cases = [
-        (found(check_constraint::<Drive<{ wrong::PHI }>>(SEED)), P::C),
+        (found(check_constraint::<Drive<{ wrong::PHI }>, _>(SEED)), P::C),
         (
-            found(check_constraint::<Mutant<Fixed, { wrong::C_CONSTANT }>>(
+            found(check_constraint::<Mutant<Fixed, { wrong::C_CONSTANT }>, _>(
                 SEED,
             )),
             P::C,
         ),
-        (found(check_constraint::<Drive<{ wrong::C }>>(SEED)), P::C),
-        (found(check_constraint::<Drive<{ wrong::B }>>(SEED)), P::B),
+        (found(check_constraint::<Drive<{ wrong::C }>, _>(SEED)), P::C),
+        (found(check_constraint::<Drive<{ wrong::B }>, _>(SEED)), P::B),
         (
-            found(check_constraint::<Drive<{ wrong::GAMMA }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::GAMMA }>, _>(SEED)),
             P::GammaFromPhi,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::WRENCH }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::WRENCH }>, _>(SEED)),
             P::Wrench,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::COMPONENT }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::COMPONENT }>, _>(SEED)),
             P::Power,
         ),
         (
-            found(check_constraint::<Cylinder<{ wrong::COMPONENT }>>(SEED)),
+            found(check_constraint::<Cylinder<{ wrong::COMPONENT }>, _>(SEED)),
             P::Power,
         ),
         (
-            found(check_constraint::<Cylinder<{ wrong::B }>>(SEED)),
+            found(check_constraint::<Cylinder<{ wrong::B }>, _>(SEED)),
             P::B,
         ),
         (
-            found(check_constraint::<Mutant<KnifeEdge, { wrong::COMPONENT }>>(
+            found(check_constraint::<Mutant<KnifeEdge, { wrong::COMPONENT }>, _>(
                 SEED,
             )),
             P::Component,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::D_FORCE_DX }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::D_FORCE_DX }>, _>(SEED)),
             P::DForceDx,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DX }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DX }>, _>(SEED)),
             P::DResidualDx,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::D_GAMMA_DV }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::D_GAMMA_DV }>, _>(SEED)),
             P::DGammaDv,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::D_VELOCITY_DX }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::D_VELOCITY_DX }>, _>(SEED)),
             P::DVelocityDx,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::INITIALISE }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::INITIALISE }>, _>(SEED)),
             P::Start,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::REQUIREMENT }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::REQUIREMENT }>, _>(SEED)),
             P::Requirements,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::C_UNWRITTEN }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::C_UNWRITTEN }>, _>(SEED)),
             P::Writes,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::PATTERN }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::PATTERN }>, _>(SEED)),
             P::DResidualDx,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::RHEONOMIC }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::RHEONOMIC }>, _>(SEED)),
             P::Writes,
         ),
     ];
@@ -370,7 +382,7 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
         assert_eq!(found, expected);
     }
     // The wrench about another point fails before the point itself.
-    let place = found(check_constraint::<Drive<{ wrong::PLACE }>>(SEED));
+    let place = found(check_constraint::<Drive<{ wrong::PLACE }>, _>(SEED));
     assert!(matches!(place, P::Wrench | P::Place), "{place:?}");
 }
 
@@ -378,9 +390,9 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
 fn a_wrong_entry_of_a_velocity_row_is_named() {
     // Γ is derived from C and b, so it detects a fault of either.
     for found in [
-        found(check_constraint::<Mutant<Velocity, { wrong::C }>>(SEED)),
-        found(check_constraint::<Mutant<Velocity, { wrong::B }>>(SEED)),
-        found(check_constraint::<Mutant<Velocity, { wrong::GAMMA }>>(SEED)),
+        found(check_constraint::<Mutant<Velocity, { wrong::C }>, _>(SEED)),
+        found(check_constraint::<Mutant<Velocity, { wrong::B }>, _>(SEED)),
+        found(check_constraint::<Mutant<Velocity, { wrong::GAMMA }>, _>(SEED)),
     ] {
         assert_eq!(found, Property::Gamma);
     }
@@ -392,35 +404,35 @@ fn a_wrong_derivative_by_the_data_is_named() {
     type Edge<const WRONG: u8> = Mutant<Velocity, WRONG>;
     let cases = [
         (
-            found(check_constraint::<Drive<{ wrong::DATA }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::DATA }>, _>(SEED)),
             P::Data,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::SET_DATA }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::SET_DATA }>, _>(SEED)),
             P::Data,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::DATUM }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::DATUM }>, _>(SEED)),
             P::Data,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::NORMALISED }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::NORMALISED }>, _>(SEED)),
             P::Data,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DP }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DP }>, _>(SEED)),
             P::DResidualDp,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::D_PHI_DP }>>(SEED)),
+            found(check_constraint::<Drive<{ wrong::D_PHI_DP }>, _>(SEED)),
             P::DPhiDp,
         ),
         (
-            found(check_constraint::<Edge<{ wrong::D_PHI_DP }>>(SEED)),
+            found(check_constraint::<Edge<{ wrong::D_PHI_DP }>, _>(SEED)),
             P::DPhiDp,
         ),
         (
-            found(check_constraint::<Edge<{ wrong::D_RESIDUAL_DP }>>(SEED)),
+            found(check_constraint::<Edge<{ wrong::D_RESIDUAL_DP }>, _>(SEED)),
             P::DResidualDp,
         ),
     ];
@@ -433,19 +445,19 @@ fn a_wrong_derivative_by_the_data_is_named() {
 fn a_wrong_entry_of_any_force_kernel_is_named() {
     use wrong_force::{DQ_DV, DQ_DX, FLAG, Q, SIGN};
     type Spring<const WRONG: u8> = ForceMutant<SpringDamper, WRONG>;
-    assert_eq!(found(check_force::<Spring<Q>>(SEED)), Property::Balance);
-    assert_eq!(found(check_force::<Spring<DQ_DX>>(SEED)), Property::DqDx);
-    assert_eq!(found(check_force::<Spring<DQ_DV>>(SEED)), Property::DqDv);
+    assert_eq!(found(check_force::<Spring<Q>, _>(SEED)), Property::Balance);
+    assert_eq!(found(check_force::<Spring<DQ_DX>, _>(SEED)), Property::DqDx);
+    assert_eq!(found(check_force::<Spring<DQ_DV>, _>(SEED)), Property::DqDv);
     assert_eq!(
-        found(check_force::<Spring<SIGN>>(SEED)),
+        found(check_force::<Spring<SIGN>, _>(SEED)),
         Property::Dissipation
     );
-    assert_eq!(found(check_force::<Spring<FLAG>>(SEED)), Property::DqDv);
+    assert_eq!(found(check_force::<Spring<FLAG>, _>(SEED)), Property::DqDv);
 }
 
 #[test]
 fn a_failure_says_what_a_joint_author_needs() {
-    let failure = check_constraint::<Drive<{ wrong::C }>>(SEED).expect_err("C is wrong");
+    let failure = check_constraint::<Drive<{ wrong::C }>, _>(SEED).expect_err("C is wrong");
     assert_eq!(failure.definition, "PinInSlotDisplacementDrive");
     assert!(failure.relative_error() > failure.tolerance);
     let text = failure.to_string();

@@ -2,6 +2,7 @@
 
 use crate::visitor::Visitor;
 
+pub mod space3;
 #[rustfmt::skip]
 pub mod angle;
 pub use angle::*;

@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
 
+use joints::space3::{self, Axes};
 use joints::spec::{Shape, Spec};
-use joints::{Argument, Pose, Twist};
+use joints::{Argument, Plane, Pose, Space, Space3, Twist};
 use serde::Deserialize;
 
 /// One pose with the numbers computed for it.
@@ -15,9 +16,9 @@ pub(crate) struct Golden {
     #[serde(default)]
     parameters: BTreeMap<String, Value>,
     /// The assembled start, if it is not the pose itself.
-    start: Option<Vec<[Scalar; 3]>>,
-    x: Vec<[Scalar; 3]>,
-    v: Option<Vec<[Scalar; 3]>>,
+    start: Option<Vec<Vec<Scalar>>>,
+    x: Vec<Vec<Scalar>>,
+    v: Option<Vec<Vec<Scalar>>>,
     #[serde(default)]
     f: Vec<[Scalar; 3]>,
     #[serde(default)]
@@ -46,7 +47,62 @@ pub(crate) enum Scalar {
 enum Value {
     One(f64),
     Many(Vec<f64>),
-    Line([[f64; 2]; 2]),
+    Two([Vec<f64>; 2]),
+}
+
+/// A space as tables write it.
+pub(crate) trait Tabled: Space {
+    /// Folder of its tables.
+    const FOLDER: &'static str;
+    /// A pose: x, y, angle, or x, y, z and a quaternion of any length.
+    fn pose(numbers: &[f64]) -> Self::Pose<f64>;
+    /// A twist: its degrees of freedom in order.
+    fn twist(numbers: &[f64]) -> Self::Twist<f64>;
+    /// A point or a vector.
+    fn vector(numbers: &[f64]) -> Argument;
+    /// Two vectors: points of a line of the ground, or an axis and a vector across it.
+    fn two(vectors: &[Vec<f64>; 2]) -> Argument;
+}
+
+impl Tabled for Plane {
+    const FOLDER: &'static str = "";
+    fn pose(numbers: &[f64]) -> Pose {
+        Pose::new(numbers[0], numbers[1], numbers[2])
+    }
+    fn twist(numbers: &[f64]) -> Twist {
+        let [x, y, omega] = [0, 1, 2].map(|k| numbers[k]);
+        Twist { x, y, omega }
+    }
+    fn vector(numbers: &[f64]) -> Argument {
+        Argument::Pair([numbers[0], numbers[1]])
+    }
+    fn two([a, b]: &[Vec<f64>; 2]) -> Argument {
+        Argument::Pairs([[a[0], a[1]], [b[0], b[1]]])
+    }
+}
+
+impl Tabled for Space3 {
+    const FOLDER: &'static str = "space";
+    fn pose(numbers: &[f64]) -> space3::Pose {
+        space3::Pose::new(
+            [0, 1, 2].map(|k| numbers[k]),
+            [3, 4, 5, 6].map(|k| numbers[k]),
+        )
+    }
+    fn twist(numbers: &[f64]) -> space3::Twist {
+        space3::Twist {
+            v: [0, 1, 2].map(|k| numbers[k]),
+            omega: [3, 4, 5].map(|k| numbers[k]),
+        }
+    }
+    fn vector(numbers: &[f64]) -> Argument {
+        Argument::Triple([0, 1, 2].map(|k| numbers[k]))
+    }
+    fn two(vectors: &[Vec<f64>; 2]) -> Argument {
+        let [axis, cross] = vectors.each_ref().map(|v| [0, 1, 2].map(|k| v[k]));
+        let axes = Axes::new(axis, Some(cross)).expect("two directions");
+        Argument::Axes(axes)
+    }
 }
 
 #[derive(Deserialize)]
@@ -55,8 +111,9 @@ struct File {
     pose: Vec<Golden>,
 }
 
-fn directory() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden")
+fn directory<S: Tabled>() -> PathBuf {
+    let planar = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    planar.join(S::FOLDER)
 }
 
 /// The file for a definition: `PinInSlot` has `pin_in_slot.toml`.
@@ -71,9 +128,9 @@ pub(crate) fn file_name(definition: &str) -> String {
     name + ".toml"
 }
 
-/// All files of planar definitions; the spatial ones are in the folder `space`.
-pub(crate) fn files() -> BTreeSet<String> {
-    let entries = fs::read_dir(directory()).expect("tests/golden exists");
+/// All files of the definitions of a space.
+pub(crate) fn files<S: Tabled>() -> BTreeSet<String> {
+    let entries = fs::read_dir(directory::<S>()).expect("the folder of tables exists");
     entries
         .map(|e| e.expect("readable"))
         .filter(|e| e.path().is_file())
@@ -82,8 +139,8 @@ pub(crate) fn files() -> BTreeSet<String> {
 }
 
 /// The poses of a definition.
-pub(crate) fn read(definition: &str) -> Vec<Golden> {
-    let path = directory().join(file_name(definition));
+pub(crate) fn read<S: Tabled>(definition: &str) -> Vec<Golden> {
+    let path = directory::<S>().join(file_name(definition));
     let text = fs::read_to_string(&path)
         .unwrap_or_else(|e| panic!("`{definition}` has no golden table {}: {e}", path.display()));
     let file: File = toml::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
@@ -91,7 +148,7 @@ pub(crate) fn read(definition: &str) -> Vec<Golden> {
 }
 
 impl Golden {
-    pub(crate) fn arguments(&self, spec: &Spec) -> Vec<Argument> {
+    pub(crate) fn arguments<S: Tabled>(&self, spec: &Spec) -> Vec<Argument> {
         for name in self.parameters.keys() {
             let known = spec.parameters.iter().any(|p| p.name == name);
             assert!(known, "`{}` has no parameter `{name}`", spec.name);
@@ -99,34 +156,31 @@ impl Golden {
         let argument = |p: &joints::spec::Parameter| match (self.parameters.get(p.name), p.shape) {
             (None, _) => Argument::Absent,
             (Some(Value::Many(v)), Shape::Point { .. } | Shape::Direction { .. }) => {
-                Argument::Pair([v[0], v[1]])
+                S::vector(v)
             }
-            (Some(Value::Line(l)), _) => Argument::Pairs(*l),
+            (Some(Value::Two([a, b])), Shape::GroundPlane) => {
+                Argument::Triples([a, b].map(|v| [0, 1, 2].map(|k| v[k])))
+            }
+            (Some(Value::Two(two)), _) => S::two(two),
             (Some(Value::One(n)), _) => Argument::Numbers(vec![*n]),
             (Some(Value::Many(v)), _) => Argument::Numbers(v.clone()),
         };
         spec.parameters.iter().map(argument).collect()
     }
 
-    pub(crate) fn x(&self) -> Vec<Pose> {
-        poses(&self.x)
+    pub(crate) fn x<S: Tabled>(&self) -> Vec<S::Pose<f64>> {
+        poses::<S>(&self.x)
     }
 
-    pub(crate) fn start(&self) -> Vec<Pose> {
-        poses(self.start.as_ref().unwrap_or(&self.x))
+    pub(crate) fn start<S: Tabled>(&self) -> Vec<S::Pose<f64>> {
+        poses::<S>(self.start.as_ref().unwrap_or(&self.x))
     }
 
-    /// At rest if the table has no `v`.
-    pub(crate) fn v(&self) -> Vec<Twist> {
+    /// Velocities, one for each degree of freedom of each slot. At rest if the table has no `v`.
+    pub(crate) fn v<S: Tabled>(&self) -> Vec<f64> {
         match &self.v {
-            Some(v) => v
-                .iter()
-                .map(|v| {
-                    let [x, y, omega] = v.each_ref().map(Scalar::value);
-                    Twist { x, y, omega }
-                })
-                .collect(),
-            None => vec![Twist::zero(); self.x.len()],
+            Some(v) => v.iter().flatten().map(Scalar::value).collect(),
+            None => vec![0.0; S::N_DOF * self.x.len()],
         }
     }
 
@@ -156,13 +210,9 @@ impl Golden {
     }
 }
 
-fn poses(x: &[[Scalar; 3]]) -> Vec<Pose> {
-    x.iter()
-        .map(|x| {
-            let [x, y, angle] = x.each_ref().map(Scalar::value);
-            Pose::new(x, y, angle)
-        })
-        .collect()
+fn poses<S: Tabled>(x: &[Vec<Scalar>]) -> Vec<S::Pose<f64>> {
+    let numbers = |x: &Vec<Scalar>| x.iter().map(Scalar::value).collect::<Vec<f64>>();
+    x.iter().map(|x| S::pose(&numbers(x))).collect()
 }
 
 impl Scalar {
@@ -182,6 +232,11 @@ fn parse(text: &str) -> Option<f64> {
         let (y, x) = list.split_once(',')?;
         let (y, x): (f64, f64) = (y.trim().parse().ok()?, x.trim().parse().ok()?);
         return Some(y.atan2(x));
+    }
+    if let Some((above, below)) = text.split_once('/')
+        && let (Ok(above), Ok(below)) = (above.parse::<f64>(), below.parse::<f64>())
+    {
+        return Some(above / below);
     }
     let (times, over) = text.split_once("pi")?;
     let times = match times {

@@ -196,7 +196,7 @@ fn value(parameter: &Parameter, spec: &Spec) -> Value {
     } else {
         ""
     };
-    schema["description"] = format!("{meaning}: {}{frame}{default}", parameter.shape).into();
+    schema["description"] = format!("{meaning}: {}{frame}{default}", parameter.shape.words(2)).into();
     schema
 }
 

@@ -1,0 +1,20 @@
+joint! { space Universal(i, j) {
+    /// Point `s_i` of body i and point `s_j` of body j coincide, and the axis of body i is perpendicular to the axis
+    /// of body j: the two axes of a cross.
+    params {
+        /// The centre of the cross on body i.
+        s_i: Point in i,
+        /// The centre of the cross on body j.
+        s_j: Point in j,
+        /// The axis of the cross that is fixed in body i.
+        axis: Direction in i,
+        /// The axis of the cross that is fixed in body j.
+        cross: Direction in j,
+    }
+    rows: [x, y, z, cross];
+    phi: [
+        point(i, s_i) - point(j, s_j),
+        dot(direction(i, axis), direction(j, cross)),
+    ];
+    place: point(i, s_i);
+} }

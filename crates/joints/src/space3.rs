@@ -1,0 +1,296 @@
+//! Spatial bodies in kernels, never coordinates of a system: poses and twists, directions and axes
+//! as they are fixed in a body.
+//!
+//! A body rotates by a matrix R, from its frame to the ground. Its angular velocity ω has components
+//! in the **frame of the body**: `Ṙ = R·[ω]×`. Velocities of origins have ground components.
+
+use crate::ring::Ring;
+
+pub use crate::generated::space3::*;
+
+/// Number of velocity degrees of freedom of a spatial body: x, y, z, then the rotation about the
+/// axes of its frame.
+pub const N_DOF: usize = 6;
+
+/// Position and rotation of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<T = f64> {
+    /// Ground components of the frame's origin (m).
+    pub r: [T; 3],
+    /// R, by rows: column k is the k-th axis of the frame in ground components.
+    pub rot: [[T; 3]; 3],
+}
+
+impl Pose<f64> {
+    /// The pose of the ground: the global frame.
+    pub const GROUND: Self = Self {
+        r: [0.0; 3],
+        rot: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    };
+
+    /// Position and quaternion (w, x, y, z), which need not have length one but must not be zero.
+    ///
+    /// ```
+    /// use joints::space3::Pose;
+    /// // A quarter turn about z.
+    /// let pose = Pose::new([0.0; 3], [1.0, 0.0, 0.0, 1.0]);
+    /// assert_eq!(pose.to_global([1.0, 0.0, 5.0]), [0.0, 1.0, 5.0]);
+    /// ```
+    #[must_use]
+    pub fn new(r: [f64; 3], quaternion: [f64; 4]) -> Self {
+        let square: f64 = quaternion.iter().map(|e| e * e).sum();
+        Self {
+            r,
+            rot: rotation(quaternion).map(|row| row.map(|entry| entry / square)),
+        }
+    }
+
+    /// The local coordinates of a global point: `Rᵀ·(p − r)`.
+    #[must_use]
+    pub fn to_local(&self, p: [f64; 3]) -> [f64; 3] {
+        self.direction_to_local(std::array::from_fn(|k| p[k] - self.r[k]))
+    }
+
+    /// The global coordinates of a point of the body: `r + R·s`.
+    #[must_use]
+    pub fn to_global(&self, s: [f64; 3]) -> [f64; 3] {
+        let arm = self.direction_to_global(s);
+        std::array::from_fn(|k| self.r[k] + arm[k])
+    }
+
+    /// The local components of a global vector: `Rᵀ·v`.
+    #[must_use]
+    pub fn direction_to_local(&self, v: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| dot(std::array::from_fn(|row| self.rot[row][k]), v))
+    }
+
+    /// The global components of a vector of the body: `R·v`.
+    #[must_use]
+    pub fn direction_to_global(&self, v: [f64; 3]) -> [f64; 3] {
+        self.rot.map(|row| dot(row, v))
+    }
+
+    /// The same pose in another number type.
+    #[must_use]
+    pub fn cast<T: Ring>(&self) -> Pose<T> {
+        Pose {
+            r: self.r.map(T::from),
+            rot: self.rot.map(|row| row.map(T::from)),
+        }
+    }
+}
+
+/// |e|²·R of the quaternion e = (w, x, y, z), by rows: polynomials of second degree, so that the
+/// rotation is one for any length of e that is not zero.
+#[must_use]
+pub fn rotation<T: Ring>([w, x, y, z]: [T; 4]) -> [[T; 3]; 3] {
+    let twice = |a: T| a + a;
+    let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
+    let (wx, wy, wz) = (twice(w * x), twice(w * y), twice(w * z));
+    let (xy, xz, yz) = (twice(x * y), twice(x * z), twice(y * z));
+    [
+        [ww + xx - yy - zz, xy - wz, xz + wy],
+        [xy + wz, ww - xx + yy - zz, yz - wx],
+        [xz - wy, yz + wx, ww - xx - yy + zz],
+    ]
+}
+
+/// Velocity of a body, or any other derivative along its six degrees of freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist<T = f64> {
+    /// Ground components of the velocity of the frame's origin (m/s).
+    pub v: [T; 3],
+    /// Components of the angular velocity in the frame of the body (rad/s).
+    pub omega: [T; 3],
+}
+
+impl<T: Ring> Twist<T> {
+    /// A body at rest.
+    #[must_use]
+    pub fn zero() -> Self {
+        let zero = [T::from(0.0); 3];
+        Self {
+            v: zero,
+            omega: zero,
+        }
+    }
+}
+
+/// A unit vector in the frame of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direction([f64; 3]);
+
+impl Direction {
+    /// The direction of the frame's x-axis.
+    pub const X: Self = Self([1.0, 0.0, 0.0]);
+    /// The direction of the frame's y-axis.
+    pub const Y: Self = Self([0.0, 1.0, 0.0]);
+    /// The direction of the frame's z-axis.
+    pub const Z: Self = Self([0.0, 0.0, 1.0]);
+
+    /// The direction of `v`; `None` if `v` is zero or not finite.
+    #[must_use]
+    pub fn new(v: [f64; 3]) -> Option<Self> {
+        // Scaled first, so that no square overflows or underflows.
+        let size = v.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        if !(size > 0.0 && size.is_finite() && v.iter().all(|x| x.is_finite())) {
+            return None;
+        }
+        let v = v.map(|x| x / size);
+        let length = dot(v, v).sqrt();
+        Some(Self(v.map(|x| x / length)))
+    }
+
+    /// Sets components as returned by `Definition::data`, possibly with small changes, without
+    /// normalisation: a derivative with respect to one of them leaves the unit sphere. For generated
+    /// code.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn from_data(xyz: [f64; 3]) -> Self {
+        Self(xyz)
+    }
+
+    /// Its components.
+    #[must_use]
+    pub fn xyz(self) -> [f64; 3] {
+        self.0
+    }
+}
+
+/// Three orthonormal directions u, v, w of a body, right-handed: w is the axis of a joint, u and v
+/// lie across it.
+///
+/// As data they are one quantity, which can only rotate: its three numbers are the components of a
+/// rotation vector in the frame of the body (rad), zero as they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axes([[f64; 3]; 3]);
+
+/// Smallest sine of the angle between an axis and the direction across it: 1e-6 keeps ten digits of
+/// the directions across.
+const LEAST_ANGLE: f64 = 1e-6;
+
+impl Axes {
+    /// The axes of the frame.
+    pub const FRAME: Self = Self([Direction::X.0, Direction::Y.0, Direction::Z.0]);
+
+    /// The axes with w along `axis` and u along `cross`, as far as it is across the axis; without
+    /// `cross`, u is the coordinate axis that lies least along w, made orthogonal to it. `None` if
+    /// `axis` has no direction, or `cross` none of its own (its angle to the axis is below 1e-6).
+    ///
+    /// ```
+    /// use joints::space3::Axes;
+    /// let axes = Axes::new([0.0, 0.0, 2.0], Some([3.0, 0.0, 7.0])).unwrap();
+    /// assert_eq!(axes.uvw(), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    /// assert_eq!(Axes::new([1.0, 0.0, 0.0], None).unwrap().uvw()[0], [0.0, 1.0, 0.0]);
+    /// assert!(Axes::new([0.0, 0.0, 1.0], Some([0.0, 0.0, -1.0])).is_none());
+    /// ```
+    #[must_use]
+    pub fn new(axis: [f64; 3], cross: Option<[f64; 3]>) -> Option<Self> {
+        let w = Direction::new(axis)?.0;
+        let across = match cross {
+            Some(cross) => Direction::new(cross)?.0,
+            None => {
+                let least = (1..3).fold(0, |k, j| if w[j].abs() < w[k].abs() { j } else { k });
+                std::array::from_fn(|k| if k == least { 1.0 } else { 0.0 })
+            }
+        };
+        let along = dot(across, w);
+        let across: [f64; 3] = std::array::from_fn(|k| across[k] - along * w[k]);
+        if dot(across, across).sqrt() < LEAST_ANGLE {
+            return None;
+        }
+        // Once more: the first time leaves a rounding relative to what was taken away.
+        let u = Direction::new(across)?.0;
+        let along = dot(u, w);
+        let u = Direction::new(std::array::from_fn(|k| u[k] - along * w[k]))?.0;
+        Some(Self([u, cross_product(w, u), w]))
+    }
+
+    /// The directions u, v and w.
+    #[must_use]
+    pub fn uvw(self) -> [[f64; 3]; 3] {
+        self.0
+    }
+
+    /// The same axes as they stand in another body: each direction by `map`, which must be a
+    /// rotation.
+    #[must_use]
+    pub fn map(self, map: impl FnMut([f64; 3]) -> [f64; 3]) -> Self {
+        Self(self.0.map(map))
+    }
+
+    /// The axes rotated by a rotation vector, in the frame of the body (rad). For generated code.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn turned(self, turn: [f64; 3]) -> Self {
+        let angle = dot(turn, turn).sqrt();
+        if angle == 0.0 {
+            return self;
+        }
+        // sin(a)/a and (1 − cos a)/a².
+        let half = (0.5 * angle).sin() / angle;
+        let (first, second) = (angle.sin() / angle, 2.0 * half * half);
+        self.map(|d| {
+            let once = cross_product(turn, d);
+            let twice = cross_product(turn, once);
+            std::array::from_fn(|k| d[k] + first * once[k] + second * twice[k])
+        })
+    }
+}
+
+/// A plane of the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundPlane {
+    point: [f64; 3],
+    normal: Direction,
+}
+
+impl GroundPlane {
+    /// The plane z = 0.
+    pub const Z: Self = Self {
+        point: [0.0; 3],
+        normal: Direction::Z,
+    };
+
+    /// The plane through a point across a vector; `None` if the vector is zero or not finite.
+    #[must_use]
+    pub fn new(point: [f64; 3], normal: [f64; 3]) -> Option<Self> {
+        let normal = Direction::new(normal)?;
+        Some(Self { point, normal })
+    }
+
+    /// Sets point and normal as returned by `Definition::data`, without normalisation; see
+    /// [`Direction::from_data`].
+    #[doc(hidden)]
+    #[must_use]
+    pub fn from_data(point: [f64; 3], normal: [f64; 3]) -> Self {
+        Self {
+            point,
+            normal: Direction::from_data(normal),
+        }
+    }
+
+    /// The point.
+    #[must_use]
+    pub fn point(&self) -> [f64; 3] {
+        self.point
+    }
+
+    /// The unit vector across it.
+    #[must_use]
+    pub fn normal(&self) -> Direction {
+        self.normal
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross_product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
