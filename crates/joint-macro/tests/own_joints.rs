@@ -17,7 +17,7 @@ mod pfaff {
 }
 
 use joint_macro::{force, joint};
-use joints::{Constraint, Definition, Element, Force, ForceElement, Pose, Twist};
+use joints::{Constraint, Definition, Derivatives, Element, Force, ForceElement, Pose, Twist};
 
 joint! { plane EqualDistance(i, j, k) {
     /// The origin of body k is as far from the origin of body i as from the origin of body j:
@@ -219,7 +219,7 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
         y: 0.0,
         omega: 0.0,
     }];
-    Element::d_residual_dp(
+    Derivatives::d_residual_dp(
         &joint,
         &pose,
         &[Twist::zero()],
@@ -369,4 +369,56 @@ fn the_text_is_what_its_author_wrote() {
         "{text}"
     );
     assert!(text.ends_with("place: origin(k);\n} }"), "{text}");
+}
+
+// A joint in space: a pin in a slot of two walls, turning about a third direction.
+joint! { space SlottedPin(i, j) {
+    /// Point `p` of body j keeps its distance from two walls of body i, and its axis stays along the slot's.
+    params {
+        s: Point in i,
+        p: Point in j,
+        slot: Axes in i,
+        slot_j: Axes in j like slot,
+        gap: Length,
+    }
+    let d = point(j, p) - point(i, s);
+    rows: [across, level, axis];
+    phi: [
+        dot(direction(i, slot[0]), d) - gap,
+        dot(direction(i, slot[1]), d),
+        dot(cross(direction(i, slot[0]), direction(j, slot_j[2])), direction(i, slot[2])),
+    ];
+    measure turn: angle(slot, slot_j);
+    place: point(i, s);
+} }
+
+/// Body i is turned by 90° about z, body j by 180°: u = (0, 1, 0), v = (−1, 0, 0), w = (0, 0, 1), and d =
+/// (−3, 2, 5) − (1, 1, 1). The third row is (u × w)·w = 0; the measure is 90°, 0 at the start.
+#[test]
+fn a_joint_in_space_by_hand() {
+    use joints::space3::{Axes, Pose};
+    let mut pin = SlottedPin {
+        s: [0.0; 3],
+        p: [1.0, 0.0, 0.0],
+        slot: Axes::FRAME,
+        slot_j: Axes::FRAME,
+        gap: 0.25,
+    };
+    let x = [
+        Pose::new([1.0, 1.0, 1.0], [1.0, 0.0, 0.0, 1.0]),
+        Pose::new([-2.0, 2.0, 5.0], [0.0, 0.0, 0.0, 1.0]),
+    ];
+    pin.initialise(&x);
+    let mut phi = [0.0; 3];
+    Element::phi(&pin, &x, &[], &mut phi);
+    assert_eq!(phi, [0.75, 4.0, 0.0]);
+    assert_eq!(Element::<f64, _>::place(&pin, &x), [1.0; 3]);
+
+    let mut turn = pin.turn_drive();
+    turn.initialise(&[Pose::GROUND; 2]);
+    let mut phi = [0.0];
+    // sin(90° − f) for f = 0, given by its cosine and sine.
+    Element::phi(&turn, &x, &[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]], &mut phi);
+    assert_eq!(phi, [1.0]);
+    assert_eq!(SlottedPin::SPEC.measures.len(), 1);
 }
