@@ -22,6 +22,7 @@
 //! | [`ratio`] | fractions of any size |
 //! | [`vector`] | vectors, rotations and similarities in fractions |
 //! | [`mod@drawing`] | bodies, joints and drives at one configuration |
+//! | [`kind`] | types of joints |
 //! | [`rows`] | constraint rows as screws |
 //! | [`truth`] | elimination, and what follows from it |
 //! | [`expected`] | the right answer as plain data |
@@ -35,6 +36,7 @@ pub mod catalogue;
 pub mod drawing;
 pub mod expected;
 pub mod families;
+pub mod kind;
 pub mod pose;
 pub mod ratio;
 pub mod relatives;

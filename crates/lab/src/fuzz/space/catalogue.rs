@@ -8,6 +8,60 @@ use super::drawing::{Drawing, GROUND, Kind, Measure, Side};
 use super::ratio::Ratio;
 use super::vector::{Rotation, Vector, parts, whole};
 
+/// All mechanisms of the catalogue with their names.
+#[must_use]
+pub fn all() -> Vec<(&'static str, Drawing)> {
+    use Flat::{C, P, R, S, U};
+    let hinges = |kinds: &[Flat]| {
+        let places = kinds.iter().zip([0, 3, 7, 12]);
+        let hinges = places.map(|(kind, z)| flat(*kind, &parts([2, 5, z], 10)));
+        door(&hinges.collect::<Vec<_>>())
+    };
+    let corners = [[0, 0], [4, 0], [1, 3], [5, 4], [-2, 3]];
+    let balls = [[3, 0], [-2, 3], [-1, -4], [2, 5]];
+    vec![
+        ("V1 three hinges", hinges(&[R, R, R])),
+        ("V1 two hinges", hinges(&[R, R])),
+        ("V1 four hinges", hinges(&[R, R, R, R])),
+        ("V1 revolute and two cylindrical", hinges(&[R, C, C])),
+        ("V3 RRRR", four_bar([R, R, R, R])),
+        ("V3 RRRS", four_bar([R, R, R, S])),
+        ("V3 RRSC", four_bar([R, R, S, C])),
+        ("V3 RSCR", four_bar([R, S, C, R])),
+        ("V3 RRCR", four_bar([R, R, C, R])),
+        ("V3 RSSR", four_bar([R, S, S, R])),
+        ("V3 RRUS", four_bar([R, R, U, S])),
+        (
+            "V3 RRUS with axes along z and C–D",
+            four_bar_with_flat_cross(),
+        ),
+        ("V4 RRRP", slider_crank([R, R, R, P])),
+        ("V4 RRCP", slider_crank([R, R, C, P])),
+        ("V4 RRSP", slider_crank([R, R, S, P])),
+        ("V4 RSRP", slider_crank([R, S, R, P])),
+        ("V4 RSUP", slider_crank([R, S, U, P])),
+        ("V5 three cranks", three_cranks()),
+        ("V6 two parallelograms", parallelograms(2, [3, 4])),
+        ("V6 two parallelograms, flat", parallelograms(2, [5, 0])),
+        ("V8 Oldham", oldham()),
+        ("V10 Hooke with its cross", hooke_with_cross()),
+        ("V10 Hooke as universal joint", hooke_as_universal()),
+        ("V11 Bennett", bennett()),
+        ("V13 Bricard", bricard()),
+        ("V14 Sarrus with two legs", sarrus(&[0, 1])),
+        ("V14 Sarrus with three legs", sarrus(&[0, 1, 2])),
+        ("V16 table on three points", table(&corners[..3])),
+        ("V16 table on four points", table(&corners[..4])),
+        ("V16 table on five points", table(&corners)),
+        ("V17 three balls in grooves", grooves(&balls[..3])),
+        ("V17 four balls in grooves", grooves(&balls)),
+        ("V18 6-UPS", hexapod(false)),
+        ("V18 6-UPS, driven", hexapod(true)),
+        ("V22 car, straight", car(&Ratio::zero())),
+        ("V22 car, front axle turned", car(&Ratio::new(1, 10))),
+    ]
+}
+
 /// A kind of joint in a plane figure that is drawn across the third axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flat {
@@ -117,6 +171,19 @@ pub fn four_bar_points() -> [Vector; 4] {
 pub fn four_bar(kinds: [Flat; 4]) -> Drawing {
     let joints = kinds.iter().zip(four_bar_points());
     ring(&joints.map(|(kind, p)| flat(*kind, &p)).collect::<Vec<_>>())
+}
+
+/// V3: R R U S with the axes of the universal joint along z and along the line from C to D.
+#[must_use]
+pub fn four_bar_with_flat_cross() -> Drawing {
+    let [_, _, at, d] = four_bar_points();
+    let mut drawing = four_bar([Flat::R, Flat::R, Flat::U, Flat::S]);
+    drawing.joints[2].kind = Kind::Universal {
+        first: Vector::unit(2),
+        second: &d - &at,
+        at,
+    };
+    drawing
 }
 
 /// V4: a slider-crank: crank at the origin, crank pin, rod end, slider on the ground along x.

@@ -137,7 +137,7 @@ fn several(drawing: &mut Drawing, numbers: &mut Numbers) {
         Some(numbers.below(middle))
     };
     piece(drawing, pieces[1], base, numbers);
-    let count = numbers.below(3);
+    let count = numbers.below(4).saturating_sub(1);
     if count == 0 || middle == 0 || drawing.bodies.len() == middle {
         return;
     }

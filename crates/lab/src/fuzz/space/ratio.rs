@@ -151,10 +151,8 @@ pub fn whole_multiples(fractions: &[Ratio]) -> (Vec<BigInt>, Ratio) {
         .map(|x| &x.numerator * (&multiple / &x.denominator));
     let whole: Vec<BigInt> = whole.collect();
     let zero = BigInt::zero();
-    let common = whole.iter().fold(zero, |g, x| match x.is_zero() {
-        true => g,
-        false => gcd(&g, x),
-    });
+    let live = whole.iter().filter(|x| !x.is_zero());
+    let common = live.fold(zero, |g, x| gcd(&g, x));
     if common.is_zero() {
         return (whole, Ratio::one());
     }

@@ -14,6 +14,15 @@
 //! | distance | force along the rod |
 //! | contact, slip, edge | force at the point, along normal, longitudinal, lateral |
 //! | drive | couple along the axis, or force along the line of displacement |
+//!
+//! Verdicts of joints, forces, moments and components do not depend on the basis of the rows.
+//! Verdicts of single rows do; [`Meaning`] says what each row is taken to be. The order inside a
+//! joint is that of the table of joints: points, then offsets, then directions u and v, then
+//! orientation about x, y, z of the first body. Where a program chooses another basis for
+//! orientations, rows of `fixed`, `translational` and `orientation` cannot be compared one by one.
+
+#[cfg(test)]
+mod tests;
 
 use super::drawing::{Drawing, Joint, Kind, Measure};
 use super::ratio::Ratio;

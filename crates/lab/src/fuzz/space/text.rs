@@ -1,6 +1,9 @@
 //! The scene of a drawing as text: `[scene] space = "spatial"`. Every number is a fraction rounded
 //! once, to a double or to some significant digits.
 
+#[cfg(test)]
+mod tests;
+
 use std::fmt::Write;
 
 use super::drawing::{Body, Directions, Drawing, Drive, Joint, Kind, Measure, Side};
@@ -223,11 +226,11 @@ impl Pen<'_> {
         let [x, y, z] = &normal.0;
         let is_default = x.is_zero() && y.is_zero() && Ratio::zero().is_below(z);
         if !(is_default && contact.0[2].is_zero() && joint.style.points_in_bodies) {
-            let (point, normal) = (
-                self.length(contact),
-                self.direction_in(joint, None, normal),
+            let (point, normal) = (self.length(contact), self.direction_in(joint, None, normal));
+            self.line(
+                "plane",
+                &format!("{{ point = {point}, normal = {normal} }}"),
             );
-            self.line("plane", &format!("{{ point = {point}, normal = {normal} }}"));
         }
     }
 
@@ -242,10 +245,7 @@ impl Pen<'_> {
             Measure::Length => "length",
         };
         self.line("type", &format!("\"{measure}\""));
-        self.line(
-            "motion",
-            "{ type = \"polynomial\", coefficients = [0.0] }",
-        );
+        self.line("motion", "{ type = \"polynomial\", coefficients = [0.0] }");
     }
 
     /// Writes the place: one point of the ground, or two in the frames of the bodies.
@@ -261,7 +261,10 @@ impl Pen<'_> {
         }
         let at = self.point_in(second, at);
         let (first, second) = (self.name(first).to_owned(), self.name(second).to_owned());
-        self.line("points", &format!("{{ {first} = {from}, {second} = {at} }}"));
+        self.line(
+            "points",
+            &format!("{{ {first} = {from}, {second} = {at} }}"),
+        );
     }
 
     fn point_in(&mut self, side: Side, p: &Vector) -> String {

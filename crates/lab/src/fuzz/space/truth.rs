@@ -53,7 +53,9 @@ impl<'a> Truth<'a> {
     #[must_use]
     pub fn of(drawing: &'a Drawing) -> Self {
         let rows = rows::rows(drawing);
-        let whole = rows.iter().map(|row| whole_multiples(&row.wrench.numbers()));
+        let whole = rows
+            .iter()
+            .map(|row| whole_multiples(&row.wrench.numbers()));
         let (wrenches, factors): (Vec<Vec<BigInt>>, Vec<Ratio>) = whole.unzip();
         let placed = rows.iter().zip(&wrenches);
         let placed =
@@ -90,7 +92,9 @@ impl<'a> Truth<'a> {
     /// The indices of rows with a property.
     pub fn rows_where(&self, wanted: impl Fn(&Row) -> bool) -> Vec<usize> {
         let rows = self.rows.iter().enumerate();
-        rows.filter(|(_, row)| wanted(row)).map(|(i, _)| i).collect()
+        rows.filter(|(_, row)| wanted(row))
+            .map(|(i, _)| i)
+            .collect()
     }
 
     /// The rows of a joint or drive.

@@ -51,7 +51,12 @@ fn v1_doors() {
     assert_eq!(counts(&expected), [15, 5, 10, 1]);
     // No wrench is unique. A hinge carries no moment about its axis.
     assert_eq!(all_letters(&expected), ["nnnnnu"; 3]);
-    assert!(expected.reactions.iter().all(|r| r.free == 5 && r.carried == 5));
+    assert!(
+        expected
+            .reactions
+            .iter()
+            .all(|r| r.free == 5 && r.carried == 5)
+    );
     let truth = Truth::of(&three);
     for k in 0..3 {
         let sum = [0, 1, 2].map(|j| (Owner::Joint(j), unit_force(k)));
@@ -75,7 +80,10 @@ fn v3_four_bars() {
     let expected = answer(&four_bar([R, R, R, S]));
     assert_eq!(counts(&expected), [18, 17, 1, 1]);
     // A force along z through D is handed round; its moment about A has no part along A–D ∥ x.
-    assert_eq!(all_letters(&expected), ["uununu", "uunnnu", "uunnnu", "uunuuu"]);
+    assert_eq!(
+        all_letters(&expected),
+        ["uununu", "uunnnu", "uunnnu", "uunuuu"]
+    );
 
     for kinds in [[R, R, S, C], [R, S, C, R]] {
         let expected = answer(&four_bar(kinds));
@@ -97,20 +105,11 @@ fn v3_four_bars_with_a_universal_joint() {
     assert_eq!(counts(&expected), [17, 17, 0, 1]);
     assert_eq!(all_letters(&expected), ["uuuuuu"; 4]);
 
-    let [_, _, c, d] = four_bar_points();
-    let mut drawing = four_bar([R, R, U, S]);
-    drawing.joints[2].kind = Kind::Universal {
-        at: c.clone(),
-        first: Vector::unit(2),
-        second: &d - &c,
-    };
+    let mut drawing = four_bar_with_flat_cross();
     assert_eq!(counts(&answer(&drawing)), [17, 16, 1, 2]);
     // The same with the axes in the other bodies.
-    drawing.joints[2].kind = Kind::Universal {
-        first: &d - &c,
-        second: Vector::unit(2),
-        at: c,
-    };
+    let swapped = drawing.joints[2].kind.swapped();
+    drawing.joints[2].kind = swapped.expect("its axes can be exchanged");
     assert_eq!(counts(&answer(&drawing)), [17, 16, 1, 2]);
 }
 
@@ -200,7 +199,9 @@ fn v18_hexapod() {
     assert_eq!(expected.without_drives, None);
     let expected = answer(&hexapod(true));
     assert_eq!(counts(&expected), [78, 78, 0, 0]);
-    let left = expected.without_drives.map(|w| [w.rank, w.redundancy, w.mobility]);
+    let left = expected
+        .without_drives
+        .map(|w| [w.rank, w.redundancy, w.mobility]);
     assert_eq!(left, Some([72, 0, 6]));
 }
 
@@ -212,6 +213,9 @@ fn v22_cars() {
     assert_eq!(counts(&turned), [32, 30, 2, 0]);
     // The four contacts carry a pattern of normal forces that sums to nothing.
     for expected in [straight, turned] {
-        assert_eq!((expected.rank_holonomic, expected.rank_nonholonomic), (23, 8));
+        assert_eq!(
+            (expected.rank_holonomic, expected.rank_nonholonomic),
+            (23, 8)
+        );
     }
 }

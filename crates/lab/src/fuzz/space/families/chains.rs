@@ -34,17 +34,18 @@ fn tree(pen: &mut Pen<'_>) {
     }
 }
 
-/// A loop of joints, some of whose axes are parallel or meet.
+/// A loop of joints, most of whose axes are parallel in two loops of three.
 fn ring(pen: &mut Pen<'_>) {
     let n = 3 + pen.numbers.below(4);
-    let common = pen.direction();
-    let centre = pen.point();
+    let (common, centre) = (pen.direction(), pen.point());
+    let is_mixed = pen.once_in(3);
     let mut kinds = Vec::new();
     for _ in 0..n {
-        let axis = if pen.once_in(2) {
-            common.clone()
-        } else {
+        let is_own = pen.once_in(if is_mixed { 2 } else { 6 });
+        let axis = if is_own {
             pen.direction()
+        } else {
+            common.clone()
         };
         let at = match pen.numbers.below(3) {
             0 => centre.along(&pen.step.clone(), &axis),

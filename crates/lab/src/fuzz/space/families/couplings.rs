@@ -21,11 +21,13 @@ fn oldham(pen: &mut Pen<'_>) {
     let z = Vector::unit(2);
     let zero = Ratio::zero();
     let points = pen.points(2, &zero);
-    let sliders = [0; 2].map(|_| loop {
-        let mut axis = pen.direction();
-        axis.0[2] = Ratio::zero();
-        if !axis.is_zero() {
-            break axis;
+    let sliders = [0; 2].map(|_| {
+        loop {
+            let mut axis = pen.direction();
+            axis.0[2] = Ratio::zero();
+            if !axis.is_zero() {
+                break axis;
+            }
         }
     });
     let kinds = [
@@ -137,7 +139,10 @@ fn cardan(pen: &mut Pen<'_>) {
         },
     ];
     if pen.once_in(2) {
-        kinds.push(translational(&centre.along(&pen.step.clone(), &middle), &middle));
+        kinds.push(translational(
+            &centre.along(&pen.step.clone(), &middle),
+            &middle,
+        ));
     }
     kinds.push(Kind::Universal {
         at: far,

@@ -50,10 +50,7 @@ fn wheel(pen: &mut Pen<'_>, chassis: Side, [x, y]: [&Ratio; 2], radius: &Ratio, 
 /// rear one: the two side forces of the axles act at two lines each, and all motion is blocked.
 fn car(pen: &mut Pen<'_>, half_tangent: &Ratio) {
     let chassis = pen.body();
-    let (length, width) = (
-        &pen.whole(1, 6) * &pen.step,
-        &pen.whole(1, 4) * &pen.step,
-    );
+    let (length, width) = (&pen.whole(1, 6) * &pen.step, &pen.whole(1, 4) * &pen.step);
     let radius = &pen.whole(1, 3) * &pen.step;
     let steering = Rotation::about(&Vector::unit(2), half_tangent);
     pen.expects(if half_tangent.is_zero() { 3 } else { 2 });
