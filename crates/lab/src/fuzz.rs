@@ -17,6 +17,7 @@
 //! | [`minimise`] | the shortest text that still fails alike |
 //! | [`passages`] | parallelograms through their flat poses, against closed forms |
 //! | [`mod@exact`] | degenerate scenes whose answer exact arithmetic knows: does the program give it? |
+//! | [`space`] | mechanisms in space with planted redundancy, and what exact arithmetic says of them |
 
 pub mod campaign;
 pub mod damage;
@@ -25,5 +26,6 @@ pub mod input;
 pub mod minimise;
 pub mod passages;
 pub mod scenes;
+pub mod space;
 pub mod trial;
 pub mod watch;

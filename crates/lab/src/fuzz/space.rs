@@ -1,0 +1,107 @@
+//! Independent tests of verdicts in space: mechanisms with planted redundancy are drawn in
+//! fractions, moved, written as text with every number rounded once, and judged by exact
+//! arithmetic.
+//!
+//! The reference shares no code with the program: its rows are wrenches, written by virtual work
+//! from the places and axes of the joints in the axes of the ground. Nothing is differentiated, and
+//! ranks come from elimination of whole numbers.
+//!
+//! ```
+//! use lab::fuzz::space::{Drawing, drawing, expected::Expected, text};
+//!
+//! for scene in lab::fuzz::space::scenes(1).take(3) {
+//!     let drawing: &Drawing = &scene.drawing;
+//!     let (text, right): (String, Expected) = (text::text(drawing), Expected::of(drawing));
+//!     assert_eq!(right.mobility, 6 * drawing.bodies.len() - right.rank);
+//!     assert!(text.starts_with("[scene]"));
+//! }
+//! ```
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`ratio`] | fractions of any size |
+//! | [`vector`] | vectors, rotations and similarities in fractions |
+//! | [`mod@drawing`] | bodies, joints and drives at one configuration |
+//! | [`kind`] | types of joints |
+//! | [`rows`] | constraint rows as screws |
+//! | [`truth`] | elimination, and what follows from it |
+//! | [`expected`] | the right answer as plain data |
+//! | [`catalogue`] | mechanisms whose answer is known by hand |
+//! | [`families`] | random mechanisms with planted redundancy |
+//! | [`relatives`] | the same with a weaker joint or a turned axis |
+//! | [`pose`] | how a drawing is written: moved, other frames, another order |
+//! | [`text`] | the scene as text |
+
+pub mod catalogue;
+pub mod drawing;
+pub mod expected;
+pub mod families;
+pub mod kind;
+pub mod pose;
+pub mod ratio;
+pub mod relatives;
+pub mod rows;
+#[cfg(test)]
+mod tests;
+pub mod text;
+pub mod truth;
+pub mod vector;
+
+use crate::numbers::Numbers;
+
+pub use drawing::Drawing;
+pub use expected::Expected;
+
+use families::Family;
+use pose::Writing;
+use text::Precision;
+
+/// One scene: a drawing, and how it is written.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Its number.
+    pub number: u64,
+    /// Its family.
+    pub family: Family,
+    /// How it is written.
+    pub writing: Writing,
+    /// The drawing after the move, with its elements in the order of the file.
+    pub drawing: Drawing,
+}
+
+/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, written in the ways of
+/// [`Writing::ALL`].
+#[must_use]
+pub fn scene(seed: u64, number: u64) -> Scene {
+    let ways = Writing::ALL.len() as u64;
+    let (drawn, way) = (number / ways, number % ways);
+    let family = Family::ALL[(drawn % Family::ALL.len() as u64) as usize];
+    let stream = |salt: u64| Numbers::new(seed ^ Numbers::new(salt).bits());
+    let drawing = family.draw(&mut stream(drawn));
+    let writing = Writing::ALL[way as usize];
+    Scene {
+        number,
+        family,
+        writing,
+        drawing: pose::posed(&drawing, writing, &mut stream(!number)),
+    }
+}
+
+/// The scenes of a seed, without end.
+pub fn scenes(seed: u64) -> impl Iterator<Item = Scene> {
+    (0..).map(move |number| scene(seed, number))
+}
+
+impl Drawing {
+    /// The text with all digits of a double, and the right answer.
+    #[must_use]
+    pub fn judged(&self) -> (String, Expected) {
+        (text::text(self), Expected::of(self))
+    }
+
+    /// The text with some significant digits and the tolerance that belongs to them.
+    #[must_use]
+    pub fn rounded(&self, digits: usize) -> String {
+        text::text_within(self, &Precision::of_digits(self, digits))
+    }
+}

@@ -1,0 +1,268 @@
+//! Types of joints and their places, in the axes of the ground.
+
+use super::ratio::Ratio;
+use super::vector::Vector;
+
+/// The type and place of a joint. `from` is on the first body and `at` on the second. Directions
+/// have any length but 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Both bodies share a point.
+    Spherical {
+        /// The point.
+        at: Vector,
+    },
+    /// Both bodies share a point and an axis.
+    Revolute {
+        /// The point.
+        at: Vector,
+        /// The axis.
+        axis: Vector,
+    },
+    /// Both bodies share a point, and two of their axes are perpendicular.
+    Universal {
+        /// The point.
+        at: Vector,
+        /// The axis in the first body.
+        first: Vector,
+        /// The axis in the second body.
+        second: Vector,
+    },
+    /// A slider of the second body on a line of the first; the orientation is kept.
+    Translational {
+        /// A point of the line on the first body.
+        from: Vector,
+        /// The slider.
+        at: Vector,
+        /// The line.
+        axis: Vector,
+    },
+    /// The same, free to turn about the line.
+    Cylindrical {
+        /// A point of the line on the first body.
+        from: Vector,
+        /// The slider.
+        at: Vector,
+        /// The line.
+        axis: Vector,
+    },
+    /// A plane of the first body that a point of the second does not leave; normals are parallel.
+    Planar {
+        /// A point of the plane on the first body.
+        from: Vector,
+        /// The point of the second body.
+        at: Vector,
+        /// The normal.
+        normal: Vector,
+    },
+    /// A weld.
+    Fixed {
+        /// The reference point.
+        at: Vector,
+    },
+    /// A point of the second body on a line of the first.
+    PointOnLine {
+        /// A point of the line.
+        from: Vector,
+        /// The point of the second body.
+        at: Vector,
+        /// The line.
+        axis: Vector,
+    },
+    /// A point of the second body in a plane of the first.
+    PointOnPlane {
+        /// A point of the plane.
+        from: Vector,
+        /// The point of the second body.
+        at: Vector,
+        /// The normal.
+        normal: Vector,
+    },
+    /// An axis that both bodies keep.
+    Parallel {
+        /// The axis.
+        axis: Vector,
+    },
+    /// Two axes that stay perpendicular.
+    Perpendicular {
+        /// The axis in the first body.
+        first: Vector,
+        /// The axis in the second body.
+        second: Vector,
+    },
+    /// The relative orientation is kept.
+    Orientation,
+    /// A massless rod with spherical ends.
+    Distance {
+        /// Its end on the first body.
+        from: Vector,
+        /// Its end on the second body.
+        at: Vector,
+    },
+    /// A blade: no velocity of a point of the first body along a direction.
+    KnifeEdge {
+        /// The point.
+        at: Vector,
+        /// The direction.
+        normal: Vector,
+    },
+    /// A wheel, the first body, that rolls without slip on a plane of the ground.
+    Wheel {
+        /// Its centre.
+        centre: Vector,
+        /// Its axis.
+        axis: Vector,
+        /// The point where it touches.
+        contact: Vector,
+        /// The normal of the plane, on the side of the wheel.
+        normal: Vector,
+    },
+}
+
+impl Kind {
+    /// The value of `type`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Spherical { .. } => "spherical",
+            Self::Revolute { .. } => "revolute",
+            Self::Universal { .. } => "universal",
+            Self::Translational { .. } => "translational",
+            Self::Cylindrical { .. } => "cylindrical",
+            Self::Planar { .. } => "planar",
+            Self::Fixed { .. } => "fixed",
+            Self::PointOnLine { .. } => "point-on-line",
+            Self::PointOnPlane { .. } => "point-on-plane",
+            Self::Parallel { .. } => "parallel",
+            Self::Perpendicular { .. } => "perpendicular",
+            Self::Orientation => "orientation",
+            Self::Distance { .. } => "distance",
+            Self::KnifeEdge { .. } => "knife-edge",
+            Self::Wheel { .. } => "wheel",
+        }
+    }
+
+    /// Whether it ties one body to the ground by nature, so that the key `body` is written.
+    #[must_use]
+    pub fn has_one_body(&self) -> bool {
+        matches!(self, Self::KnifeEdge { .. } | Self::Wheel { .. })
+    }
+
+    /// The point of the first body for which its reaction is given; `None` if it carries couples
+    /// only, which are the same about every point.
+    #[must_use]
+    pub fn place(&self) -> Option<&Vector> {
+        match self {
+            Self::Spherical { at }
+            | Self::Revolute { at, .. }
+            | Self::Universal { at, .. }
+            | Self::Fixed { at }
+            | Self::KnifeEdge { at, .. } => Some(at),
+            Self::Translational { from, .. }
+            | Self::Cylindrical { from, .. }
+            | Self::Planar { from, .. }
+            | Self::PointOnLine { from, .. }
+            | Self::PointOnPlane { from, .. }
+            | Self::Distance { from, .. } => Some(from),
+            Self::Wheel { contact, .. } => Some(contact),
+            Self::Parallel { .. } | Self::Perpendicular { .. } | Self::Orientation => None,
+        }
+    }
+
+    /// The same joint after its points and directions are mapped.
+    #[must_use]
+    pub fn mapped(
+        &self,
+        point: &dyn Fn(&Vector) -> Vector,
+        direction: &dyn Fn(&Vector) -> Vector,
+    ) -> Self {
+        let mut image = self.clone();
+        let (points, directions): (Vec<&mut Vector>, Vec<&mut Vector>) = match &mut image {
+            Self::Spherical { at } | Self::Fixed { at } => (vec![at], vec![]),
+            Self::Revolute { at, axis } => (vec![at], vec![axis]),
+            Self::Universal { at, first, second } => (vec![at], vec![first, second]),
+            Self::Translational { from, at, axis }
+            | Self::Cylindrical { from, at, axis }
+            | Self::PointOnLine { from, at, axis } => (vec![from, at], vec![axis]),
+            Self::Planar { from, at, normal } | Self::PointOnPlane { from, at, normal } => {
+                (vec![from, at], vec![normal])
+            }
+            Self::Parallel { axis } => (vec![], vec![axis]),
+            Self::Perpendicular { first, second } => (vec![], vec![first, second]),
+            Self::Orientation => (vec![], vec![]),
+            Self::Distance { from, at } => (vec![from, at], vec![]),
+            Self::KnifeEdge { at, normal } => (vec![at], vec![normal]),
+            Self::Wheel {
+                centre,
+                axis,
+                contact,
+                normal,
+            } => (vec![centre, contact], vec![axis, normal]),
+        };
+        for p in points {
+            *p = point(p);
+        }
+        for d in directions {
+            *d = direction(d);
+        }
+        image
+    }
+
+    /// The same joint with its bodies exchanged. `None` if there is no such joint.
+    #[must_use]
+    pub fn swapped(&self) -> Option<Self> {
+        let mut image = self.clone();
+        match &mut image {
+            Self::Spherical { .. }
+            | Self::Revolute { .. }
+            | Self::Fixed { .. }
+            | Self::Parallel { .. }
+            | Self::Orientation => {}
+            Self::Translational { from, at, .. }
+            | Self::Cylindrical { from, at, .. }
+            | Self::Planar { from, at, .. }
+            | Self::Distance { from, at } => std::mem::swap(from, at),
+            Self::Universal { first, second, .. } | Self::Perpendicular { first, second } => {
+                std::mem::swap(first, second);
+            }
+            Self::PointOnLine { .. }
+            | Self::PointOnPlane { .. }
+            | Self::KnifeEdge { .. }
+            | Self::Wheel { .. } => return None,
+        }
+        Some(image)
+    }
+
+    /// Whether it holds where it is drawn, exactly.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        match self {
+            Self::Spherical { .. } | Self::Fixed { .. } | Self::Orientation => true,
+            Self::Revolute { axis, .. } | Self::Parallel { axis } => !axis.is_zero(),
+            Self::Universal { first, second, .. } | Self::Perpendicular { first, second } => {
+                !first.is_zero() && !second.is_zero() && first.dot(second).is_zero()
+            }
+            Self::Translational { from, at, axis }
+            | Self::Cylindrical { from, at, axis }
+            | Self::PointOnLine { from, at, axis } => !axis.is_zero() && (at - from).is_along(axis),
+            Self::Planar { from, at, normal } | Self::PointOnPlane { from, at, normal } => {
+                !normal.is_zero() && (at - from).dot(normal).is_zero()
+            }
+            Self::Distance { from, at } => from != at,
+            Self::KnifeEdge { normal, .. } => !normal.is_zero(),
+            Self::Wheel {
+                centre,
+                axis,
+                contact,
+                normal,
+            } => {
+                // The lowest point of the circle: across the axis, and straight down in its plane.
+                let spoke = contact - centre;
+                let down = -&normal.across(axis);
+                !down.is_zero()
+                    && spoke.is_along(&down)
+                    && Ratio::zero().is_below(&spoke.dot(&down))
+            }
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Relatives of a drawing: one joint is weaker, or one axis is turned a little. They are drawn
+//! where they hold, often with full rank, and look like the redundant one.
+
+use crate::numbers::Numbers;
+
+use super::drawing::{Drawing, Kind};
+use super::ratio::Ratio;
+use super::vector::{Rotation, Vector};
+
+/// Changes one of the joints from `first` on; returns whether one was changed. The redundancy by
+/// theory is lost then.
+pub fn change_one(drawing: &mut Drawing, first: usize, numbers: &mut Numbers) -> bool {
+    let count = drawing.joints.len().saturating_sub(first);
+    if count == 0 {
+        return false;
+    }
+    let place = first + numbers.below(count);
+    // What is driven keeps its measures.
+    if drawing.drives.iter().any(|d| d.joint == place) {
+        return false;
+    }
+    let kind = &drawing.joints[place].kind;
+    let changed = if numbers.once_in(2) {
+        weaker(kind, numbers)
+    } else {
+        turned(kind, numbers)
+    };
+    let Some(changed) = changed else { return false };
+    drawing.joints[place].kind = changed;
+    drawing.redundancy = None;
+    true
+}
+
+/// A joint of a type with fewer rows that holds at the same place.
+#[must_use]
+pub fn weaker(kind: &Kind, numbers: &mut Numbers) -> Option<Kind> {
+    let choice = numbers.below(3);
+    Some(match kind.clone() {
+        Kind::Revolute { at, axis } => match choice {
+            0 => Kind::Spherical { at },
+            1 => Kind::Cylindrical {
+                from: at.clone(),
+                at,
+                axis,
+            },
+            _ => {
+                let (first, second) = (axis.clone(), any_across(&axis, numbers));
+                Kind::Universal { at, first, second }
+            }
+        },
+        Kind::Universal { at, .. } => Kind::Spherical { at },
+        Kind::Translational { from, at, axis } => match choice {
+            0 => Kind::PointOnLine { from, at, axis },
+            _ => Kind::Cylindrical { from, at, axis },
+        },
+        Kind::Cylindrical { from, at, axis } => match choice {
+            0 => Kind::Parallel { axis },
+            _ => Kind::PointOnLine { from, at, axis },
+        },
+        Kind::Fixed { at } => match choice {
+            0 => Kind::Orientation,
+            1 => Kind::Spherical { at },
+            _ => {
+                let axis = Vector::unit(numbers.below(3));
+                Kind::Revolute { at, axis }
+            }
+        },
+        Kind::Planar { from, at, normal } => match choice {
+            0 => Kind::Parallel { axis: normal },
+            _ => Kind::PointOnPlane { from, at, normal },
+        },
+        Kind::PointOnLine { from, at, axis } => {
+            let normal = any_across(&axis, numbers);
+            Kind::PointOnPlane { from, at, normal }
+        }
+        Kind::Spherical { at } => {
+            let normal = any(numbers);
+            let from = at.clone();
+            Kind::PointOnPlane { from, at, normal }
+        }
+        Kind::Orientation => Kind::Parallel { axis: any(numbers) },
+        Kind::Parallel { axis } => {
+            let (first, second) = (axis.clone(), any_across(&axis, numbers));
+            Kind::Perpendicular { first, second }
+        }
+        _ => return None,
+    })
+}
+
+/// The same joint with its axis or normal turned by some hundredths to tenths.
+#[must_use]
+pub fn turned(kind: &Kind, numbers: &mut Numbers) -> Option<Kind> {
+    let turn = small_turn(numbers);
+    let mut image = kind.clone();
+    match &mut image {
+        Kind::Revolute { axis, .. } | Kind::Parallel { axis } => *axis = turn.of(axis),
+        Kind::Translational { from, at, axis }
+        | Kind::Cylindrical { from, at, axis }
+        | Kind::PointOnLine { from, at, axis } => {
+            *axis = turn.of(axis);
+            *from = at.clone();
+        }
+        Kind::Planar { from, at, normal } | Kind::PointOnPlane { from, at, normal } => {
+            *normal = turn.of(normal);
+            *from = at.clone();
+        }
+        Kind::Universal { first, second, .. } | Kind::Perpendicular { first, second } => {
+            *first = turn.of(first);
+            *second = turn.of(second);
+        }
+        Kind::KnifeEdge { normal, .. } => *normal = turn.of(normal),
+        _ => return None,
+    }
+    (image != *kind).then_some(image)
+}
+
+fn small_turn(numbers: &mut Numbers) -> Rotation {
+    let q = [0; 3].map(|_| i64::from(numbers.between(-2, 2)));
+    let w = i64::from(numbers.between(10, 60));
+    Rotation::whole([w, q[0], q[1], q[2]])
+}
+
+/// Any direction of small whole numbers.
+#[must_use]
+pub fn any(numbers: &mut Numbers) -> Vector {
+    loop {
+        let v = Vector([0; 3].map(|_| Ratio::whole(numbers.between(-3, 3).into())));
+        if !v.is_zero() {
+            return v;
+        }
+    }
+}
+
+/// Any direction across another one.
+#[must_use]
+pub fn any_across(w: &Vector, numbers: &mut Numbers) -> Vector {
+    loop {
+        let v = w.cross(&any(numbers));
+        if !v.is_zero() {
+            return v;
+        }
+    }
+}
