@@ -510,7 +510,10 @@ fn facts_do_not_depend_on_units() {
         for check in &checks {
             let frames = configuration.frames(check.id).expect("exists");
             let frame = frames.iter().find(|f| f.frame == check.frame).expect("one");
-            let unique = frame.components[check.component].verdict.is_unique();
+            let unique = frame.components[check.component]
+                .judgement
+                .verdict
+                .is_unique();
             assert_eq!(
                 check.nature == Nature::Fact,
                 unique,

@@ -93,7 +93,7 @@ fn frames_of_the_robot() {
     let frames = |name| judge_frames(&m, 1.0, &q, &decision, id(&m, name)).expect("judged");
     let w1 = frames("W1");
     assert_eq!(w1.iter().map(|f| f.frame).collect::<Vec<_>>(), Frame::ALL);
-    let words = |k: usize| w1[k].components.each_ref().map(|j| j.verdict.word());
+    let words = |k: usize| [0, 1, 2].map(|c| w1[k].components[c].judgement.verdict.word());
     assert_eq!(words(0), ["not_unique", "not_unique", "unique"]);
     assert_eq!(words(1), ["unique", "not_unique", "unique"]);
     assert_eq!(words(2), ["not_unique", "unique", "unique"]);
@@ -122,7 +122,7 @@ fn frames_of_the_robot() {
     assert!(
         drive
             .iter()
-            .all(|f| f.components.iter().all(|c| c.verdict.is_unique()))
+            .all(|f| f.components.iter().all(|c| c.judgement.verdict.is_unique()))
     );
     assert_eq!(drive[2].frame, Frame::Edge);
 }

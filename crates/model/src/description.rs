@@ -4,6 +4,7 @@
 use crate::function::Function;
 use crate::observed::Observed;
 use crate::registry::{PlaneConstraint, PlaneForce};
+use crate::space::SpaceKind;
 use crate::tolerance::Tolerance;
 
 /// A mechanism before it is assembled.
@@ -32,6 +33,8 @@ use crate::tolerance::Tolerance;
 pub struct Description {
     /// Its name.
     pub name: String,
+    /// The space in which its bodies move.
+    pub space: SpaceKind,
     /// Acceleration of free fall (m/s²).
     pub gravity: [f64; 2],
     /// Bodies; their order is that of the coordinates.

@@ -9,7 +9,7 @@
 use joints::Pose;
 use linalg::{Dd, DdMatrix, StepError, least_squares_step};
 
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::mechanism::Mechanism;
 use crate::size::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
@@ -62,7 +62,13 @@ impl Polished {
         // only, large bodies would be rotated first.
         let rotation = scene_size(mechanism, q).powi(-2);
         let weights: Vec<f64> = (0..mechanism.layout().n_v)
-            .map(|k| if k % N_BODY == 2 { rotation } else { 1.0 })
+            .map(|j| {
+                if mechanism.space().is_rotation(j) {
+                    rotation
+                } else {
+                    1.0
+                }
+            })
             .collect();
         let described = q;
         let mut q: Vec<Dd> = described.iter().map(|&q| Dd::from(q)).collect();

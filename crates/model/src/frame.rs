@@ -8,12 +8,9 @@
 use joints::Pose;
 
 use crate::description::{Body, BodyRef};
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::mechanism::Mechanism;
 use crate::observed::{Marker, Measure, MeasureKind, Observed};
-use crate::space::{Space, in_space};
-
-/// Names of the numbers of a [`FrameState`], in their order.
-pub const COLUMNS: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
+use crate::space::{PlanarSpace, Plane, Space, in_space};
 
 /// Position and velocity of a point of a body, or of its frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,7 +26,7 @@ pub struct FrameState {
 }
 
 impl FrameState {
-    /// Its numbers, in the order of [`COLUMNS`].
+    /// Its numbers, in the order of [`crate::SpaceKind::columns`].
     #[must_use]
     pub fn numbers(&self) -> [f64; 6] {
         let ([x, y], [vx, vy]) = (self.place, self.velocity);
@@ -129,7 +126,7 @@ impl<'m> Frames<'m> {
     #[must_use]
     pub fn point(self, body: usize, point: [f64; 2], q: &[f64], v: &[f64]) -> FrameState {
         let own = &q[self.0.space().coordinates(body)];
-        let [vx, vy, omega] = [0, 1, 2].map(|dof| v[N_BODY * body + dof]);
+        let [vx, vy, omega] = [0, 1, 2].map(|dof| v[Plane::N_V * body + dof]);
         let arm = self.0.bodies()[body].from_centre(point);
         let (mut place, mut velocity) = ([own[0], own[1]], [vx, vy]);
         if arm != [0.0; 2] {

@@ -9,11 +9,10 @@ use joints::Direction;
 use linalg::Matrix;
 
 use crate::description::BodyRef;
-use crate::group::TORQUE;
-use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
+use crate::mechanism::{Mechanism, PlacedConstraint};
 use crate::system::{Layout, Scratch, System};
 
-pub use crate::group::{COMPONENTS, ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind};
+pub use crate::group::{ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind};
 
 /// A row counts as vanishing on rigid motions below this fraction of its terms, which allows for
 /// the rounding of common points far from the origin. Rows above it are assumed to act against the
@@ -36,16 +35,6 @@ pub enum Frame {
 impl Frame {
     /// All frames.
     pub const ALL: [Self; 3] = [Self::Global, Self::FirstBody, Self::Edge];
-
-    /// Names of the components in this frame.
-    #[must_use]
-    pub fn components(self) -> [&'static str; 3] {
-        match self {
-            Self::Global => COMPONENTS,
-            Self::FirstBody => ["Fx'", "Fy'", "T"],
-            Self::Edge => ["Fn", "Ft", "T"],
-        }
-    }
 }
 
 /// A reaction: force (global components, N) and torque about the place (N·m), on the first body.
@@ -99,7 +88,7 @@ impl<'a> Reactions<'a> {
     /// The map `W` (3 × rows) with `[Fx, Fy, T] = W·λ`; allocates.
     #[must_use]
     pub fn wrench_map(self, id: ConstraintId) -> Matrix {
-        let mut map = Matrix::zeros(COMPONENTS.len(), self.group(id).rows.len());
+        let mut map = Matrix::zeros(self.layout().space.n_v(), self.group(id).rows.len());
         self.visit_wrench(id, &mut Vec::new(), |component, row, value| {
             map[(component, row)] += value;
         });
@@ -135,8 +124,8 @@ impl<'a> Reactions<'a> {
         for (at, e) in group.repeated() {
             visit(e.dof, e.row, -block[at]);
             match e.dof {
-                0 => visit(TORQUE, e.row, -(lever[1] * block[at])),
-                1 => visit(TORQUE, e.row, lever[0] * block[at]),
+                0 => visit(2, e.row, -(lever[1] * block[at])),
+                1 => visit(2, e.row, lever[0] * block[at]),
                 _ => {}
             }
         }
@@ -162,10 +151,13 @@ impl<'a> Reactions<'a> {
         let pose = self.s.poses.get(body)?;
         let arm = [pose.x - about[0], pose.y - about[1]];
         let layout = self.layout();
-        let mut map = Matrix::zeros(COMPONENTS.len(), layout.rows());
+        let mut map = Matrix::zeros(self.layout().space.n_v(), layout.rows());
         for i in 0..layout.rows() {
-            for (column, c) in layout.row(self.s, i).filter(|(k, _)| k / N_BODY == body) {
-                map[(column % N_BODY, i)] -= c;
+            for (column, c) in layout
+                .row(self.s, i)
+                .filter(|(k, _)| layout.space.body_of(*k) == body)
+            {
+                map[(layout.space.dof_of(column), i)] -= c;
             }
             map[(2, i)] += arm[0] * map[(1, i)] - arm[1] * map[(0, i)];
         }
@@ -209,7 +201,7 @@ impl<'a> Reactions<'a> {
     /// no such component; allocates.
     #[must_use]
     pub fn component_coefficients(self, id: ConstraintId, name: &str) -> Option<Vec<f64>> {
-        if let Some(k) = COMPONENTS.iter().position(|c| *c == name) {
+        if let Some(k) = self.layout().space.component(name) {
             return Some(self.wrench_map(id).row(k).to_vec());
         }
         let c = self.constraint(id);
@@ -261,25 +253,26 @@ impl<'a> Reactions<'a> {
     #[must_use]
     pub fn acts_on_ground(self, id: ConstraintId) -> bool {
         let [x, y] = self.place(id);
+        let space = self.layout().space;
         // Two translations and the rotation about the place of the joint.
         let motions = |column: usize| {
-            let pose = &self.s.poses[column / N_BODY];
+            let pose = &self.s.poses[space.body_of(column)];
             [
                 [1.0, 0.0, y - pose.y],
                 [0.0, 1.0, pose.x - x],
                 [0.0, 0.0, 1.0],
-            ][column % N_BODY]
+            ][space.dof_of(column)]
         };
         self.group(id).rows.clone().any(|row| {
-            let mut sums = [0.0; N_BODY];
-            let mut sizes = [0.0_f64; N_BODY];
+            let mut sums = [0.0; 3];
+            let mut sizes = [0.0_f64; 3];
             for (column, c) in self.layout().row(self.s, row) {
                 for (k, motion) in motions(column).into_iter().enumerate() {
                     sums[k] += c * motion;
                     sizes[k] += (c * motion).abs();
                 }
             }
-            (0..N_BODY).any(|k| sums[k].abs() > ROUNDING * sizes[k])
+            (0..3).any(|k| sums[k].abs() > ROUNDING * sizes[k])
         })
     }
 }

@@ -7,7 +7,8 @@ use joints::{Pose, Twist};
 
 use crate::description::BodyRef;
 use crate::function::Function;
-use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
+use crate::mechanism::{Mechanism, PlacedConstraint};
+use crate::space::{Plane, Space};
 use crate::system::{Site, System};
 
 /// Meaning of an input of a recording.
@@ -72,17 +73,17 @@ impl Inputs {
             Recorded::input(list.len() - 1)
         };
         let poses = (0..bodies).map(|k| Pose {
-            x: input(Input::Coordinate(N_BODY * k)),
-            y: input(Input::Coordinate(N_BODY * k + 1)),
-            angle: input(Input::Coordinate(N_BODY * k + 2)),
-            cos: input(Input::Cos(N_BODY * k + 2)),
-            sin: input(Input::Sin(N_BODY * k + 2)),
+            x: input(Input::Coordinate(Plane::N_V * k)),
+            y: input(Input::Coordinate(Plane::N_V * k + 1)),
+            angle: input(Input::Coordinate(Plane::N_V * k + 2)),
+            cos: input(Input::Cos(Plane::N_V * k + 2)),
+            sin: input(Input::Sin(Plane::N_V * k + 2)),
         });
         let poses = poses.collect();
         let twists = (0..bodies).map(|k| Twist {
-            x: input(Input::Velocity(N_BODY * k)),
-            y: input(Input::Velocity(N_BODY * k + 1)),
-            omega: input(Input::Velocity(N_BODY * k + 2)),
+            x: input(Input::Velocity(Plane::N_V * k)),
+            y: input(Input::Velocity(Plane::N_V * k + 1)),
+            omega: input(Input::Velocity(Plane::N_V * k + 2)),
         });
         let twists = twists.collect();
         let jets = (0..functions).map(|function| {

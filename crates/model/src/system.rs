@@ -8,7 +8,7 @@ use linalg::{Matrix, Scaling};
 
 use crate::description::BodyRef;
 use crate::group::{ColumnKind, ConstraintGroup, ConstraintId};
-use crate::space::N_BODY;
+use crate::space::SpaceKind;
 
 /// The equations of a mechanism.
 ///
@@ -72,6 +72,9 @@ pub trait System: Sync {
 /// Sizes, patterns and labels of a mechanism.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
+    /// The space in which the bodies move: what the columns of C and the components of reactions
+    /// are.
+    pub space: SpaceKind,
     /// Number of coordinates.
     pub n_q: usize,
     /// Number of velocities.
@@ -122,15 +125,18 @@ impl Layout {
     /// Columns of C of a body.
     #[must_use]
     pub fn columns(&self, body: usize) -> Range<usize> {
-        N_BODY * body..N_BODY * (body + 1)
+        self.space.columns_of(body)
     }
 
     /// Kind of velocity of each column of C, n_v entries.
     #[must_use]
     pub fn column_kinds(&self) -> Vec<ColumnKind> {
-        let kind = |k| match k % N_BODY {
-            2 => ColumnKind::Rotation,
-            _ => ColumnKind::Translation,
+        let kind = |j| {
+            if self.space.is_rotation(j) {
+                ColumnKind::Rotation
+            } else {
+                ColumnKind::Translation
+            }
         };
         (0..self.n_v).map(kind).collect()
     }
@@ -139,7 +145,7 @@ impl Layout {
     #[must_use]
     pub fn is_angular(&self, i: usize) -> bool {
         let columns = &self.pattern.column[self.pattern.row(i)];
-        columns.iter().all(|j| j % N_BODY == 2)
+        columns.iter().all(|j| self.space.is_rotation(*j))
     }
 
     /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations
@@ -150,8 +156,10 @@ impl Layout {
         let exponent = size.log2().round();
         let mut scaling = Scaling::identity(self.rows(), self.n_v);
         if exponent.is_finite() {
-            for e in scaling.cols.iter_mut().skip(2).step_by(N_BODY) {
-                *e = -(exponent as i32);
+            for (j, e) in scaling.cols.iter_mut().enumerate() {
+                if self.space.is_rotation(j) {
+                    *e = -(exponent as i32);
+                }
             }
         }
         scaling
@@ -268,6 +276,7 @@ pub(crate) fn pose_of<T: Ring>(poses: &[Pose<T>], body: BodyRef) -> Pose<T> {
 /// Indices of an element: its bodies, and its ranges in [`Slots`].
 #[derive(Clone)]
 pub(crate) struct Site {
+    pub(crate) space: SpaceKind,
     pub(crate) bodies: Vec<BodyRef>,
     pub(crate) slots: Range<usize>,
     pub(crate) functions: Range<usize>,
@@ -306,7 +315,7 @@ impl Site {
 
     /// Column of C for a column of its block; `None` for the ground.
     pub(crate) fn column(&self, k: usize) -> Option<usize> {
-        let body = self.bodies[k / N_BODY].moving()?;
-        Some(N_BODY * body + k % N_BODY)
+        let body = self.bodies[self.space.body_of(k)].moving()?;
+        Some(self.space.n_v() * body + self.space.dof_of(k))
     }
 }

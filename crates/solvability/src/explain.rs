@@ -5,9 +5,7 @@
 //! A statement about a sum or a component is made only after a test against all dependencies.
 
 use crate::limits::VISIBLE;
-use crate::pose::TRANSLATIONS;
 use model::codes::Code;
-use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 use rank::{Circuit, Settled};
@@ -271,7 +269,10 @@ fn reaction(
     let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let forces = components.iter().filter(|&&c| c < TRANSLATIONS).count();
+    let forces = components
+        .iter()
+        .filter(|&c| layout.space.forces().contains(c))
+        .count();
     let mapped = solvability.basis().mapped(&map, group.rows.clone())?;
     let mapped = mapped.with_forces(forces);
     let directions = match mapped.unique_directions() {
@@ -285,8 +286,8 @@ fn reaction(
             .filter(|(x, _)| x.abs() > VISIBLE);
         let terms: Vec<String> = terms
             .map(|(x, &c)| match words::short(*x).as_str() {
-                "1" => COMPONENTS[c].to_owned(),
-                x => format!("{x}·{}", COMPONENTS[c]),
+                "1" => layout.space.components()[c].to_owned(),
+                x => format!("{x}·{}", layout.space.components()[c]),
             })
             .collect();
         terms.join(" + ").replace("+ −", "− ")

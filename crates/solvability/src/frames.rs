@@ -7,7 +7,7 @@ use model::{ConstraintId, Frame, Mechanism};
 use rank::RankDecision;
 
 use crate::groups::{Configuration, LinearForm, ReactionForms, RequestError};
-use crate::verdict::Judgement;
+use crate::judged::ComponentVerdict;
 
 /// A reaction in one frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,10 +17,10 @@ pub struct FrameVerdict {
     pub frame: Frame,
     /// Unit vectors of its axes, global components.
     pub axes: [[f64; 2]; 2],
-    /// Verdicts on the components along the first axis, along the second axis, and on the torque
-    /// about the place of the joint; named as in [`Frame::components`]. A component that is
-    /// identically zero is unique.
-    pub components: [Judgement; 3],
+    /// Verdicts on the components along the axes, and of the torque about the place of the joint;
+    /// named as in [`model::SpaceKind::components_in`]. A component that is identically zero is
+    /// unique.
+    pub components: Vec<ComponentVerdict>,
 }
 
 /// The components of a reaction in one frame, as numbers linear in the multipliers.
@@ -28,8 +28,8 @@ pub struct FrameVerdict {
 pub struct FrameForms {
     /// Unit vectors of the axes, global components.
     pub axes: [[f64; 2]; 2],
-    /// The components, in the order of [`FrameVerdict`].
-    pub components: [LinearForm; 3],
+    /// The components with their names, in the order of [`FrameVerdict`].
+    pub components: Vec<(&'static str, LinearForm)>,
 }
 
 /// Determines the verdicts on the reaction of a joint or drive at time t and coordinates q, in all
@@ -55,7 +55,7 @@ pub struct FrameForms {
 /// let q = [0.0, 0.0, angle];
 /// let decision = certify(&mechanism, 0.0, &q).unwrap();
 /// let verdicts = judge_frames(&mechanism, 0.0, &q, &decision, ConstraintId(0)).unwrap();
-/// let words = |k: usize| verdicts[k].components.each_ref().map(|j| j.verdict.word());
+/// let words = |k: usize| [0, 1, 2].map(|c| verdicts[k].components[c].judgement.verdict.word());
 /// assert_eq!((verdicts[0].frame, words(0)), (Frame::Global, ["not_unique", "not_unique", "unique"]));
 /// assert_eq!((verdicts[1].frame, words(1)), (Frame::FirstBody, ["not_unique", "unique", "unique"]));
 /// ```
@@ -83,11 +83,14 @@ impl Configuration<'_> {
             let Some(FrameForms { axes, components }) = self.reactions.in_frame(id, frame)? else {
                 continue;
             };
-            let [along, across, torque] = &components;
+            let judged = components.iter().map(|(name, form)| {
+                let judgement = self.judge(form)?;
+                Ok(ComponentVerdict { name, judgement })
+            });
             verdicts.push(FrameVerdict {
                 frame,
                 axes,
-                components: [self.judge(along)?, self.judge(across)?, self.judge(torque)?],
+                components: judged.collect::<Result<_, RequestError>>()?,
             });
         }
         Ok(verdicts)
@@ -109,11 +112,13 @@ impl ReactionForms<'_> {
             return Ok(None);
         };
         let [along, across] = axes;
-        let components = [
+        let forms = [
             self.force(id, along)?,
             self.force(id, across)?,
             self.torque(id, place)?,
         ];
+        let names = self.mechanism.space().components_in(frame).iter().copied();
+        let components = names.zip(forms).collect();
         Ok(Some(FrameForms { axes, components }))
     }
 }

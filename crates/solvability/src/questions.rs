@@ -237,12 +237,12 @@ impl<'a> Questions<'a> {
         let judgement = Judgement::new(Verdict::Unique, 0.0);
         match group {
             Group::Resultant(_) => Ok(GroupVerdict {
-                components: model::reaction::COMPONENTS
+                components: (self.mechanism.space().components().iter())
                     .map(|name| ComponentVerdict {
                         name,
                         judgement: judgement.clone(),
                     })
-                    .to_vec(),
+                    .collect(),
                 judgement,
                 about,
             }),

@@ -10,7 +10,8 @@ use std::ops::Range;
 use joints::Twist;
 
 use super::Data;
-use crate::mechanism::{N_BODY, twist_of};
+use crate::mechanism::twist_of;
+use crate::space::{Plane, Space};
 use crate::system::{Scratch, System};
 
 /// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` with respect to all numbers of the
@@ -35,7 +36,7 @@ struct OfConstraint {
 }
 
 /// Unit velocities of a body.
-const UNITS: [Twist; N_BODY] = [
+const UNITS: [Twist; Plane::N_V] = [
     Twist {
         x: 1.0,
         y: 0.0,
@@ -82,7 +83,7 @@ impl Data<'_> {
                 let Some(body) = body.moving() else {
                     continue;
                 };
-                bodies.push(N_BODY * body);
+                bodies.push(Plane::N_V * body);
                 for unit in UNITS {
                     slots[k] = unit;
                     column(&mut |out| element.d_residual_dp(x, &still, &slots, &no_f, own, out));
@@ -145,7 +146,7 @@ impl DataGradients {
                 }
             };
             for &first in &c.bodies {
-                y[first..first + N_BODY].iter().for_each(|y| add(*y));
+                y[first..first + Plane::N_V].iter().for_each(|y| add(*y));
             }
             for row in c.rows.clone() {
                 add(y_lambda[row]);

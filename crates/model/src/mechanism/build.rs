@@ -8,7 +8,7 @@ use joints::{LARGEST, is_usable};
 
 use super::check;
 use super::work::held_bodies;
-use super::{Elements, Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction, initialise};
+use super::{Elements, Mechanism, PlacedConstraint, PlacedForce, TimeFunction, initialise};
 use crate::description::{Body, BodyRef, Description};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
@@ -226,7 +226,7 @@ impl Mechanism {
         if !errors.is_empty() {
             return Err(errors);
         }
-        let mut b = Builder::default();
+        let mut b = Builder::new(d.space);
         b.joints(d, Level::Holonomic);
         for drive in &d.drives {
             b.constraint(
@@ -249,7 +249,7 @@ impl Mechanism {
         let weight = weight
             .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
             .collect();
-        let mut mechanism = b.finish(&d.name, SpaceKind::Plane, d.bodies.clone(), weight);
+        let mut mechanism = b.finish(&d.name, d.bodies.clone(), weight);
         mechanism.tolerance = d.tolerance;
         mechanism.observed = d.observed.clone();
         let (q, _) = mechanism.described_state();
@@ -478,13 +478,22 @@ fn check_place(
 }
 
 /// Extends the lists of a mechanism, element by element.
-#[derive(Default)]
 pub(super) struct Builder {
     elements: Elements,
     pub(super) layout: Layout,
 }
 
 impl Builder {
+    pub(super) fn new(space: SpaceKind) -> Self {
+        Self {
+            elements: Elements::default(),
+            layout: Layout {
+                space,
+                ..Layout::default()
+            },
+        }
+    }
+
     /// Adds the joints of one level.
     fn joints(&mut self, d: &Description, level: Level) {
         for j in d.joints.iter().filter(|j| j.element.spec().level == level) {
@@ -545,6 +554,7 @@ impl Builder {
         };
         self.layout.rheonomic |= spec.rheonomic;
         self.layout.groups.push(ConstraintGroup {
+            space: self.layout.space,
             name: name.to_owned(),
             kind,
             spec,
@@ -579,13 +589,14 @@ impl Builder {
         bodies: &[BodyRef],
         entries: impl Iterator<Item = (usize, usize, usize)>,
     ) {
+        let columns = self.layout.space.n_v();
         let pattern = &mut self.layout.pattern;
         if pattern.start.is_empty() {
             pattern.start.push(0);
         }
         for (slot, dof, entry) in entries {
             if let BodyRef::Body(body) = bodies[slot] {
-                pattern.column.push(N_BODY * body + dof);
+                pattern.column.push(columns * body + dof);
                 pattern.entry.push(entry);
             }
         }
@@ -610,6 +621,7 @@ impl Builder {
             });
         }
         Site {
+            space: self.layout.space,
             bodies: bodies.to_vec(),
             slots: first_slot..self.elements.n_slots,
             functions: first..self.elements.functions.len(),
@@ -617,15 +629,10 @@ impl Builder {
     }
 
     /// The mechanism of these bodies; initial values and arms are not yet set.
-    pub(super) fn finish(
-        mut self,
-        name: &str,
-        space: SpaceKind,
-        bodies: Vec<Body>,
-        weight: Vec<f64>,
-    ) -> Mechanism {
+    pub(super) fn finish(mut self, name: &str, bodies: Vec<Body>, weight: Vec<f64>) -> Mechanism {
+        let space = self.layout.space;
         self.layout.n_q = space.n_q() * bodies.len();
-        self.layout.n_v = N_BODY * bodies.len();
+        self.layout.n_v = space.n_v() * bodies.len();
         if self.layout.pattern.start.is_empty() {
             self.layout.pattern.start.push(0);
         }
@@ -634,7 +641,6 @@ impl Builder {
         let mass = bodies.iter();
         Mechanism {
             name: name.to_owned(),
-            space,
             mass: mass.flat_map(|b| [b.mass, b.mass, b.inertia]).collect(),
             weight,
             tolerance: Tolerance::default(),

@@ -4,14 +4,14 @@
 //!
 //! The size of the whole mechanism is in [`crate::size`].
 
-use super::{Mechanism, N_BODY};
+use super::Mechanism;
 use crate::group::ConstraintId;
 use crate::size::scene_size;
 use crate::system::{Scratch, System};
 
 /// Takes initial values of joints, drives and forces from a configuration.
 pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
-    let poses = mechanism.space.poses(q);
+    let poses = mechanism.space().poses(q);
     for c in &mut mechanism.elements.constraints {
         c.element.initialise(&c.site.poses(&poses));
     }
@@ -27,7 +27,7 @@ pub(crate) fn unmet_requirement(
     mechanism: &Mechanism,
     q: &[f64],
 ) -> Option<(String, &'static str)> {
-    let poses = mechanism.space.poses(q);
+    let poses = mechanism.space().poses(q);
     let groups = mechanism.layout.groups.iter();
     let constraints = mechanism.elements.constraints.iter().zip(groups);
     let mut of_constraints = constraints.filter_map(|(c, group)| {
@@ -94,8 +94,9 @@ fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
             arms[body] = arms[body].max((x - at.x).abs()).max((y - at.y).abs());
         }
         for (j, c) in rows.flat_map(|i| layout.row(s, i)) {
-            if j % N_BODY == 2 {
-                arms[j / N_BODY] = arms[j / N_BODY].max(c.abs());
+            if layout.space.is_rotation(j) {
+                let arm = &mut arms[layout.space.body_of(j)];
+                *arm = arm.max(c.abs());
             }
         }
     }

@@ -5,8 +5,8 @@
 
 use joints::{Pose, Twist};
 
-use super::{Mechanism, N_BODY};
-use crate::space::{Space, in_space};
+use super::Mechanism;
+use crate::space::{PlanarSpace, Space, in_space};
 use crate::system::{Layout, Scratch, Slots, System, pose_of};
 
 /// Largest change by rounding of an angle that is held constant.
@@ -44,7 +44,7 @@ impl System for Mechanism {
 
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch) {
         s.t = t;
-        in_space!(self.space, S => {
+        in_space!(self.space(), S => {
             for (k, (pose, q)) in s.poses.iter_mut().zip(q.chunks_exact(S::N_Q)).enumerate() {
                 (pose.x, pose.y, pose.angle) = (q[0], q[1], S::angle(q));
                 if !stays(self.held[k], s.turned_to[k], pose.angle) {
@@ -126,8 +126,8 @@ impl System for Mechanism {
     }
 
     fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]) {
-        in_space!(self.space, S => {
-            let bodies = q.chunks_exact(S::N_Q).zip(v.chunks_exact(N_BODY));
+        in_space!(self.space(), S => {
+            let bodies = q.chunks_exact(S::N_Q).zip(v.chunks_exact(S::N_V));
             for ((q, v), qd) in bodies.zip(qd.chunks_exact_mut(S::N_Q)) {
                 S::rate(q, v, qd);
             }
@@ -135,11 +135,11 @@ impl System for Mechanism {
     }
 
     fn displace(&self, q: &mut [f64], d: &[f64]) {
-        self.space.displace(q, d);
+        self.space().displace(q, d);
     }
 
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]) {
-        self.space.difference(q, from, d);
+        self.space().difference(q, from, d);
     }
 }
 

@@ -6,7 +6,7 @@ use joints::spec::Level;
 use linalg::DisjointSets;
 
 use super::build::Builder;
-use super::{Mechanism, N_BODY, PlacedForce};
+use super::{Mechanism, PlacedForce};
 use crate::description::BodyRef;
 use crate::function::Function;
 use crate::system::Site;
@@ -156,7 +156,7 @@ fn assembled<'a>(
         assert!(here.is_some(), "`{name}` reaches beyond bodies {bodies:?}");
         here.unwrap_or_default()
     };
-    let mut b = Builder::default();
+    let mut b = Builder::new(whole.space());
     let mut rows = Vec::new();
     for &k in groups {
         let (c, group) = (&whole.elements.constraints[k], &whole.layout.groups[k]);
@@ -186,16 +186,16 @@ fn assembled<'a>(
         let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));
         each.collect()
     };
-    let velocities = places(N_BODY);
+    let velocities = places(whole.space().n_v());
     let own = bodies.iter().map(|&k| whole.bodies[k].clone()).collect();
     let weight = velocities.iter().map(|&j| whole.weight[j]).collect();
-    let mut mechanism = b.finish(&whole.name, whole.space, own, weight);
+    let mut mechanism = b.finish(&whole.name, own, weight);
     mechanism.tolerance = whole.tolerance;
     mechanism.observed = whole.observed.stated_for(here);
     mechanism.reach = bodies.iter().map(|&k| whole.reach[k]).collect();
     let places = Places {
         bodies: bodies.to_vec(),
-        coordinates: places(whole.space.n_q()),
+        coordinates: places(whole.space().n_q()),
         velocities,
         rows,
         groups: groups.to_vec(),

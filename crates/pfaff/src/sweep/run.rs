@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use dynamics::{MotionFault, Prepared, Sample, Stop, Summary};
 use model::Mechanism;
-use model::frame::COLUMNS;
 use report::sweep::{Extreme, SweepMotion};
 use report::{SweepRow, SweepStatus};
 use solvability::{Analysis, analyse};
@@ -136,10 +135,11 @@ impl<'s> Watch<'s> {
             verdict.is_some_and(|v| v.is_unique())
         };
         // Nothing is unique of a reaction that this run does not have.
+        let columns = study.prepared.mechanism.space().columns().len();
         let known = |&k: &Option<usize>| k.map_or((0, false), |k| (k, is_unique(k)));
         Self {
             t_state: f64::NAN,
-            state: vec![f64::NAN; COLUMNS.len() * study.prepared.mechanism.bodies().len()],
+            state: vec![f64::NAN; columns * study.prepared.mechanism.bodies().len()],
             mechanism: &study.prepared.mechanism,
             reactions: reactions.iter().map(known).collect(),
             extremes: vec![Extreme::UNKNOWN; reactions.len()],
@@ -148,7 +148,8 @@ impl<'s> Watch<'s> {
 
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
         self.t_state = sample.t;
-        for (body, state) in self.state.chunks_exact_mut(COLUMNS.len()).enumerate() {
+        let columns = self.mechanism.space().columns().len();
+        for (body, state) in self.state.chunks_exact_mut(columns).enumerate() {
             let frame = self.mechanism.frames().body(body, sample.q, sample.v);
             state.copy_from_slice(&frame.numbers());
         }

@@ -1,7 +1,6 @@
 //! A motion with its rows as plain data: the combined contents of `summary.json`, `trajectory.csv`
 //! and `reactions.csv`.
 
-use model::reaction::COMPONENTS;
 use model::{FrameState, Mechanism, Reaction, System};
 use serde::Serialize;
 
@@ -102,7 +101,8 @@ impl MomentDocument {
         let measures = measures.map(|(k, m)| (m.name.clone(), mechanism.frames().measure(k, q, v)));
         let groups = mechanism.layout().groups.iter().zip(reactions);
         let reactions = groups.map(|(group, reaction)| {
-            let names = COMPONENTS.into_iter().chain(group.spec.component);
+            let names = group.space.components().iter().copied();
+            let names = names.chain(group.spec.component);
             let [fx, fy] = reaction.force;
             let numbers = [fx, fy, reaction.torque].into_iter();
             let numbers = names.zip(numbers.chain(reaction.component));

@@ -2,7 +2,6 @@
 
 use std::io::Write;
 
-use model::reaction::COMPONENTS;
 use model::{Mechanism, Reaction, System};
 
 use super::{Table, TableError};
@@ -61,7 +60,8 @@ impl<W: Write> ReactionTable<W> {
         let places = selection.places(mechanism)?;
         let mut header = vec!["t".to_owned()];
         for &k in &places {
-            let columns = COMPONENTS.into_iter().chain(groups[k].spec.component);
+            let columns = groups[k].space.components().iter().copied();
+            let columns = columns.chain(groups[k].spec.component);
             header.extend(columns.map(|c| format!("{}.{c}", groups[k].name)));
         }
         Ok(Self {

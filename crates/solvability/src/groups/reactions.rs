@@ -4,7 +4,6 @@
 use std::borrow::Cow;
 
 use linalg::Matrix;
-use model::reaction::COMPONENTS;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use super::error::{RequestError, check, check_finite};
@@ -213,9 +212,11 @@ impl ReactionForms<'_> {
             Group::Members(_) | Group::OneJoint(_) => Vec::new(),
             Group::Combination(terms) => vec![("sum", self.combination(terms)?)],
             Group::WrenchSum(terms) => {
-                named(self.wrench_sum_about(terms, about.ok_or(NO_REACTION)?)?)
+                self.named(self.wrench_sum_about(terms, about.ok_or(NO_REACTION)?)?)
             }
-            Group::Resultant(bodies) => named(self.resultant(bodies, about.unwrap_or_default())?),
+            Group::Resultant(bodies) => {
+                self.named(self.resultant(bodies, about.unwrap_or_default())?)
+            }
         })
     }
 
@@ -277,6 +278,11 @@ impl ReactionForms<'_> {
         Ok(sum)
     }
 
+    fn named(&self, forms: [LinearForm; 3]) -> Vec<(&'static str, LinearForm)> {
+        let names = self.mechanism.space().components();
+        names.iter().copied().zip(forms).collect()
+    }
+
     pub(super) fn rows_of(
         &self,
         members: &[ConstraintId],
@@ -290,10 +296,6 @@ impl ReactionForms<'_> {
             .map(|&id| self.check_id(id).map(|()| groups[id.0].rows.clone()))
             .collect()
     }
-}
-
-fn named(forms: [LinearForm; 3]) -> Vec<(&'static str, LinearForm)> {
-    COMPONENTS.into_iter().zip(forms).collect()
 }
 
 /// Unit vectors of the wrench.

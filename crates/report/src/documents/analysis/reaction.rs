@@ -211,15 +211,10 @@ impl From<&FrameVerdict> for FrameDocument {
             Frame::FirstBody => "first_body",
             Frame::Edge => "edge",
         };
-        let named = found.frame.components().into_iter().zip(&found.components);
-        let component = |(name, judgement): (&'static str, _)| ComponentDocument {
-            name,
-            verdict: VerdictDocument::from(judgement),
-        };
         Self {
             frame,
             axes: found.axes,
-            components: named.map(component).collect(),
+            components: found.components.iter().map(Into::into).collect(),
         }
     }
 }
