@@ -11,16 +11,12 @@ mod kernels;
 mod part;
 mod work;
 
-use std::ops::Range;
-
-use joints::Twist;
-
-use crate::description::{Body, BodyRef};
+use crate::description::Body;
+use crate::element::{PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
 use crate::observed::Observed;
-use crate::registry::{PlaneConstraint, PlaneForce};
-use crate::space::{Plane, Space, SpaceKind, in_space};
-use crate::system::{Layout, Site};
+use crate::space::{Space, SpaceKind, in_space};
+use crate::system::Layout;
 use crate::tolerance::Tolerance;
 
 pub use build::BuildError;
@@ -97,59 +93,6 @@ impl Elements {
         let constraints = self.constraints.iter().map(|c| &c.site);
         constraints.chain(self.forces.iter().map(|f| &f.site))
     }
-
-    /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay
-    /// zero.
-    pub(crate) fn spread(&self, v: &[f64], twists: &mut [Twist]) {
-        for site in self.sites() {
-            for (twist, &body) in twists[site.slots.clone()].iter_mut().zip(&site.bodies) {
-                if body != BodyRef::Ground {
-                    *twist = twist_of(body, v);
-                }
-            }
-        }
-    }
-}
-
-/// A constraint with its indices in the mechanism.
-#[derive(Clone)]
-pub(crate) struct PlacedConstraint {
-    pub(crate) element: Box<dyn PlaneConstraint>,
-    pub(crate) site: Site,
-    /// Its entries of C in the scratch.
-    pub(crate) entries: Range<usize>,
-    /// Indices of the varying entries, relative to `entries`.
-    pub(crate) varying: Vec<usize>,
-    pub(crate) rows: Range<usize>,
-    /// Tolerance of its data (m), if stated.
-    pub(crate) tolerance: Option<f64>,
-}
-
-impl PlacedConstraint {
-    /// Whether its block of C depends on the configuration.
-    pub(crate) fn has_varying_entries(&self) -> bool {
-        !self.varying.is_empty()
-    }
-
-    /// Whether b and Φt of its rows may differ from zero.
-    pub(crate) fn depends_on_time(&self) -> bool {
-        self.element.spec().rheonomic
-    }
-
-    /// Whether Γ of its rows may differ from zero. C of the other rows is constant, so `C·v̇ = 0`.
-    pub(crate) fn has_gamma(&self) -> bool {
-        self.has_varying_entries() || self.depends_on_time()
-    }
-}
-
-/// A force with its indices in the mechanism.
-#[derive(Clone)]
-pub(crate) struct PlacedForce {
-    pub(crate) name: String,
-    pub(crate) element: Box<dyn PlaneForce>,
-    pub(crate) site: Site,
-    /// Column of Q for each value of the kernel; `None` for the ground.
-    pub(crate) columns: Vec<Option<usize>>,
 }
 
 /// A function of time as passed to an element.
@@ -276,16 +219,5 @@ impl Mechanism {
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
-    }
-}
-
-/// The velocity of a body, taken from those of all.
-pub(crate) fn twist_of(body: BodyRef, v: &[f64]) -> Twist {
-    match body {
-        BodyRef::Ground => Twist::zero(),
-        BodyRef::Body(k) => {
-            let [x, y, omega] = [0, 1, 2].map(|dof| v[Plane::N_V * k + dof]);
-            Twist { x, y, omega }
-        }
     }
 }

@@ -8,7 +8,7 @@ use std::ops::Range;
 use linalg::Scaling;
 
 use crate::mechanism::Mechanism;
-use crate::space::norm;
+use crate::space::{difference, norm};
 use crate::system::{Scratch, System};
 
 /// Sizes with which residuals of a mechanism are compared, at the pose of a scratch. Positions need
@@ -35,12 +35,7 @@ impl Scales<'_> {
     pub fn position(self, i: usize) -> f64 {
         let space = self.mechanism.space();
         let term = |(j, c): (usize, f64)| {
-            let pose = &self.s.poses[space.body_of(j)];
-            let at = match space.dof_of(j) {
-                0 => pose.x,
-                1 => pose.y,
-                _ => pose.angle,
-            };
+            let at = self.s.bodies.position(space.body_of(j), space.dof_of(j));
             let (at, least) = (at.abs(), least(self.mechanism, j));
             c.abs() * if at > least { at } else { least }
         };
@@ -137,9 +132,9 @@ impl Scales<'_> {
     pub fn felt_scaling(self, size: f64) -> Scaling {
         let mut arms = vec![0.0_f64; self.mechanism.bodies().len()];
         for id in self.mechanism.layout().constraint_ids() {
-            let [x, y] = self.mechanism.reactions(self.s).place(id);
+            let place = self.mechanism.reactions(self.s).place(id);
             for k in self.mechanism.elements.constraints[id.0].site.moving() {
-                arms[k] = arms[k].max((x - self.s.poses[k].x).hypot(y - self.s.poses[k].y));
+                arms[k] = arms[k].max(norm(&difference(place, self.s.bodies.origin(k))));
             }
         }
         let layout = self.mechanism.layout();

@@ -10,7 +10,7 @@
 
 use std::ops::Range;
 
-use joints::{Pose, Ring};
+use joints::Ring;
 use linalg::Dd;
 
 use crate::description::Body;
@@ -142,19 +142,6 @@ pub trait PlanarSpace: Space {
     /// Sine and cosine of this angle.
     #[must_use]
     fn sin_cos<T: Number>(q: &[T]) -> (T, T);
-
-    /// The pose of a body.
-    #[must_use]
-    fn pose<T: Number>(q: &[T]) -> Pose<T> {
-        let (sin, cos) = Self::sin_cos(q);
-        Pose {
-            x: q[0],
-            y: q[1],
-            angle: Self::angle(q),
-            cos,
-            sin,
-        }
-    }
 }
 
 /// Numbers that are written of a planar frame.
@@ -180,8 +167,8 @@ impl Space for Plane {
     const EDGE_COMPONENTS: &'static [&'static str] = PLANE_EDGE_COMPONENTS;
 
     fn described(body: &Body, q: &mut [f64]) {
-        let Pose { x, y, angle, .. } = body.pose();
-        q.copy_from_slice(&[x, y, angle]);
+        let pose = body.pose();
+        q.copy_from_slice(&[pose.x, pose.y, pose.angle]);
     }
 
     fn position(q: &[f64], dof: usize) -> f64 {
@@ -247,8 +234,8 @@ impl Space for UnitCircle {
     const EDGE_COMPONENTS: &'static [&'static str] = PLANE_EDGE_COMPONENTS;
 
     fn described(body: &Body, q: &mut [f64]) {
-        let Pose { x, y, cos, sin, .. } = body.pose();
-        q.copy_from_slice(&[x, y, cos, sin]);
+        let pose = body.pose();
+        q.copy_from_slice(&[pose.x, pose.y, pose.cos, pose.sin]);
     }
 
     fn position(q: &[f64], dof: usize) -> f64 {
@@ -511,12 +498,6 @@ impl SpaceKind {
         n * body..n * (body + 1)
     }
 
-    /// Poses of all bodies at coordinates q; allocates.
-    #[must_use]
-    pub fn poses<T: Number>(self, q: &[T]) -> Vec<Pose<T>> {
-        in_space!(self, S => q.chunks_exact(S::N_Q).map(<S as PlanarSpace>::pose).collect())
-    }
-
     /// Moves the configuration q by d (n_v).
     pub(crate) fn displace<T: Number>(self, q: &mut [T], d: &[T]) {
         in_space!(self, S => {
@@ -626,9 +607,26 @@ impl SpaceKind {
 pub fn unit_cross(axis: usize, a: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| match (k + 3 - axis) % 3 {
         0 => 0.0,
-        1 => -a[(k + 1) % 3],
+        // Not `-a`: there is one zero.
+        1 => 0.0 - a[(k + 1) % 3],
         _ => a[(k + 2) % 3],
     })
+}
+
+/// a − b
+#[must_use]
+pub fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+/// a × b
+#[must_use]
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 /// Length of a vector with any number of components.

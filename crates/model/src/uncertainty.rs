@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use joints::{Magnitude, Pose};
+use joints::Magnitude;
 use linalg::Matrix;
 
 use crate::mechanism::Mechanism;
@@ -105,9 +105,8 @@ impl Scales<'_> {
             let row = pattern.row(i);
             // Forces on the bodies of the row, and the distances of the bodies from the origin.
             let forces: Vec<(usize, f64, f64)> = self.forces_of_row(&magnitudes, row.clone());
-            let places = |&(body, force, _): &(usize, f64, f64)| {
-                force * self.s.poses[body].x.hypot(self.s.poses[body].y)
-            };
+            let places =
+                |&(body, force, _): &(usize, f64, f64)| force * norm(&self.s.bodies.origin(body));
             let shift = ROUNDING * forces.iter().map(places).sum::<f64>() + opening(i);
             for k in row {
                 let column = pattern.column[k];
@@ -169,27 +168,8 @@ impl Scales<'_> {
             .iter()
             .filter(|c| c.has_varying_entries())
         {
-            let poses = c.site.x(&self.s.slots).iter();
-            let x: Vec<Pose<Magnitude>> = poses.map(magnitude).collect();
-            let jets = c.site.f(&self.s.slots).iter();
-            let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();
-            c.element
-                .magnitude()
-                .c(&x, &f, &mut entries[c.entries.clone()]);
+            c.magnitude_c(&self.s.slots, &mut entries[c.entries.clone()]);
         }
         entries
-    }
-}
-
-/// Sizes of the contributions of a pose to a polynomial; cosine and sine are accurate to the
-/// rounding of their angle.
-fn magnitude(pose: &Pose) -> Pose<Magnitude> {
-    let turned = Magnitude::from(pose.angle.abs().max(1.0));
-    Pose {
-        x: pose.x.into(),
-        y: pose.y.into(),
-        angle: pose.angle.into(),
-        cos: turned,
-        sin: turned,
     }
 }

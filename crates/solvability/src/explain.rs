@@ -6,8 +6,9 @@
 
 use crate::limits::VISIBLE;
 use model::codes::Code;
+use model::space::norm;
 use model::start::scene_size;
-use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
+use model::{BodyRef, ConstraintId, Mechanism, Scratch, SpaceKind, System};
 use rank::{Circuit, Settled};
 
 use crate::matrices::{QueryError, Solvability};
@@ -55,12 +56,14 @@ pub struct FreeDirection {
     pub joint: ConstraintId,
     /// Its bodies; the force acts on the first one.
     pub bodies: Vec<BodyRef>,
-    /// Point at which the force acts (m), global components.
-    pub place: [f64; 2],
-    /// Fx, Fy (N), global components.
-    pub force: [f64; 2],
-    /// T (N·m) about the place.
-    pub torque: f64,
+    /// The space of the mechanism.
+    pub space: SpaceKind,
+    /// Point at which the force acts (m), ground axes.
+    pub place: [f64; 3],
+    /// Force (N), ground axes.
+    pub force: [f64; 3],
+    /// Torque (N·m) about the place, ground axes.
+    pub torque: [f64; 3],
 }
 
 /// Joints and drives whose reactions are coupled by dependencies.
@@ -338,6 +341,7 @@ fn stress(
         Some(FreeDirection {
             joint: id,
             bodies: group.bodies.clone(),
+            space: layout.space,
             place: mechanism.reactions(s).place(id),
             force: reaction.force,
             torque: reaction.torque,
@@ -361,11 +365,11 @@ fn stress(
 /// Scales the loads to largest force 1, or to largest torque 1 if all forces are rounding relative
 /// to the torques divided by the size. Rounding is set to zero.
 fn normalise(directions: &mut [FreeDirection], size: f64) {
-    let force = |d: &FreeDirection| d.force[0].hypot(d.force[1]);
+    let force = |d: &FreeDirection| norm(&d.force);
     let force = directions.iter().map(force).fold(0.0, f64::max);
     let torque = directions
         .iter()
-        .map(|d| d.torque.abs())
+        .map(|d| norm(&d.torque))
         .fold(0.0, f64::max);
     let unit = if force > VISIBLE * torque / size {
         force
@@ -381,7 +385,7 @@ fn normalise(directions: &mut [FreeDirection], size: f64) {
             .force
             .iter_mut()
             .map(|x| (x, 1.0))
-            .chain([(&mut d.torque, size)])
+            .chain(d.torque.iter_mut().map(|x| (x, size)))
         {
             *x = if x.abs() <= VISIBLE * largest * scale {
                 0.0

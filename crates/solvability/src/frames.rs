@@ -3,7 +3,7 @@
 //! bearing force of a crank has a unique component across the crank, whatever its global components
 //! are.
 
-use model::{ConstraintId, Frame, Mechanism};
+use model::{Axes, ConstraintId, Frame, Mechanism};
 use rank::RankDecision;
 
 use crate::groups::{Configuration, LinearForm, ReactionForms, RequestError};
@@ -16,7 +16,7 @@ pub struct FrameVerdict {
     /// The frame.
     pub frame: Frame,
     /// Unit vectors of its axes, global components.
-    pub axes: [[f64; 2]; 2],
+    pub axes: Axes,
     /// Verdicts on the components along the axes, and of the torque about the place of the joint;
     /// named as in [`model::SpaceKind::components_in`]. A component that is identically zero is
     /// unique.
@@ -27,7 +27,7 @@ pub struct FrameVerdict {
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameForms {
     /// Unit vectors of the axes, global components.
-    pub axes: [[f64; 2]; 2],
+    pub axes: Axes,
     /// The components with their names, in the order of [`FrameVerdict`].
     pub components: Vec<(&'static str, LinearForm)>,
 }
@@ -111,13 +111,21 @@ impl ReactionForms<'_> {
         let Some(axes) = self.mechanism.reactions(&self.s).axes(id, frame) else {
             return Ok(None);
         };
-        let [along, across] = axes;
-        let forms = [
-            self.force(id, along)?,
-            self.force(id, across)?,
-            self.torque(id, place)?,
-        ];
-        let names = self.mechanism.space().components_in(frame).iter().copied();
+        let space = self.mechanism.space();
+        let mut forms = Vec::new();
+        for along in axes.iter() {
+            forms.push(self.force(id, *along)?);
+        }
+        match space.n_rotations() {
+            // In the plane a torque has the direction of z in all axes.
+            1 => forms.push(self.torque(id, [0.0, 0.0, 1.0], place)?),
+            _ => {
+                for along in axes.iter() {
+                    forms.push(self.torque(id, *along, place)?);
+                }
+            }
+        }
+        let names = space.components_in(frame).iter().copied();
         let components = names.zip(forms).collect();
         Ok(Some(FrameForms { axes, components }))
     }

@@ -8,14 +8,14 @@ use joints::{LARGEST, is_usable};
 
 use super::check;
 use super::work::held_bodies;
-use super::{Elements, Mechanism, PlacedConstraint, PlacedForce, TimeFunction, initialise};
+use super::{Elements, Mechanism, TimeFunction, initialise};
 use crate::description::{Body, BodyRef, Description};
+use crate::element::{ConstraintKernels, ForceKernels, PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
 use crate::observed::Observed;
-use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::space::SpaceKind;
-use crate::system::{Layout, RowLabel, Site};
+use crate::system::{Layout, RowLabel};
 use crate::tolerance::{Stated, Tolerance};
 
 /// One fault of a description.
@@ -372,7 +372,7 @@ fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
 }
 
 fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
-    let constraint = |element: &dyn PlaneConstraint| (element.spec(), element.points());
+    let constraint = |element: &dyn ConstraintKernels| (element.spec(), element.points());
     for j in &d.joints {
         let (spec, points) = constraint(j.element.as_ref());
         check_role(&j.name, spec, Role::Joint, "joints", errors);
@@ -508,7 +508,7 @@ impl Builder {
         name: &str,
         kind: ConstraintKind,
         bodies: &[BodyRef],
-        element: &dyn PlaneConstraint,
+        element: &dyn ConstraintKernels,
         functions: &[Function],
         tolerance: Option<f64>,
     ) {
@@ -534,24 +534,13 @@ impl Builder {
                     .map(|(at, e)| (e.slot, e.dof, first_entry + at)),
             );
         }
-        let varying = spec
-            .c
-            .iter()
-            .enumerate()
-            .filter(|(_, e)| !e.constant)
-            .map(|(at, _)| at);
         let offset = |f: &Function| match kind {
             ConstraintKind::Drive => f.jet(0.0)[0],
             ConstraintKind::Joint => 0.0,
         };
-        let placed = PlacedConstraint {
-            element: element.boxed(),
-            site: self.site(bodies, functions, offset),
-            entries,
-            varying: varying.collect(),
-            rows: rows.clone(),
-            tolerance,
-        };
+        let site = self.site(bodies, functions, offset);
+        let places = [entries, rows.clone()];
+        let placed = PlacedConstraint::new(element, site, places, tolerance);
         self.layout.rheonomic |= spec.rheonomic;
         self.layout.groups.push(ConstraintGroup {
             space: self.layout.space,
@@ -568,17 +557,12 @@ impl Builder {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: &dyn PlaneForce,
+        element: &dyn ForceKernels,
         functions: &[Function],
     ) {
         let spec = element.spec();
         let site = self.site(bodies, functions, |_| 0.0);
-        let placed = PlacedForce {
-            name: name.to_owned(),
-            element: element.boxed(),
-            columns: spec.q.iter().map(|&k| site.column(k)).collect(),
-            site,
-        };
+        let placed = PlacedForce::new(name, element, site);
         self.elements.block = self.elements.block.max(spec.q.len());
         self.elements.forces.push(placed);
     }

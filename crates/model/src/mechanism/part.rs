@@ -5,11 +5,11 @@
 use joints::spec::Level;
 use linalg::DisjointSets;
 
+use super::Mechanism;
 use super::build::Builder;
-use super::{Mechanism, PlacedForce};
 use crate::description::BodyRef;
+use crate::element::{PlacedForce, Site};
 use crate::function::Function;
-use crate::system::Site;
 
 /// A mechanism that is a part of another one.
 #[derive(Clone)]
@@ -164,7 +164,7 @@ fn assembled<'a>(
             &group.name,
             group.kind,
             &translated(&group.name, &c.site.bodies),
-            c.element.as_ref(),
+            c.kernels(),
             &laws(whole, &c.site),
             c.tolerance,
         );
@@ -180,7 +180,7 @@ fn assembled<'a>(
     for f in forces {
         let functions = laws(whole, &f.site);
         let to = translated(&f.name, &f.site.bodies);
-        b.force(&f.name, &to, f.element.as_ref(), &functions);
+        b.force(&f.name, &to, f.kernels(), &functions);
     }
     let places = |n: usize| -> Vec<usize> {
         let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));

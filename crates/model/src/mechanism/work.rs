@@ -1,7 +1,8 @@
 //! The work of the kernels of a mechanism at each evaluation, and the work that its structure makes
 //! unnecessary. The kernels use the same tests.
 
-use super::{Elements, Mechanism, PlacedConstraint};
+use super::{Elements, Mechanism};
+use crate::element::PlacedConstraint;
 use crate::system::Layout;
 
 /// Amount of work at each evaluation.

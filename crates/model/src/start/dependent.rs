@@ -19,6 +19,7 @@ use super::error::StartError;
 use super::metric::{DAMPING, ROUNDINGS, weights};
 use crate::mechanism::Mechanism;
 use crate::size::size_of;
+use crate::space::norm;
 use crate::system::{Scratch, System};
 use crate::uncertainty::Known;
 
@@ -116,8 +117,8 @@ impl<'m> Equations<'m> {
 
     /// Up to this value velocity `j` counts as zero.
     pub(super) fn rest_of(&self, j: usize) -> f64 {
-        let pose = &self.s.poses[self.mechanism.space().body_of(j)];
-        let place = pose.x.hypot(pose.y).max(self.size);
+        let body = self.mechanism.space().body_of(j);
+        let place = norm(&self.s.bodies.origin(body)).max(self.size);
         let rest = ROUNDINGS.powi(2) * f64::EPSILON * self.rest_rate * place;
         rest / self.arm(j)
     }

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use dynamics::{MotionFault, Prepared, Sample, Stop, Summary};
 use model::Mechanism;
+use model::space::norm;
 use report::sweep::{Extreme, SweepMotion};
 use report::{SweepRow, SweepStatus};
 use solvability::{Analysis, analyse};
@@ -151,7 +152,10 @@ impl<'s> Watch<'s> {
         let columns = self.mechanism.space().columns().len();
         for (body, state) in self.state.chunks_exact_mut(columns).enumerate() {
             let frame = self.mechanism.frames().body(body, sample.q, sample.v);
-            state.copy_from_slice(&frame.numbers());
+            state
+                .iter_mut()
+                .zip(frame.numbers())
+                .for_each(|(to, x)| *to = x);
         }
         if !self.reactions.iter().any(|(_, is_unique)| *is_unique) {
             return Ok(());
@@ -159,8 +163,8 @@ impl<'s> Watch<'s> {
         let all = sample.reactions()?;
         for ((k, is_unique), extreme) in self.reactions.iter().zip(&mut self.extremes) {
             if *is_unique && let Some(reaction) = all.get(*k) {
-                let force = reaction.force[0].hypot(reaction.force[1]);
-                extreme.include(sample.t, force, reaction.torque.abs());
+                let force = norm(&reaction.force);
+                extreme.include(sample.t, force, norm(&reaction.torque));
             }
         }
         Ok(())

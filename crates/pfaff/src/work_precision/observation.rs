@@ -2,7 +2,7 @@
 //! and reactions, by index.
 
 use dynamics::{MotionFault, Sample};
-use model::{ColumnKind, Mechanism, Reaction, System};
+use model::{ColumnKind, Mechanism, Reaction, SpaceKind, System};
 
 /// Kinds of quantities: values of the same kind are compared with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,19 +49,19 @@ pub struct Observation {
 
 impl Observation {
     /// Takes the quantities of a row of output.
-    pub(super) fn of(sample: &mut Sample<'_, '_>) -> Result<Self, MotionFault> {
+    pub(super) fn of(sample: &mut Sample<'_, '_>, space: SpaceKind) -> Result<Self, MotionFault> {
         let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
         let [q, v] = [sample.q.to_vec(), sample.v.to_vec()];
-        Ok(Self::new(sample.t, [q, v, a], &reactions))
+        Ok(Self::new(space, sample.t, [q, v, a], &reactions))
     }
 
     /// Coordinates, velocities and accelerations at a time, with the reactions of all joints and
     /// drives.
     #[must_use]
-    pub fn new(t: f64, [q, v, a]: [Vec<f64>; 3], reactions: &[Reaction]) -> Self {
+    pub fn new(space: SpaceKind, t: f64, [q, v, a]: [Vec<f64>; 3], reactions: &[Reaction]) -> Self {
         let numbers = reactions.iter().flat_map(|r| {
             let component = r.component.unwrap_or(f64::NAN);
-            [r.force[0], r.force[1], r.torque, component]
+            r.components(space).chain([component])
         });
         let reactions = numbers.collect();
         Self {

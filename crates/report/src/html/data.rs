@@ -285,7 +285,7 @@ fn reaction(frames: &[Frame], k: usize, noise: f64) -> Option<Reaction> {
     let wanted = frames.iter().all(|f| f.reactions.len() > k);
     let of = |frame: &Frame| {
         let r = &frame.reactions[k];
-        [r.force[0], r.force[1], r.torque]
+        [r.force[0], r.force[1], r.torque[2]]
     };
     let known = wanted && frames.iter().any(|f| of(f).iter().any(|x| x.is_finite()));
     known.then(|| Reaction {

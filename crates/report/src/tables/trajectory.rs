@@ -74,7 +74,6 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
                 .frames()
                 .marker(k, q, v)
                 .numbers()
-                .into_iter()
                 .zip(self.mechanism.space().columns());
             let own = all.filter(|(_, column)| has_column(marker, column));
             self.values.extend(own.map(|(x, _)| x));

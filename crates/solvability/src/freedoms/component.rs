@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use linalg::{PivotedQr, equilibrate};
-use model::space::{norm, unit_cross};
+use model::space::{difference, norm, unit_cross};
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
@@ -278,14 +278,12 @@ impl<'a> Component<'a> {
 
     /// The centre of mass of a body.
     pub(super) fn origin(&self, body: usize) -> [f64; 3] {
-        let pose = &self.s.poses[body];
-        [pose.x, pose.y, 0.0]
+        self.s.bodies.origin(body)
     }
 
     /// The place of a joint or drive.
     pub(super) fn place(&self, id: ConstraintId) -> [f64; 3] {
-        let [x, y] = self.mechanism.reactions(&self.s).place(id);
-        [x, y, 0.0]
+        self.mechanism.reactions(&self.s).place(id)
     }
 
     /// The rigid motions with dimensions.
@@ -314,11 +312,6 @@ impl<'a> Component<'a> {
         let normalised = bodies().map(|v| v.iter().map(|x| x / unit).collect());
         normalised.collect()
     }
-}
-
-/// a − b
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] - b[k])
 }
 
 /// The number of independent rows in each component, if the rows of all components have this rank

@@ -4,6 +4,7 @@
 use crate::limits::{ENTRY_ROUNDINGS, PAIRS};
 use crate::pose::dimensionless;
 use linalg::{Matrix, Scaling, small_svd};
+use model::space::norm;
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
 use rank::RankDecision;
 
@@ -77,15 +78,11 @@ impl Question<'_> {
     /// changes of the size of their rounding.
     fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 2]> {
         let columns = self.mechanism.space().n_v();
-        let bodies = self
-            .s
-            .poses
-            .iter()
-            .zip(gradient.chunks_exact(columns))
-            .enumerate();
-        let of_body = bodies.flat_map(|(body, (pose, by))| {
-            let place = ROUNDING * pose.x.hypot(pose.y).max(self.mechanism.reach(body));
-            let turn = ROUNDING * pose.angle.abs().max(1.0);
+        let (reach, at) = (|body| self.mechanism.reach(body), &self.s.bodies);
+        let bodies = gradient.chunks_exact(columns).enumerate();
+        let of_body = bodies.flat_map(|(body, by)| {
+            let place = ROUNDING * norm(&at.origin(body)).max(reach(body));
+            let turn = ROUNDING * at.angle(body).abs().max(1.0);
             self.parts(by, place, turn)
         });
         of_body.collect()
