@@ -89,9 +89,14 @@ fn a_boom_follows_its_cylinder_and_the_cylinder_carries_it() {
         let push = (inertia * alpha + mass * 9.81 * arm * cos) * l / ab_sin;
         let drive = row.reactions[1].component.expect("a drive has one");
         close(drive, -push, 1e3, "force of the cylinder");
-        let [fx, fy] = row.reactions[1].force;
+        let [fx, fy, _] = row.reactions[1].force;
         close(fx.hypot(fy), push.abs(), 1e3, "the same as a reaction");
-        close(row.reactions[1].torque, 0.0, 1e3, "no torque about its end");
+        close(
+            row.reactions[1].torque[2],
+            0.0,
+            1e3,
+            "no torque about its end",
+        );
     }
     assert!(summary.energy_balance < 1e-8, "{}", summary.energy_balance);
 }
@@ -290,11 +295,11 @@ force = [{{ name = "motor", type = "torque", body = "a", torque = 7.0 }}]
             close(*found, *expected, 10.0, "coordinate");
         }
         // n = 0.8·(0, 1) + 0.6·(1, 0): the teeth push the first wheel back and away.
-        let [fx, fy] = row.reactions[2].force;
+        let [fx, fy, _] = row.reactions[2].force;
         close(fx, -0.6 * along, 10.0, "radial force");
         close(fy, -0.8 * along, 10.0, "circumferential force");
         close(
-            row.reactions[2].torque,
+            row.reactions[2].torque[2],
             -0.8 * along,
             10.0,
             "torque about the centre",

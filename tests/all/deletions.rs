@@ -226,7 +226,8 @@ fn the_robot_is_explained() {
                 for (slot, b) in d.bodies.iter().enumerate() {
                     if *b == model::BodyRef::Body(body) {
                         let sign = if slot == 0 { 1.0 } else { -1.0 };
-                        let moment = d.place[0] * d.force[1] - d.place[1] * d.force[0] + d.torque;
+                        let moment =
+                            d.place[0] * d.force[1] - d.place[1] * d.force[0] + d.torque[2];
                         for (s, x) in sum.iter_mut().zip([d.force[0], d.force[1], moment]) {
                             *s += sign * x;
                         }

@@ -147,7 +147,7 @@ impl Run {
     /// Fx, Fy and T on the first body.
     fn reaction(&self, row: &Row, joint: &str) -> [f64; 3] {
         let r = &row.reactions[self.joint(joint)];
-        [r.force[0], r.force[1], r.torque]
+        [r.force[0], r.force[1], r.torque[2]]
     }
 
     /// The named component: N of a knife edge, or the component of a drive.

@@ -23,7 +23,7 @@ fn close(found: f64, expected: f64, what: &str) {
 }
 
 fn wrench(r: &Reaction) -> [f64; 3] {
-    [r.force[0], r.force[1], r.torque]
+    [r.force[0], r.force[1], r.torque[2]]
 }
 
 /// A written row of a run.

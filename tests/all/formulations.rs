@@ -65,7 +65,7 @@ impl Run {
             run.q.push(sample.q.to_vec());
             run.v.push(sample.v.to_vec());
             let reactions = sample.reactions()?.into_iter();
-            let parts = reactions.map(|r| [r.force[0], r.force[1], r.torque]);
+            let parts = reactions.map(|r| [r.force[0], r.force[1], r.torque[2]]);
             run.reactions.push(parts.collect());
             Ok(ControlFlow::Continue(()))
         });

@@ -179,17 +179,17 @@ fn a_scene_in_other_frames_says_the_same_motion() {
         for (k, name) in NAMES.iter().enumerate() {
             let (mass, frame) = (&a.bodies[name], &b.bodies[name]);
             // The origin of the frame, and its velocity, from the centre of mass.
-            let arm = turned(mass.angle, SHIFTED[k]);
-            let [x, y] = minus([mass.x, mass.y], arm);
-            let [vx, vy] = minus([mass.vx, mass.vy], whirl(mass.omega, arm));
-            let expected = [x, y, mass.angle, vx, vy, mass.omega];
+            let arm = turned(mass["angle"], SHIFTED[k]);
+            let [x, y] = minus([mass["x"], mass["y"]], arm);
+            let [vx, vy] = minus([mass["vx"], mass["vy"]], whirl(mass["omega"], arm));
+            let expected = [x, y, mass["angle"], vx, vy, mass["omega"]];
             let found = [
-                frame.x,
-                frame.y,
-                frame.angle,
-                frame.vx,
-                frame.vy,
-                frame.omega,
+                frame["x"],
+                frame["y"],
+                frame["angle"],
+                frame["vx"],
+                frame["vy"],
+                frame["omega"],
             ];
             for (found, expected) in found.into_iter().zip(expected) {
                 assert_same(found, expected, &format!("{name} at {} s", a.t));
@@ -220,26 +220,26 @@ fn markers_and_measures_are_those_of_closed_forms() {
         // The coupler does not turn: its points move on circles.
         let rim = plus(turned(phi, [CRANK, 0.0]), [0.6, 0.2]);
         let marker = &row.markers["rim"];
-        assert_same(marker.x, rim[0], &what);
-        assert_same(marker.y, rim[1], &what);
+        assert_same(marker["x"], rim[0], &what);
+        assert_same(marker["y"], rim[1], &what);
         let rim_velocity = whirl(RATE, turned(phi, [CRANK, 0.0]));
-        assert_same(marker.vx, rim_velocity[0], &what);
-        assert_same(marker.vy, rim_velocity[1], &what);
+        assert_same(marker["vx"], rim_velocity[0], &what);
+        assert_same(marker["vy"], rim_velocity[1], &what);
         assert_same(row.measures["rim pace"], RATE * CRANK, &what);
         // The end of the pendulum by its angle and its rate.
         let pendulum = &row.bodies["pendulum"];
-        let (angle, omega) = (pendulum.angle, pendulum.omega);
+        let (angle, omega) = (pendulum["angle"], pendulum["omega"]);
         let hook = plus(turned(phi, [CRANK, 0.0]), [0.5, 0.0]);
         let end = plus(hook, turned(angle, [0.0, -0.5]));
         let end_velocity = plus(rim_velocity, whirl(omega, turned(angle, [0.0, -0.5])));
         let marker = &row.markers["end"];
         for (found, expected) in [
-            (marker.x, end[0]),
-            (marker.y, end[1]),
-            (marker.angle, angle + 0.5),
-            (marker.vx, end_velocity[0]),
-            (marker.vy, end_velocity[1]),
-            (marker.omega, omega),
+            (marker["x"], end[0]),
+            (marker["y"], end[1]),
+            (marker["angle"], angle + 0.5),
+            (marker["vx"], end_velocity[0]),
+            (marker["vy"], end_velocity[1]),
+            (marker["omega"], omega),
         ] {
             assert_same(found, expected, &what);
         }

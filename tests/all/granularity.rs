@@ -93,7 +93,7 @@ fn frames_of_the_robot() {
     let frames = |name| judge_frames(&m, 1.0, &q, &decision, id(&m, name)).expect("judged");
     let w1 = frames("W1");
     assert_eq!(w1.iter().map(|f| f.frame).collect::<Vec<_>>(), Frame::ALL);
-    let words = |k: usize| w1[k].components.each_ref().map(|j| j.verdict.word());
+    let words = |k: usize| [0, 1, 2].map(|c| w1[k].components[c].judgement.verdict.word());
     assert_eq!(words(0), ["not_unique", "not_unique", "unique"]);
     assert_eq!(words(1), ["unique", "not_unique", "unique"]);
     assert_eq!(words(2), ["not_unique", "unique", "unique"]);
@@ -122,7 +122,7 @@ fn frames_of_the_robot() {
     assert!(
         drive
             .iter()
-            .all(|f| f.components.iter().all(|c| c.verdict.is_unique()))
+            .all(|f| f.components.iter().all(|c| c.judgement.verdict.is_unique()))
     );
     assert_eq!(drive[2].frame, Frame::Edge);
 }
@@ -205,7 +205,7 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
                 "{judgement:?}"
             );
         }
-        let [fx, fy, _] = forms.map(|form| match norm.value(&c, &form).expect("fits") {
+        let [fx, fy] = [0, 1].map(|k| match norm.value(&c, &forms[k]).expect("fits") {
             Value::Unique(x) => x,
             chosen => panic!("{chosen}"),
         });
@@ -376,9 +376,10 @@ fn edge_frames_come_from_the_definitions() {
         match (found, expected) {
             (None, None) => {}
             // Up to the sign, which is that of the multiplier.
-            (Some([[x, y], across]), Some([ex, ey])) => {
+            (Some(axes), Some([ex, ey])) => {
+                let [x, y, _] = axes[0];
                 assert!((x * ey - y * ex).abs() < 1e-15, "{name}: {x} {y}");
-                assert_eq!(across, [-y, x]);
+                assert_eq!(axes[1..], [[-y, x, 0.0]]);
             }
             other => panic!("{name}: {other:?}"),
         }

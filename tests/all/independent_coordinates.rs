@@ -7,7 +7,7 @@ use dynamics::{
     KeptRowMotion, Method, MotionOptions, Prepared, Reduced, RowChoice, prepare, simulate,
 };
 use joints::{Bushing, Direction, KnifeEdge, SpringDamper, TorsionSpringDamper};
-use model::{Body, BodyRef, Description, Force, Joint, Mechanism, PlaneForce, StartOptions};
+use model::{Body, BodyRef, Description, Force, ForceKernels, Joint, Mechanism, StartOptions};
 use tests::cranks::cranks;
 use tests::largest;
 use tests::robot::{robot, steering};
@@ -29,7 +29,7 @@ fn state_at(p: &Prepared, t: f64) -> Vec<f64> {
     y
 }
 
-fn force(name: &str, bodies: [BodyRef; 2], element: impl PlaneForce + 'static) -> Force {
+fn force(name: &str, bodies: [BodyRef; 2], element: impl ForceKernels + 'static) -> Force {
     Force {
         name: name.into(),
         bodies: bodies.to_vec(),

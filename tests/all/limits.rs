@@ -19,7 +19,7 @@ const TABLES: [(&str, &str); 4] = [
 
 /// Numbers that are not chosen and are defined where they are used: facts of the plane and of
 /// `f64`, coefficients of algorithms, special indices.
-const FACTS: [(&str, &[&str]); 14] = [
+const FACTS: [(&str, &[&str]); 13] = [
     ("linalg/src/double_double.rs", &["FACTOR", "EPSILON"]),
     (
         "linalg/src/double_double/trigonometry.rs",
@@ -35,7 +35,6 @@ const FACTS: [(&str, &[&str]); 14] = [
     ("rank/src/sparse/symbolic.rs", &["NUMBER", "ENTRY"]),
     ("rank/src/structure/graph.rs", &["NEW"]),
     ("solvability/src/generic.rs", &["GOLDEN"]),
-    ("solvability/src/pose.rs", &["TRANSLATIONS", "COLUMNS"]),
     ("solvability/src/sensitivity/instant.rs", &["GOLDEN_ANGLE"]),
 ];
 

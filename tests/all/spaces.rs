@@ -5,9 +5,9 @@
 use std::ops::ControlFlow;
 
 use dynamics::{EventKind, Method, MotionOptions, Prepared, RowChoice, prepare, simulate};
-use joints::Pose;
+use model::space::{difference, norm};
 use model::start::CorrectionLimit;
-use model::{BodyRef, Description, Mechanism, Registry, StartOptions, System};
+use model::{Bodies, BodyRef, Description, Mechanism, Registry, StartOptions, System};
 use solvability::{ReactionVerdict, analyse};
 use tests::cranks::cranks;
 
@@ -42,22 +42,26 @@ fn scene(name: &str) -> scene::Scene {
 }
 
 /// The difference of poses: lengths relative to the size, angles by sine and cosine.
-fn apart(a: &[Pose], b: &[Pose], size: f64) -> f64 {
-    let of_body = |(a, b): (&Pose, &Pose)| {
-        let place = (a.x - b.x).hypot(a.y - b.y) / size;
-        place.max((a.cos - b.cos).hypot(a.sin - b.sin))
+fn apart(a: &Bodies, b: &Bodies, size: f64) -> f64 {
+    let of_body = |body: usize| {
+        let place = norm(&difference(a.origin(body), b.origin(body))) / size;
+        place.max(norm(&difference(a.axes(body)[0], b.axes(body)[0])))
     };
-    a.iter().zip(b).map(of_body).fold(0.0, f64::max)
+    (0..a.len()).map(of_body).fold(0.0, f64::max)
 }
 
 /// Rows of output of a run: time, poses, velocities.
-type Rows = Vec<(f64, Vec<Pose>, Vec<f64>)>;
+type Rows = Vec<(f64, Bodies, Vec<f64>)>;
 
 /// A run, and its singular passages and exchanges of rows: time and kind.
 fn run(p: &Prepared, options: &MotionOptions) -> (Rows, Vec<(f64, EventKind)>) {
     let mut rows = Rows::new();
     let done = simulate(p, options, |row| {
-        rows.push((row.t, p.mechanism.space().poses(row.q), row.v.to_vec()));
+        rows.push((
+            row.t,
+            Bodies::at(p.mechanism.space(), row.q),
+            row.v.to_vec(),
+        ));
         Ok(ControlFlow::Continue(()))
     });
     let (name, space) = (p.mechanism.name(), p.mechanism.space());
@@ -91,7 +95,7 @@ fn starts_and_verdicts_are_the_same() {
         let scene = scene(name);
         let two = both(&scene.description, &scene.start);
         let size = two[0].assembly.size;
-        let [a, b] = [&two[0], &two[1]].map(|p| p.mechanism.space().poses(&p.q));
+        let [a, b] = [&two[0], &two[1]].map(|p| Bodies::at(p.mechanism.space(), &p.q));
         assert!(
             apart(&a, &b, size) < 1e-14,
             "{name}: {:e}",
@@ -187,6 +191,6 @@ fn a_start_far_beside_the_constraints_is_corrected_alike() {
         ..StartOptions::default()
     };
     let two = both(&d, &start);
-    let [a, b] = [&two[0], &two[1]].map(|p| p.mechanism.space().poses(&p.q));
+    let [a, b] = [&two[0], &two[1]].map(|p| Bodies::at(p.mechanism.space(), &p.q));
     assert!(apart(&a, &b, 1.0) < 1e-13, "{:e}", apart(&a, &b, 1.0));
 }

@@ -75,7 +75,7 @@ fn every_number_of_the_case() {
     let (radial, tangential) = ([theta.sin(), -theta.cos()], [theta.cos(), theta.sin()]);
     let on_second = |joint: usize, lambda: &[f64], along: [f64; 2]| {
         let id = model::ConstraintId(joint);
-        let [fx, fy] = p
+        let [fx, fy, _] = p
             .mechanism
             .reactions(motion.scratch())
             .reaction(id, lambda)

@@ -100,10 +100,10 @@ impl Rival for Comparator {
             Fault::TooLong { .. } => RivalFault::GivenUp(fault.to_string()),
             _ => RivalFault::Stopped(fault.to_string()),
         })?;
-        let rows = made.rows.into_iter();
+        let (space, rows) = (start.mechanism.space(), made.rows.into_iter());
         Ok(RivalRun {
             observations: rows
-                .map(|r| Observation::new(r.t, [r.q, r.v, r.a], &r.reactions))
+                .map(|r| Observation::new(space, r.t, [r.q, r.v, r.a], &r.reactions))
                 .collect(),
             evaluations: made.evaluations,
             projections: made.projections,

@@ -9,10 +9,11 @@ mod gradients;
 use std::ops::Range;
 
 use joints::spec::{DatumShape, Unit};
-use joints::{Pose, Twist};
 
-use crate::mechanism::{Mechanism, PlacedConstraint, twist_of};
+use crate::element::{OwnRates, PlacedConstraint};
+use crate::mechanism::Mechanism;
 use crate::size::size_of;
+use crate::space::norm;
 use crate::system::{Scratch, System};
 use crate::tolerance::Tolerance;
 use crate::uncertainty::ROUNDING;
@@ -106,7 +107,7 @@ impl<'m> Data<'m> {
     fn numbered(self) -> impl Iterator<Item = (&'m PlacedConstraint, Range<usize>)> {
         let mut first = 0;
         self.0.elements.constraints.iter().map(move |c| {
-            let numbers = first..first + c.element.spec().n_data();
+            let numbers = first..first + c.spec().n_data();
             first = numbers.end;
             (c, numbers)
         })
@@ -126,14 +127,13 @@ impl<'m> Data<'m> {
         let mut numbers = Vec::new();
         let stated = self.0.has_tolerances().then(|| size_of(self.0, s));
         for (group, (c, places)) in self.numbered().enumerate() {
-            let element = &c.element;
             numbers.clear();
             numbers.resize(places.len(), 0.0);
-            element.data(&mut numbers);
+            c.data(&mut numbers);
             let length = self.length_scale(c, s, &numbers);
-            let turned = moving_poses(c, s).map(|(_, pose)| pose.angle.abs());
+            let turned = c.site.moving().map(|body| s.bodies.angle(body).abs());
             let angle = turned.fold(1.0, f64::max);
-            for datum in element.spec().data {
+            for datum in c.spec().data {
                 let at = places.start + datum.first;
                 let block = |offset: usize, count: usize, unit: DataUnit, is_direction: bool| {
                     let own = &numbers[datum.first + offset..datum.first + offset + count];
@@ -180,15 +180,10 @@ impl<'m> Data<'m> {
     /// Adds the gradient of `λᵀ·C·v` with respect to all numbers of the constraints, times
     /// `factor`, to `out`; `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
     pub fn add_power(self, s: &Scratch, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
-        let (mut still, mut slots, mut f) = (Vec::new(), Vec::new(), Vec::new());
+        let mut rates = OwnRates::default();
         self.add(lambda, factor, out, |c, lambda, own| {
-            slots.clear();
-            slots.extend(c.site.bodies.iter().map(|&body| twist_of(body, v)));
-            // Without velocities and functions of time Γ vanishes.
-            still.resize(slots.len(), Twist::zero());
-            f.resize(c.site.functions.len(), [0.0; 3]);
-            let x = c.site.x(&s.slots);
-            c.element.d_residual_dp(x, &still, &slots, &f, lambda, own);
+            rates.take(c, v);
+            c.d_power_dp(&s.slots, &rates, lambda, own);
         });
     }
 
@@ -197,8 +192,7 @@ impl<'m> Data<'m> {
     pub fn add_phi(self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
         let of_phi = &lambda[..self.0.layout().m];
         self.add(of_phi, factor, out, |c, lambda, own| {
-            let (x, f) = (c.site.x(&s.slots), c.site.f(&s.slots));
-            c.element.d_phi_dp(x, f, lambda, own);
+            c.d_phi_dp(&s.slots, lambda, own);
         });
     }
 
@@ -247,16 +241,14 @@ impl<'m> Data<'m> {
     pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
         let mut own = Vec::new();
         for c in &self.0.elements.constraints {
-            let element = &c.element;
-            let pattern = element.spec().d_force_dx;
+            let pattern = c.spec().d_force_dx;
             let lambda = &lambda[c.rows.clone()];
             if pattern.is_empty() || lambda.iter().all(|l| *l == 0.0) {
                 continue;
             }
             own.clear();
             own.resize(pattern.len(), 0.0);
-            let x = c.site.x(&s.slots);
-            element.d_force_dx(x, c.site.f(&s.slots), lambda, &mut own);
+            c.d_force_dx(&s.slots, lambda, &mut own);
             for (&[force, turned], d) in pattern.iter().zip(&own) {
                 if let (Some(i), Some(j)) = (c.site.column(force), c.site.column(turned)) {
                     out[j] += d * v[i];
@@ -268,7 +260,7 @@ impl<'m> Data<'m> {
     /// The largest length with which the points of a constraint are combined (m): their own
     /// coordinates, the arms of its bodies, and the positions of these.
     fn length_scale(self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
-        let points = c.element.spec().data.iter().filter_map(|datum| {
+        let points = c.spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];
             match datum.shape {
                 DatumShape::Point { .. } | DatumShape::KeptVector { .. } | DatumShape::Line => {
@@ -280,18 +272,10 @@ impl<'m> Data<'m> {
                 _ => None,
             }
         });
-        let bodies =
-            moving_poses(c, s).map(|(body, pose)| self.0.reach(body).max(pose.x.hypot(pose.y)));
+        let bodies = c.site.moving();
+        let bodies = bodies.map(|body| self.0.reach(body).max(norm(&s.bodies.origin(body))));
         points.chain(bodies).fold(0.0, f64::max)
     }
-}
-
-/// The bodies of a constraint except the ground, with their poses.
-fn moving_poses<'a>(
-    c: &'a PlacedConstraint,
-    s: &'a Scratch,
-) -> impl Iterator<Item = (usize, &'a Pose)> {
-    c.site.moving().map(|k| (k, &s.poses[k]))
 }
 
 /// The uncertainty of data of this shape in a constraint, in their unit, in a mechanism of this

@@ -1,9 +1,10 @@
 //! A mechanism as plain data: the result of reading a scene, or written directly by a program.
 //! Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
 
+use crate::element::{ConstraintKernels, ForceKernels};
 use crate::function::Function;
 use crate::observed::Observed;
-use crate::registry::{PlaneConstraint, PlaneForce};
+use crate::space::SpaceKind;
 use crate::tolerance::Tolerance;
 
 /// A mechanism before it is assembled.
@@ -32,6 +33,8 @@ use crate::tolerance::Tolerance;
 pub struct Description {
     /// Its name.
     pub name: String,
+    /// The space in which its bodies move.
+    pub space: SpaceKind,
     /// Acceleration of free fall (m/s²).
     pub gravity: [f64; 2],
     /// Bodies; their order is that of the coordinates.
@@ -70,7 +73,7 @@ impl Description {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: impl PlaneConstraint + 'static,
+        element: impl ConstraintKernels + 'static,
     ) -> &mut Joint {
         self.joints.push_mut(Joint::new(name, bodies, element))
     }
@@ -80,7 +83,7 @@ impl Description {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: impl PlaneConstraint + 'static,
+        element: impl ConstraintKernels + 'static,
         motion: Function,
     ) {
         self.drives.push(Drive {
@@ -98,7 +101,7 @@ impl Description {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: impl PlaneForce + 'static,
+        element: impl ForceKernels + 'static,
     ) -> &mut Force {
         self.forces.push_mut(Force {
             name: name.to_owned(),
@@ -194,7 +197,7 @@ pub struct Joint {
     /// One body for each slot of the definition.
     pub bodies: Vec<BodyRef>,
     /// Its definition with parameters.
-    pub element: Box<dyn PlaneConstraint>,
+    pub element: Box<dyn ConstraintKernels>,
     /// Its functions of time, in the order of the definition.
     pub functions: Vec<Function>,
     /// Tolerance of its points, directions and numbers (m; angles: divided by the size of the
@@ -204,7 +207,7 @@ pub struct Joint {
 
 impl Joint {
     /// A joint that does not depend on time.
-    pub fn new(name: &str, bodies: &[BodyRef], element: impl PlaneConstraint + 'static) -> Self {
+    pub fn new(name: &str, bodies: &[BodyRef], element: impl ConstraintKernels + 'static) -> Self {
         Self {
             name: name.to_owned(),
             bodies: bodies.to_vec(),
@@ -223,7 +226,7 @@ pub struct Drive {
     /// One body for each slot of the joint's definition.
     pub bodies: Vec<BodyRef>,
     /// The element that drives one measure of the joint, with the parameters of the joint.
-    pub element: Box<dyn PlaneConstraint>,
+    pub element: Box<dyn ConstraintKernels>,
     /// The function f.
     pub motion: Function,
     /// Tolerance of its points, directions and numbers (m): that of the driven joint.
@@ -238,7 +241,7 @@ pub struct Force {
     /// One body for each slot of the definition.
     pub bodies: Vec<BodyRef>,
     /// Its definition with parameters.
-    pub element: Box<dyn PlaneForce>,
+    pub element: Box<dyn ForceKernels>,
     /// Its functions of time, in the order of the definition.
     pub functions: Vec<Function>,
 }

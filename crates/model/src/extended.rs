@@ -6,10 +6,10 @@
 //! exact zero decreases to 1e-32 as well, while a misalignment of the data stays the same. This is
 //! not for motion: it allocates and is a hundred times slower than the kernels in `f64`.
 
-use joints::Pose;
 use linalg::{Dd, DdMatrix, StepError, least_squares_step};
 
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::element::Bodies;
+use crate::mechanism::Mechanism;
 use crate::size::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
@@ -62,7 +62,13 @@ impl Polished {
         // only, large bodies would be rotated first.
         let rotation = scene_size(mechanism, q).powi(-2);
         let weights: Vec<f64> = (0..mechanism.layout().n_v)
-            .map(|k| if k % N_BODY == 2 { rotation } else { 1.0 })
+            .map(|j| {
+                if mechanism.space().is_rotation(j) {
+                    rotation
+                } else {
+                    1.0
+                }
+            })
             .collect();
         let described = q;
         let mut q: Vec<Dd> = described.iter().map(|&q| Dd::from(q)).collect();
@@ -99,11 +105,10 @@ impl Polished {
 /// Φ in double-double, m values.
 fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
     let mut phi = vec![Dd::ZERO; mechanism.layout().m];
-    let (poses, jets) = arguments(mechanism, t, q);
+    let (bodies, jets) = arguments(mechanism, t, q);
     for c in &mechanism.elements.constraints {
         if c.rows.start < phi.len() {
-            let (x, f) = (c.site.poses(&poses), &jets[c.site.functions.clone()]);
-            c.element.extended().phi(&x, f, &mut phi[c.rows.clone()]);
+            c.extended_phi(&bodies, &jets, &mut phi[c.rows.clone()]);
         }
     }
     phi
@@ -112,17 +117,14 @@ fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
 /// C in double-double.
 fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
     let (layout, elements) = (mechanism.layout(), &mechanism.elements);
-    let (poses, jets) = arguments(mechanism, t, q);
+    let (bodies, jets) = arguments(mechanism, t, q);
     let mut entries: Vec<Dd> = elements.entries.iter().map(|&e| Dd::from(e)).collect();
     for c in elements
         .constraints
         .iter()
         .filter(|c| c.has_varying_entries())
     {
-        let (x, f) = (c.site.poses(&poses), &jets[c.site.functions.clone()]);
-        c.element
-            .extended()
-            .c(&x, f, &mut entries[c.entries.clone()]);
+        c.extended_c(&bodies, &jets, &mut entries[c.entries.clone()]);
     }
     let mut dense = DdMatrix::zeros(layout.rows(), layout.n_v);
     for i in 0..layout.rows() {
@@ -134,10 +136,10 @@ fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
 }
 
 /// Poses of the bodies, and values of the functions of time.
-fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> (Vec<Pose<Dd>>, Vec<[Dd; 3]>) {
+fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> (Bodies<Dd>, Vec<[Dd; 3]>) {
     let jets = mechanism.elements.functions.iter();
     let jets = jets.map(|f| f.jet(t).map(Dd::from)).collect();
-    (mechanism.space().poses(q), jets)
+    (Bodies::at(mechanism.space(), q), jets)
 }
 
 #[cfg(test)]

@@ -5,51 +5,36 @@
 //! description, and everything that is written, is about the origin o of the body's frame, with
 //! c = [`Body::centre`]: `r = o + R·c`, `ṙ = ȯ + ω × R·c`.
 
-use joints::Pose;
-
 use crate::description::{Body, BodyRef};
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::element::{angle_at, turned_at};
+use crate::mechanism::Mechanism;
 use crate::observed::{Marker, Measure, MeasureKind, Observed};
-use crate::space::{Space, in_space};
+use crate::space::{SpaceKind, cross, difference};
 
-/// Names of the numbers of a [`FrameState`], in their order.
-pub const COLUMNS: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
-
-/// Position and velocity of a point of a body, or of its frame.
+/// Position and velocity of a point of a body, or of its frame; ground axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameState {
-    /// Global coordinates (m).
-    pub place: [f64; 2],
-    /// Angle of the axes (rad), not reduced to one revolution.
+    /// The space of its mechanism.
+    pub space: SpaceKind,
+    /// Position (m).
+    pub place: [f64; 3],
+    /// Angle of the axes in the plane (rad), not reduced to one revolution.
     pub angle: f64,
     /// Velocity (m/s).
-    pub velocity: [f64; 2],
+    pub velocity: [f64; 3],
     /// Angular velocity (rad/s).
-    pub omega: f64,
+    pub omega: [f64; 3],
 }
 
 impl FrameState {
-    /// Its numbers, in the order of [`COLUMNS`].
-    #[must_use]
-    pub fn numbers(&self) -> [f64; 6] {
-        let ([x, y], [vx, vy]) = (self.place, self.velocity);
-        [x, y, self.angle, vx, vy, self.omega]
+    /// Its numbers, in the order of [`SpaceKind::columns`].
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+        let ([x, y, _], [vx, vy, _], [.., omega]) = (self.place, self.velocity, self.omega);
+        [x, y, self.angle, vx, vy, omega].into_iter()
     }
 }
 
 impl Body {
-    /// Its pose at the start: that of the centre of mass, with the axes of its frame.
-    #[must_use]
-    pub fn pose(&self) -> Pose {
-        let [x, y] = self.position;
-        let origin = Pose::new(x, y, self.angle);
-        if self.is_centred() {
-            return origin;
-        }
-        let [x, y] = origin.to_global(self.centre);
-        Pose { x, y, ..origin }
-    }
-
     /// Whether the origin of its frame is its centre of mass.
     #[must_use]
     pub fn is_centred(&self) -> bool {
@@ -128,38 +113,44 @@ impl<'m> Frames<'m> {
     /// As [`Self::body`].
     #[must_use]
     pub fn point(self, body: usize, point: [f64; 2], q: &[f64], v: &[f64]) -> FrameState {
-        let own = &q[self.0.space().coordinates(body)];
-        let [vx, vy, omega] = [0, 1, 2].map(|dof| v[N_BODY * body + dof]);
-        let arm = self.0.bodies()[body].from_centre(point);
-        let (mut place, mut velocity) = ([own[0], own[1]], [vx, vy]);
-        if arm != [0.0; 2] {
-            let [x, y] = turned(&self.pose_at(body, q), arm);
-            place = [place[0] + x, place[1] + y];
-            velocity = [vx - omega * y, vy + omega * x];
+        let space = self.0.space();
+        let own = &q[space.coordinates(body)];
+        let [x, y] = self.0.bodies()[body].from_centre(point);
+        let mut state = FrameState {
+            space,
+            angle: angle_at(space, own),
+            ..FrameState::default()
+        };
+        // Positions come first in the coordinates of every space.
+        state.place[space.forces()].copy_from_slice(&own[space.forces()]);
+        let v = &v[space.columns_of(body)];
+        state.velocity[space.forces()].copy_from_slice(&v[space.forces()]);
+        for k in space.torques() {
+            state.omega[space.axis_of(k)] = v[k];
         }
-        FrameState {
-            place,
-            angle: in_space!(self.0.space(), S => S::angle(own)),
-            velocity,
-            omega,
+        if [x, y] != [0.0; 2] {
+            let arm = turned_at(space, own, [x, y, 0.0]);
+            let moved = cross(state.omega, arm);
+            for k in 0..3 {
+                state.place[k] += arm[k];
+                state.velocity[k] += moved[k];
+            }
         }
-    }
-
-    fn pose_at(self, body: usize, q: &[f64]) -> Pose {
-        let own = &q[self.0.space().coordinates(body)];
-        in_space!(self.0.space(), S => S::pose(own))
+        state
     }
 
     /// Velocities that the description gives, n_v, at the configuration q: of the centres of mass,
     /// with given velocities of frames that turn with the given angular velocity.
     #[must_use]
     pub fn given_velocities(self, q: &[f64]) -> Vec<Option<f64>> {
+        let space = self.0.space();
         let of = |(k, b): (usize, &Body)| {
             let [mut vx, mut vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
             if let (Some([x, y]), Some(omega), false) =
                 (b.velocity, b.angular_velocity, b.is_centred())
             {
-                let [ax, ay] = turned(&self.pose_at(k, q), b.centre);
+                let [cx, cy] = b.centre;
+                let [ax, ay, _] = turned_at(space, &q[space.coordinates(k)], [cx, cy, 0.0]);
                 (vx, vy) = (Some(x - omega * ay), Some(y + omega * ax));
             }
             [vx, vy, b.angular_velocity]
@@ -179,7 +170,8 @@ impl<'m> Frames<'m> {
         let of_body = match body {
             BodyRef::Body(k) => self.point(k, point, q, v),
             BodyRef::Ground => FrameState {
-                place: point,
+                space: self.0.space(),
+                place: [point[0], point[1], 0.0],
                 ..FrameState::default()
             },
         };
@@ -224,8 +216,7 @@ impl<'m> Frames<'m> {
 
 /// Value of a measure from the states of both markers.
 fn value(kind: MeasureKind, first: &FrameState, second: &FrameState) -> f64 {
-    let difference = |a: [f64; 2], b: [f64; 2]| [b[0] - a[0], b[1] - a[1]];
-    let [dx, dy] = difference(first.place, second.place);
+    let [dx, dy, _] = difference(second.place, first.place);
     let (sin, cos) = first.angle.sin_cos();
     match kind {
         MeasureKind::Distance => dx.hypot(dy),
@@ -233,14 +224,10 @@ fn value(kind: MeasureKind, first: &FrameState, second: &FrameState) -> f64 {
         MeasureKind::X => cos * dx + sin * dy,
         MeasureKind::Y => cos * dy - sin * dx,
         MeasureKind::Speed => {
-            let [vx, vy] = difference(first.velocity, second.velocity);
-            (vx + first.omega * dy).hypot(vy - first.omega * dx)
+            let [vx, vy, _] = difference(second.velocity, first.velocity);
+            let omega = first.omega[2];
+            (vx + omega * dy).hypot(vy - omega * dx)
         }
-        MeasureKind::AngularVelocity => second.omega - first.omega,
+        MeasureKind::AngularVelocity => second.omega[2] - first.omega[2],
     }
-}
-
-/// R·p
-fn turned(pose: &Pose, [x, y]: [f64; 2]) -> [f64; 2] {
-    [pose.cos * x - pose.sin * y, pose.sin * x + pose.cos * y]
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use joints::spec::{ConstraintSpec, Entry};
 
 use crate::description::BodyRef;
+use crate::space::SpaceKind;
 
 /// Index of a joint or drive in [`crate::Layout::groups`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -22,6 +23,8 @@ pub enum ConstraintKind {
 /// A joint or drive with its rows.
 #[derive(Clone, Debug)]
 pub struct ConstraintGroup {
+    /// The space of its mechanism.
+    pub space: SpaceKind,
     /// Its name.
     pub name: String,
     /// Joint or drive.
@@ -34,13 +37,6 @@ pub struct ConstraintGroup {
     pub rows: Range<usize>,
 }
 
-/// Names of the three components of a planar wrench.
-pub const COMPONENTS: [&str; 3] = ["Fx", "Fy", "T"];
-
-/// Index of the torque in [`COMPONENTS`], and of the rotation among the degrees of freedom of a
-/// body.
-pub(crate) const TORQUE: usize = 2;
-
 impl ConstraintGroup {
     /// Whether it only prescribes a motion: a drive, which is listed separately from the joints.
     #[must_use]
@@ -48,11 +44,12 @@ impl ConstraintGroup {
         self.kind == ConstraintKind::Drive
     }
 
-    /// Components of the reaction that are not identically zero, as indices of [`COMPONENTS`].
+    /// Components of the reaction that are not identically zero, as indices of
+    /// [`SpaceKind::components`].
     #[must_use]
     pub fn components(&self) -> Vec<usize> {
         let entries = self.wrench_entries();
-        (0..COMPONENTS.len())
+        (0..self.space.n_v())
             .filter(|c| entries.iter().any(|[component, _]| component == c))
             .collect()
     }
@@ -63,9 +60,11 @@ impl ConstraintGroup {
     pub fn wrench_entries(&self) -> Vec<[usize; 2]> {
         let mut entries = self.spec.wrench.to_vec();
         for (_, e) in self.repeated() {
-            entries.push([TORQUE, e.row]);
-            if e.dof < TORQUE {
-                entries.push([e.dof, e.row]);
+            entries.push([e.dof, e.row]);
+            if self.space.forces().contains(&e.dof) {
+                let turned = self.space.torques();
+                let turned = turned.filter(|k| self.space.axis_of(*k) != e.dof);
+                entries.extend(turned.map(|k| [k, e.row]));
             }
         }
         entries.sort_unstable();
@@ -79,7 +78,7 @@ impl ConstraintGroup {
         let entries = self.wrench_entries();
         entries
             .iter()
-            .any(|[component, at]| *at == row && *component < TORQUE)
+            .any(|[component, at]| *at == row && self.space.forces().contains(component))
     }
 
     /// Whether the first body takes other slots, too.

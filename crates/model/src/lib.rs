@@ -25,6 +25,7 @@
 //! | `data` | points, directions and numbers of constraints, and how rows change with them |
 //! | [`law`] | forces of drives as functions of a measure and its rate |
 //! | [`mechanism`] | the assembled equations |
+//! | `element` | kernels with the poses and velocities of their bodies |
 //! | [`system`] | the interface of the equations for solvers |
 //! | [`extended`] | constraints in double-double, for certificates |
 //! | [`record`] | the equations as operations, for generators of code |
@@ -41,6 +42,7 @@
 pub mod codes;
 mod data;
 pub mod description;
+mod element;
 pub mod extended;
 pub mod frame;
 pub mod function;
@@ -62,6 +64,7 @@ pub mod words;
 
 pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED, explained};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
+pub use element::{Bodies, ConstraintKernels, ForceKernels};
 pub use extended::Polished;
 pub use frame::{FrameState, Frames};
 pub use function::{Function, FunctionError};
@@ -70,9 +73,9 @@ pub use mechanism::{
     AppliedForce, AppliedForces, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work,
 };
 pub use observed::{Marker, Measure, MeasureKind, Observed};
-pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
+pub use reaction::{Axes, ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
 pub use record::RecordedEquations;
-pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
+pub use registry::{ConstraintDefinition, ForceDefinition, Registry};
 pub use scale::Scales;
 pub use space::{Space, SpaceKind};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};

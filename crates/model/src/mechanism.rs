@@ -11,17 +11,12 @@ mod kernels;
 mod part;
 mod work;
 
-use std::ops::Range;
-
-use joints::Twist;
-
-use crate::description::{Body, BodyRef};
+use crate::description::Body;
+use crate::element::{PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
 use crate::observed::Observed;
-use crate::registry::{PlaneConstraint, PlaneForce};
-pub(crate) use crate::space::N_BODY;
 use crate::space::{Space, SpaceKind, in_space};
-use crate::system::{Layout, Site};
+use crate::system::Layout;
 use crate::tolerance::Tolerance;
 
 pub use build::BuildError;
@@ -66,7 +61,6 @@ pub use work::Work;
 #[derive(Clone)]
 pub struct Mechanism {
     name: String,
-    space: SpaceKind,
     bodies: Vec<Body>,
     pub(crate) elements: Elements,
     mass: Vec<f64>,
@@ -99,59 +93,6 @@ impl Elements {
         let constraints = self.constraints.iter().map(|c| &c.site);
         constraints.chain(self.forces.iter().map(|f| &f.site))
     }
-
-    /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay
-    /// zero.
-    pub(crate) fn spread(&self, v: &[f64], twists: &mut [Twist]) {
-        for site in self.sites() {
-            for (twist, &body) in twists[site.slots.clone()].iter_mut().zip(&site.bodies) {
-                if body != BodyRef::Ground {
-                    *twist = twist_of(body, v);
-                }
-            }
-        }
-    }
-}
-
-/// A constraint with its indices in the mechanism.
-#[derive(Clone)]
-pub(crate) struct PlacedConstraint {
-    pub(crate) element: Box<dyn PlaneConstraint>,
-    pub(crate) site: Site,
-    /// Its entries of C in the scratch.
-    pub(crate) entries: Range<usize>,
-    /// Indices of the varying entries, relative to `entries`.
-    pub(crate) varying: Vec<usize>,
-    pub(crate) rows: Range<usize>,
-    /// Tolerance of its data (m), if stated.
-    pub(crate) tolerance: Option<f64>,
-}
-
-impl PlacedConstraint {
-    /// Whether its block of C depends on the configuration.
-    pub(crate) fn has_varying_entries(&self) -> bool {
-        !self.varying.is_empty()
-    }
-
-    /// Whether b and Φt of its rows may differ from zero.
-    pub(crate) fn depends_on_time(&self) -> bool {
-        self.element.spec().rheonomic
-    }
-
-    /// Whether Γ of its rows may differ from zero. C of the other rows is constant, so `C·v̇ = 0`.
-    pub(crate) fn has_gamma(&self) -> bool {
-        self.has_varying_entries() || self.depends_on_time()
-    }
-}
-
-/// A force with its indices in the mechanism.
-#[derive(Clone)]
-pub(crate) struct PlacedForce {
-    pub(crate) name: String,
-    pub(crate) element: Box<dyn PlaneForce>,
-    pub(crate) site: Site,
-    /// Column of Q for each value of the kernel; `None` for the ground.
-    pub(crate) columns: Vec<Option<usize>>,
 }
 
 /// A function of time as passed to an element.
@@ -184,7 +125,7 @@ impl Mechanism {
     /// The space in which its bodies move.
     #[must_use]
     pub fn space(&self) -> SpaceKind {
-        self.space
+        self.layout.space
     }
 
     /// The same mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), before its
@@ -192,8 +133,8 @@ impl Mechanism {
     #[cfg(feature = "unit-circle")]
     #[must_use]
     pub fn on_unit_circle(mut self) -> Self {
-        self.space = SpaceKind::UnitCircle;
-        self.layout.n_q = self.space.n_q() * self.bodies.len();
+        self.layout.space = SpaceKind::UnitCircle;
+        self.layout.n_q = self.space().n_q() * self.bodies.len();
         self
     }
 
@@ -214,7 +155,7 @@ impl Mechanism {
     #[must_use]
     pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
         let mut q = vec![0.0; self.layout.n_q];
-        in_space!(self.space, S => {
+        in_space!(self.space(), S => {
             for (b, q) in self.bodies.iter().zip(q.chunks_exact_mut(S::N_Q)) {
                 S::described(b, q);
             }
@@ -242,17 +183,16 @@ impl Mechanism {
     /// Names of the body and of its coordinate that change with a column of C.
     #[must_use]
     pub fn coordinate(&self, column: usize) -> (&str, &'static str) {
-        (
-            &self.bodies[column / N_BODY].name,
-            ["x", "y", "angle"][column % N_BODY],
-        )
+        let (space, body) = (self.space(), self.space().body_of(column));
+        let direction = space.directions()[space.dof_of(column)];
+        (&self.bodies[body].name, direction)
     }
 
     /// Names of the body and of the coordinate for an entry of q.
     #[must_use]
     pub fn coordinate_name(&self, k: usize) -> (&str, &'static str) {
-        let n = self.space.n_q();
-        in_space!(self.space, S => (self.bodies[k / n].name.as_str(), S::COORDINATES[k % n]))
+        let n = self.space().n_q();
+        in_space!(self.space(), S => (self.bodies[k / n].name.as_str(), S::COORDINATES[k % n]))
     }
 
     /// Generalised forces of gravity, n_v.
@@ -264,13 +204,14 @@ impl Mechanism {
     /// Potential energy of the weight (J).
     #[must_use]
     pub fn potential_energy(&self, q: &[f64]) -> f64 {
-        let of_body = |(w, q): (&[f64], &[f64])| -w[0] * q[0] - w[1] * q[1];
-        let places = q.chunks_exact(self.space.n_q());
-        self.weight
-            .chunks_exact(N_BODY)
-            .zip(places)
-            .map(of_body)
-            .sum()
+        let space = self.space();
+        let translations = space.n_translations();
+        let of_body = |(w, q): (&[f64], &[f64])| {
+            let each = w[..translations].iter().zip(q);
+            each.fold(-0.0, |sum, (w, q)| sum - w * q)
+        };
+        let weights = self.weight.chunks_exact(space.n_v());
+        weights.zip(q.chunks_exact(space.n_q())).map(of_body).sum()
     }
 
     /// Longest arm of a body in the initial configuration (m): its position is accurate to about
@@ -278,16 +219,5 @@ impl Mechanism {
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
-    }
-}
-
-/// The velocity of a body, taken from those of all.
-pub(crate) fn twist_of(body: BodyRef, v: &[f64]) -> Twist {
-    match body {
-        BodyRef::Ground => Twist::zero(),
-        BodyRef::Body(k) => {
-            let [x, y, omega] = [0, 1, 2].map(|dof| v[N_BODY * k + dof]);
-            Twist { x, y, omega }
-        }
     }
 }

@@ -9,11 +9,12 @@ use joints::Direction;
 use linalg::Matrix;
 
 use crate::description::BodyRef;
-use crate::group::TORQUE;
-use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
+use crate::element::PlacedConstraint;
+use crate::mechanism::Mechanism;
+use crate::space::{SpaceKind, cross, difference, unit_cross};
 use crate::system::{Layout, Scratch, System};
 
-pub use crate::group::{COMPONENTS, ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind};
+pub use crate::group::{ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind};
 
 /// A row counts as vanishing on rigid motions below this fraction of its terms, which allows for
 /// the rounding of common points far from the origin. Rows above it are assumed to act against the
@@ -23,9 +24,9 @@ const ROUNDING: f64 = 1e-10;
 /// Axes in which the force of a reaction is expressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
-    /// The global x and y.
+    /// The axes of the ground.
     Global,
-    /// The x and y axes of the first body of the joint; global for the ground.
+    /// The axes of the first body of the joint; global for the ground.
     FirstBody,
     /// The only direction in which the joint can transmit a force, followed by the direction
     /// rotated by +90°: normal and along for a knife edge, across and along the axis for a slot.
@@ -36,27 +37,70 @@ pub enum Frame {
 impl Frame {
     /// All frames.
     pub const ALL: [Self; 3] = [Self::Global, Self::FirstBody, Self::Edge];
+}
 
-    /// Names of the components in this frame.
+/// A reaction: force and torque about the place, ground axes, on the first body. In the plane the
+/// force has no z component, and the torque no other.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reaction {
+    /// Force (N).
+    pub force: [f64; 3],
+    /// Torque (N·m).
+    pub torque: [f64; 3],
+    /// The named component of the definition: `N` of a knife edge, `drive` of a drive.
+    pub component: Option<f64>,
+}
+
+impl Reaction {
+    /// A reaction with these components, in the order of [`SpaceKind::components`].
     #[must_use]
-    pub fn components(self) -> [&'static str; 3] {
-        match self {
-            Self::Global => COMPONENTS,
-            Self::FirstBody => ["Fx'", "Fy'", "T"],
-            Self::Edge => ["Fn", "Ft", "T"],
+    pub fn new(space: SpaceKind, components: &[f64], component: Option<f64>) -> Self {
+        let mut reaction = Self {
+            component,
+            ..Self::default()
+        };
+        for (k, value) in components.iter().enumerate() {
+            *reaction.of_mut(space, k) = *value;
         }
+        reaction
+    }
+
+    fn of_mut(&mut self, space: SpaceKind, component: usize) -> &mut f64 {
+        let axis = space.axis_of(component);
+        if space.forces().contains(&component) {
+            &mut self.force[axis]
+        } else {
+            &mut self.torque[axis]
+        }
+    }
+
+    /// Its components, in the order of [`SpaceKind::components`].
+    ///
+    /// ```
+    /// use model::{Reaction, SpaceKind};
+    /// let reaction = Reaction::new(SpaceKind::Plane, &[1.0, 2.0, 3.0], None);
+    /// assert_eq!((reaction.force, reaction.torque), ([1.0, 2.0, 0.0], [0.0, 0.0, 3.0]));
+    /// assert!(reaction.components(SpaceKind::Plane).eq([1.0, 2.0, 3.0]));
+    /// ```
+    pub fn components(self, space: SpaceKind) -> impl Iterator<Item = f64> {
+        let mut reaction = self;
+        (0..space.n_v()).map(move |k| *reaction.of_mut(space, k))
     }
 }
 
-/// A reaction: force (global components, N) and torque about the place (N·m), on the first body.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reaction {
-    /// Force Fx, Fy (N).
-    pub force: [f64; 2],
-    /// Torque T (N·m).
-    pub torque: f64,
-    /// The named component of the definition: `N` of a knife edge, `drive` of a drive.
-    pub component: Option<f64>,
+/// Unit vectors of axes, ground axes: as many as the space has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axes {
+    axes: [[f64; 3]; 3],
+    count: usize,
+}
+
+impl std::ops::Deref for Axes {
+    type Target = [[f64; 3]];
+
+    fn deref(&self) -> &Self::Target {
+        &self.axes[..self.count]
+    }
 }
 
 /// Computes the reactions of a mechanism at the poses of a scratch.
@@ -89,17 +133,18 @@ impl<'a> Reactions<'a> {
         &self.mechanism.elements.constraints[id.0]
     }
 
-    /// The point where the reaction of a joint or drive is reported, global components.
+    /// The point where the reaction of a joint or drive is reported (m), ground axes.
     #[must_use]
-    pub fn place(self, id: ConstraintId) -> [f64; 2] {
-        let c = self.constraint(id);
-        c.element.place(c.site.x(&self.s.slots))
+    pub fn place(self, id: ConstraintId) -> [f64; 3] {
+        self.constraint(id).place(&self.s.slots)
     }
 
-    /// The map `W` (3 × rows) with `[Fx, Fy, T] = W·λ`; allocates.
+    /// The map `W` (components × rows) with `[F, T] = W·λ`, in the order of
+    /// [`SpaceKind::components`]; allocates.
     #[must_use]
     pub fn wrench_map(self, id: ConstraintId) -> Matrix {
-        let mut map = Matrix::zeros(COMPONENTS.len(), self.group(id).rows.len());
+        let rows = self.group(id).rows.len();
+        let mut map = Matrix::zeros(self.layout().space.n_v(), rows);
         self.visit_wrench(id, &mut Vec::new(), |component, row, value| {
             map[(component, row)] += value;
         });
@@ -113,12 +158,10 @@ impl<'a> Reactions<'a> {
         block: &mut Vec<f64>,
         mut visit: impl FnMut(usize, usize, f64),
     ) {
-        let (group, c) = (self.group(id), self.constraint(id));
-        let element = &c.element;
-        let (x, f) = (c.site.x(&self.s.slots), c.site.f(&self.s.slots));
+        let (group, c, slots) = (self.group(id), self.constraint(id), &self.s.slots);
         block.clear();
         block.resize(group.spec.wrench.len(), 0.0);
-        element.wrench(x, f, block);
+        c.wrench(slots, block);
         for (&[component, row], value) in group.spec.wrench.iter().zip(&*block) {
             visit(component, row, *value);
         }
@@ -128,69 +171,84 @@ impl<'a> Reactions<'a> {
         // −Cᵀ of the other slots that the first body takes, moved from its origin to the place.
         block.clear();
         block.resize(group.spec.c.len(), 0.0);
-        element.c_constant(block);
-        element.c(x, f, block);
-        let [px, py] = element.place(x);
-        let lever = [px - x[0].x, py - x[0].y];
+        c.c_constant(block);
+        c.c(slots, block);
+        let (space, arm) = (
+            group.space,
+            difference(c.first_origin(slots), c.place(slots)),
+        );
         for (at, e) in group.repeated() {
             visit(e.dof, e.row, -block[at]);
-            match e.dof {
-                0 => visit(TORQUE, e.row, -(lever[1] * block[at])),
-                1 => visit(TORQUE, e.row, lever[0] * block[at]),
-                _ => {}
+            if space.forces().contains(&e.dof) {
+                let mut force = [0.0; 3];
+                force[e.dof] = -block[at];
+                let turned = space.torques();
+                for k in turned.filter(|k| space.axis_of(*k) != e.dof) {
+                    visit(k, e.row, cross(arm, force)[space.axis_of(k)]);
+                }
             }
         }
     }
 
-    /// Like [`Self::wrench_map`], with the torque about a global point: `T + (place − about) × F`.
+    /// Like [`Self::wrench_map`], with the torque about a point (m, ground axes):
+    /// `T + (place − about) × F`.
     #[must_use]
-    pub fn wrench_map_about(self, id: ConstraintId, about: [f64; 2]) -> Matrix {
+    pub fn wrench_map_about(self, id: ConstraintId, about: [f64; 3]) -> Matrix {
         let mut map = self.wrench_map(id);
-        let [x, y] = self.place(id);
-        let arm = [x - about[0], y - about[1]];
+        let arm = difference(self.place(id), about);
         for j in 0..map.ncols() {
-            map[(2, j)] += arm[0] * map[(1, j)] - arm[1] * map[(0, j)];
+            add_moment(self.layout().space, &mut map, j, arm);
         }
         map
     }
 
-    /// The map (3 × m + h) from all multipliers to the total of the reactions on one body, `−Cᵀ·λ`:
-    /// force, and torque about a global point. Returns `None` if there is no such body. Needs C at
-    /// the pose of the scratch; allocates.
+    /// The map (components × m + h) from all multipliers to the total of the reactions on one body,
+    /// `−Cᵀ·λ`: force, and torque about a point (m, ground axes). Returns `None` if there is no
+    /// such body. Needs C at the pose of the scratch; allocates.
     #[must_use]
-    pub fn body_wrench_map(self, body: usize, about: [f64; 2]) -> Option<Matrix> {
-        let pose = self.s.poses.get(body)?;
-        let arm = [pose.x - about[0], pose.y - about[1]];
-        let layout = self.layout();
-        let mut map = Matrix::zeros(COMPONENTS.len(), layout.rows());
+    pub fn body_wrench_map(self, body: usize, about: [f64; 3]) -> Option<Matrix> {
+        if body >= self.s.bodies.len() {
+            return None;
+        }
+        let arm = difference(self.s.bodies.origin(body), about);
+        let (layout, space) = (self.layout(), self.layout().space);
+        let mut map = Matrix::zeros(space.n_v(), layout.rows());
         for i in 0..layout.rows() {
-            for (column, c) in layout.row(self.s, i).filter(|(k, _)| k / N_BODY == body) {
-                map[(column % N_BODY, i)] -= c;
+            for (column, c) in layout.row(self.s, i) {
+                if space.body_of(column) == body {
+                    map[(space.dof_of(column), i)] -= c;
+                }
             }
-            map[(2, i)] += arm[0] * map[(1, i)] - arm[1] * map[(0, i)];
+            add_moment(space, &mut map, i, arm);
         }
         Some(map)
     }
 
-    /// Unit vectors (global components) of the axes in which the force of a reaction is expressed.
-    /// The first axis of [`Frame::Edge`] has the sign for which the named component of the
-    /// definition, or else the multiplier, is positive. Returns `None` if the reaction has no such
-    /// frame.
+    /// The axes in which a reaction is expressed. The first axis of [`Frame::Edge`] has the sign
+    /// for which the named component of the definition, or else the multiplier, is positive.
+    /// Returns `None` if the reaction has no such frame.
     #[must_use]
-    pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<[[f64; 2]; 2]> {
-        let first = match (frame, self.group(id).bodies.first()) {
-            (Frame::Edge, _) => self.push(id)?,
-            (Frame::FirstBody, Some(BodyRef::Body(k))) => {
-                [self.s.poses[*k].cos, self.s.poses[*k].sin]
+    pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<Axes> {
+        let ground = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let axes = match (frame, self.group(id).bodies.first()) {
+            (Frame::Edge, _) => {
+                let [x, y] = self.push(id)?;
+                [[x, y, 0.0], [-y, x, 0.0], ground[2]]
             }
-            _ => [1.0, 0.0],
+            (Frame::FirstBody, Some(BodyRef::Body(k))) => self.s.bodies.axes(*k),
+            _ => ground,
         };
-        Some([first, [-first[1], first[0]]])
+        let count = self.layout().space.n_translations();
+        Some(Axes { axes, count })
     }
 
-    /// The direction of the only row of a joint or drive that has a force.
+    /// The direction in the plane of the only row of a joint or drive that has a force. Across a
+    /// direction in space there is no other that is one of its kind, so there it is none.
     fn push(self, id: ConstraintId) -> Option<[f64; 2]> {
         let group = self.group(id);
+        if group.space.n_translations() > 2 {
+            return None;
+        }
         let spec = group.spec;
         let rows: Vec<usize> = (0..spec.rows.len()).filter(|&r| group.pushes(r)).collect();
         let [row] = rows[..] else { return None };
@@ -205,19 +263,17 @@ impl<'a> Reactions<'a> {
     }
 
     /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or
-    /// drive: `Fx`, `Fy`, `T`, or the named component of its definition. Returns `None` if it has
-    /// no such component; allocates.
+    /// drive: one of [`SpaceKind::components`], or the named component of its definition. Returns
+    /// `None` if it has no such component; allocates.
     #[must_use]
     pub fn component_coefficients(self, id: ConstraintId, name: &str) -> Option<Vec<f64>> {
-        if let Some(k) = COMPONENTS.iter().position(|c| *c == name) {
+        if let Some(k) = self.layout().space.component(name) {
             return Some(self.wrench_map(id).row(k).to_vec());
         }
         let c = self.constraint(id);
-        let element = &c.element;
-        (element.spec().component == Some(name)).then(|| {
+        (c.spec().component == Some(name)).then(|| {
             let mut coefficients = vec![0.0; c.rows.len()];
-            let slots = &self.s.slots;
-            element.component(c.site.x(slots), c.site.f(slots), &mut coefficients);
+            c.component(&self.s.slots, &mut coefficients);
             coefficients
         })
     }
@@ -236,23 +292,20 @@ impl<'a> Reactions<'a> {
         let (group, c) = (self.group(id), self.constraint(id));
         let lambda = &lambda[group.rows.clone()];
         // Of multipliers that there are not, no component is known.
-        let mut wrench = [lambda.iter().map(|l| l * 0.0).sum::<f64>() + 0.0; 3];
+        let none = lambda.iter().map(|l| l * 0.0).sum::<f64>() + 0.0;
+        let space = group.space;
+        let mut wrench = Reaction::default();
+        (0..space.n_v()).for_each(|k| *wrench.of_mut(space, k) = none);
         self.visit_wrench(id, block, |component, row, value| {
-            wrench[component] += value * lambda[row];
+            *wrench.of_mut(space, component) += value * lambda[row];
         });
-        let component = group.spec.component.map(|_| {
+        wrench.component = group.spec.component.map(|_| {
             block.clear();
             block.resize(lambda.len(), 0.0);
-            let (x, f) = (c.site.x(&self.s.slots), c.site.f(&self.s.slots));
-            c.element.component(x, f, block);
+            c.component(&self.s.slots, block);
             block.iter().zip(lambda).map(|(k, l)| k * l).sum()
         });
-        let [fx, fy, torque] = wrench;
-        Reaction {
-            force: [fx, fy],
-            torque,
-            component,
-        }
+        wrench
     }
 
     /// Whether a joint or drive acts against the ground: one of its rows does not vanish if all
@@ -260,26 +313,40 @@ impl<'a> Reactions<'a> {
     /// velocity refers to the ground without listing it. Needs C at the pose of the scratch.
     #[must_use]
     pub fn acts_on_ground(self, id: ConstraintId) -> bool {
-        let [x, y] = self.place(id);
-        // Two translations and the rotation about the place of the joint.
-        let motions = |column: usize| {
-            let pose = &self.s.poses[column / N_BODY];
-            [
-                [1.0, 0.0, y - pose.y],
-                [0.0, 1.0, pose.x - x],
-                [0.0, 0.0, 1.0],
-            ][column % N_BODY]
+        let (space, place) = (self.layout().space, self.place(id));
+        // The velocity along a column of C in one of the rigid motions: along the axes, and about
+        // them at the place of the joint.
+        let velocity = |motion: usize, column: usize| {
+            let dof = space.dof_of(column);
+            if space.torques().contains(&motion) && space.forces().contains(&dof) {
+                let arm = difference(self.s.bodies.origin(space.body_of(column)), place);
+                unit_cross(space.axis_of(motion), arm)[dof]
+            } else {
+                f64::from(u8::from(dof == motion))
+            }
         };
         self.group(id).rows.clone().any(|row| {
-            let mut sums = [0.0; N_BODY];
-            let mut sizes = [0.0_f64; N_BODY];
-            for (column, c) in self.layout().row(self.s, row) {
-                for (k, motion) in motions(column).into_iter().enumerate() {
-                    sums[k] += c * motion;
-                    sizes[k] += (c * motion).abs();
+            (0..space.n_v()).any(|motion| {
+                let (mut sum, mut size) = (0.0, 0.0_f64);
+                for (column, c) in self.layout().row(self.s, row) {
+                    let term = c * velocity(motion, column);
+                    sum += term;
+                    size += term.abs();
                 }
-            }
-            (0..N_BODY).any(|k| sums[k].abs() > ROUNDING * sizes[k])
+                f64::abs(sum) > ROUNDING * size
+            })
         })
+    }
+}
+
+/// Moves the torque of a column of a map by an arm: `T + arm × F`.
+fn add_moment(space: SpaceKind, map: &mut Matrix, column: usize, arm: [f64; 3]) {
+    let mut force = [0.0; 3];
+    for k in space.forces() {
+        force[space.axis_of(k)] = map[(k, column)];
+    }
+    let moment = cross(arm, force);
+    for k in space.torques() {
+        map[(k, column)] += moment[space.axis_of(k)];
     }
 }

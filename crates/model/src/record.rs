@@ -3,12 +3,12 @@
 //! initial values only; generators of code for one scene start from it.
 
 use joints::recorded::{Operation, Recorded, record};
-use joints::{Pose, Twist};
 
-use crate::description::BodyRef;
+use crate::element::{PlacedConstraint, RecordedSlots};
 use crate::function::Function;
-use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
-use crate::system::{Site, System};
+use crate::mechanism::Mechanism;
+use crate::space::SpaceKind;
+use crate::system::System;
 
 /// Meaning of an input of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,70 +49,6 @@ pub struct RecordedEquations {
     pub force: Vec<Recorded>,
 }
 
-/// Poses, twists and functions of time of one element.
-type Arguments<'a> = (
-    Vec<Pose<Recorded>>,
-    Vec<Twist<Recorded>>,
-    &'a [[Recorded; 3]],
-);
-
-/// Poses, twists and functions of time as inputs.
-struct Inputs {
-    list: Vec<Input>,
-    poses: Vec<Pose<Recorded>>,
-    twists: Vec<Twist<Recorded>>,
-    jets: Vec<[Recorded; 3]>,
-}
-
-impl Inputs {
-    fn new(bodies: usize, functions: usize) -> Self {
-        let mut list = Vec::new();
-        let mut input = |what: Input| {
-            list.push(what);
-            Recorded::input(list.len() - 1)
-        };
-        let poses = (0..bodies).map(|k| Pose {
-            x: input(Input::Coordinate(N_BODY * k)),
-            y: input(Input::Coordinate(N_BODY * k + 1)),
-            angle: input(Input::Coordinate(N_BODY * k + 2)),
-            cos: input(Input::Cos(N_BODY * k + 2)),
-            sin: input(Input::Sin(N_BODY * k + 2)),
-        });
-        let poses = poses.collect();
-        let twists = (0..bodies).map(|k| Twist {
-            x: input(Input::Velocity(N_BODY * k)),
-            y: input(Input::Velocity(N_BODY * k + 1)),
-            omega: input(Input::Velocity(N_BODY * k + 2)),
-        });
-        let twists = twists.collect();
-        let jets = (0..functions).map(|function| {
-            [0, 1, 2].map(|derivative| {
-                input(Input::Function {
-                    function,
-                    derivative,
-                })
-            })
-        });
-        let jets = jets.collect();
-        Self {
-            list,
-            poses,
-            twists,
-            jets,
-        }
-    }
-
-    /// Poses, twists and functions of time of an element.
-    fn of(&self, site: &Site) -> Arguments<'_> {
-        let twist = |b: &BodyRef| b.moving().map_or(Twist::zero(), |k| self.twists[k]);
-        (
-            site.poses(&self.poses),
-            site.bodies.iter().map(twist).collect(),
-            &self.jets[site.functions.clone()],
-        )
-    }
-}
-
 /// Results collected while the kernels run.
 struct Results {
     phi: Vec<Recorded>,
@@ -131,7 +67,7 @@ impl Mechanism {
 }
 
 impl RecordedEquations {
-    /// Records Φ, C, b, Γ and Q of a mechanism.
+    /// Records Φ, C, b, Γ and Q of a mechanism in [`SpaceKind::Plane`].
     ///
     /// ```
     /// use model::{Body, Description, Mechanism, RecordedEquations, record::Input};
@@ -144,14 +80,23 @@ impl RecordedEquations {
     /// assert_eq!(recording.inputs[3], Input::Cos(2));
     /// assert_eq!(recording.tape[recording.force[1].place()], joints::recorded::Operation::Number(-20.0));
     /// ```
+    ///
+    /// # Panics
+    /// If the bodies of the mechanism have other coordinates than x, y and their angle.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
+        assert_eq!(mechanism.space(), SpaceKind::Plane, "planar bodies");
         let layout = mechanism.layout();
         let n_functions = mechanism.elements.functions.len();
         let (tape, (inputs, results)) = record(|| {
-            let inputs = Inputs::new(mechanism.bodies().len(), n_functions);
-            let results = run_on(mechanism, &inputs);
-            (inputs.list, results)
+            let mut list = Vec::new();
+            let input = |what: Input| {
+                list.push(what);
+                Recorded::input(list.len() - 1)
+            };
+            let slots = RecordedSlots::new(mechanism.bodies().len(), n_functions, input);
+            let results = run_on(mechanism, &slots);
+            (list, results)
         });
         let row = |i: usize| {
             let entry = |k: usize| {
@@ -174,7 +119,7 @@ impl RecordedEquations {
     }
 }
 
-fn run_on(mechanism: &Mechanism, inputs: &Inputs) -> Results {
+fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
     let (layout, elements) = (mechanism.layout(), &mechanism.elements);
     let numbers = |x: &[f64]| -> Vec<Recorded> { x.iter().map(|&x| x.into()).collect() };
     let zero = Recorded::from(0.0);
@@ -189,9 +134,8 @@ fn run_on(mechanism: &Mechanism, inputs: &Inputs) -> Results {
         record_constraint(c, inputs, layout.m, &mut r);
     }
     for f in &elements.forces {
-        let (x, v, jets) = inputs.of(&f.site);
         let mut block = vec![zero; f.columns.len()];
-        f.element.recorded().q(&x, &v, jets, &mut block);
+        f.recorded_q(inputs, &mut block);
         for (column, value) in f.columns.iter().zip(block) {
             if let Some(column) = *column {
                 r.force[column] = r.force[column] + value;
@@ -201,18 +145,16 @@ fn run_on(mechanism: &Mechanism, inputs: &Inputs) -> Results {
     r
 }
 
-fn record_constraint(c: &PlacedConstraint, inputs: &Inputs, m: usize, r: &mut Results) {
-    let element = c.element.recorded();
-    let (x, v, f) = inputs.of(&c.site);
+fn record_constraint(c: &PlacedConstraint, inputs: &RecordedSlots, m: usize, r: &mut Results) {
     let rows = c.rows.clone();
     if rows.start < m {
-        element.phi(&x, f, &mut r.phi[rows.clone()]);
+        c.recorded_phi(inputs, &mut r.phi[rows.clone()]);
     }
-    if !c.varying.is_empty() {
-        element.c(&x, f, &mut r.entries[c.entries.clone()]);
+    if c.has_varying_entries() {
+        c.recorded_c(inputs, &mut r.entries[c.entries.clone()]);
     }
-    if element.spec().rheonomic {
-        element.b(&x, f, &mut r.b[rows.clone()]);
+    if c.depends_on_time() {
+        c.recorded_b(inputs, &mut r.b[rows.clone()]);
     }
-    element.gamma(&x, &v, f, &mut r.gamma[rows]);
+    c.recorded_gamma(inputs, &mut r.gamma[rows]);
 }

@@ -2,86 +2,19 @@
 //! knowing them.
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
-use joints::{
-    Argument, ArgumentError, Constraint, Element, Force, ForceElement, Magnitude, Pose, Recorded,
-    Twist, Visitor,
-};
-use linalg::Dd;
+use joints::{Argument, ArgumentError, Constraint, Force, Visitor};
 
-use crate::law::{DriveForce, Law, LawError, build_law};
-
-/// A planar constraint as a trait object: kernels in `f64` for motion, and in other number types.
-pub trait PlaneConstraint: Element {
-    /// Kernels for certificates.
-    fn extended(&self) -> &dyn Element<Dd>;
-    /// Kernels for bounds on the rounding of data.
-    fn magnitude(&self) -> &dyn Element<Magnitude>;
-    /// Kernels that record their operations.
-    fn recorded(&self) -> &dyn Element<Recorded>;
-    /// A copy.
-    fn boxed(&self) -> Box<dyn PlaneConstraint>;
-}
-
-impl<K: Constraint> PlaneConstraint for K {
-    fn extended(&self) -> &dyn Element<Dd> {
-        self.element()
-    }
-    fn magnitude(&self) -> &dyn Element<Magnitude> {
-        self.element()
-    }
-    fn recorded(&self) -> &dyn Element<Recorded> {
-        self.element()
-    }
-    fn boxed(&self) -> Box<dyn PlaneConstraint> {
-        Box::new(self.clone())
-    }
-}
-
-impl Clone for Box<dyn PlaneConstraint> {
-    fn clone(&self) -> Self {
-        self.as_ref().boxed()
-    }
-}
-
-/// A planar force as a trait object.
-pub trait PlaneForce: ForceElement {
-    /// Kernels that record their operations.
-    fn recorded(&self) -> &dyn ForceElement<Recorded>;
-    /// A copy.
-    fn boxed(&self) -> Box<dyn PlaneForce>;
-    /// Whether this is a drive by a law.
-    fn is_law(&self) -> bool {
-        false
-    }
-    /// The force along the measure of a drive by a law.
-    fn drive(&self, _x: &[Pose], _v: &[Twist], _f: &[[f64; 3]]) -> Option<DriveForce> {
-        None
-    }
-}
-
-impl<K: Force> PlaneForce for K {
-    fn recorded(&self) -> &dyn ForceElement<Recorded> {
-        self.element()
-    }
-    fn boxed(&self) -> Box<dyn PlaneForce> {
-        Box::new(self.clone())
-    }
-}
-
-impl Clone for Box<dyn PlaneForce> {
-    fn clone(&self) -> Self {
-        self.as_ref().boxed()
-    }
-}
+use crate::element::{ConstraintKernels, ForceKernels};
+use crate::law::{Law, LawError, build_law};
 
 /// Builds a constraint from the values of its parameters.
-pub type BuildConstraint = fn(&[Argument]) -> Result<Box<dyn PlaneConstraint>, ArgumentError>;
+pub type BuildConstraint = fn(&[Argument]) -> Result<Box<dyn ConstraintKernels>, ArgumentError>;
 
 /// Builds a force from the values of its parameters.
-pub type BuildForce = fn(&[Argument]) -> Result<Box<dyn PlaneForce>, ArgumentError>;
+pub type BuildForce = fn(&[Argument]) -> Result<Box<dyn ForceKernels>, ArgumentError>;
 
 /// Builds a force along a measure from the values of the parameters of its joint.
-pub type BuildLaw = fn(&[Argument], Law) -> Result<Box<dyn PlaneForce>, LawError>;
+pub type BuildLaw = fn(&[Argument], Law) -> Result<Box<dyn ForceKernels>, LawError>;
 
 /// A constraint definition.
 #[derive(Clone, Debug)]
@@ -223,10 +156,10 @@ impl Visitor for Registry {
 
 fn build_constraint<K: Constraint>(
     arguments: &[Argument],
-) -> Result<Box<dyn PlaneConstraint>, ArgumentError> {
+) -> Result<Box<dyn ConstraintKernels>, ArgumentError> {
     Ok(Box::new(K::from_arguments(arguments)?))
 }
 
-fn build_force<K: Force>(arguments: &[Argument]) -> Result<Box<dyn PlaneForce>, ArgumentError> {
+fn build_force<K: Force>(arguments: &[Argument]) -> Result<Box<dyn ForceKernels>, ArgumentError> {
     Ok(Box::new(K::from_arguments(arguments)?))
 }

@@ -2,10 +2,13 @@
 //! that cancel in it, so that nothing depends on units, on the size of a mechanism or on its
 //! position.
 
+use std::collections::BTreeSet;
+use std::ops::Range;
+
 use linalg::Scaling;
 
-use crate::mechanism::{Mechanism, N_BODY};
-use crate::space::unit;
+use crate::mechanism::Mechanism;
+use crate::space::{difference, norm};
 use crate::system::{Scratch, System};
 
 /// Sizes with which residuals of a mechanism are compared, at the pose of a scratch. Positions need
@@ -30,14 +33,9 @@ impl Scales<'_> {
     /// longest arm of its body, because it is accurate to the rounding of the arms. Needs C.
     #[must_use]
     pub fn position(self, i: usize) -> f64 {
+        let space = self.mechanism.space();
         let term = |(j, c): (usize, f64)| {
-            let body = j / N_BODY;
-            let pose = &self.s.poses[body];
-            let at = match j - N_BODY * body {
-                0 => pose.x,
-                1 => pose.y,
-                _ => pose.angle,
-            };
+            let at = self.s.bodies.position(space.body_of(j), space.dof_of(j));
             let (at, least) = (at.abs(), least(self.mechanism, j));
             c.abs() * if at > least { at } else { least }
         };
@@ -50,17 +48,18 @@ impl Scales<'_> {
     #[must_use]
     pub fn entry_bounds(self, i: usize) -> Vec<(usize, f64)> {
         let row: Vec<(usize, f64)> = self.mechanism.layout().row(self.s, i).collect();
-        let bodies: std::collections::BTreeSet<usize> =
-            row.iter().map(|(j, _)| j / N_BODY).collect();
+        let space = self.mechanism.space();
+        let bodies: BTreeSet<usize> = row.iter().map(|(j, _)| space.body_of(*j)).collect();
         let bounds = bodies.into_iter().flat_map(|body| {
-            let entry = |k: usize| {
-                let entries = row.iter().filter(|(j, _)| *j == N_BODY * body + k);
-                entries.map(|(_, c)| c).sum::<f64>().abs()
+            let entry = |column: usize| {
+                let entries = row.iter().filter(|(j, _)| *j == column);
+                entries.map(|(_, c)| c).sum::<f64>()
             };
-            let force = entry(0).hypot(entry(1));
-            let turn = entry(2).max(force * self.mechanism.reach(body));
-            let first = N_BODY * body;
-            [(first, force), (first + 1, force), (first + 2, turn)]
+            let size = |columns: Range<usize>| norm(&columns.map(entry).collect::<Vec<_>>());
+            let force = size(space.translations_of(body));
+            let turn = size(space.rotations_of(body)).max(force * self.mechanism.reach(body));
+            let bound = move |j| if space.is_rotation(j) { turn } else { force };
+            space.columns_of(body).map(move |j| (j, bound(j)))
         });
         bounds.collect()
     }
@@ -99,10 +98,11 @@ impl Scales<'_> {
     #[must_use]
     pub fn acceleration(self, i: usize, v: &[f64], size: f64) -> f64 {
         let row = || self.mechanism.layout().row(self.s, i);
-        let rotations = row().map(|(j, _)| v[j - j % N_BODY + 2].abs());
+        let space = self.mechanism.space();
+        let rotations = row().map(|(j, _)| norm(&v[space.rotations_of(space.body_of(j))]));
         let omega = rotations.fold(0.0, f64::max);
         let term = |(j, c): (usize, f64)| {
-            let rate = if j % N_BODY == 2 {
+            let rate = if space.is_rotation(j) {
                 omega
             } else {
                 v[j].abs() + size * omega
@@ -132,9 +132,9 @@ impl Scales<'_> {
     pub fn felt_scaling(self, size: f64) -> Scaling {
         let mut arms = vec![0.0_f64; self.mechanism.bodies().len()];
         for id in self.mechanism.layout().constraint_ids() {
-            let [x, y] = self.mechanism.reactions(self.s).place(id);
+            let place = self.mechanism.reactions(self.s).place(id);
             for k in self.mechanism.elements.constraints[id.0].site.moving() {
-                arms[k] = arms[k].max((x - self.s.poses[k].x).hypot(y - self.s.poses[k].y));
+                arms[k] = arms[k].max(norm(&difference(place, self.s.bodies.origin(k))));
             }
         }
         let layout = self.mechanism.layout();
@@ -142,7 +142,7 @@ impl Scales<'_> {
         for (body, arm) in arms.into_iter().enumerate().filter(|(_, arm)| *arm > 0.0) {
             let exponent = (size / arm).log2().round();
             if exponent.is_finite() {
-                scaling.cols[N_BODY * body + 2] = exponent as i32;
+                scaling.cols[layout.space.rotations_of(body)].fill(exponent as i32);
             }
         }
         scaling
@@ -163,7 +163,8 @@ impl Scales<'_> {
     /// `x` relative to the change of row `i` if the mechanism moves by its own size. Needs C.
     #[must_use]
     pub fn relative_to_reach(self, i: usize, size: f64, x: f64) -> f64 {
-        let reach = |(j, c): (usize, f64)| c.abs() * unit(j, size);
+        let space = self.mechanism.space();
+        let reach = |(j, c): (usize, f64)| c.abs() * space.unit(j, size);
         let reach: f64 = self.mechanism.layout().row(self.s, i).map(reach).sum();
         if reach > 0.0 { x / reach } else { x }
     }
@@ -171,9 +172,10 @@ impl Scales<'_> {
 
 /// Smallest size of a coordinate in the terms of a row.
 fn least(mechanism: &Mechanism, j: usize) -> f64 {
-    if j % N_BODY == 2 {
+    let space = mechanism.space();
+    if space.is_rotation(j) {
         1.0
     } else {
-        mechanism.reach(j / N_BODY)
+        mechanism.reach(space.body_of(j))
     }
 }

@@ -1,6 +1,7 @@
 //! The length scale of a mechanism: the extent of its bodies and joints.
 
 use crate::mechanism::Mechanism;
+use crate::space::norm;
 use crate::system::{Scratch, System};
 use crate::uncertainty::ROUNDING;
 
@@ -18,12 +19,12 @@ pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
 
 /// Like [`scene_size`], at the poses of the scratch.
 pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
-    let bodies = s.poses.iter().map(|p| [p.x, p.y]);
+    let bodies = s.bodies.origins();
     let places = mechanism
         .layout()
         .constraint_ids()
         .map(|id| mechanism.reactions(s).place(id));
-    let mut points: Vec<[f64; 2]> = bodies.chain(places).collect();
+    let mut points: Vec<[f64; 3]> = bodies.chain(places).collect();
     if let Some(size) = diagonal(&points) {
         return size;
     }
@@ -31,27 +32,24 @@ pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
         .layout()
         .constraint_ids()
         .flat_map(|id| mechanism.points(id));
-    points.extend(of_joints.map(|(body, p)| match body.moving() {
-        None => p,
+    points.extend(of_joints.map(|(body, [x, y])| match body.moving() {
+        None => [x, y, 0.0],
         Some(k) => {
-            let pose = &s.poses[k];
-            [
-                pose.x + pose.cos * p[0] - pose.sin * p[1],
-                pose.y + pose.sin * p[0] + pose.cos * p[1],
-            ]
+            let ([along, across, _], origin) = (s.bodies.axes(k), s.bodies.origin(k));
+            std::array::from_fn(|axis| origin[axis] + along[axis] * x + across[axis] * y)
         }
     }));
     diagonal(&points).unwrap_or(1.0)
 }
 
 /// Diagonal of the box around points. Returns `None` if they coincide.
-fn diagonal(points: &[[f64; 2]]) -> Option<f64> {
+fn diagonal(points: &[[f64; 3]]) -> Option<f64> {
     let span = |k: usize| {
         let low = points.iter().fold(f64::INFINITY, |a, p| a.min(p[k]));
         let high = points.iter().fold(f64::NEG_INFINITY, |a, p| a.max(p[k]));
         high - low
     };
-    let size = span(0).hypot(span(1));
-    let farthest = points.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+    let size = norm(&[0, 1, 2].map(span));
+    let farthest = points.iter().map(|p| norm(p)).fold(0.0, f64::max);
     (size > COINCIDE * ROUNDING * farthest).then_some(size)
 }

@@ -10,13 +10,11 @@
 
 use std::ops::Range;
 
-use joints::{Pose, Ring};
+use joints::Ring;
 use linalg::Dd;
 
 use crate::description::Body;
-
-/// Number of velocities of a planar body: (ẋ, ẏ, ω).
-pub(crate) const N_BODY: usize = 3;
+use crate::reaction::Frame;
 
 /// Largest number of coordinates of a body.
 const MOST_COORDINATES: usize = 4;
@@ -71,43 +69,49 @@ impl Number for Dd {
 }
 
 /// A space in which bodies move. All slices belong to one body: `q` has [`Space::N_Q`] values, `v`
-/// and `d` have three.
+/// and `d` have [`Space::N_V`], of which the translations come first. A force on a body has a
+/// component for each translation, a torque one for each rotation.
 pub trait Space {
     /// Number of coordinates of a body; the position comes first.
     const N_Q: usize;
 
+    /// Number of velocities of a body.
+    const N_V: usize;
+
+    /// Number of its velocities that are translations.
+    const N_TRANSLATIONS: usize;
+
     /// Names of the coordinates.
     const COORDINATES: &'static [&'static str];
+
+    /// Names of the numbers that are written of a frame: its place and orientation, then its
+    /// [`Space::N_V`] velocities.
+    const COLUMNS: &'static [&'static str];
+
+    /// Names of the directions in which a body moves, in the order of its velocities.
+    const DIRECTIONS: &'static [&'static str];
+
+    /// Names of the components of a force and a torque, in the order of the velocities.
+    const COMPONENTS: &'static [&'static str];
+
+    /// Their names in the axes of a body.
+    const BODY_COMPONENTS: &'static [&'static str];
+
+    /// Their names in axes of which the first is the direction of the only force of a joint.
+    const EDGE_COMPONENTS: &'static [&'static str];
 
     /// Coordinates of a body as described.
     fn described(body: &Body, q: &mut [f64]);
 
-    /// The angle of a body (rad).
+    /// Position of a body in the direction of one freedom: a coordinate (m) or an angle (rad).
     #[must_use]
-    fn angle<T: Number>(q: &[T]) -> T;
-
-    /// Sine and cosine of this angle.
-    #[must_use]
-    fn sin_cos<T: Number>(q: &[T]) -> (T, T);
-
-    /// The pose of a body.
-    #[must_use]
-    fn pose<T: Number>(q: &[T]) -> Pose<T> {
-        let (sin, cos) = Self::sin_cos(q);
-        Pose {
-            x: q[0],
-            y: q[1],
-            angle: Self::angle(q),
-            cos,
-            sin,
-        }
-    }
+    fn position(q: &[f64], dof: usize) -> f64;
 
     /// q̇ = T(q)·v.
     fn rate(q: &[f64], v: &[f64], qd: &mut [f64]);
 
-    /// The velocity of one freedom, 0 … 2, as factors of q̇ = T(q)·v; components of q̇ that change
-    /// no pose are ignored. Factors beyond the coordinates are zero.
+    /// The velocity of one freedom, below [`Space::N_V`], as factors of q̇ = T(q)·v; components of
+    /// q̇ that change no pose are ignored. Factors beyond the coordinates are zero.
     #[must_use]
     fn velocity_from_rate(q: &[f64], dof: usize) -> [f64; MOST_COORDINATES];
 
@@ -124,10 +128,28 @@ pub trait Space {
     /// The d by which [`Space::displace`] moves `from` to `q`.
     fn difference(q: &[f64], from: &[f64], d: &mut [f64]);
 
-    /// Copies one freedom of velocity, 0 … 2, from another configuration exactly; a difference
-    /// would be rounded.
+    /// Copies one freedom of velocity from another configuration exactly; a difference would be
+    /// rounded.
     fn take(q: &mut [f64], from: &[f64], dof: usize);
 }
+
+/// A space whose bodies have planar poses, whatever their coordinates are.
+pub trait PlanarSpace: Space {
+    /// The angle of a body (rad).
+    #[must_use]
+    fn angle<T: Number>(q: &[T]) -> T;
+
+    /// Sine and cosine of this angle.
+    #[must_use]
+    fn sin_cos<T: Number>(q: &[T]) -> (T, T);
+}
+
+/// Numbers that are written of a planar frame.
+const PLANE_COLUMNS: &[&str] = &["x", "y", "angle", "vx", "vy", "omega"];
+const PLANE_DIRECTIONS: &[&str] = &["x", "y", "angle"];
+const PLANE_COMPONENTS: &[&str] = &["Fx", "Fy", "T"];
+const PLANE_BODY_COMPONENTS: &[&str] = &["Fx'", "Fy'", "T"];
+const PLANE_EDGE_COMPONENTS: &[&str] = &["Fn", "Ft", "T"];
 
 /// The plane: q = (x, y, φ), q̇ = v.
 #[derive(Clone, Copy, Debug)]
@@ -135,19 +157,22 @@ pub struct Plane;
 
 impl Space for Plane {
     const N_Q: usize = 3;
+    const N_V: usize = 3;
+    const N_TRANSLATIONS: usize = 2;
     const COORDINATES: &'static [&'static str] = &["x", "y", "angle"];
+    const COLUMNS: &'static [&'static str] = PLANE_COLUMNS;
+    const DIRECTIONS: &'static [&'static str] = PLANE_DIRECTIONS;
+    const COMPONENTS: &'static [&'static str] = PLANE_COMPONENTS;
+    const BODY_COMPONENTS: &'static [&'static str] = PLANE_BODY_COMPONENTS;
+    const EDGE_COMPONENTS: &'static [&'static str] = PLANE_EDGE_COMPONENTS;
 
     fn described(body: &Body, q: &mut [f64]) {
-        let Pose { x, y, angle, .. } = body.pose();
-        q.copy_from_slice(&[x, y, angle]);
+        let pose = body.pose();
+        q.copy_from_slice(&[pose.x, pose.y, pose.angle]);
     }
 
-    fn angle<T: Number>(q: &[T]) -> T {
-        q[2]
-    }
-
-    fn sin_cos<T: Number>(q: &[T]) -> (T, T) {
-        q[2].sin_cos()
+    fn position(q: &[f64], dof: usize) -> f64 {
+        q[dof]
     }
 
     fn rate(_q: &[f64], v: &[f64], qd: &mut [f64]) {
@@ -175,6 +200,16 @@ impl Space for Plane {
     }
 }
 
+impl PlanarSpace for Plane {
+    fn angle<T: Number>(q: &[T]) -> T {
+        q[2]
+    }
+
+    fn sin_cos<T: Number>(q: &[T]) -> (T, T) {
+        q[2].sin_cos()
+    }
+}
+
 /// The plane with a point of the unit circle instead of the angle: q = (x, y, cos φ, sin φ), n_q =
 /// 4. Only for tests: a space in which coordinates and velocities differ, as quaternions and
 /// angular velocities do.
@@ -189,20 +224,25 @@ pub struct UnitCircle;
 #[cfg(feature = "unit-circle")]
 impl Space for UnitCircle {
     const N_Q: usize = 4;
+    const N_V: usize = 3;
+    const N_TRANSLATIONS: usize = 2;
     const COORDINATES: &'static [&'static str] = &["x", "y", "cosine", "sine"];
+    const COLUMNS: &'static [&'static str] = PLANE_COLUMNS;
+    const DIRECTIONS: &'static [&'static str] = PLANE_DIRECTIONS;
+    const COMPONENTS: &'static [&'static str] = PLANE_COMPONENTS;
+    const BODY_COMPONENTS: &'static [&'static str] = PLANE_BODY_COMPONENTS;
+    const EDGE_COMPONENTS: &'static [&'static str] = PLANE_EDGE_COMPONENTS;
 
     fn described(body: &Body, q: &mut [f64]) {
-        let Pose { x, y, cos, sin, .. } = body.pose();
-        q.copy_from_slice(&[x, y, cos, sin]);
+        let pose = body.pose();
+        q.copy_from_slice(&[pose.x, pose.y, pose.cos, pose.sin]);
     }
 
-    fn angle<T: Number>(q: &[T]) -> T {
-        T::atan2(q[3], q[2])
-    }
-
-    fn sin_cos<T: Number>(q: &[T]) -> (T, T) {
-        let (cos, sin) = T::normalised(q[2], q[3]);
-        (sin, cos)
+    fn position(q: &[f64], dof: usize) -> f64 {
+        match dof {
+            2 => Self::angle(q),
+            _ => q[dof],
+        }
     }
 
     fn rate(q: &[f64], v: &[f64], qd: &mut [f64]) {
@@ -245,6 +285,18 @@ impl Space for UnitCircle {
     }
 }
 
+#[cfg(feature = "unit-circle")]
+impl PlanarSpace for UnitCircle {
+    fn angle<T: Number>(q: &[T]) -> T {
+        T::atan2(q[3], q[2])
+    }
+
+    fn sin_cos<T: Number>(q: &[T]) -> (T, T) {
+        let (cos, sin) = T::normalised(q[2], q[3]);
+        (sin, cos)
+    }
+}
+
 /// The space of a mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SpaceKind {
@@ -276,8 +328,167 @@ pub(crate) use in_space;
 
 impl SpaceKind {
     /// Number of coordinates of a body.
-    pub(crate) fn n_q(self) -> usize {
+    #[must_use]
+    pub fn n_q(self) -> usize {
         in_space!(self, S => S::N_Q)
+    }
+
+    /// Number of velocities of a body, translations first: its columns of C, and the components of
+    /// a force and a torque on it.
+    #[must_use]
+    pub fn n_v(self) -> usize {
+        in_space!(self, S => S::N_V)
+    }
+
+    /// Number of these velocities that are translations, and components of a force.
+    #[must_use]
+    pub fn n_translations(self) -> usize {
+        in_space!(self, S => S::N_TRANSLATIONS)
+    }
+
+    /// Number of these velocities that are rotations, and components of a torque.
+    #[must_use]
+    pub fn n_rotations(self) -> usize {
+        in_space!(self, S => S::N_V - S::N_TRANSLATIONS)
+    }
+
+    /// The body that moves with a column of C.
+    // The divisors are constants of each space: this is asked entry by entry.
+    #[must_use]
+    pub fn body_of(self, column: usize) -> usize {
+        in_space!(self, S => column / S::N_V)
+    }
+
+    /// The freedom of this body, below [`Self::n_v`].
+    #[must_use]
+    pub fn dof_of(self, column: usize) -> usize {
+        in_space!(self, S => column % S::N_V)
+    }
+
+    /// Whether a column of C is that of a rotation.
+    #[must_use]
+    pub fn is_rotation(self, column: usize) -> bool {
+        in_space!(self, S => column % S::N_V >= S::N_TRANSLATIONS)
+    }
+
+    /// Columns of C of a body.
+    #[must_use]
+    pub fn columns_of(self, body: usize) -> Range<usize> {
+        let n = self.n_v();
+        n * body..n * (body + 1)
+    }
+
+    /// Columns of C of the translations of a body.
+    #[must_use]
+    pub fn translations_of(self, body: usize) -> Range<usize> {
+        let first = self.n_v() * body;
+        first..first + self.n_translations()
+    }
+
+    /// Columns of C of the rotations of a body.
+    #[must_use]
+    pub fn rotations_of(self, body: usize) -> Range<usize> {
+        let first = self.n_v() * body;
+        first + self.n_translations()..first + self.n_v()
+    }
+
+    /// Unit of motions along a column of C: `size` for lengths, one radian for angles.
+    #[must_use]
+    pub fn unit(self, column: usize, size: f64) -> f64 {
+        if self.is_rotation(column) { 1.0 } else { size }
+    }
+
+    /// Names of the numbers that are written of a frame: its place and orientation, then its
+    /// velocities.
+    ///
+    /// ```
+    /// let plane = model::SpaceKind::Plane;
+    /// assert_eq!(plane.columns(), ["x", "y", "angle", "vx", "vy", "omega"]);
+    /// assert_eq!(plane.velocities(), ["vx", "vy", "omega"]);
+    /// assert_eq!(plane.directions(), ["x", "y", "angle"]);
+    /// assert_eq!(&plane.components()[plane.torques()], ["T"]);
+    /// ```
+    #[must_use]
+    pub fn columns(self) -> &'static [&'static str] {
+        in_space!(self, S => S::COLUMNS)
+    }
+
+    /// Names of the velocities of a body.
+    #[must_use]
+    pub fn velocities(self) -> &'static [&'static str] {
+        in_space!(self, S => &S::COLUMNS[S::COLUMNS.len() - S::N_V..])
+    }
+
+    /// Names of the directions in which a body moves with its velocities.
+    #[must_use]
+    pub fn directions(self) -> &'static [&'static str] {
+        in_space!(self, S => S::DIRECTIONS)
+    }
+
+    /// Names of the components of a force and a torque.
+    #[must_use]
+    pub fn components(self) -> &'static [&'static str] {
+        in_space!(self, S => S::COMPONENTS)
+    }
+
+    /// Names of the components of a force and a torque in the axes of a frame.
+    #[must_use]
+    pub fn components_in(self, frame: Frame) -> &'static [&'static str] {
+        in_space!(self, S => match frame {
+            Frame::Global => S::COMPONENTS,
+            Frame::FirstBody => S::BODY_COMPONENTS,
+            Frame::Edge => S::EDGE_COMPONENTS,
+        })
+    }
+
+    /// The component of this name in the axes of the ground.
+    #[must_use]
+    pub fn component(self, name: &str) -> Option<usize> {
+        self.components()
+            .iter()
+            .position(|component| *component == name)
+    }
+
+    /// The axis of the ground, 0 for x to 2 for z, along or about which a component of a force or a
+    /// torque acts.
+    #[must_use]
+    pub fn axis_of(self, component: usize) -> usize {
+        if component < self.n_translations() {
+            component
+        } else {
+            3 + component - self.n_v()
+        }
+    }
+
+    /// The velocities of a body in one of the [`Self::n_v`] rigid motions: along an axis of the
+    /// ground at 1 m/s, or about one, at this arm from it, at 1 rad/s.
+    ///
+    /// ```
+    /// let plane = model::SpaceKind::Plane;
+    /// assert_eq!(plane.rigid_motion(1, [2.0, 3.0, 0.0]), [0.0, 1.0, 0.0]);
+    /// assert_eq!(plane.rigid_motion(2, [2.0, 3.0, 0.0]), [-3.0, 2.0, 1.0]);
+    /// ```
+    #[must_use]
+    pub fn rigid_motion(self, motion: usize, arm: [f64; 3]) -> Vec<f64> {
+        let mut v = vec![0.0; self.n_v()];
+        if self.torques().contains(&motion) {
+            let moved = unit_cross(self.axis_of(motion), arm);
+            v[self.forces()].copy_from_slice(&moved[self.forces()]);
+        }
+        v[motion] = 1.0;
+        v
+    }
+
+    /// The components of a force among [`Self::components`].
+    #[must_use]
+    pub fn forces(self) -> Range<usize> {
+        0..self.n_translations()
+    }
+
+    /// The components of a torque among [`Self::components`].
+    #[must_use]
+    pub fn torques(self) -> Range<usize> {
+        self.n_translations()..self.n_v()
     }
 
     /// Indices of the coordinates of a body in q.
@@ -287,16 +498,10 @@ impl SpaceKind {
         n * body..n * (body + 1)
     }
 
-    /// Poses of all bodies at coordinates q; allocates.
-    #[must_use]
-    pub fn poses<T: Number>(self, q: &[T]) -> Vec<Pose<T>> {
-        in_space!(self, S => q.chunks_exact(S::N_Q).map(S::pose).collect())
-    }
-
     /// Moves the configuration q by d (n_v).
     pub(crate) fn displace<T: Number>(self, q: &mut [T], d: &[T]) {
         in_space!(self, S => {
-            for (q, d) in q.chunks_exact_mut(S::N_Q).zip(d.chunks_exact(N_BODY)) {
+            for (q, d) in q.chunks_exact_mut(S::N_Q).zip(d.chunks_exact(S::N_V)) {
                 S::displace(q, d);
             }
         });
@@ -315,7 +520,7 @@ impl SpaceKind {
     pub(crate) fn difference(self, q: &[f64], from: &[f64], d: &mut [f64]) {
         in_space!(self, S => {
             let bodies = q.chunks_exact(S::N_Q).zip(from.chunks_exact(S::N_Q));
-            for ((q, from), d) in bodies.zip(d.chunks_exact_mut(N_BODY)) {
+            for ((q, from), d) in bodies.zip(d.chunks_exact_mut(S::N_V)) {
                 S::difference(q, from, d);
             }
         });
@@ -324,7 +529,7 @@ impl SpaceKind {
     /// Like `difference`, as a vector; allocates.
     #[must_use]
     pub fn difference_of(self, q: &[f64], from: &[f64]) -> Vec<f64> {
-        let mut d = vec![0.0; N_BODY * (q.len() / self.n_q())];
+        let mut d = vec![0.0; self.n_v() * (q.len() / self.n_q())];
         self.difference(q, from, &mut d);
         d
     }
@@ -334,13 +539,13 @@ impl SpaceKind {
     #[must_use]
     pub fn largest_difference(self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let mut largest = (0, 0.0);
-        let mut d = [0.0; N_BODY];
+        let mut d = vec![0.0; self.n_v()];
         let n = self.n_q();
         for (body, (a, b)) in a.chunks_exact(n).zip(b.chunks_exact(n)).enumerate() {
             self.difference(a, b, &mut d);
             for (dof, d) in d.iter().enumerate() {
-                let j = N_BODY * body + dof;
-                let difference = d.abs() / unit(j, size);
+                let j = self.n_v() * body + dof;
+                let difference = d.abs() / self.unit(j, size);
                 if difference > largest.1 {
                     largest = (j, difference);
                 }
@@ -353,8 +558,8 @@ impl SpaceKind {
     pub fn take(self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         in_space!(self, S => {
             for column in columns {
-                let body = self.coordinates(column / N_BODY);
-                S::take(&mut q[body.clone()], &from[body], column % N_BODY);
+                let body = self.coordinates(column / S::N_V);
+                S::take(&mut q[body.clone()], &from[body], column % S::N_V);
             }
         });
     }
@@ -362,11 +567,11 @@ impl SpaceKind {
     /// Writes the velocity of a column of C as a sum over q̇ at the configuration q to `terms`:
     /// indices of q̇ with their coefficients.
     pub fn read_velocity(self, q: &[f64], column: usize, terms: &mut Vec<(usize, f64)>) {
-        let body = self.coordinates(column / N_BODY);
+        let body = self.coordinates(self.body_of(column));
         let first = body.start;
         terms.clear();
         in_space!(self, S => {
-            let factors = S::velocity_from_rate(&q[body], column % N_BODY);
+            let factors = S::velocity_from_rate(&q[body], column % S::N_V);
             terms.extend(factors.into_iter().enumerate().filter(|(_, factor)| *factor != 0.0));
             terms.iter_mut().for_each(|(place, _)| *place += first);
         });
@@ -391,16 +596,44 @@ impl SpaceKind {
     /// an angle (rad).
     #[must_use]
     pub fn position(self, q: &[f64], column: usize) -> f64 {
-        let q = &q[self.coordinates(column / N_BODY)];
-        match column % N_BODY {
-            2 => in_space!(self, S => S::angle(q)),
-            dof => q[dof],
-        }
+        let own = &q[self.coordinates(self.body_of(column))];
+        in_space!(self, S => S::position(own, column % S::N_V))
     }
 }
 
-/// Unit of motions along column `j` of C: `size` for lengths, one radian for angles.
+/// The unit vector along an axis of the ground, 0 for x to 2 for z, times a vector: `e × a`, the
+/// velocity at an arm of a body that turns at 1 rad/s about this axis.
 #[must_use]
-pub fn unit(j: usize, size: f64) -> f64 {
-    if j % N_BODY == 2 { 1.0 } else { size }
+pub fn unit_cross(axis: usize, a: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| match (k + 3 - axis) % 3 {
+        0 => 0.0,
+        // Not `-a`: there is one zero.
+        1 => 0.0 - a[(k + 1) % 3],
+        _ => a[(k + 2) % 3],
+    })
+}
+
+/// a − b
+#[must_use]
+pub fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+/// a × b
+#[must_use]
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// Length of a vector with any number of components.
+#[must_use]
+pub fn norm(x: &[f64]) -> f64 {
+    match x {
+        [x, others @ ..] => others.iter().fold(x.abs(), |norm, x| norm.hypot(*x)),
+        [] => 0.0,
+    }
 }

@@ -17,7 +17,7 @@ pub(crate) mod within;
 
 use linalg::least_squares_step;
 
-use crate::mechanism::{Mechanism, N_BODY, initialise, unmet_requirement};
+use crate::mechanism::{Mechanism, initialise, unmet_requirement};
 use crate::system::{Scratch, System};
 use metric::{DAMPING, ROUNDINGS, SMALL_CORRECTION, dense_rows, largest, weights};
 use options::kept_columns;
@@ -137,8 +137,8 @@ pub fn nearest_configuration(
         Metric::Mass => position_weights(mechanism, &StartOptions::default(), size)?,
         Metric::Start(options) => position_weights(mechanism, options, size)?,
         Metric::Length => (0..mechanism.layout().n_v)
-            .map(|k| {
-                if k % N_BODY == 2 {
+            .map(|j| {
+                if mechanism.space().is_rotation(j) {
                     1.0 / (size * size)
                 } else {
                     1.0
@@ -265,8 +265,8 @@ fn check_correction(
     correction: &[f64],
     size: f64,
 ) -> Result<(), StartError> {
-    let limits = [size, size, 1.0].map(|unit| SMALL_CORRECTION * unit);
-    let excess = |k: usize| correction[k].abs() / limits[k % N_BODY];
+    let limit = |j: usize| SMALL_CORRECTION * mechanism.space().unit(j, size);
+    let excess = |j: usize| correction[j].abs() / limit(j);
     let worst = (0..correction.len()).fold(0, |a, b| if excess(b) > excess(a) { b } else { a });
     if correction.is_empty() || excess(worst) <= 1.0 {
         return Ok(());
@@ -276,6 +276,6 @@ fn check_correction(
         body: body.to_owned(),
         coordinate,
         correction: correction[worst].abs(),
-        limit: limits[worst % N_BODY],
+        limit: limit(worst),
     })
 }

@@ -3,12 +3,11 @@
 
 use std::ops::Range;
 
-use joints::{Pose, Ring, Twist};
 use linalg::{Matrix, Scaling};
 
-use crate::description::BodyRef;
+use crate::element::{Bodies, Slots};
 use crate::group::{ColumnKind, ConstraintGroup, ConstraintId};
-use crate::space::N_BODY;
+use crate::space::SpaceKind;
 
 /// The equations of a mechanism.
 ///
@@ -72,6 +71,9 @@ pub trait System: Sync {
 /// Sizes, patterns and labels of a mechanism.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
+    /// The space in which the bodies move: what the columns of C and the components of reactions
+    /// are.
+    pub space: SpaceKind,
     /// Number of coordinates.
     pub n_q: usize,
     /// Number of velocities.
@@ -122,15 +124,18 @@ impl Layout {
     /// Columns of C of a body.
     #[must_use]
     pub fn columns(&self, body: usize) -> Range<usize> {
-        N_BODY * body..N_BODY * (body + 1)
+        self.space.columns_of(body)
     }
 
     /// Kind of velocity of each column of C, n_v entries.
     #[must_use]
     pub fn column_kinds(&self) -> Vec<ColumnKind> {
-        let kind = |k| match k % N_BODY {
-            2 => ColumnKind::Rotation,
-            _ => ColumnKind::Translation,
+        let kind = |j| {
+            if self.space.is_rotation(j) {
+                ColumnKind::Rotation
+            } else {
+                ColumnKind::Translation
+            }
         };
         (0..self.n_v).map(kind).collect()
     }
@@ -139,7 +144,7 @@ impl Layout {
     #[must_use]
     pub fn is_angular(&self, i: usize) -> bool {
         let columns = &self.pattern.column[self.pattern.row(i)];
-        columns.iter().all(|j| j % N_BODY == 2)
+        columns.iter().all(|j| self.space.is_rotation(*j))
     }
 
     /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations
@@ -150,8 +155,10 @@ impl Layout {
         let exponent = size.log2().round();
         let mut scaling = Scaling::identity(self.rows(), self.n_v);
         if exponent.is_finite() {
-            for e in scaling.cols.iter_mut().skip(2).step_by(N_BODY) {
-                *e = -(exponent as i32);
+            for (j, e) in scaling.cols.iter_mut().enumerate() {
+                if self.space.is_rotation(j) {
+                    *e = -(exponent as i32);
+                }
             }
         }
         scaling
@@ -224,10 +231,8 @@ impl std::fmt::Display for RowLabel {
 pub struct Scratch {
     /// Time of the poses.
     pub t: f64,
-    /// Pose of each body.
-    pub poses: Vec<Pose>,
-    /// Angles for which sine and cosine were computed; NaN at the beginning.
-    pub(crate) turned_to: Vec<f64>,
+    /// Poses of the bodies.
+    pub bodies: Bodies,
     /// Φ, m values.
     pub phi: Vec<f64>,
     /// Entries of the blocks of C, constraint by constraint, including columns of the ground.
@@ -244,69 +249,4 @@ pub struct Scratch {
     pub(crate) jets_at: f64,
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,
-}
-
-/// Arguments of the kernels of all elements, one after the other: constraints, then forces.
-#[derive(Clone, Debug)]
-pub(crate) struct Slots {
-    /// Poses of the bodies in their slots.
-    pub(crate) poses: Vec<Pose>,
-    /// Twists of the same slots.
-    pub(crate) twists: Vec<Twist>,
-    /// Values of the functions of time.
-    pub(crate) jets: Vec<[f64; 3]>,
-}
-
-/// The pose of a body, taken from those of all.
-pub(crate) fn pose_of<T: Ring>(poses: &[Pose<T>], body: BodyRef) -> Pose<T> {
-    match body {
-        BodyRef::Ground => Pose::GROUND.cast(),
-        BodyRef::Body(k) => poses[k],
-    }
-}
-
-/// Indices of an element: its bodies, and its ranges in [`Slots`].
-#[derive(Clone)]
-pub(crate) struct Site {
-    pub(crate) bodies: Vec<BodyRef>,
-    pub(crate) slots: Range<usize>,
-    pub(crate) functions: Range<usize>,
-}
-
-impl Site {
-    /// Poses of its bodies.
-    pub(crate) fn x<'s>(&self, all: &'s Slots) -> &'s [Pose] {
-        &all.poses[self.slots.clone()]
-    }
-
-    /// Twists of its bodies.
-    pub(crate) fn v<'s>(&self, all: &'s Slots) -> &'s [Twist] {
-        &all.twists[self.slots.clone()]
-    }
-
-    /// Values of its functions of time.
-    pub(crate) fn f<'s>(&self, all: &'s Slots) -> &'s [[f64; 3]] {
-        &all.jets[self.functions.clone()]
-    }
-
-    /// Poses of its bodies in any number type, from those of all bodies; allocates.
-    pub(crate) fn poses<T: Ring>(&self, all: &[Pose<T>]) -> Vec<Pose<T>> {
-        self.bodies.iter().map(|&b| pose_of(all, b)).collect()
-    }
-
-    /// Poses, twists and values of functions.
-    pub(crate) fn xvf<'s>(&self, all: &'s Slots) -> (&'s [Pose], &'s [Twist], &'s [[f64; 3]]) {
-        (self.x(all), self.v(all), self.f(all))
-    }
-
-    /// Its bodies except the ground.
-    pub(crate) fn moving(&self) -> impl Iterator<Item = usize> + '_ {
-        self.bodies.iter().filter_map(|b| b.moving())
-    }
-
-    /// Column of C for a column of its block; `None` for the ground.
-    pub(crate) fn column(&self, k: usize) -> Option<usize> {
-        let body = self.bodies[k / N_BODY].moving()?;
-        Some(N_BODY * body + k % N_BODY)
-    }
 }

@@ -4,12 +4,13 @@
 
 use std::ops::Range;
 
-use joints::{Magnitude, Pose};
+use joints::Magnitude;
 use linalg::Matrix;
 
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::mechanism::Mechanism;
 use crate::scale::Scales;
-use crate::system::System;
+use crate::space::norm;
+use crate::system::{Layout, System};
 
 /// Relative error of the numbers of a scene and of values computed from them: half a unit in the
 /// last place for each of eight roundings, which are reading of the number, the position of its
@@ -104,28 +105,27 @@ impl Scales<'_> {
             let row = pattern.row(i);
             // Forces on the bodies of the row, and the distances of the bodies from the origin.
             let forces: Vec<(usize, f64, f64)> = self.forces_of_row(&magnitudes, row.clone());
-            let places = |&(body, force, _): &(usize, f64, f64)| {
-                force * self.s.poses[body].x.hypot(self.s.poses[body].y)
-            };
+            let places =
+                |&(body, force, _): &(usize, f64, f64)| force * norm(&self.s.bodies.origin(body));
             let shift = ROUNDING * forces.iter().map(places).sum::<f64>() + opening(i);
             for k in row {
-                let (body, dof) = (pattern.column[k] / N_BODY, pattern.column[k] % N_BODY);
+                let column = pattern.column[k];
+                let body = layout.space.body_of(column);
                 let of_body = forces.iter().find(|(other, ..)| *other == body);
                 let (_, force, magnitude) = of_body.copied().unwrap_or_default();
-                u.push(match dof {
-                    2 => {
-                        let lever = force * self.mechanism.reach(body);
-                        // A rotation without a force, like that of a rolling wheel, has no lever.
-                        let moved = if force > 0.0 || forces.is_empty() {
-                            shift
-                        } else {
-                            0.0
-                        };
-                        let entry = self.s.entries[pattern.entry[k]].abs();
-                        let terms = magnitudes[pattern.entry[k]].value();
-                        ROUNDING * (terms + lever) + turned * (entry + lever) + moved
-                    }
-                    _ => ROUNDING * magnitude + turned * force,
+                u.push(if layout.space.is_rotation(column) {
+                    let lever = force * self.mechanism.reach(body);
+                    // A rotation without a force, like that of a rolling wheel, has no lever.
+                    let moved = if force > 0.0 || forces.is_empty() {
+                        shift
+                    } else {
+                        0.0
+                    };
+                    let entry = self.s.entries[pattern.entry[k]].abs();
+                    let terms = magnitudes[pattern.entry[k]].value();
+                    ROUNDING * (terms + lever) + turned * (entry + lever) + moved
+                } else {
+                    ROUNDING * magnitude + turned * force
                 });
             }
         }
@@ -135,24 +135,25 @@ impl Scales<'_> {
     /// For each body on which this row of the pattern exerts a force: the body, the size of the
     /// force, and the size of the terms that are added in it.
     fn forces_of_row(self, magnitudes: &[Magnitude], row: Range<usize>) -> Vec<(usize, f64, f64)> {
-        let pattern = &self.mechanism.layout().pattern;
-        let mut forces: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
-        for k in row.filter(|&k| pattern.column[k] % N_BODY != 2) {
-            let (body, dof) = (pattern.column[k] / N_BODY, pattern.column[k] % N_BODY);
+        let Layout { space, pattern, .. } = self.mechanism.layout();
+        let mut forces: Vec<(usize, [f64; 3], [f64; 3])> = Vec::new();
+        for k in row.filter(|&k| !space.is_rotation(pattern.column[k])) {
+            let column = pattern.column[k];
+            let (body, axis) = (space.body_of(column), space.axis_of(space.dof_of(column)));
             let at = match forces.iter().position(|(other, ..)| *other == body) {
                 Some(at) => at,
                 None => {
-                    forces.push((body, [0.0; 2], [0.0; 2]));
+                    forces.push((body, [0.0; 3], [0.0; 3]));
                     forces.len() - 1
                 }
             };
             let entry = pattern.entry[k];
-            forces[at].1[dof] += self.s.entries[entry];
-            forces[at].2[dof] += magnitudes[entry].value();
+            forces[at].1[axis] += self.s.entries[entry];
+            forces[at].2[axis] += magnitudes[entry].value();
         }
         let sizes = forces
             .into_iter()
-            .map(|(body, force, terms)| (body, force[0].hypot(force[1]), terms[0].hypot(terms[1])));
+            .map(|(body, force, terms)| (body, norm(&force), norm(&terms)));
         sizes.collect()
     }
 
@@ -167,27 +168,8 @@ impl Scales<'_> {
             .iter()
             .filter(|c| c.has_varying_entries())
         {
-            let poses = c.site.x(&self.s.slots).iter();
-            let x: Vec<Pose<Magnitude>> = poses.map(magnitude).collect();
-            let jets = c.site.f(&self.s.slots).iter();
-            let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();
-            c.element
-                .magnitude()
-                .c(&x, &f, &mut entries[c.entries.clone()]);
+            c.magnitude_c(&self.s.slots, &mut entries[c.entries.clone()]);
         }
         entries
-    }
-}
-
-/// Sizes of the contributions of a pose to a polynomial; cosine and sine are accurate to the
-/// rounding of their angle.
-fn magnitude(pose: &Pose) -> Pose<Magnitude> {
-    let turned = Magnitude::from(pose.angle.abs().max(1.0));
-    Pose {
-        x: pose.x.into(),
-        y: pose.y.into(),
-        angle: pose.angle.into(),
-        cos: turned,
-        sin: turned,
     }
 }

@@ -278,7 +278,12 @@ impl<'a> Set<'a> {
         let groups = self.part.mechanism.layout().groups.iter();
         let first = groups.map(|g| g.bodies.first().and_then(|b| b.moving()));
         first
-            .map(|k| k.map_or([1.0, 0.0], |k| [s.poses[k].cos, s.poses[k].sin]))
+            .map(|k| {
+                k.map_or([1.0, 0.0], |k| {
+                    let [[cos, sin, _], ..] = s.bodies.axes(k);
+                    [cos, sin]
+                })
+            })
             .collect()
     }
 }

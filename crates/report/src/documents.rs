@@ -35,7 +35,7 @@ pub use answers::{
 };
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use misfits::{MisfitDocument, SpreadDocument};
-pub use motion::{BodyStateDocument, MomentDocument, MotionDocument};
+pub use motion::{MomentDocument, MotionDocument};
 pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
 pub use run::{
     ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument,

@@ -118,7 +118,7 @@ pub(crate) fn reaction_difference(a: &Variant, b: &Variant, joint: usize) -> f64
         [
             r.force[0] - s.force[0],
             r.force[1] - s.force[1],
-            r.torque - s.torque,
+            r.torque[2] - s.torque[2],
         ]
     });
     largest(parts)

@@ -270,11 +270,11 @@ fn anywhere(subject: &Subject<'_>, k: usize) -> State {
     // No symmetry of a mechanism equals one of these numbers.
     let shift = |i: usize| (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin();
     let away: Vec<f64> = (0..v.len())
-        .map(|j| shift(j) * model::space::unit(j, size))
+        .map(|j| shift(j) * mechanism.space().unit(j, size))
         .collect();
     mechanism.displace(&mut q, &away);
     for (j, v) in v.iter_mut().enumerate() {
-        *v += shift(j + 7) * model::space::unit(j, size);
+        *v += shift(j + 7) * mechanism.space().unit(j, size);
     }
     State { t, q, v }
 }

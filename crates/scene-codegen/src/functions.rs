@@ -2,8 +2,8 @@
 //! residuals.
 
 use dynamics::code::LEAVE;
-use model::System;
 use model::record::Input;
+use model::{SpaceKind, System};
 use symbolic::{Program, Value};
 
 use crate::eliminate::Factored;
@@ -136,6 +136,9 @@ impl Functions {
     /// All functions, with the equations solved in the frame of the ground or of the body whose
     /// angle has this index in q.
     fn seen_from(subject: &Subject<'_>, angle: Option<usize>) -> Result<Self, CodeError> {
+        if subject.prepared.mechanism.space() != SpaceKind::Plane {
+            return Err(CodeError::NotPlanar);
+        }
         let forces = subject.prepared.mechanism.applied_forces();
         if let Some((drive, _)) = forces.law_drives().next() {
             let drive = drive.to_owned();

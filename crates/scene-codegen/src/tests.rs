@@ -108,11 +108,11 @@ fn states(study: &Study, subject: &Subject<'_>, n: usize) -> Vec<State> {
     for k in 0..4 * n {
         let State { t, mut q, mut v } = subject.states[k % subject.states.len()].clone();
         let away: Vec<f64> = (0..v.len())
-            .map(|j| 0.02 * random() * model::space::unit(j, size))
+            .map(|j| 0.02 * random() * mechanism.space().unit(j, size))
             .collect();
         mechanism.displace(&mut q, &away);
         for (j, v) in v.iter_mut().enumerate() {
-            *v += random() * model::space::unit(j, size);
+            *v += random() * mechanism.space().unit(j, size);
         }
         if found.len() < n && motion.project(t, &mut q, &mut v).is_ok() {
             found.push(State { t, q, v });

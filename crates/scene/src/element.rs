@@ -4,7 +4,7 @@
 use joints::ArgumentError;
 use joints::spec::Spec;
 use model::registry::{ConstraintDefinition, ForceDefinition};
-use model::{BodyRef, PlaneConstraint, PlaneForce, Registry};
+use model::{BodyRef, ConstraintKernels, ForceKernels, Registry};
 
 use crate::arguments::Arguments;
 use crate::body::Bodies;
@@ -29,7 +29,7 @@ pub(crate) trait Definition {
 }
 
 impl Definition for ConstraintDefinition {
-    type Element = Box<dyn PlaneConstraint>;
+    type Element = Box<dyn ConstraintKernels>;
     fn spec(&self) -> &'static Spec {
         &self.spec.common
     }
@@ -39,7 +39,7 @@ impl Definition for ConstraintDefinition {
 }
 
 impl Definition for ForceDefinition {
-    type Element = Box<dyn PlaneForce>;
+    type Element = Box<dyn ForceKernels>;
     fn spec(&self) -> &'static Spec {
         &self.spec.common
     }

@@ -4,8 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
 
-use model::BuildError;
-use model::frame::COLUMNS;
+use model::{BuildError, SpaceKind};
 
 use crate::body::GROUND;
 use crate::findings::Findings;
@@ -22,6 +21,8 @@ pub(crate) struct Names {
     pub(crate) measures: Vec<Use>,
     pub(crate) elements: Vec<Use>,
     pub(crate) groups: Vec<Use>,
+    /// The space of the scene, with the names of its columns.
+    pub(crate) space: SpaceKind,
 }
 
 /// A name and its place.
@@ -45,12 +46,13 @@ const TIME: &str = "t";
 impl Names {
     /// Reports measures with the name of another column of the trajectory.
     fn check_columns(&self, findings: &mut Findings) {
+        let columns = self.space.columns();
         let measures: HashSet<&str> = self.measures.iter().map(|m| m.name.as_str()).collect();
         let places = self.bodies.iter().map(|place| place.name.as_str());
         let places: HashSet<&str> = places.filter(|name| !measures.contains(name)).collect();
         for Use { name, span } in &self.measures {
             let is_column =
-                |(place, column): (&str, &str)| places.contains(place) && COLUMNS.contains(&column);
+                |(place, column): (&str, &str)| places.contains(place) && columns.contains(&column);
             if name == TIME || name.rsplit_once('.').is_some_and(is_column) {
                 let message =
                     format!("measure `{name}` has the name of another column of `trajectory.csv`");

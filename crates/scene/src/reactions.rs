@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use joints::spec::ConstraintSpec;
-use model::reaction::COMPONENTS;
+use model::SpaceKind;
 
 use crate::active;
 use crate::combination::{self, Combination, Reactions};
@@ -94,8 +94,9 @@ pub(crate) const OUTPUT_KEYS: [Key; 3] = [TRAJECTORY, REACTIONS, REPORT];
 
 /// Components that can be requested: force and torque, even if they are identically zero, and the
 /// named component.
-pub(crate) fn components(spec: &ConstraintSpec) -> Vec<&'static str> {
-    COMPONENTS.into_iter().chain(spec.component).collect()
+pub(crate) fn components(space: SpaceKind, spec: &ConstraintSpec) -> Vec<&'static str> {
+    let all = space.components().iter().copied();
+    all.chain(spec.component).collect()
 }
 
 /// Reads one group.

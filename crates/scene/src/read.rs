@@ -169,6 +169,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     }
     let description = Description {
         name: heading.name,
+        space: parts.names.space,
         gravity: heading.gravity,
         tolerance: heading.tolerance,
         observed: Observed {
@@ -272,7 +273,9 @@ impl<'r> Parts<'r> {
         let joints = self.joints.known.iter().map(|joint| {
             let names = ReactionNames {
                 name: &joint.name,
-                components: joint.definition.map(|d| components(d.spec)),
+                components: joint
+                    .definition
+                    .map(|d| components(self.names.space, d.spec)),
             };
             (names, joint.is_active)
         });
@@ -283,7 +286,9 @@ impl<'r> Parts<'r> {
         let drives = self.drives.known.iter().map(|(name, is_active)| {
             let names = ReactionNames {
                 name,
-                components: complete.get(name.as_str()).map(|spec| components(spec)),
+                components: complete
+                    .get(name.as_str())
+                    .map(|spec| components(self.names.space, spec)),
             };
             (names, *is_active)
         });

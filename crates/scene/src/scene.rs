@@ -125,7 +125,7 @@ impl Scene {
         let drives = drives.map(|x| (&x.name, x.element.spec()));
         let names = joints.chain(drives).map(|(name, spec)| ReactionNames {
             name,
-            components: Some(components(spec)),
+            components: Some(components(self.description.space, spec)),
         });
         let inactive = self.inactive.iter().map(|x| x.name.as_str());
         combination::parse(text, &Reactions::new(names.collect()).without(inactive))

@@ -10,7 +10,6 @@ mod value;
 use crate::limits::VALUE_ROUNDINGS;
 use crate::pose::dimensionless;
 use model::ConstraintId;
-use model::reaction::COMPONENTS;
 use rank::{KeptRowsError, RankStatus};
 
 pub(crate) use equations::solution_under;
@@ -226,8 +225,9 @@ impl Configuration<'_> {
             let id = ConstraintId(k);
             let mut components = Vec::new();
             for c in group.components() {
-                let form = self.reactions.component(id, COMPONENTS[c])?;
-                components.push((COMPONENTS[c], distribution.value(self, &form)?));
+                let name = layout.space.components()[c];
+                let form = self.reactions.component(id, name)?;
+                components.push((name, distribution.value(self, &form)?));
             }
             distribution.reactions.push(ReactionValues {
                 id,
@@ -274,7 +274,15 @@ impl Configuration<'_> {
                 return Err(ChoiceError::NormWeight { value });
             }
         }
-        self.least(lambda_0, |_| [w.force, w.force, w.torque].map(|w| w * w))
+        let forces = self.layout().space.forces();
+        self.least(lambda_0, |_, component| {
+            let w = if forces.contains(&component) {
+                w.force
+            } else {
+                w.torque
+            };
+            w * w
+        })
     }
 
     fn elastic(&self, lambda_0: &[f64], joints: &[Compliance]) -> Result<Vec<f64>, ChoiceError> {
@@ -290,21 +298,22 @@ impl Configuration<'_> {
                 *total += compliance;
             }
         }
-        self.least(lambda_0, |id| of_joint[id.0])
+        self.least(lambda_0, |id, component| of_joint[id.0][component])
     }
 
     /// Minimises the weighted sum of squares of all wrenches.
     fn least(
         &self,
         lambda_0: &[f64],
-        weights: impl Fn(ConstraintId) -> [f64; 3],
+        weights: impl Fn(ConstraintId, usize) -> f64,
     ) -> Result<Vec<f64>, ChoiceError> {
         let groups = &self.layout().groups;
         let mut terms = Vec::new();
         for (k, group) in groups.iter().enumerate() {
             let id = ConstraintId(k);
             for c in group.components() {
-                terms.push((self.reactions.component(id, COMPONENTS[c])?, weights(id)[c]));
+                let form = self.reactions.component(id, group.space.components()[c])?;
+                terms.push((form, weights(id, c)));
             }
         }
         self.check_visible(&terms)?;

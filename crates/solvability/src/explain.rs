@@ -5,11 +5,10 @@
 //! A statement about a sum or a component is made only after a test against all dependencies.
 
 use crate::limits::VISIBLE;
-use crate::pose::TRANSLATIONS;
 use model::codes::Code;
-use model::reaction::COMPONENTS;
+use model::space::norm;
 use model::start::scene_size;
-use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
+use model::{BodyRef, ConstraintId, Mechanism, Scratch, SpaceKind, System};
 use rank::{Circuit, Settled};
 
 use crate::matrices::{QueryError, Solvability};
@@ -57,12 +56,14 @@ pub struct FreeDirection {
     pub joint: ConstraintId,
     /// Its bodies; the force acts on the first one.
     pub bodies: Vec<BodyRef>,
-    /// Point at which the force acts (m), global components.
-    pub place: [f64; 2],
-    /// Fx, Fy (N), global components.
-    pub force: [f64; 2],
-    /// T (N·m) about the place.
-    pub torque: f64,
+    /// The space of the mechanism.
+    pub space: SpaceKind,
+    /// Point at which the force acts (m), ground axes.
+    pub place: [f64; 3],
+    /// Force (N), ground axes.
+    pub force: [f64; 3],
+    /// Torque (N·m) about the place, ground axes.
+    pub torque: [f64; 3],
 }
 
 /// Joints and drives whose reactions are coupled by dependencies.
@@ -271,7 +272,10 @@ fn reaction(
     let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let forces = components.iter().filter(|&&c| c < TRANSLATIONS).count();
+    let forces = components
+        .iter()
+        .filter(|&c| layout.space.forces().contains(c))
+        .count();
     let mapped = solvability.basis().mapped(&map, group.rows.clone())?;
     let mapped = mapped.with_forces(forces);
     let directions = match mapped.unique_directions() {
@@ -285,8 +289,8 @@ fn reaction(
             .filter(|(x, _)| x.abs() > VISIBLE);
         let terms: Vec<String> = terms
             .map(|(x, &c)| match words::short(*x).as_str() {
-                "1" => COMPONENTS[c].to_owned(),
-                x => format!("{x}·{}", COMPONENTS[c]),
+                "1" => layout.space.components()[c].to_owned(),
+                x => format!("{x}·{}", layout.space.components()[c]),
             })
             .collect();
         terms.join(" + ").replace("+ −", "− ")
@@ -337,6 +341,7 @@ fn stress(
         Some(FreeDirection {
             joint: id,
             bodies: group.bodies.clone(),
+            space: layout.space,
             place: mechanism.reactions(s).place(id),
             force: reaction.force,
             torque: reaction.torque,
@@ -360,11 +365,11 @@ fn stress(
 /// Scales the loads to largest force 1, or to largest torque 1 if all forces are rounding relative
 /// to the torques divided by the size. Rounding is set to zero.
 fn normalise(directions: &mut [FreeDirection], size: f64) {
-    let force = |d: &FreeDirection| d.force[0].hypot(d.force[1]);
+    let force = |d: &FreeDirection| norm(&d.force);
     let force = directions.iter().map(force).fold(0.0, f64::max);
     let torque = directions
         .iter()
-        .map(|d| d.torque.abs())
+        .map(|d| norm(&d.torque))
         .fold(0.0, f64::max);
     let unit = if force > VISIBLE * torque / size {
         force
@@ -380,7 +385,7 @@ fn normalise(directions: &mut [FreeDirection], size: f64) {
             .force
             .iter_mut()
             .map(|x| (x, 1.0))
-            .chain([(&mut d.torque, size)])
+            .chain(d.torque.iter_mut().map(|x| (x, size)))
         {
             *x = if x.abs() <= VISIBLE * largest * scale {
                 0.0

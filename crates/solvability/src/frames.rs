@@ -3,11 +3,11 @@
 //! bearing force of a crank has a unique component across the crank, whatever its global components
 //! are.
 
-use model::{ConstraintId, Frame, Mechanism};
+use model::{Axes, ConstraintId, Frame, Mechanism};
 use rank::RankDecision;
 
 use crate::groups::{Configuration, LinearForm, ReactionForms, RequestError};
-use crate::verdict::Judgement;
+use crate::judged::ComponentVerdict;
 
 /// A reaction in one frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,20 +16,20 @@ pub struct FrameVerdict {
     /// The frame.
     pub frame: Frame,
     /// Unit vectors of its axes, global components.
-    pub axes: [[f64; 2]; 2],
-    /// Verdicts on the components along the first axis, along the second axis, and on the torque
-    /// about the place of the joint; named as in [`Frame::components`]. A component that is
-    /// identically zero is unique.
-    pub components: [Judgement; 3],
+    pub axes: Axes,
+    /// Verdicts on the components along the axes, and of the torque about the place of the joint;
+    /// named as in [`model::SpaceKind::components_in`]. A component that is identically zero is
+    /// unique.
+    pub components: Vec<ComponentVerdict>,
 }
 
 /// The components of a reaction in one frame, as numbers linear in the multipliers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameForms {
     /// Unit vectors of the axes, global components.
-    pub axes: [[f64; 2]; 2],
-    /// The components, in the order of [`FrameVerdict`].
-    pub components: [LinearForm; 3],
+    pub axes: Axes,
+    /// The components with their names, in the order of [`FrameVerdict`].
+    pub components: Vec<(&'static str, LinearForm)>,
 }
 
 /// Determines the verdicts on the reaction of a joint or drive at time t and coordinates q, in all
@@ -55,7 +55,7 @@ pub struct FrameForms {
 /// let q = [0.0, 0.0, angle];
 /// let decision = certify(&mechanism, 0.0, &q).unwrap();
 /// let verdicts = judge_frames(&mechanism, 0.0, &q, &decision, ConstraintId(0)).unwrap();
-/// let words = |k: usize| verdicts[k].components.each_ref().map(|j| j.verdict.word());
+/// let words = |k: usize| [0, 1, 2].map(|c| verdicts[k].components[c].judgement.verdict.word());
 /// assert_eq!((verdicts[0].frame, words(0)), (Frame::Global, ["not_unique", "not_unique", "unique"]));
 /// assert_eq!((verdicts[1].frame, words(1)), (Frame::FirstBody, ["not_unique", "unique", "unique"]));
 /// ```
@@ -83,11 +83,14 @@ impl Configuration<'_> {
             let Some(FrameForms { axes, components }) = self.reactions.in_frame(id, frame)? else {
                 continue;
             };
-            let [along, across, torque] = &components;
+            let judged = components.iter().map(|(name, form)| {
+                let judgement = self.judge(form)?;
+                Ok(ComponentVerdict { name, judgement })
+            });
             verdicts.push(FrameVerdict {
                 frame,
                 axes,
-                components: [self.judge(along)?, self.judge(across)?, self.judge(torque)?],
+                components: judged.collect::<Result<_, RequestError>>()?,
             });
         }
         Ok(verdicts)
@@ -108,12 +111,22 @@ impl ReactionForms<'_> {
         let Some(axes) = self.mechanism.reactions(&self.s).axes(id, frame) else {
             return Ok(None);
         };
-        let [along, across] = axes;
-        let components = [
-            self.force(id, along)?,
-            self.force(id, across)?,
-            self.torque(id, place)?,
-        ];
+        let space = self.mechanism.space();
+        let mut forms = Vec::new();
+        for along in axes.iter() {
+            forms.push(self.force(id, *along)?);
+        }
+        match space.n_rotations() {
+            // In the plane a torque has the direction of z in all axes.
+            1 => forms.push(self.torque(id, [0.0, 0.0, 1.0], place)?),
+            _ => {
+                for along in axes.iter() {
+                    forms.push(self.torque(id, *along, place)?);
+                }
+            }
+        }
+        let names = space.components_in(frame).iter().copied();
+        let components = names.zip(forms).collect();
         Ok(Some(FrameForms { axes, components }))
     }
 }

@@ -9,7 +9,7 @@ mod group;
 mod reactions;
 
 use crate::judged::ComponentVerdict;
-use model::{ConstraintId, Mechanism};
+use model::{ConstraintId, Mechanism, SpaceKind};
 use rank::RankDecision;
 
 pub use configuration::Configuration;
@@ -29,10 +29,12 @@ pub struct GroupVerdict {
     /// Verdict on the whole group. If it has parts: not unique if one part is not unique, otherwise
     /// undecided if one part is undecided.
     pub judgement: Judgement,
-    /// `Fx`, `Fy` and `T` of a sum of wrenches or a resultant; empty for other groups.
+    /// The space of the mechanism.
+    pub space: SpaceKind,
+    /// Force and torque of a sum of wrenches or a resultant; empty for other groups.
     pub components: Vec<ComponentVerdict>,
-    /// The point (m, global) about which T of these components is taken.
-    pub about: Option<[f64; 2]>,
+    /// The point (m, ground axes) about which the torque of these components is taken.
+    pub about: Option<[f64; 3]>,
 }
 
 /// Determines the verdicts of groups at time t and coordinates q, at which the rank has been
@@ -68,26 +70,28 @@ impl Configuration<'_> {
     pub(crate) fn group_about(
         &self,
         group: &Group,
-        about: Option<[f64; 2]>,
+        about: Option<[f64; 3]>,
     ) -> Result<GroupVerdict, RequestError> {
         match group {
             Group::Members(members) => {
                 let each = self.reactions.rows_of(members)?.into_iter();
                 let judged = each.map(|rows| self.solvability.group(rows));
                 worst(judged.collect::<Result<Vec<_>, _>>()?.into_iter())
-                    .map(whole)
+                    .map(|judgement| whole(self.layout().space, judgement))
                     .ok_or(NO_REACTION)
             }
             Group::OneJoint(members) => self.one_joint(members),
-            Group::Combination(terms) => {
-                Ok(whole(self.judge(&self.reactions.combination(terms)?)?))
-            }
+            Group::Combination(terms) => Ok(whole(
+                self.layout().space,
+                self.judge(&self.reactions.combination(terms)?)?,
+            )),
             Group::WrenchSum(_) | Group::Resultant(_) => {
                 let forms = self.reactions.numbers_about(group, about)?;
                 let judged = forms.iter().map(|(_, form)| self.judge(form));
                 let judged = judged.collect::<Result<Vec<_>, _>>()?;
                 let named = forms.iter().map(|(name, _)| *name).zip(&judged);
                 Ok(GroupVerdict {
+                    space: self.layout().space,
                     components: named
                         .map(|(name, judgement)| ComponentVerdict {
                             name,
@@ -122,13 +126,14 @@ impl Configuration<'_> {
             }
         }
         worst(judgements.into_iter())
-            .map(whole)
+            .map(|judgement| whole(self.layout().space, judgement))
             .ok_or(RequestError::Empty { of: "body" })
     }
 }
 
-fn whole(judgement: Judgement) -> GroupVerdict {
+fn whole(space: SpaceKind, judgement: Judgement) -> GroupVerdict {
     GroupVerdict {
+        space,
         judgement,
         components: Vec::new(),
         about: None,

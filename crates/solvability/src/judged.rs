@@ -51,7 +51,7 @@ pub struct RowVerdict {
 }
 
 /// The verdict on one component of a reaction.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ComponentVerdict {
     /// `Fx`, `Fy` or `T`.
     pub name: &'static str,

@@ -4,7 +4,6 @@
 use std::ops::Range;
 
 use linalg::Matrix;
-use model::reaction::COMPONENTS;
 use model::{ConstraintId, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
 
@@ -14,7 +13,6 @@ use crate::freedoms::PartialRanks;
 use crate::judged::{ComponentVerdict, Dependency, Judged, ReactionVerdict, RowVerdict};
 use crate::matrices::{Basis, QueryError, Solvability};
 use crate::parts::PartDecision;
-use crate::pose::TRANSLATIONS;
 use crate::verdict::Verdict;
 use crate::words;
 
@@ -93,22 +91,25 @@ pub(crate) fn reaction(
     detail: Detail,
 ) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
-    let components = group.components();
+    let (components, names) = (group.components(), group.space.components());
     let full = mechanism.reactions(s).wrench_map(id);
     let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let forces = components.iter().filter(|&&c| c < TRANSLATIONS).count();
+    let forces = components
+        .iter()
+        .filter(|&c| group.space.forces().contains(c))
+        .count();
     let mapped = basis.mapped(&map, rows.clone())?.with_forces(forces);
     let mut zero_components = Vec::new();
     for (i, &c) in components.iter().enumerate() {
         if mapped.is_zero(i)? {
-            zero_components.push(COMPONENTS[c]);
+            zero_components.push(names[c]);
         }
     }
     let judged = components.iter().enumerate().map(|(i, &c)| {
         Ok(ComponentVerdict {
-            name: COMPONENTS[c],
+            name: names[c],
             judgement: mapped.component(i)?,
         })
     });

@@ -31,7 +31,7 @@ pub fn memory_of_verdicts(mechanism: &Mechanism, threads: usize) -> Result<usize
             let part = mechanism.part_of_groups(&part).mechanism;
             most = most.max(of_part(&part, s.t)?);
         } else {
-            most = most.max(dense(rows, 3 * rows));
+            most = most.max(dense(rows, layout.space.n_v() * rows));
         }
     }
     Ok(results + threads * most)

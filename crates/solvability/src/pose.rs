@@ -8,12 +8,6 @@ use rank::{KeptRowsError, RankDecision};
 
 use crate::error::AnalysisError;
 
-/// Number of force components of a planar reaction; the torque follows them.
-pub(crate) const TRANSLATIONS: usize = 2;
-
-/// Number of columns of C for a planar body: two translations and its rotation.
-pub(crate) const COLUMNS: usize = 3;
-
 /// C without dimensions, for a mechanism of this size.
 pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism

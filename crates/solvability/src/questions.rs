@@ -176,7 +176,7 @@ impl<'a> Questions<'a> {
     }
 
     /// The point about which T of a sum of wrenches or a resultant is taken; checks the bodies.
-    fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
+    fn about(&self, group: &Group) -> Result<Option<[f64; 3]>, RequestError> {
         match group {
             Group::WrenchSum(terms) => {
                 let &(_, first) = terms.first().ok_or(NO_REACTION)?;
@@ -191,7 +191,7 @@ impl<'a> Questions<'a> {
                 let &first = all.first().ok_or(RequestError::Empty { of: "body" })?;
                 let mut s = self.mechanism.scratch();
                 self.mechanism.pose(self.analysis.time, &self.q, &mut s);
-                Ok(Some([s.poses[first].x, s.poses[first].y]))
+                Ok(Some(s.bodies.origin(first)))
             }
             _ => Ok(None),
         }
@@ -221,6 +221,7 @@ impl<'a> Questions<'a> {
             }
         };
         Ok(GroupVerdict {
+            space: self.mechanism.space(),
             components: first.components.iter().enumerate().map(component).collect(),
             judgement: worst(judged.iter().map(|g| g.judgement.clone())).ok_or(NO_REACTION)?,
             about,
@@ -232,17 +233,18 @@ impl<'a> Questions<'a> {
     fn of_nothing(
         &self,
         group: &Group,
-        about: Option<[f64; 2]>,
+        about: Option<[f64; 3]>,
     ) -> Result<GroupVerdict, RequestError> {
         let judgement = Judgement::new(Verdict::Unique, 0.0);
         match group {
             Group::Resultant(_) => Ok(GroupVerdict {
-                components: model::reaction::COMPONENTS
+                space: self.mechanism.space(),
+                components: (self.mechanism.space().components().iter())
                     .map(|name| ComponentVerdict {
                         name,
                         judgement: judgement.clone(),
                     })
-                    .to_vec(),
+                    .collect(),
                 judgement,
                 about,
             }),

@@ -12,8 +12,7 @@ mod rewrite;
 
 use crate::limits::{OF_ONE_JOINT, UNIT_ROUNDING};
 use model::codes::Code;
-use model::reaction::COMPONENTS;
-use model::{ColumnKind, ConstraintId, Frame, Mechanism};
+use model::{ColumnKind, ConstraintId, Frame, Mechanism, SpaceKind};
 use rank::{RankDecision, RankError};
 
 pub use rewrite::{Dimension, Units};
@@ -40,9 +39,10 @@ pub struct UnitCheck {
     pub id: ConstraintId,
     /// The frame.
     pub frame: Frame,
-    /// The component in this frame: 0 and 1 are forces, 2 is the torque; named as in
-    /// [`Frame::components`].
+    /// The component in this frame, as index of [`SpaceKind::components_in`].
     pub component: usize,
+    /// Its name.
+    pub name: &'static str,
     /// Its value in the least norm of N and N·m.
     pub value: f64,
     /// Its largest change, relative to the largest force or torque of the whole mechanism.
@@ -193,17 +193,16 @@ impl<'a> Numbers<'a> {
         for (k, group) in layout.groups.iter().enumerate() {
             let id = ConstraintId(k);
             for component in group.components() {
-                let form = configuration
-                    .reactions
-                    .component(id, COMPONENTS[component])?;
-                wrenches.push((id, dimension(component), form));
+                let name = layout.space.components()[component];
+                let form = configuration.reactions.component(id, name)?;
+                wrenches.push((id, dimension(layout.space, component), form));
             }
             for frame in Frame::ALL {
                 let found = configuration.reactions.in_frame(id, frame)?;
                 let forces_only = frame != Frame::Global;
-                let components = found.map_or(Vec::new(), |f| f.components.to_vec());
-                for (component, form) in components.into_iter().enumerate() {
-                    if forces_only && dimension(component) == Dimension::Torque {
+                let components = found.map_or(Vec::new(), |f| f.components);
+                for (component, (name, form)) in components.into_iter().enumerate() {
+                    if forces_only && dimension(layout.space, component) == Dimension::Torque {
                         continue;
                     }
                     forms.push(form);
@@ -211,6 +210,7 @@ impl<'a> Numbers<'a> {
                         id,
                         frame,
                         component,
+                        name,
                         value: 0.0,
                         change: 0.0,
                         nature: Nature::Fact,
@@ -328,7 +328,7 @@ impl<'a> Numbers<'a> {
 
     /// A force of this size, or its torque with the size of the mechanism as arm.
     fn unit(&self, check: &UnitCheck, force: f64) -> f64 {
-        match dimension(check.component) {
+        match dimension(self.configuration.layout().space, check.component) {
             Dimension::Force => force,
             Dimension::Torque => force * self.configuration.reactions.size,
         }
@@ -336,9 +336,10 @@ impl<'a> Numbers<'a> {
 }
 
 /// Whether a component of a wrench is a force or a torque.
-fn dimension(component: usize) -> Dimension {
-    match COMPONENTS[component] {
-        "T" => Dimension::Torque,
-        _ => Dimension::Force,
+fn dimension(space: SpaceKind, component: usize) -> Dimension {
+    if space.torques().contains(&component) {
+        Dimension::Torque
+    } else {
+        Dimension::Force
     }
 }

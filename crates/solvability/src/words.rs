@@ -61,7 +61,9 @@ pub(crate) fn of_stress(
             let [i, j] = [0, 1].map(|k| format!("`{}`", layout.groups[ids[k].0].name));
             let action = match (drives, directions[0].force) {
                 (true, _) => format!("{i} and {j} both prescribe the same motion of {}", list(a)),
-                (false, [0.0, 0.0]) => format!("{i} and {j} both stop {} from turning", against(a)),
+                (false, [0.0, 0.0, 0.0]) => {
+                    format!("{i} and {j} both stop {} from turning", against(a))
+                }
                 (false, _) if slips(layout, &ids) => {
                     format!(
                         "{i} and {j} both stop {} from slipping sideways along the same line",

@@ -272,7 +272,7 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
         // Numbers that coincide with no symmetry of a mechanism.
         let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
         let away = |by: f64| -> Vec<f64> {
-            let unit = |j: usize| model::space::unit(j, prepared.assembly.size);
+            let unit = |j: usize| prepared.mechanism.space().unit(j, prepared.assembly.size);
             let columns = 0..prepared.v.len();
             columns.map(|j| by * shift(j) * unit(j)).collect()
         };
@@ -330,7 +330,7 @@ fn compare(
         return Ok(());
     }
     let scene_size = motion.equations.at.size;
-    let unit = |j: usize| model::space::unit(j, scene_size);
+    let unit = |j: usize| mechanism.space().unit(j, scene_size);
     let largest = |x: &[f64]| {
         let shares = x.iter().enumerate().map(|(j, x)| x.abs() / unit(j));
         shares.fold(0.0, f64::max)

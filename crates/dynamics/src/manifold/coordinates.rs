@@ -55,7 +55,7 @@ impl IndependentCoordinates {
         let at = &equations.at;
         // Far from the origin of the frame, positions have fewer accurate digits than angles.
         let place = |j: usize| at.mechanism.space().position(&origin.q, j).abs();
-        let far = |j: usize| (place(j) / model::space::unit(j, at.size)).max(1.0);
+        let far = |j: usize| (place(j) / at.mechanism.space().unit(j, at.size)).max(1.0);
         let z = equations.position.partition(at, far)?;
         let u = equations.velocity.partition(at, |_| 1.0)?;
         // Rows requested by the user are used at single instants only, without a partition.
@@ -149,7 +149,7 @@ impl IndependentCoordinates {
     /// the velocities of that state, in units of the mechanism.
     fn way_to(&self, t: f64, at: &Evaluation<'_>) -> f64 {
         let velocities = self.accepted.v.iter().enumerate();
-        let rates = velocities.map(|(j, v)| v.abs() / model::space::unit(j, at.size));
+        let rates = velocities.map(|(j, v)| v.abs() / at.mechanism.space().unit(j, at.size));
         rates.fold(0.0, f64::max) * (t - self.accepted.t).abs()
     }
 
@@ -178,7 +178,8 @@ impl IndependentCoordinates {
         for (j, way) in self.storage.delta.iter_mut().enumerate() {
             let (from, to) = (self.accepted.v[j], v[j]);
             *way = 0.5 * dt * (from + to);
-            farthest = farthest.max(dt * from.abs().max(to.abs()) / model::space::unit(j, at.size));
+            farthest =
+                farthest.max(dt * from.abs().max(to.abs()) / at.mechanism.space().unit(j, at.size));
         }
         self.guess.copy_from_slice(&self.accepted.q);
         at.mechanism.displace(&mut self.guess, &self.storage.delta);

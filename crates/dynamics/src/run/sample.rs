@@ -200,9 +200,7 @@ impl OfMotion<'_, '_> {
 /// The reaction of a joint or drive that is not computed.
 pub(super) fn left_out(mechanism: &Mechanism, group: usize) -> Reaction {
     let component = mechanism.layout().groups[group].spec.component;
-    Reaction {
-        force: [f64::NAN; 2],
-        torque: f64::NAN,
-        component: component.map(|_| f64::NAN),
-    }
+    let space = mechanism.space();
+    let unknown = vec![f64::NAN; space.n_v()];
+    Reaction::new(space, &unknown, component.map(|_| f64::NAN))
 }

@@ -82,7 +82,7 @@ impl Span {
 
     fn measure(&mut self, mechanism: &Mechanism, size: f64) -> Sizes {
         let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
-        let unit = |j: usize| model::space::unit(j, size);
+        let unit = |j: usize| mechanism.space().unit(j, size);
         let mass = mechanism.mass();
         let [y0, f0, y1, f1] = &self.ends;
         let h = self.times[1] - self.times[0];

@@ -76,8 +76,8 @@ impl<'m> Evaluation<'m> {
     /// The value of row i of C for a motion of the size of the mechanism.
     pub(crate) fn row_size(&self, i: usize) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
-        row.map(|(j, c)| c.abs() * model::space::unit(j, self.size))
-            .sum()
+        let space = self.mechanism.space();
+        row.map(|(j, c)| c.abs() * space.unit(j, self.size)).sum()
     }
 
     pub(crate) fn label(&self, i: usize) -> RowLabel {

@@ -6,7 +6,7 @@
 //! `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: the residual of rows that share a
 //! misfit, and the pose, which moves with the data.
 
-use model::{DataBlock, RowLabel, System, explained};
+use model::{Bodies, DataBlock, RowLabel, System, explained};
 
 use super::evaluation::Evaluation;
 use super::rows::KeptRows;
@@ -45,8 +45,8 @@ pub(crate) struct Misfits {
     here: Instant,
     before: Option<Instant>,
     found: Vec<Misfit>,
-    /// Poses of the bodies at the start: x, y (m), angle (rad).
-    start: Vec<[f64; 3]>,
+    /// Poses of the bodies at the start.
+    start: Bodies,
 }
 
 /// Residuals of the dropped rows at one time.
@@ -79,7 +79,7 @@ impl Misfits {
             here: Instant::default(),
             before: None,
             found: Vec::new(),
-            start: at.s.poses.iter().map(|p| [p.x, p.y, p.angle]).collect(),
+            start: at.s.bodies.clone(),
         }
     }
 
@@ -204,10 +204,8 @@ impl Misfits {
     /// How far the mechanism has moved since its start, in words: the body that has turned most, or
     /// moved farthest relative to the size of the mechanism.
     pub(crate) fn way(&self, at: &Evaluation<'_>) -> String {
-        let moved = self.start.iter().zip(&at.s.poses).map(|(from, to)| {
-            let [x, y, angle] = from;
-            [(to.x - x).hypot(to.y - y), (to.angle - angle).abs()]
-        });
+        let bodies = &at.s.bodies;
+        let moved = (0..bodies.len()).map(|body| bodies.moved(&self.start, body));
         let far = |[by, turned]: [f64; 2]| (by / at.size).max(turned);
         let farthest = moved
             .enumerate()

@@ -208,8 +208,8 @@ impl CodeSwitch {
         }
         let at = &equations.at;
         let largest = |x: &[f64]| {
-            let shares = x.iter().enumerate();
-            let shares = shares.map(|(j, x)| x.abs() / model::space::unit(j, at.size));
+            let (space, shares) = (at.mechanism.space(), x.iter().enumerate());
+            let shares = shares.map(|(j, x)| x.abs() / space.unit(j, at.size));
             shares.fold(0.0, f64::max)
         };
         let is_same = largest(found) <= SAME_ACCELERATIONS * largest(a).max(largest(v).powi(2));

@@ -12,7 +12,7 @@ use joints::{
     Angle, Direction, Distance, Fixed, Gear, KnifeEdge, PinInSlot, Pose, RackAndPinion, Revolute,
     RevoluteAngleDrive, Rolling, Translational, TranslationalDisplacementDrive,
 };
-use model::{Body, BodyRef, Description, Drive, Function, Joint, PlaneConstraint};
+use model::{Body, BodyRef, ConstraintKernels, Description, Drive, Function, Joint};
 
 /// A point or vector, global.
 pub type Vector = [f64; 2];
@@ -181,7 +181,7 @@ impl Sketch {
         }
     }
 
-    fn element(&self, link: &Link) -> Box<dyn PlaneConstraint> {
+    fn element(&self, link: &Link) -> Box<dyn ConstraintKernels> {
         let pose = |slot: usize| match link.bodies[slot] {
             BodyRef::Ground => Pose::GROUND,
             BodyRef::Body(k) => self.bodies[k].pose(),

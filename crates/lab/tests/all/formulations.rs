@@ -31,7 +31,7 @@ fn unique_reactions_are_those_of_every_formulation() {
         let mut largest = 0.0_f64;
         for (found, kept) in rows(formulation).iter().zip(&kept) {
             for (k, group) in p.mechanism.layout().groups.iter().enumerate() {
-                let of = |r: &model::Reaction| [r.force[0], r.force[1], r.torque];
+                let of = |r: &model::Reaction| [r.force[0], r.force[1], r.torque[2]];
                 let gap = gap(&of(&found.reactions[k]), &of(&kept.reactions[k]));
                 let unique = !NOT_UNIQUE.contains(&group.name.as_str());
                 assert!(

@@ -7,10 +7,8 @@
 
 use std::ops::Range;
 
-use joints::Twist;
-
 use super::Data;
-use crate::mechanism::{N_BODY, twist_of};
+use crate::element::OwnRates;
 use crate::system::{Scratch, System};
 
 /// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` with respect to all numbers of the
@@ -28,40 +26,21 @@ pub struct DataGradients {
 #[derive(Clone, Debug)]
 struct OfConstraint {
     numbers: Range<usize>,
-    /// Velocities of its bodies: first columns of C.
-    bodies: Vec<usize>,
+    /// Columns of C of its bodies.
+    bodies: Vec<Range<usize>>,
     rows: Range<usize>,
     is_holonomic: bool,
 }
-
-/// Unit velocities of a body.
-const UNITS: [Twist; N_BODY] = [
-    Twist {
-        x: 1.0,
-        y: 0.0,
-        omega: 0.0,
-    },
-    Twist {
-        x: 0.0,
-        y: 1.0,
-        omega: 0.0,
-    },
-    Twist {
-        x: 0.0,
-        y: 0.0,
-        omega: 1.0,
-    },
-];
 
 impl Data<'_> {
     /// The gradients at the pose and the twist of the scratch, for multipliers (m + h),
     /// accelerations a and velocities v (n_v); allocates.
     #[must_use]
     pub fn gradients(self, s: &Scratch, lambda: &[f64], a: &[f64], v: &[f64]) -> DataGradients {
+        let space = self.0.space();
         let moves = v.iter().any(|v| *v != 0.0);
         let (mut each, mut values) = (Vec::new(), Vec::new());
         for (c, numbers) in self.numbered() {
-            let element = &c.element;
             if numbers.is_empty() {
                 continue;
             }
@@ -70,43 +49,35 @@ impl Data<'_> {
                 values.resize(place + numbers.len(), 0.0);
                 fill(&mut values[place..]);
             };
-            let (x, twists, f) = c.site.xvf(&s.slots);
-            // Without velocities and functions of time, Γ vanishes.
-            let (still, no_f) = (
-                vec![Twist::zero(); c.site.bodies.len()],
-                vec![[0.0; 3]; c.site.functions.len()],
-            );
-            let own = &lambda[c.rows.clone()];
-            let (mut slots, mut bodies) = (still.clone(), Vec::new());
+            let slots = &s.slots;
+            let (own, mut rates, mut bodies) =
+                (&lambda[c.rows.clone()], OwnRates::default(), Vec::new());
             for (k, body) in c.site.bodies.iter().enumerate() {
                 let Some(body) = body.moving() else {
                     continue;
                 };
-                bodies.push(N_BODY * body);
-                for unit in UNITS {
-                    slots[k] = unit;
-                    column(&mut |out| element.d_residual_dp(x, &still, &slots, &no_f, own, out));
+                bodies.push(space.columns_of(body));
+                for dof in 0..space.n_v() {
+                    rates.unit(c, k, dof);
+                    column(&mut |out| c.d_power_dp(slots, &rates, own, out));
                 }
-                slots[k] = Twist::zero();
             }
-            let of = |x: &[f64]| -> Vec<Twist> {
-                c.site
-                    .bodies
-                    .iter()
-                    .map(|&body| twist_of(body, x))
-                    .collect()
+            let of = |x: &[f64]| {
+                let mut rates = OwnRates::default();
+                rates.take(c, x);
+                rates
             };
             let (a, v) = (of(a), of(v));
             let is_holonomic = c.rows.start < self.0.layout().m;
             let mut unit = vec![0.0; c.rows.len()];
             for i in 0..unit.len() {
                 unit[i] = 1.0;
-                column(&mut |out| element.d_residual_dp(x, twists, &a, f, &unit, out));
+                column(&mut |out| c.d_residual_dp(slots, &a, &unit, out));
                 if moves {
-                    column(&mut |out| element.d_residual_dp(x, &still, &v, &no_f, &unit, out));
+                    column(&mut |out| c.d_power_dp(slots, &v, &unit, out));
                 }
                 if is_holonomic {
-                    column(&mut |out| element.d_phi_dp(x, f, &unit, out));
+                    column(&mut |out| c.d_phi_dp(slots, &unit, out));
                 }
                 unit[i] = 0.0;
             }
@@ -144,8 +115,8 @@ impl DataGradients {
                     }
                 }
             };
-            for &first in &c.bodies {
-                y[first..first + N_BODY].iter().for_each(|y| add(*y));
+            for columns in &c.bodies {
+                y[columns.clone()].iter().for_each(|y| add(*y));
             }
             for row in c.rows.clone() {
                 add(y_lambda[row]);

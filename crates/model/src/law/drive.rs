@@ -13,7 +13,7 @@ use joints::{Argument, Constraint, Definition, Element, ForceElement, Pose, Reco
 
 use super::number::Smooth;
 use super::{DriveForce, Law, LawError};
-use crate::registry::PlaneForce;
+use crate::element::ForceKernels;
 
 /// Largest number of bodies of a joint with a law; no joint of the library has more than three.
 const MOST_BODIES: usize = 4;
@@ -35,7 +35,7 @@ pub(crate) struct LawDrive<K> {
 pub(crate) fn build_law<K: Constraint>(
     arguments: &[Argument],
     law: Law,
-) -> Result<Box<dyn PlaneForce>, LawError> {
+) -> Result<Box<dyn ForceKernels>, LawError> {
     let spec = &K::SPEC;
     let (rows, slots) = (spec.rows.len(), spec.common.slots.len());
     if rows != 1 || slots > MOST_BODIES {
@@ -203,12 +203,12 @@ impl<T: Smooth, K: Constraint> ForceElement<T> for LawDrive<K> {
     }
 }
 
-impl<K: Constraint> PlaneForce for LawDrive<K> {
+impl<K: Constraint> ForceKernels for LawDrive<K> {
     fn recorded(&self) -> &dyn ForceElement<Recorded> {
         self
     }
 
-    fn boxed(&self) -> Box<dyn PlaneForce> {
+    fn boxed(&self) -> Box<dyn ForceKernels> {
         Box::new(self.clone())
     }
 

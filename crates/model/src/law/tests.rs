@@ -4,7 +4,7 @@ use joints::generated::{DistanceLengthDrive, RevoluteAngleDrive, TranslationalDi
 use joints::{Argument, Constraint, Pose, Twist};
 
 use super::*;
-use crate::registry::PlaneForce;
+use crate::element::ForceKernels;
 
 use {Function as F, Join as J};
 use {Operation::Apply, Operation::Measure, Operation::Number as N, Operation::Rate};
@@ -113,7 +113,7 @@ fn some_law() -> Law {
     ])
 }
 
-fn force<K: Constraint>(law: Law, arguments: &[Argument], start: &[Pose]) -> Box<dyn PlaneForce> {
+fn force<K: Constraint>(law: Law, arguments: &[Argument], start: &[Pose]) -> Box<dyn ForceKernels> {
     let mut force = build_law::<K>(arguments, law).expect("a row and two bodies");
     force.initialise(start);
     force
@@ -126,7 +126,7 @@ fn at_start() -> [Pose; 2] {
 }
 
 /// The three kinds of measure, each somewhere else than at its start.
-fn forces() -> [Box<dyn PlaneForce>; 3] {
+fn forces() -> [Box<dyn ForceKernels>; 3] {
     let pair = |x, y| Argument::Pair([x, y]);
     let (s_i, s_j, axis) = (pair(0.2, 0.1), pair(-0.3, 0.4), pair(0.6, 0.8));
     let points = [s_i.clone(), s_j.clone(), Argument::Absent];

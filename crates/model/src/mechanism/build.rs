@@ -8,14 +8,14 @@ use joints::{LARGEST, is_usable};
 
 use super::check;
 use super::work::held_bodies;
-use super::{Elements, Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction, initialise};
+use super::{Elements, Mechanism, TimeFunction, initialise};
 use crate::description::{Body, BodyRef, Description};
+use crate::element::{ConstraintKernels, ForceKernels, PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
 use crate::observed::Observed;
-use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::space::SpaceKind;
-use crate::system::{Layout, RowLabel, Site};
+use crate::system::{Layout, RowLabel};
 use crate::tolerance::{Stated, Tolerance};
 
 /// One fault of a description.
@@ -226,7 +226,7 @@ impl Mechanism {
         if !errors.is_empty() {
             return Err(errors);
         }
-        let mut b = Builder::default();
+        let mut b = Builder::new(d.space);
         b.joints(d, Level::Holonomic);
         for drive in &d.drives {
             b.constraint(
@@ -249,7 +249,7 @@ impl Mechanism {
         let weight = weight
             .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
             .collect();
-        let mut mechanism = b.finish(&d.name, SpaceKind::Plane, d.bodies.clone(), weight);
+        let mut mechanism = b.finish(&d.name, d.bodies.clone(), weight);
         mechanism.tolerance = d.tolerance;
         mechanism.observed = d.observed.clone();
         let (q, _) = mechanism.described_state();
@@ -372,7 +372,7 @@ fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
 }
 
 fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
-    let constraint = |element: &dyn PlaneConstraint| (element.spec(), element.points());
+    let constraint = |element: &dyn ConstraintKernels| (element.spec(), element.points());
     for j in &d.joints {
         let (spec, points) = constraint(j.element.as_ref());
         check_role(&j.name, spec, Role::Joint, "joints", errors);
@@ -478,13 +478,22 @@ fn check_place(
 }
 
 /// Extends the lists of a mechanism, element by element.
-#[derive(Default)]
 pub(super) struct Builder {
     elements: Elements,
     pub(super) layout: Layout,
 }
 
 impl Builder {
+    pub(super) fn new(space: SpaceKind) -> Self {
+        Self {
+            elements: Elements::default(),
+            layout: Layout {
+                space,
+                ..Layout::default()
+            },
+        }
+    }
+
     /// Adds the joints of one level.
     fn joints(&mut self, d: &Description, level: Level) {
         for j in d.joints.iter().filter(|j| j.element.spec().level == level) {
@@ -499,7 +508,7 @@ impl Builder {
         name: &str,
         kind: ConstraintKind,
         bodies: &[BodyRef],
-        element: &dyn PlaneConstraint,
+        element: &dyn ConstraintKernels,
         functions: &[Function],
         tolerance: Option<f64>,
     ) {
@@ -525,26 +534,16 @@ impl Builder {
                     .map(|(at, e)| (e.slot, e.dof, first_entry + at)),
             );
         }
-        let varying = spec
-            .c
-            .iter()
-            .enumerate()
-            .filter(|(_, e)| !e.constant)
-            .map(|(at, _)| at);
         let offset = |f: &Function| match kind {
             ConstraintKind::Drive => f.jet(0.0)[0],
             ConstraintKind::Joint => 0.0,
         };
-        let placed = PlacedConstraint {
-            element: element.boxed(),
-            site: self.site(bodies, functions, offset),
-            entries,
-            varying: varying.collect(),
-            rows: rows.clone(),
-            tolerance,
-        };
+        let site = self.site(bodies, functions, offset);
+        let places = [entries, rows.clone()];
+        let placed = PlacedConstraint::new(element, site, places, tolerance);
         self.layout.rheonomic |= spec.rheonomic;
         self.layout.groups.push(ConstraintGroup {
+            space: self.layout.space,
             name: name.to_owned(),
             kind,
             spec,
@@ -558,17 +557,12 @@ impl Builder {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: &dyn PlaneForce,
+        element: &dyn ForceKernels,
         functions: &[Function],
     ) {
         let spec = element.spec();
         let site = self.site(bodies, functions, |_| 0.0);
-        let placed = PlacedForce {
-            name: name.to_owned(),
-            element: element.boxed(),
-            columns: spec.q.iter().map(|&k| site.column(k)).collect(),
-            site,
-        };
+        let placed = PlacedForce::new(name, element, site);
         self.elements.block = self.elements.block.max(spec.q.len());
         self.elements.forces.push(placed);
     }
@@ -579,13 +573,14 @@ impl Builder {
         bodies: &[BodyRef],
         entries: impl Iterator<Item = (usize, usize, usize)>,
     ) {
+        let columns = self.layout.space.n_v();
         let pattern = &mut self.layout.pattern;
         if pattern.start.is_empty() {
             pattern.start.push(0);
         }
         for (slot, dof, entry) in entries {
             if let BodyRef::Body(body) = bodies[slot] {
-                pattern.column.push(N_BODY * body + dof);
+                pattern.column.push(columns * body + dof);
                 pattern.entry.push(entry);
             }
         }
@@ -610,6 +605,7 @@ impl Builder {
             });
         }
         Site {
+            space: self.layout.space,
             bodies: bodies.to_vec(),
             slots: first_slot..self.elements.n_slots,
             functions: first..self.elements.functions.len(),
@@ -617,15 +613,10 @@ impl Builder {
     }
 
     /// The mechanism of these bodies; initial values and arms are not yet set.
-    pub(super) fn finish(
-        mut self,
-        name: &str,
-        space: SpaceKind,
-        bodies: Vec<Body>,
-        weight: Vec<f64>,
-    ) -> Mechanism {
+    pub(super) fn finish(mut self, name: &str, bodies: Vec<Body>, weight: Vec<f64>) -> Mechanism {
+        let space = self.layout.space;
         self.layout.n_q = space.n_q() * bodies.len();
-        self.layout.n_v = N_BODY * bodies.len();
+        self.layout.n_v = space.n_v() * bodies.len();
         if self.layout.pattern.start.is_empty() {
             self.layout.pattern.start.push(0);
         }
@@ -634,7 +625,6 @@ impl Builder {
         let mass = bodies.iter();
         Mechanism {
             name: name.to_owned(),
-            space,
             mass: mass.flat_map(|b| [b.mass, b.mass, b.inertia]).collect(),
             weight,
             tolerance: Tolerance::default(),

@@ -4,9 +4,8 @@
 //! All are taken along velocity directions, so that every block has n_v columns: `∂/∂q` means the
 //! change with q as the mechanism moves with a velocity.
 
-use joints::Twist;
-
 use super::Mechanism;
+use crate::element::Rates;
 use crate::system::Scratch;
 
 /// Derivatives at one instant, and the storage for them.
@@ -25,7 +24,7 @@ pub struct Derivatives {
     /// `∂(C·v − b)/∂q`, (m + h) × n_v
     pub velocity_dq: Sparse,
     /// Accelerations of the slots.
-    slots: Vec<Twist>,
+    slots: Rates,
 }
 
 /// A matrix as a sum of entries, in the order of the elements to which they belong. The pattern is
@@ -104,10 +103,10 @@ impl Derivatives {
             residual_dq: Sparse::default(),
             gamma_dv: Sparse::default(),
             velocity_dq: Sparse::default(),
-            slots: vec![Twist::zero(); mechanism.elements.n_slots],
+            slots: Rates::zero(mechanism.elements.n_slots),
         };
         for c in &mechanism.elements.constraints {
-            let spec = c.element.spec();
+            let spec = c.spec();
             let column = |k: usize| c.site.column(k);
             let row = |i: usize| Some(c.rows.start + i);
             d.reaction_dq.push_block(spec.d_force_dx, column, column);
@@ -145,20 +144,18 @@ impl Derivatives {
     /// # Panics
     /// If a slice is too short, or the storage belongs to another mechanism.
     pub fn differentiate(&mut self, mechanism: &Mechanism, a: &[f64], lambda: &[f64], s: &Scratch) {
-        mechanism.elements.spread(a, &mut self.slots);
+        self.slots.take(mechanism.elements.sites(), a);
         let mut reaction_dq = self.reaction_dq.blocks();
         let mut residual_dq = self.residual_dq.blocks();
         let mut gamma_dv = self.gamma_dv.blocks();
         let mut velocity_dq = self.velocity_dq.blocks();
         for c in &mechanism.elements.constraints {
-            let element = &c.element;
-            let spec = element.spec();
-            let (x, v, f) = c.site.xvf(&s.slots);
-            let (a, lambda) = (&self.slots[c.site.slots.clone()], &lambda[c.rows.clone()]);
-            element.d_force_dx(x, f, lambda, reaction_dq(spec.d_force_dx.len()));
-            element.d_residual_dx(x, v, a, f, residual_dq(spec.d_residual_dx.len()));
-            element.d_gamma_dv(x, v, f, gamma_dv(spec.d_gamma_dv.len()));
-            element.d_velocity_dx(x, v, f, velocity_dq(spec.d_velocity_dx.len()));
+            let (spec, s) = (c.spec(), &s.slots);
+            let lambda = &lambda[c.rows.clone()];
+            c.d_force_dx(s, lambda, reaction_dq(spec.d_force_dx.len()));
+            c.d_residual_dx(s, &self.slots, residual_dq(spec.d_residual_dx.len()));
+            c.d_gamma_dv(s, gamma_dv(spec.d_gamma_dv.len()));
+            c.d_velocity_dx(s, velocity_dq(spec.d_velocity_dx.len()));
         }
         differentiate_forces(mechanism, s, [&mut self.force_dq, &mut self.force_dv]);
     }
@@ -176,7 +173,7 @@ impl Derivatives {
 fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
     let mut patterns = [Sparse::default(), Sparse::default()];
     for f in &mechanism.elements.forces {
-        let spec = f.element.spec();
+        let spec = f.spec();
         let column = |k: usize| f.site.column(k);
         patterns[0].push_block(spec.dq_dx, column, column);
         patterns[1].push_block(spec.dq_dv, column, column);
@@ -187,11 +184,9 @@ fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
 fn differentiate_forces(mechanism: &Mechanism, s: &Scratch, [by_q, by_v]: [&mut Sparse; 2]) {
     let (mut force_dq, mut force_dv) = (by_q.blocks(), by_v.blocks());
     for force in &mechanism.elements.forces {
-        let element = &force.element;
-        let spec = element.spec();
-        let (x, v, f) = force.site.xvf(&s.slots);
-        element.dq_dx(x, v, f, force_dq(spec.dq_dx.len()));
-        element.dq_dv(x, v, f, force_dv(spec.dq_dv.len()));
+        let spec = force.spec();
+        force.dq_dx(&s.slots, force_dq(spec.dq_dx.len()));
+        force.dq_dv(&s.slots, force_dv(spec.dq_dv.len()));
     }
 }
 

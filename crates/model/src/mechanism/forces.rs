@@ -3,9 +3,10 @@
 
 use joints::spec::{ForceSpec, Unit};
 
+use super::Mechanism;
 use super::holds::placed;
-use super::{Mechanism, PlacedForce};
 use crate::description::BodyRef;
+use crate::element::PlacedForce;
 use crate::law::DriveForce;
 use crate::system::Scratch;
 
@@ -44,13 +45,12 @@ impl<'m> AppliedForces<'m> {
     /// Their data for a picture; allocates.
     pub fn iter(self) -> impl Iterator<Item = AppliedForce<'m>> {
         self.0.iter().map(|f| {
-            let element = &f.element;
-            let spec = element.spec();
+            let spec = f.spec();
             AppliedForce {
                 name: &f.name,
                 spec,
                 bodies: &f.site.bodies,
-                points: placed(&spec.common, &f.site.bodies, element.points()),
+                points: placed(&spec.common, &f.site.bodies, f.points()),
             }
         })
     }
@@ -60,14 +60,13 @@ impl<'m> AppliedForces<'m> {
     #[must_use]
     pub fn undefined(self, s: &mut Scratch) -> Option<String> {
         self.0.iter().find_map(|force| {
-            let (x, v, f) = force.site.xvf(&s.slots);
-            force.element.q(x, v, f, &mut s.block);
+            force.q(&s.slots, &mut s.block);
             let mut values = s.block[..force.columns.len()].iter();
             if values.all(|value| value.is_finite()) {
                 return None;
             }
             let name = &force.name;
-            Some(match force.element.drive(x, v, f) {
+            Some(match force.drive(&s.slots) {
                 Some(DriveForce {
                     measure,
                     rate,
@@ -83,9 +82,9 @@ impl<'m> AppliedForces<'m> {
     /// Names of the drives by laws and what they apply, "force" or "torque", in the order of the
     /// forces.
     pub fn law_drives(self) -> impl Iterator<Item = (&'m str, &'static str)> {
-        let laws = self.0.iter().filter(|f| f.element.is_law());
+        let laws = self.0.iter().filter(|f| f.is_law());
         laws.map(|force| {
-            let mut units = force.element.spec().common.functions();
+            let mut units = force.spec().common.functions();
             let turns = units.any(|(_, unit)| unit == Unit::Angle);
             (force.name.as_str(), if turns { "torque" } else { "force" })
         })
@@ -94,10 +93,7 @@ impl<'m> AppliedForces<'m> {
     /// Forces and torques of the drives by laws at the pose and the twist of the scratch, each on
     /// the second body along the measure; NaN where one is not defined.
     pub fn of_laws(self, s: &Scratch) -> impl Iterator<Item = f64> {
-        let forces = self.0.iter().filter_map(|force| {
-            let (x, v, f) = force.site.xvf(&s.slots);
-            force.element.drive(x, v, f)
-        });
+        let forces = self.0.iter().filter_map(|force| force.drive(&s.slots));
         forces.map(|d| d.force.unwrap_or(f64::NAN))
     }
 }

@@ -32,8 +32,7 @@ impl Mechanism {
     #[must_use]
     pub fn points(&self, id: ConstraintId) -> Vec<(BodyRef, [f64; 2])> {
         let c = &self.elements.constraints[id.0];
-        let element = &c.element;
-        placed(&element.spec().common, &c.site.bodies, element.points())
+        placed(&c.spec().common, &c.site.bodies, c.points())
     }
 
     /// The joint whose measure a drive prescribes, and the name of the measure: a joint with the

@@ -4,19 +4,21 @@
 //!
 //! The size of the whole mechanism is in [`crate::size`].
 
-use super::{Mechanism, N_BODY};
+use super::Mechanism;
+use crate::element::Bodies;
 use crate::group::ConstraintId;
 use crate::size::scene_size;
+use crate::space::norm;
 use crate::system::{Scratch, System};
 
 /// Takes initial values of joints, drives and forces from a configuration.
 pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
-    let poses = mechanism.space.poses(q);
+    let bodies = Bodies::at(mechanism.space(), q);
     for c in &mut mechanism.elements.constraints {
-        c.element.initialise(&c.site.poses(&poses));
+        c.initialise(&bodies);
     }
     for f in &mut mechanism.elements.forces {
-        f.element.initialise(&f.site.poses(&poses));
+        f.initialise(&bodies);
     }
     mechanism.reach = longest_arms(mechanism, q);
 }
@@ -27,21 +29,16 @@ pub(crate) fn unmet_requirement(
     mechanism: &Mechanism,
     q: &[f64],
 ) -> Option<(String, &'static str)> {
-    let poses = mechanism.space.poses(q);
+    let bodies = Bodies::at(mechanism.space(), q);
     let groups = mechanism.layout.groups.iter();
     let constraints = mechanism.elements.constraints.iter().zip(groups);
-    let mut of_constraints = constraints.filter_map(|(c, group)| {
-        let (element, x) = (&*c.element, c.site.poses(&poses));
-        let words = element.spec().common.requirements;
-        let unmet = (0..words.len()).find(|&k| !element.requirement(k, &x))?;
-        Some((group.name.clone(), words[unmet]))
-    });
-    let mut of_forces = mechanism.elements.forces.iter().filter_map(|f| {
-        let (element, x) = (&*f.element, f.site.poses(&poses));
-        let words = element.spec().common.requirements;
-        let unmet = (0..words.len()).find(|&k| !element.requirement(k, &x))?;
-        Some((f.name.clone(), words[unmet]))
-    });
+    let mut of_constraints = constraints
+        .filter_map(|(c, group)| Some((group.name.clone(), c.unmet_requirement(&bodies)?)));
+    let mut of_forces = mechanism
+        .elements
+        .forces
+        .iter()
+        .filter_map(|f| Some((f.name.clone(), f.unmet_requirement(&bodies)?)));
     of_constraints.next().or_else(|| of_forces.next())
 }
 
@@ -88,19 +85,20 @@ fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
         }
         // At this configuration, a row along a slot is independent of the arm of a pin that moves
         // along the slot.
-        let [x, y] = mechanism.reactions(s).place(ConstraintId(k));
+        let place = mechanism.reactions(s).place(ConstraintId(k));
         for body in constraint.site.moving() {
-            let at = &s.poses[body];
-            arms[body] = arms[body].max((x - at.x).abs()).max((y - at.y).abs());
+            let each = place.iter().zip(s.bodies.origin(body));
+            arms[body] = each.fold(arms[body], |arm, (x, at)| arm.max((x - at).abs()));
         }
         for (j, c) in rows.flat_map(|i| layout.row(s, i)) {
-            if j % N_BODY == 2 {
-                arms[j / N_BODY] = arms[j / N_BODY].max(c.abs());
+            if layout.space.is_rotation(j) {
+                let arm = &mut arms[layout.space.body_of(j)];
+                *arm = arm.max(c.abs());
             }
         }
     }
-    for (arm, at) in arms.iter_mut().zip(&s.poses) {
-        if *arm <= ROUNDINGS * f64::EPSILON * at.x.hypot(at.y) {
+    for (arm, at) in arms.iter_mut().zip(s.bodies.origins()) {
+        if *arm <= ROUNDINGS * f64::EPSILON * norm(&at) {
             *arm = 0.0;
         }
     }

@@ -5,11 +5,11 @@
 use joints::spec::Level;
 use linalg::DisjointSets;
 
+use super::Mechanism;
 use super::build::Builder;
-use super::{Mechanism, N_BODY, PlacedForce};
 use crate::description::BodyRef;
+use crate::element::{PlacedForce, Site};
 use crate::function::Function;
-use crate::system::Site;
 
 /// A mechanism that is a part of another one.
 #[derive(Clone)]
@@ -156,7 +156,7 @@ fn assembled<'a>(
         assert!(here.is_some(), "`{name}` reaches beyond bodies {bodies:?}");
         here.unwrap_or_default()
     };
-    let mut b = Builder::default();
+    let mut b = Builder::new(whole.space());
     let mut rows = Vec::new();
     for &k in groups {
         let (c, group) = (&whole.elements.constraints[k], &whole.layout.groups[k]);
@@ -164,7 +164,7 @@ fn assembled<'a>(
             &group.name,
             group.kind,
             &translated(&group.name, &c.site.bodies),
-            c.element.as_ref(),
+            c.kernels(),
             &laws(whole, &c.site),
             c.tolerance,
         );
@@ -180,22 +180,22 @@ fn assembled<'a>(
     for f in forces {
         let functions = laws(whole, &f.site);
         let to = translated(&f.name, &f.site.bodies);
-        b.force(&f.name, &to, f.element.as_ref(), &functions);
+        b.force(&f.name, &to, f.kernels(), &functions);
     }
     let places = |n: usize| -> Vec<usize> {
         let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));
         each.collect()
     };
-    let velocities = places(N_BODY);
+    let velocities = places(whole.space().n_v());
     let own = bodies.iter().map(|&k| whole.bodies[k].clone()).collect();
     let weight = velocities.iter().map(|&j| whole.weight[j]).collect();
-    let mut mechanism = b.finish(&whole.name, whole.space, own, weight);
+    let mut mechanism = b.finish(&whole.name, own, weight);
     mechanism.tolerance = whole.tolerance;
     mechanism.observed = whole.observed.stated_for(here);
     mechanism.reach = bodies.iter().map(|&k| whole.reach[k]).collect();
     let places = Places {
         bodies: bodies.to_vec(),
-        coordinates: places(whole.space.n_q()),
+        coordinates: places(whole.space().n_q()),
         velocities,
         rows,
         groups: groups.to_vec(),

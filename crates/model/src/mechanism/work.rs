@@ -1,7 +1,8 @@
 //! The work of the kernels of a mechanism at each evaluation, and the work that its structure makes
 //! unnecessary. The kernels use the same tests.
 
-use super::{Elements, Mechanism, N_BODY, PlacedConstraint};
+use super::{Elements, Mechanism};
+use crate::element::PlacedConstraint;
 use crate::system::Layout;
 
 /// Amount of work at each evaluation.
@@ -115,7 +116,7 @@ fn constant_row(
             return None;
         }
         if elements.entries[entry] != 0.0 {
-            bodies.push(pattern.column[k] / N_BODY);
+            bodies.push(layout.space.body_of(pattern.column[k]));
         }
     }
     Some(bodies)

@@ -8,7 +8,7 @@ use super::dependent::DependentVelocities;
 use super::error::StartError;
 use super::options::CorrectionLimit;
 use super::velocity::{Hold, Miss, Start};
-use crate::mechanism::N_BODY;
+use crate::mechanism::Mechanism;
 use crate::system::{RowLabel, System};
 
 /// Largest number of velocities to leave out that are searched for.
@@ -72,10 +72,10 @@ impl Start<'_> {
             drives,
             with_others,
         } = self.fault(rows, &candidates)?;
-        let body = &mechanism.bodies()[column / N_BODY];
+        let body = &mechanism.bodies()[mechanism.space().body_of(column)];
         Ok(VelocityConflict {
             body: body.name.clone(),
-            coordinate: NAMES[column % N_BODY],
+            coordinate: velocity_name(mechanism, column),
             given: self.written[column],
             is_kept: self.hold[column] == Hold::Kept,
             nearest: nearest[column],
@@ -224,13 +224,14 @@ impl Start<'_> {
     /// Frees a velocity by removing something that the author of a scene can remove; returns how
     /// the freed velocities were held.
     fn free(&self, column: usize, hold: &mut [Hold]) -> (HeldVelocity, Vec<(usize, Hold)>) {
-        let body = self.equations.mechanism.bodies()[column / N_BODY]
-            .name
-            .clone();
-        let first = column - column % N_BODY;
-        let own = match column % N_BODY {
-            2 => column..column + 1,
-            _ => first..first + 2,
+        let mechanism = self.equations.mechanism;
+        let (space, at) = (mechanism.space(), mechanism.space().body_of(column));
+        let body = mechanism.bodies()[at].name.clone();
+        let turns = space.is_rotation(column);
+        let own = if turns {
+            space.rotations_of(at)
+        } else {
+            space.translations_of(at)
         };
         // An entry of `keep` is removed before the velocity that it holds, because it would hold
         // zero otherwise.
@@ -240,21 +241,25 @@ impl Start<'_> {
             } else {
                 Hold::No
             };
-            let coordinate = NAMES[kept % N_BODY];
+            let coordinate = velocity_name(mechanism, kept);
             let before = std::mem::replace(&mut hold[kept], to);
             return (
                 HeldVelocity::Keep { body, coordinate },
                 vec![(kept, before)],
             );
         }
-        let what = match column % N_BODY {
-            2 => HeldVelocity::AngularVelocity { body },
-            _ => HeldVelocity::Velocity { body },
+        let what = if turns {
+            HeldVelocity::AngularVelocity { body }
+        } else {
+            HeldVelocity::Velocity { body }
         };
         let before = own.map(|j| (j, std::mem::replace(&mut hold[j], Hold::No)));
         (what, before.collect())
     }
 }
 
-/// Names of the velocities of a body.
-const NAMES: [&str; N_BODY] = ["vx", "vy", "omega"];
+/// Name of the velocity of a column of C.
+fn velocity_name(mechanism: &Mechanism, column: usize) -> &'static str {
+    let space = mechanism.space();
+    space.velocities()[space.dof_of(column)]
+}

@@ -17,8 +17,9 @@ use rank::{Circuit, circuits, decide};
 
 use super::error::StartError;
 use super::metric::{DAMPING, ROUNDINGS, weights};
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::mechanism::Mechanism;
 use crate::size::size_of;
+use crate::space::norm;
 use crate::system::{Scratch, System};
 use crate::uncertainty::Known;
 
@@ -96,9 +97,13 @@ impl<'m> Equations<'m> {
     /// The fastest rate of some velocities (1/s): rotations, and translations divided by the
     /// longest arm of their body.
     pub(super) fn fastest(&self, columns: impl Iterator<Item = usize>, v: &[f64]) -> f64 {
-        let arm = |j: usize| match j % N_BODY {
-            2 => 1.0,
-            _ => self.mechanism.reach(j / N_BODY),
+        let space = self.mechanism.space();
+        let arm = |j: usize| {
+            if space.is_rotation(j) {
+                1.0
+            } else {
+                self.mechanism.reach(space.body_of(j))
+            }
         };
         columns.map(|j| v[j].abs() / arm(j)).fold(0.0, f64::max)
     }
@@ -112,8 +117,8 @@ impl<'m> Equations<'m> {
 
     /// Up to this value velocity `j` counts as zero.
     pub(super) fn rest_of(&self, j: usize) -> f64 {
-        let pose = &self.s.poses[j / N_BODY];
-        let place = pose.x.hypot(pose.y).max(self.size);
+        let body = self.mechanism.space().body_of(j);
+        let place = norm(&self.s.bodies.origin(body)).max(self.size);
         let rest = ROUNDINGS.powi(2) * f64::EPSILON * self.rest_rate * place;
         rest / self.arm(j)
     }
@@ -121,7 +126,11 @@ impl<'m> Equations<'m> {
     /// Factor that converts a velocity into that of a point: the size of the mechanism for
     /// rotations.
     pub(super) fn arm(&self, j: usize) -> f64 {
-        if j % N_BODY == 2 { self.size } else { 1.0 }
+        if self.mechanism.space().is_rotation(j) {
+            self.size
+        } else {
+            1.0
+        }
     }
 
     /// The velocities of some rows, ascending.
@@ -328,9 +337,10 @@ impl Part {
         };
         let c = SparseMatrix::from_rows(columns.len(), rows.iter().map(entries))?;
         let mut blocks: Vec<std::ops::Range<usize>> = Vec::new();
+        let body_of = |j: usize| layout.space.body_of(j);
         for l in 0..columns.len() {
             match blocks.last_mut() {
-                Some(last) if columns[last.start] / N_BODY == columns[l] / N_BODY => {
+                Some(last) if body_of(columns[last.start]) == body_of(columns[l]) => {
                     last.end = l + 1;
                 }
                 _ => blocks.push(l..l + 1),

@@ -3,7 +3,7 @@
 use linalg::Matrix;
 
 use super::error::StartError;
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::mechanism::Mechanism;
 use crate::system::{Layout, Scratch, System};
 
 /// Rows that restrict a start, and the inverse weights of its coordinates.
@@ -60,7 +60,8 @@ const LIGHTEST: f64 = 1e-30;
 /// Inverse weights of the coordinates in the mass metric; coordinates without mass or inertia have
 /// the weight of the smallest one with mass or inertia.
 pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
-    let unit = |k: usize| if k % N_BODY == 2 { size * size } else { 1.0 };
+    let turns = |j: usize| mechanism.space().is_rotation(j);
+    let unit = |j: usize| if turns(j) { size * size } else { 1.0 };
     let comparable = mechanism
         .mass()
         .iter()
@@ -76,10 +77,7 @@ pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     };
     let mass: Vec<f64> = mechanism.mass().iter().enumerate().map(least).collect();
     let smallest = |angles: bool| {
-        let of_kind = mass
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| (k % N_BODY == 2) == angles);
+        let of_kind = mass.iter().enumerate().filter(|(k, _)| turns(*k) == angles);
         let positive = of_kind.map(|(_, &m)| m).filter(|&m| m > 0.0);
         positive.fold(f64::INFINITY, f64::min)
     };
@@ -88,7 +86,7 @@ pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
         if m > 0.0 {
             1.0 / m
         } else {
-            1.0 / fallback[usize::from(k % N_BODY == 2)]
+            1.0 / fallback[usize::from(turns(k))]
         }
     };
     mass.iter().enumerate().map(weight).collect()

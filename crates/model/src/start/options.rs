@@ -1,7 +1,7 @@
 //! Options of a start.
 
 use super::error::StartError;
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::mechanism::Mechanism;
 
 /// Options of a start.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,7 +31,7 @@ pub enum CorrectionLimit {
 pub struct Coordinate {
     /// Index of the body in the list.
     pub body: usize,
-    /// 0 for x, 1 for y, 2 for the angle.
+    /// Index of its velocity: in the plane 0 for x, 1 for y, 2 for the angle.
     pub dof: usize,
     /// Position or velocity.
     pub level: KeepLevel,
@@ -52,24 +52,29 @@ pub(super) fn kept_columns(
     options: &StartOptions,
     level: KeepLevel,
 ) -> Result<Vec<usize>, StartError> {
-    let bodies = mechanism.bodies().len();
+    let (space, bodies) = (mechanism.space(), mechanism.bodies().len());
     let kept = || options.keep.iter().filter(|c| c.level == level);
     kept()
         .map(|&Coordinate { body, dof, .. }| {
-            if body >= bodies || dof >= N_BODY {
+            if body >= bodies || dof >= space.n_v() {
                 return Err(StartError::NoCoordinate { body, dof, bodies });
             }
             let described = &mechanism.bodies()[body];
-            let turns = |c: &Coordinate| (c.body, c.dof) == (body, 2);
+            let turns = |dof: usize| dof >= space.n_translations();
+            let is_kept = |rotation: usize| {
+                let turn = (body, space.n_translations() + rotation);
+                kept().any(|c| (c.body, c.dof) == turn)
+            };
+            let is_turn_kept = || (0..space.n_rotations()).all(is_kept);
             let is_open = match level {
                 KeepLevel::Position => false,
                 KeepLevel::Velocity => described.velocity.is_none(),
             };
-            if dof < 2 && !described.is_centred() && (is_open || !kept().any(turns)) {
+            if !turns(dof) && !described.is_centred() && (is_open || !is_turn_kept()) {
                 let body = described.name.clone();
                 return Err(StartError::KeptOrigin { body, level });
             }
-            Ok(N_BODY * body + dof)
+            Ok(space.n_v() * body + dof)
         })
         .collect()
 }

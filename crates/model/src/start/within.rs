@@ -10,7 +10,7 @@ use linalg::{Matrix, small_svd};
 use super::error::StartError;
 use super::metric::{Restricting, dense_rows};
 use crate::data::{DataBlock, DataUnit, SHARED};
-use crate::mechanism::{Mechanism, N_BODY};
+use crate::mechanism::Mechanism;
 use crate::size::size_of;
 use crate::system::{Scratch, System};
 use crate::uncertainty::ROUNDING;
@@ -77,7 +77,7 @@ fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
         length => length,
     };
     let unit = |k: usize| {
-        if k % N_BODY == 2 {
+        if mechanism.space().is_rotation(k) {
             length / size
         } else {
             length

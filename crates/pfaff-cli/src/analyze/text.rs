@@ -223,10 +223,12 @@ fn numbers_of(g: &GroupDocument) -> String {
         None => format!("{} {}", c.name, spoken(c.verdict.verdict)),
     });
     let components: Vec<String> = components.collect();
-    let about = g.about.map(|at| at.map(|x| (1e4 * x).round() / 1e4 + 0.0));
+    let rounded = |x: &f64| ((1e4 * x).round() / 1e4 + 0.0).to_string();
+    let about = g.about.as_ref();
+    let about = about.map(|at| at.iter().map(rounded).collect::<Vec<_>>().join(", "));
     match (components.as_slice(), about) {
         ([], _) => String::new(),
-        (all, Some([x, y])) => format!(": {}; T about ({x}, {y})", all.join(", ")),
+        (all, Some(about)) => format!(": {}; T about ({about})", all.join(", ")),
         (all, None) => format!(": {}", all.join(", ")),
     }
 }
@@ -238,11 +240,12 @@ fn frames(d: &AnalysisDocument) -> String {
     let open = d.reactions.iter().filter(|r| r.wrench.verdict != "unique");
     for r in open {
         for f in &r.frames {
-            let [x, y] = f.axes[0];
+            let axis = f.axes[0].iter().map(|x| format!("{x:.3}"));
+            let axis = axis.collect::<Vec<_>>().join(", ");
             table.push(vec![
                 r.name.clone(),
                 spoken(f.frame),
-                format!("({x:.3}, {y:.3})"),
+                format!("({axis})"),
                 each(&f.components),
             ]);
         }

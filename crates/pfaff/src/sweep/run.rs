@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dynamics::{MotionFault, Prepared, Sample, Stop, Summary};
 use model::Mechanism;
-use model::frame::COLUMNS;
+use model::space::norm;
 use report::sweep::{Extreme, SweepMotion};
 use report::{SweepRow, SweepStatus};
 use solvability::{Analysis, analyse};
@@ -136,10 +136,11 @@ impl<'s> Watch<'s> {
             verdict.is_some_and(|v| v.is_unique())
         };
         // Nothing is unique of a reaction that this run does not have.
+        let columns = study.prepared.mechanism.space().columns().len();
         let known = |&k: &Option<usize>| k.map_or((0, false), |k| (k, is_unique(k)));
         Self {
             t_state: f64::NAN,
-            state: vec![f64::NAN; COLUMNS.len() * study.prepared.mechanism.bodies().len()],
+            state: vec![f64::NAN; columns * study.prepared.mechanism.bodies().len()],
             mechanism: &study.prepared.mechanism,
             reactions: reactions.iter().map(known).collect(),
             extremes: vec![Extreme::UNKNOWN; reactions.len()],
@@ -148,9 +149,13 @@ impl<'s> Watch<'s> {
 
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
         self.t_state = sample.t;
-        for (body, state) in self.state.chunks_exact_mut(COLUMNS.len()).enumerate() {
+        let columns = self.mechanism.space().columns().len();
+        for (body, state) in self.state.chunks_exact_mut(columns).enumerate() {
             let frame = self.mechanism.frames().body(body, sample.q, sample.v);
-            state.copy_from_slice(&frame.numbers());
+            state
+                .iter_mut()
+                .zip(frame.numbers())
+                .for_each(|(to, x)| *to = x);
         }
         if !self.reactions.iter().any(|(_, is_unique)| *is_unique) {
             return Ok(());
@@ -158,8 +163,8 @@ impl<'s> Watch<'s> {
         let all = sample.reactions()?;
         for ((k, is_unique), extreme) in self.reactions.iter().zip(&mut self.extremes) {
             if *is_unique && let Some(reaction) = all.get(*k) {
-                let force = reaction.force[0].hypot(reaction.force[1]);
-                extreme.include(sample.t, force, reaction.torque.abs());
+                let force = norm(&reaction.force);
+                extreme.include(sample.t, force, norm(&reaction.torque));
             }
         }
         Ok(())

@@ -95,7 +95,7 @@ pub(super) fn look(
     let (mut observations, mut early) = (Vec::new(), None);
     let outcome = study.run_until(&options, interrupted, |sample| {
         if times.has(sample.t) {
-            observations.push(Observation::of(sample)?);
+            observations.push(Observation::of(sample, study.prepared.mechanism.space())?);
         }
         let is_late = clock.elapsed().as_secs_f64() > budget;
         early = is_late.then_some(Ending::GivenUp(sample.t));

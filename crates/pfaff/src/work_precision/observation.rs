@@ -2,8 +2,7 @@
 //! and reactions, by index.
 
 use dynamics::{MotionFault, Sample};
-use model::reaction::COMPONENTS;
-use model::{ColumnKind, Mechanism, Reaction, System};
+use model::{ColumnKind, Mechanism, Reaction, SpaceKind, System};
 
 /// Kinds of quantities: values of the same kind are compared with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,13 +32,11 @@ impl Kind {
         }
         let mut groups = mechanism.layout().groups.iter();
         let group = groups.position(|g| g.name == of)?;
-        let component = COMPONENTS.iter().position(|c| *c == name);
-        Some(reaction_place(group, component.unwrap_or(COMPONENTS.len())))
+        let space = mechanism.space();
+        let component = space.component(name).unwrap_or(space.n_v());
+        Some(reaction_place(mechanism, group, component))
     }
 }
-
-/// Numbers for each joint or drive: force, torque, and the named component, if it has one.
-const PER_REACTION: usize = COMPONENTS.len() + 1;
 
 /// All quantities compared at one instant, by kind in the order of [`Kind`].
 #[derive(Clone, Debug)]
@@ -52,19 +49,19 @@ pub struct Observation {
 
 impl Observation {
     /// Takes the quantities of a row of output.
-    pub(super) fn of(sample: &mut Sample<'_, '_>) -> Result<Self, MotionFault> {
+    pub(super) fn of(sample: &mut Sample<'_, '_>, space: SpaceKind) -> Result<Self, MotionFault> {
         let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
         let [q, v] = [sample.q.to_vec(), sample.v.to_vec()];
-        Ok(Self::new(sample.t, [q, v, a], &reactions))
+        Ok(Self::new(space, sample.t, [q, v, a], &reactions))
     }
 
     /// Coordinates, velocities and accelerations at a time, with the reactions of all joints and
     /// drives.
     #[must_use]
-    pub fn new(t: f64, [q, v, a]: [Vec<f64>; 3], reactions: &[Reaction]) -> Self {
+    pub fn new(space: SpaceKind, t: f64, [q, v, a]: [Vec<f64>; 3], reactions: &[Reaction]) -> Self {
         let numbers = reactions.iter().flat_map(|r| {
             let component = r.component.unwrap_or(f64::NAN);
-            [r.force[0], r.force[1], r.torque, component]
+            r.components(space).chain([component])
         });
         let reactions = numbers.collect();
         Self {
@@ -75,9 +72,10 @@ impl Observation {
     }
 }
 
-/// Index of a component of a reaction.
-pub(super) fn reaction_place(group: usize, component: usize) -> usize {
-    PER_REACTION * group + component
+/// Index of a component of a reaction: for each joint or drive there are force, torque, and the
+/// named component, if it has one.
+pub(super) fn reaction_place(mechanism: &Mechanism, group: usize, component: usize) -> usize {
+    (mechanism.space().n_v() + 1) * group + component
 }
 
 /// Units by which the values of each kind are divided so that they can be compared with each other:
@@ -92,6 +90,9 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
         })
         .collect();
     let groups = mechanism.layout().groups.len();
-    let reactions = [1.0, 1.0, size, 1.0].repeat(groups);
+    let space = mechanism.space();
+    let mut of_reaction = vec![1.0; space.n_v() + 1];
+    of_reaction[space.torques()].fill(size);
+    let reactions = of_reaction.repeat(groups);
     [columns.clone(), columns.clone(), columns, reactions]
 }

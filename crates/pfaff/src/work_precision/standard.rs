@@ -202,11 +202,11 @@ pub(super) fn unique_reactions(
         let analysis = analyse(mechanism, row.t, &row.q)?;
         unique.retain(|&(g, c)| {
             let components = &analysis.reactions[g].components;
-            let name = model::reaction::COMPONENTS[c];
+            let name = mechanism.space().components()[c];
             let found = components.iter().find(|v| v.name == name);
             found.is_some_and(|v| v.judgement.verdict.is_unique())
         });
     }
-    let place = |(g, c): (usize, usize)| reaction_place(g, c);
+    let place = |(g, c): (usize, usize)| reaction_place(mechanism, g, c);
     Ok(unique.into_iter().map(place).collect())
 }

@@ -49,7 +49,7 @@ pub struct FreeMotionDocument {
     /// `[vx, vy, omega]` of the moving bodies (m/s, rad/s), for each degree of freedom in the
     /// description: three for a body that is free as a whole, otherwise one. The largest rotation
     /// is 1, or the fastest translation if nothing rotates.
-    pub velocities: Vec<Named<[f64; 3]>>,
+    pub velocities: Vec<Named<Vec<f64>>>,
 }
 
 /// Freedoms that are only counted.
@@ -162,6 +162,10 @@ impl WithoutDrivesDocument {
     }
 }
 
+fn shown_all(v: &[f64]) -> Vec<f64> {
+    v.iter().copied().map(shown).collect()
+}
+
 fn told(motions: &FreeMotions, mechanism: &Mechanism) -> Vec<FreeMotionDocument> {
     let told = |motion: &FreeMotion| FreeMotionDocument {
         text: motion.text.clone(),
@@ -171,7 +175,7 @@ fn told(motions: &FreeMotions, mechanism: &Mechanism) -> Vec<FreeMotionDocument>
             .map(|bodies| {
                 let named = bodies
                     .iter()
-                    .map(|(b, v)| (mechanism.bodies()[*b].name.clone(), v.map(shown)));
+                    .map(|(b, v)| (mechanism.bodies()[*b].name.clone(), shown_all(v)));
                 Named(named.collect())
             })
             .collect(),

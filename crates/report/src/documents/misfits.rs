@@ -4,6 +4,8 @@
 use std::fmt;
 
 use dynamics::{Misfit, MotionError};
+use model::SpaceKind;
+use model::space::norm;
 use serde::Serialize;
 
 use super::from_one;
@@ -120,12 +122,12 @@ impl SpreadDocument {
         }
     }
 
-    /// Takes the displacements between both runs at a time, three for each body.
-    pub fn take(&mut self, t: f64, apart: &[f64]) {
+    /// Takes the displacements between both runs at a time, along the columns of C.
+    pub fn take(&mut self, t: f64, apart: &[f64], space: SpaceKind) {
         let before = (self.position, self.angle);
-        for body in apart.chunks_exact(3) {
-            self.position = self.position.max(body[0].hypot(body[1]));
-            self.angle = self.angle.max(body[2].abs());
+        for body in apart.chunks_exact(space.n_v()) {
+            self.position = self.position.max(norm(&body[space.forces()]));
+            self.angle = self.angle.max(norm(&body[space.torques()]));
         }
         if self.position > before.0 || self.position == 0.0 && self.angle > before.1 {
             self.time = t;

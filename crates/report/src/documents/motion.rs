@@ -1,7 +1,6 @@
 //! A motion with its rows as plain data: the combined contents of `summary.json`, `trajectory.csv`
 //! and `reactions.csv`.
 
-use model::reaction::COMPONENTS;
 use model::{FrameState, Mechanism, Reaction, System};
 use serde::Serialize;
 
@@ -32,10 +31,10 @@ pub struct MomentDocument {
     /// Time (s).
     pub t: f64,
     /// Bodies by name, in the order of the coordinates.
-    pub bodies: Named<BodyStateDocument>,
+    pub bodies: Named<Named<f64>>,
     /// Markers by name.
     #[serde(skip_serializing_if = "Named::is_empty")]
-    pub markers: Named<BodyStateDocument>,
+    pub markers: Named<Named<f64>>,
     /// Measures by name (m, rad, m/s, rad/s).
     #[serde(skip_serializing_if = "Named::is_empty")]
     pub measures: Named<f64>,
@@ -45,37 +44,18 @@ pub struct MomentDocument {
     pub reactions: Named<Named<f64>>,
 }
 
-/// Position and velocity of a body or marker.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct BodyStateDocument {
-    /// x of the origin of the body's frame, which is its centre of mass unless the scene says
-    /// otherwise, or of the marker (m).
-    pub x: f64,
-    /// y of the same point (m).
-    pub y: f64,
-    /// Angle (rad), not reduced to one revolution.
-    pub angle: f64,
-    /// dx/dt (m/s)
-    pub vx: f64,
-    /// dy/dt (m/s)
-    pub vy: f64,
-    /// Angular velocity (rad/s).
-    pub omega: f64,
-}
-
-impl From<FrameState> for BodyStateDocument {
-    fn from(state: FrameState) -> Self {
-        let [x, y, angle, vx, vy, omega] = state.numbers();
-        Self {
-            x,
-            y,
-            angle,
-            vx,
-            vy,
-            omega,
-        }
-    }
+/// Position and velocity of a body or marker by the names of the columns of its space; in the plane
+/// `x`, `y` (m), `angle` (rad, not reduced to one revolution), `vx`, `vy` (m/s) and `omega` (rad/s)
+/// of the origin of the body's frame, which is its centre of mass unless the scene says otherwise,
+/// or of the marker.
+fn state(of: &FrameState) -> Named<f64> {
+    let columns = of.space.columns().iter();
+    Named(
+        columns
+            .map(|name| (*name).to_owned())
+            .zip(of.numbers())
+            .collect(),
+    )
 }
 
 impl MomentDocument {
@@ -93,18 +73,19 @@ impl MomentDocument {
         reactions: &[Reaction],
     ) -> Self {
         let bodies = mechanism.bodies().iter().enumerate();
-        let bodies = bodies.map(|(k, b)| (b.name.clone(), mechanism.frames().body(k, q, v).into()));
+        let bodies =
+            bodies.map(|(k, b)| (b.name.clone(), state(&mechanism.frames().body(k, q, v))));
         let observed = mechanism.frames().observed();
         let markers = observed.markers.iter().enumerate();
         let markers =
-            markers.map(|(k, m)| (m.name.clone(), mechanism.frames().marker(k, q, v).into()));
+            markers.map(|(k, m)| (m.name.clone(), state(&mechanism.frames().marker(k, q, v))));
         let measures = observed.measures.iter().enumerate();
         let measures = measures.map(|(k, m)| (m.name.clone(), mechanism.frames().measure(k, q, v)));
         let groups = mechanism.layout().groups.iter().zip(reactions);
         let reactions = groups.map(|(group, reaction)| {
-            let names = COMPONENTS.into_iter().chain(group.spec.component);
-            let [fx, fy] = reaction.force;
-            let numbers = [fx, fy, reaction.torque].into_iter();
+            let names = group.space.components().iter().copied();
+            let names = names.chain(group.spec.component);
+            let numbers = reaction.components(group.space);
             let numbers = names.zip(numbers.chain(reaction.component));
             let numbers = numbers.map(|(name, value)| (name.to_owned(), value));
             (group.name.clone(), Named(numbers.collect()))

@@ -6,7 +6,7 @@ use joints::Pose;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 use serde::Serialize;
 
-use super::geometry::{Site, site, sites};
+use super::geometry::{Site, flat, site, sites};
 use super::outline::{double_area, hull};
 use super::symbol::{SPRING, Shapes, Symbol};
 use crate::channel::{Channel, Rounded};
@@ -220,7 +220,8 @@ impl Stage<'_> {
     /// Coordinates of its bodies in a frame.
     fn q(&self, frame: &Frame) -> Vec<f64> {
         let own = self.bodies.iter();
-        own.flat_map(|&k| frame.q[3 * k..3 * k + 3].iter().copied())
+        let space = self.mechanism.space();
+        own.flat_map(|&k| frame.q[space.coordinates(k)].iter().copied())
             .collect()
     }
 
@@ -247,11 +248,12 @@ impl Stage<'_> {
 
     /// Extent of all centres over the run (m).
     fn size(&self) -> f64 {
+        let space = self.mechanism.space();
         let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
         for frame in self.frames {
             for &k in self.bodies {
                 for (axis, [low, high]) in range.iter_mut().enumerate() {
-                    let x = frame.q[3 * k + axis];
+                    let x = frame.q[space.coordinates(k).start + axis];
                     (*low, *high) = (low.min(x), high.max(x));
                 }
             }
@@ -262,10 +264,12 @@ impl Stage<'_> {
 
     fn body(&self, k: usize, outline: &[[f64; 2]]) -> DrawnBody {
         let at = self.bodies[k];
-        let position =
-            |axis: usize| Channel::new(self.frames.iter().map(move |f| f.q[3 * at + axis]));
-        let velocity =
-            |axis: usize| Channel::new(self.frames.iter().map(move |f| f.v[3 * at + axis]));
+        let (space, first) = (self.mechanism.space(), self.mechanism.space().n_v() * at);
+        let position = |dof: usize| {
+            let all = self.frames.iter();
+            Channel::new(all.map(move |f| space.position(&f.q, first + dof)))
+        };
+        let velocity = |dof: usize| Channel::new(self.frames.iter().map(move |f| f.v[first + dof]));
         let body = &self.mechanism.bodies()[k];
         let origin = body.from_centre([0.0; 2]).map(Rounded);
         DrawnBody {
@@ -443,11 +447,9 @@ fn local(body: BodyRef, [x, y]: [f64; 2], s: &Scratch) -> [f64; 2] {
     let Some(k) = body.moving() else {
         return [x, y];
     };
-    let pose = &s.poses[k];
-    let (dx, dy) = (x - pose.x, y - pose.y);
-    [pose.cos * dx + pose.sin * dy, pose.cos * dy - pose.sin * dx]
+    flat(s.bodies.to_local(k, [x, y, 0.0]))
 }
 
 fn turn(body: BodyRef, s: &Scratch) -> f64 {
-    body.moving().map_or(0.0, |k| s.poses[k].angle)
+    body.moving().map_or(0.0, |k| s.bodies.angle(k))
 }

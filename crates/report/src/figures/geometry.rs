@@ -76,7 +76,7 @@ pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
 pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site {
     let group = &mechanism.layout().groups[id.0];
     let spec = group.spec;
-    let place = finite_or(mechanism.reactions(s).place(id), [0.0, 0.0]);
+    let place = finite_or(flat(mechanism.reactions(s).place(id)), [0.0, 0.0]);
     let map = mechanism.reactions(s).wrench_map(id);
     let rows = Rows::of(group);
     // The line along which the only force acts.
@@ -131,7 +131,7 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [
     let wheel = |slot: usize| {
         let around = [slot, 2].map(|slot| group.bodies.get(slot)?.moving());
         let k = around[0].or(around[1])?;
-        Some((BodyRef::Body(k), [s.poses[k].x, s.poses[k].y]))
+        Some((BodyRef::Body(k), flat(s.bodies.origin(k))))
     };
     let ((first, a), (second, b)) = (wheel(0)?, wheel(1)?);
     let far = a.iter().chain(&b).fold(0.0, |far: f64, x| far.max(x.abs()));
@@ -217,9 +217,14 @@ fn other_end(mechanism: &Mechanism, id: ConstraintId, place: [f64; 2], s: &Scrat
     let points = mechanism.points(id);
     let end = points.get(1).map(|&(body, point)| match body {
         BodyRef::Ground => point,
-        BodyRef::Body(k) => s.poses[k].to_global(point),
+        BodyRef::Body(k) => flat(s.bodies.to_global(k, [point[0], point[1], 0.0])),
     });
     finite_or(end.unwrap_or(place), place)
+}
+
+/// The part of a point that planar pictures show.
+pub(crate) fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {
+    [x, y]
 }
 
 fn finite_or(point: [f64; 2], otherwise: [f64; 2]) -> [f64; 2] {

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use model::reaction::COMPONENTS;
-use model::{Measure, Mechanism, System};
+use model::{Measure, Mechanism, SpaceKind, System};
 use serde::Serialize;
 
 use super::comparison::{Comparison, Freedom};
@@ -254,7 +253,7 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
         known
             .map(|c| Component {
                 name: c.name,
-                unit: unit(c.name),
+                unit: unit(group.space, c.name),
                 verdict: c.verdict.verdict,
             })
             .collect()
@@ -286,7 +285,7 @@ fn reaction(frames: &[Frame], k: usize, noise: f64) -> Option<Reaction> {
     let wanted = frames.iter().all(|f| f.reactions.len() > k);
     let of = |frame: &Frame| {
         let r = &frame.reactions[k];
-        [r.force[0], r.force[1], r.torque]
+        [r.force[0], r.force[1], r.torque[2]]
     };
     let known = wanted && frames.iter().any(|f| of(f).iter().any(|x| x.is_finite()));
     known.then(|| Reaction {
@@ -451,8 +450,11 @@ fn largest_force(frames: &[Frame]) -> f64 {
     largest(all.flat_map(|r| r.force).filter(|x| x.is_finite()))
 }
 
-fn unit(component: &str) -> &'static str {
-    if component == COMPONENTS[2] {
+fn unit(space: SpaceKind, component: &str) -> &'static str {
+    if space
+        .component(component)
+        .is_some_and(|k| space.torques().contains(&k))
+    {
         "N·m"
     } else {
         "N"
@@ -466,7 +468,7 @@ pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     let kept = layout.n_q + layout.n_v + layout.rows() + 4 * layout.groups.len();
     let bodies = mechanism.bodies().len().min(DRAWN_MAX);
     let joints = layout.groups.len().min(DRAWN_MAX);
-    kept + SHOWN * (6 * bodies + 3 * joints)
+    kept + SHOWN * (layout.space.columns().len() * bodies + layout.space.n_v() * joints)
 }
 
 /// A number that is shown has the weight of this many stored numbers.

@@ -2,8 +2,7 @@
 
 use std::io::Write;
 
-use model::reaction::COMPONENTS;
-use model::{Mechanism, Reaction, System};
+use model::{Mechanism, Reaction, SpaceKind, System};
 
 use super::{Table, TableError};
 
@@ -48,6 +47,7 @@ pub struct ReactionTable<W: Write> {
     selected: Vec<(usize, bool)>,
     /// One row, reused.
     values: Vec<f64>,
+    space: SpaceKind,
 }
 
 impl<W: Write> ReactionTable<W> {
@@ -61,12 +61,14 @@ impl<W: Write> ReactionTable<W> {
         let places = selection.places(mechanism)?;
         let mut header = vec!["t".to_owned()];
         for &k in &places {
-            let columns = COMPONENTS.into_iter().chain(groups[k].spec.component);
+            let columns = groups[k].space.components().iter().copied();
+            let columns = columns.chain(groups[k].spec.component);
             header.extend(columns.map(|c| format!("{}.{c}", groups[k].name)));
         }
         Ok(Self {
             table: Table::new("reactions.csv", out, &header)?,
             n_reactions: groups.len(),
+            space: mechanism.space(),
             selected: places
                 .into_iter()
                 .map(|k| (k, groups[k].spec.component.is_some()))
@@ -88,7 +90,7 @@ impl<W: Write> ReactionTable<W> {
         self.values.push(t);
         for &(k, has_component) in &self.selected {
             let r = &reactions[k];
-            self.values.extend([r.force[0], r.force[1], r.torque]);
+            self.values.extend(r.components(self.space));
             if has_component {
                 self.values.push(r.component.unwrap_or(f64::NAN));
             }

@@ -63,8 +63,8 @@ fn trajectory_has_the_header_of_the_contract() {
 /// Reactions of pin, motor and knife edge, in the order of their rows.
 fn reactions() -> [Reaction; 3] {
     let with = |x: f64, component| Reaction {
-        force: [x, 0.5],
-        torque: -x,
+        force: [x, 0.5, 0.0],
+        torque: [0.0, 0.0, -x],
         component,
     };
     [with(1.0, None), with(2.0, Some(7.0)), with(3.0, Some(8.0))]

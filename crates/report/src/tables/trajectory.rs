@@ -2,7 +2,6 @@
 
 use std::io::Write;
 
-use model::frame::COLUMNS;
 use model::{Marker, Mechanism, Scratch, System};
 
 use super::{Table, TableError};
@@ -28,22 +27,24 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
     /// - [`TableError::Write`]: the writer failed.
     pub fn new(out: W, mechanism: &'m Mechanism) -> Result<Self, TableError> {
         let mut header = vec!["t".to_owned()];
+        let columns = mechanism.space().columns();
         for body in mechanism.bodies() {
-            header.extend(COLUMNS.map(|column| format!("{}.{column}", body.name)));
+            let own = columns.iter();
+            header.extend(own.map(|column| format!("{}.{column}", body.name)));
         }
         let observed = mechanism.frames().observed();
         for marker in observed.markers.iter().filter(|m| is_written(m)) {
-            let own = (0..COLUMNS.len()).filter(|k| has_column(marker, *k));
-            header.extend(own.map(|k| format!("{}.{}", marker.name, COLUMNS[k])));
+            let own = columns.iter().filter(|column| has_column(marker, column));
+            header.extend(own.map(|column| format!("{}.{column}", marker.name)));
         }
         header.extend(observed.measures.iter().map(|m| m.name.clone()));
-        let columns = header.len();
+        let n_columns = header.len();
         let laws = mechanism.applied_forces().law_drives();
         header.extend(laws.map(|(name, load)| format!("{name}.{load}")));
         Ok(Self {
             table: Table::new("trajectory.csv", out, &header)?,
             mechanism,
-            s: (header.len() > columns).then(|| mechanism.scratch()),
+            s: (header.len() > n_columns).then(|| mechanism.scratch()),
             values: Vec::with_capacity(header.len()),
         })
     }
@@ -73,10 +74,9 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
                 .frames()
                 .marker(k, q, v)
                 .numbers()
-                .into_iter()
-                .enumerate();
-            let own = all.filter(|(k, _)| has_column(marker, *k));
-            self.values.extend(own.map(|(_, x)| x));
+                .zip(self.mechanism.space().columns());
+            let own = all.filter(|(_, column)| has_column(marker, column));
+            self.values.extend(own.map(|(x, _)| x));
         }
         let measures =
             (0..observed.measures.len()).map(|k| self.mechanism.frames().measure(k, q, v));
@@ -104,7 +104,7 @@ fn is_written(marker: &Marker) -> bool {
     marker.body.moving().is_some()
 }
 
-/// Whether a marker has this one of [`COLUMNS`]; without an angle it is a point.
-fn has_column(marker: &Marker, k: usize) -> bool {
-    marker.angle.is_some() || !matches!(COLUMNS[k], "angle" | "omega")
+/// Whether a marker has this one of [`model::SpaceKind::columns`]; without an angle it is a point.
+fn has_column(marker: &Marker, column: &str) -> bool {
+    marker.angle.is_some() || !matches!(column, "angle" | "omega")
 }

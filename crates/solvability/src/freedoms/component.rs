@@ -2,11 +2,13 @@
 //! each.
 
 use crate::limits::{AT_REST, TRIALS};
-use crate::pose::{COLUMNS, dimensionless, evaluated, velocity_units};
+use crate::pose::{dimensionless, evaluated, velocity_units};
 use std::cmp::Reverse;
 use std::collections::VecDeque;
+use std::ops::Range;
 
 use linalg::{PivotedQr, equilibrate};
+use model::space::{difference, norm, unit_cross};
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
@@ -22,8 +24,8 @@ pub(super) struct Component<'a> {
     units: Vec<f64>,
 }
 
-/// Velocities of all bodies of a component: vx, vy (m/s), ω (rad/s).
-pub(super) type Velocities = Vec<[f64; COLUMNS]>;
+/// Velocities of all bodies of a component: translations (m/s), then rotations (rad/s).
+pub(super) type Velocities = Vec<Vec<f64>>;
 
 /// Number of joints and bodies that move, and their mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
@@ -36,8 +38,8 @@ struct Cost {
 
 /// Free motions of a component.
 pub(super) struct Motions {
-    /// Whether the component moves as one free body: two translations and a rotation, which come
-    /// before all other motions.
+    /// Whether the component moves as one free body: its translations and rotations, which
+    /// come before all other motions.
     pub(super) is_free: bool,
     /// The other motions, those with few moving joints first.
     pub(super) motions: Vec<Velocities>,
@@ -78,7 +80,7 @@ impl<'a> Component<'a> {
         }
         let all = PivotedQr::of_columns(&free).q_columns(0..free.ncols());
         let mut space = Space::new(&all);
-        let is_free = space.left() >= COLUMNS && space.take_out(&self.rigid());
+        let is_free = space.left() >= self.mechanism.space().n_v() && space.take_out(&self.rigid());
         let mut motions = Vec::new();
         while motions.len() < most && space.left() > 0 {
             let Some(v) = self.next(&mut space) else {
@@ -125,7 +127,7 @@ impl<'a> Component<'a> {
                 }
             }
             for &body in &heaviest_first {
-                match space.restricted(&y, &at_rest(body)) {
+                match space.restricted(&y, &self.at_rest(body)) {
                     Some(left) => y = left,
                     None => {
                         cost.bodies += 1;
@@ -184,28 +186,29 @@ impl<'a> Component<'a> {
     fn wishes(&self) -> Vec<Vec<Form>> {
         let bodies = || 0..self.mechanism.bodies().len();
         let pinned = self.mechanism.layout().constraint_ids().flat_map(|id| {
-            let place = self.mechanism.reactions(&self.s).place(id);
+            let place = self.place(id);
             let group = &self.mechanism.layout().groups[id.0];
             let bodies = group.bodies.iter().filter_map(|b| b.moving());
             bodies.map(move |b| self.point_at_rest(b, place))
         });
         let one = |column: usize| vec![vec![(column, 1.0)]];
-        let turns = bodies().map(|b| one(COLUMNS * b + 2));
-        let centres = bodies().map(|b| [one(COLUMNS * b), one(COLUMNS * b + 1)].concat());
-        let axes = bodies().flat_map(|b| [one(COLUMNS * b + 1), one(COLUMNS * b)]);
+        let space = self.mechanism.space();
+        let turns = bodies().flat_map(|b| space.rotations_of(b).map(one));
+        let centres = bodies().map(|b| space.translations_of(b).flat_map(one).collect());
+        let axes = bodies().flat_map(|b| space.translations_of(b).rev().map(one));
         turns.chain(pinned).chain(centres).chain(axes).collect()
     }
 
     /// Forms that vanish if the bodies of a joint move as one; if one of them is the ground, if
     /// they are at rest.
     fn held(&self, group: usize) -> Vec<Form> {
-        let place = self.mechanism.reactions(&self.s).place(ConstraintId(group));
+        let place = self.place(ConstraintId(group));
         let all = &self.mechanism.layout().groups[group].bodies;
         let bodies: Vec<usize> = all.iter().filter_map(|b| b.moving()).collect();
         match bodies.as_slice() {
             // The second body of a joint with only one body is the ground.
             bodies if all.len() == 1 || bodies.len() < all.len() => {
-                bodies.iter().flat_map(|&b| at_rest(b)).collect()
+                bodies.iter().flat_map(|&b| self.at_rest(b)).collect()
             }
             bodies => {
                 let pairs = bodies.windows(2);
@@ -217,20 +220,26 @@ impl<'a> Component<'a> {
     }
 
     /// Forms that vanish if a point of a body is at rest.
-    fn point_at_rest(&self, body: usize, [x, y]: [f64; 2]) -> Vec<Form> {
-        let pose = &self.s.poses[body];
-        let first = COLUMNS * body;
+    fn point_at_rest(&self, body: usize, point: [f64; 3]) -> Vec<Form> {
+        let space = self.mechanism.space();
+        let arm = difference(point, self.origin(body));
         // The coefficients are below 1: the point is within the size of the mechanism, and
         // rotations are scaled by it.
-        let unit = self.units[first + 2];
-        vec![
-            vec![(first, 1.0), (first + 2, -unit * (y - pose.y))],
-            vec![(first + 1, 1.0), (first + 2, unit * (x - pose.x))],
-        ]
+        let turn = |axis: usize, j: usize| {
+            let moved = unit_cross(space.axis_of(space.dof_of(j)), arm);
+            (j, self.units[j] * moved[axis])
+        };
+        let form = |(axis, j): (usize, usize)| {
+            let turns = space.rotations_of(body).map(|j| turn(axis, j));
+            // A rotation about this axis does not move the point along it.
+            let turns = turns.filter(|(j, _)| space.axis_of(space.dof_of(*j)) != axis);
+            std::iter::once((j, 1.0)).chain(turns).collect()
+        };
+        space.translations_of(body).enumerate().map(form).collect()
     }
 
     /// Forms that vanish if two bodies move as one, compared at a point.
-    fn together(&self, [a, b]: [usize; 2], place: [f64; 2]) -> Vec<Form> {
+    fn together(&self, [a, b]: [usize; 2], place: [f64; 3]) -> Vec<Form> {
         let difference = |(mut one, other): (Form, Form)| {
             one.extend(other.into_iter().map(|(j, c)| (j, -c)));
             one
@@ -238,24 +247,43 @@ impl<'a> Component<'a> {
         let points = [a, b].map(|body| self.point_at_rest(body, place));
         let [one, other] = points;
         let mut forms: Vec<Form> = one.into_iter().zip(other).map(difference).collect();
-        forms.push(vec![(COLUMNS * a + 2, 1.0), (COLUMNS * b + 2, -1.0)]);
+        let [a, b] = [a, b].map(|body| self.mechanism.space().rotations_of(body));
+        forms.extend(a.zip(b).map(|(a, b)| vec![(a, 1.0), (b, -1.0)]));
         forms
     }
 
-    /// The motions of all bodies as one rigid body: two translations, and a rotation about the
-    /// centre of mass of the first body; without dimensions.
+    /// The motions of all bodies as one rigid body: translations, and rotations about the centre of
+    /// mass of the first body; without dimensions.
     fn rigid(&self) -> Vec<Vec<f64>> {
-        let centre = self.s.poses.first().map_or([0.0; 2], |p| [p.x, p.y]);
-        let motion = |of: &dyn Fn(f64, f64) -> [f64; COLUMNS]| -> Vec<f64> {
-            let bodies = self.s.poses.iter();
-            let moved = bodies.flat_map(|p| of(p.x - centre[0], p.y - centre[1]));
+        let space = self.mechanism.space();
+        let bodies = self.mechanism.bodies().len();
+        let centre = if bodies == 0 {
+            [0.0; 3]
+        } else {
+            self.origin(0)
+        };
+        let motion = |k: usize| -> Vec<f64> {
+            let arms = (0..bodies).map(|body| difference(self.origin(body), centre));
+            let moved = arms.flat_map(|arm| space.rigid_motion(k, arm));
             moved.zip(&self.units).map(|(v, unit)| v / unit).collect()
         };
-        vec![
-            motion(&|_, _| [1.0, 0.0, 0.0]),
-            motion(&|_, _| [0.0, 1.0, 0.0]),
-            motion(&|x, y| [-y, x, 1.0]),
-        ]
+        (0..space.n_v()).map(motion).collect()
+    }
+
+    /// Forms that vanish if a body is at rest.
+    fn at_rest(&self, body: usize) -> Vec<Form> {
+        let columns = self.mechanism.space().columns_of(body);
+        columns.map(|j| vec![(j, 1.0)]).collect()
+    }
+
+    /// The centre of mass of a body.
+    pub(super) fn origin(&self, body: usize) -> [f64; 3] {
+        self.s.bodies.origin(body)
+    }
+
+    /// The place of a joint or drive.
+    pub(super) fn place(&self, id: ConstraintId) -> [f64; 3] {
+        self.mechanism.reactions(&self.s).place(id)
     }
 
     /// The rigid motions with dimensions.
@@ -270,26 +298,20 @@ impl<'a> Component<'a> {
         let known = |x: f64| if x.abs() > AT_REST * fastest { x } else { 0.0 };
         let scaled = v.iter().zip(&self.units).map(|(x, unit)| known(*x) * unit);
         let scaled: Vec<f64> = scaled.collect();
-        let bodies: Velocities = scaled
-            .chunks_exact(COLUMNS)
-            .map(|b| [b[0], b[1], b[2]])
-            .collect();
-        let largest = |of: fn(&[f64; COLUMNS]) -> f64| bodies.iter().map(of).fold(0.0, f64::max);
-        let unit = match (largest(|b| b[2].abs()), largest(|b| b[0].hypot(b[1]))) {
+        let space = self.mechanism.space();
+        let bodies = || scaled.chunks_exact(space.n_v());
+        let largest = |part: Range<usize>| {
+            let sizes = bodies().map(|v| norm(&v[part.clone()]));
+            sizes.fold(0.0, f64::max)
+        };
+        let unit = match (largest(space.torques()), largest(space.forces())) {
             (0.0, 0.0) => 1.0,
             (0.0, speed) => speed,
             (rotation, _) => rotation,
         };
-        let normalised = bodies.iter().map(|b| b.map(|x| x / unit));
+        let normalised = bodies().map(|v| v.iter().map(|x| x / unit).collect());
         normalised.collect()
     }
-}
-
-/// Forms that vanish if a body is at rest.
-fn at_rest(body: usize) -> Vec<Form> {
-    (COLUMNS * body..COLUMNS * (body + 1))
-        .map(|j| vec![(j, 1.0)])
-        .collect()
 }
 
 /// The number of independent rows in each component, if the rows of all components have this rank

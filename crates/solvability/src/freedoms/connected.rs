@@ -1,10 +1,9 @@
 //! Sets of bodies connected by joints: each has its own rank and is described separately.
 
 use crate::limits::{MOTIONS_REPORTED, ROWS_MAX};
-use crate::pose::COLUMNS;
 use model::{Mechanism, Part, System};
 
-use super::component::{Component, shared_rank};
+use super::component::{Component, Velocities, shared_rank};
 use super::{Decided, FreeMotion, FreeMotions, LeftOut, words};
 
 /// The motions described so far.
@@ -68,6 +67,7 @@ impl<'a> Connected<'a> {
     /// of others, or to be analysed further.
     fn ranks(&self, t: f64, q: &[f64], decided: &[Decided]) -> Vec<Option<usize>> {
         let layout = self.whole.layout();
+        let columns = self.whole.space().n_v();
         let mut set_of = vec![0; self.whole.bodies().len()];
         for (k, set) in self.sets.iter().enumerate() {
             set.iter().for_each(|&b| set_of[b] = k);
@@ -99,7 +99,7 @@ impl<'a> Connected<'a> {
                 continue;
             }
             let is_large = |set: usize, rows: &[usize]| {
-                rows.len() > ROWS_MAX || COLUMNS * self.sets[set].len() > ROWS_MAX
+                rows.len() > ROWS_MAX || columns * self.sets[set].len() > ROWS_MAX
             };
             let too_large = own.iter().any(|(set, rows)| is_large(*set, rows));
             let pivots = own.iter().map(|(set, rows)| {
@@ -116,7 +116,7 @@ impl<'a> Connected<'a> {
             }
         }
         for (k, rank) in ranks.iter_mut().enumerate() {
-            if size[k] > ROWS_MAX || COLUMNS * self.sets[k].len() > ROWS_MAX {
+            if size[k] > ROWS_MAX || columns * self.sets[k].len() > ROWS_MAX {
                 *rank = None;
             }
         }
@@ -158,13 +158,14 @@ impl<'a> Connected<'a> {
 
     fn describe(&self, set: &[usize], t: f64, q: &[f64], rank: usize, described: &mut Described) {
         let most = MOTIONS_REPORTED - described.motions.len().min(MOTIONS_REPORTED);
-        if most == 0 || rank == COLUMNS * set.len() {
+        let columns = self.whole.space().n_v();
+        if most == 0 || rank == columns * set.len() {
             return;
         }
         if self.is_alone(set) {
-            let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
-            let velocities = (0..COLUMNS).map(|k| set.iter().map(|&b| (b, unit(k))).collect());
-            described.freedoms += COLUMNS;
+            let unit = |k: usize| self.whole.space().rigid_motion(k, [0.0; 3]);
+            let velocities = (0..columns).map(|k| set.iter().map(|&b| (b, unit(k))).collect());
+            described.freedoms += columns;
             described.motions.push(FreeMotion {
                 text: words::free(self.whole, set),
                 velocities: velocities.collect(),
@@ -174,12 +175,14 @@ impl<'a> Connected<'a> {
         let part = self.part(set);
         let component = Component::new(&part.mechanism, t, &self.own(set, q));
         let found = component.motions(rank, most);
-        let numbered = |velocities: Vec<[f64; COLUMNS]>| -> Vec<(usize, [f64; COLUMNS])> {
+        let numbered = |velocities: Velocities| -> Vec<(usize, Vec<f64>)> {
             let bodies = set.iter().copied().zip(velocities);
-            bodies.filter(|(_, v)| *v != [0.0; COLUMNS]).collect()
+            bodies
+                .filter(|(_, v)| v.iter().any(|v| *v != 0.0))
+                .collect()
         };
         if found.is_free {
-            described.freedoms += COLUMNS;
+            described.freedoms += columns;
             let velocities = component.rigid_velocities().into_iter();
             described.motions.push(FreeMotion {
                 text: words::free(self.whole, set),

@@ -22,16 +22,16 @@ pub struct LeftOut {
 }
 
 /// One free motion. A body that is attached to nothing, and bodies that are joined only to each
-/// other, have all three rigid motions in one entry.
+/// other, have all rigid motions in one entry.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FreeMotion {
     /// Description, for example "`crank` turns about `A`; with it `coupler` and `rocker` turn".
     pub text: String,
-    /// One list for each degree of freedom, with the bodies that move: index of the body, vx, vy
-    /// (m/s) and ω (rad/s). The largest rotation is 1, or the fastest translation if nothing
+    /// One list for each degree of freedom, with the bodies that move: index of the body, and
+    /// its velocities in the order of the columns of C (m/s, rad/s). The largest rotation is 1, or the fastest translation if nothing
     /// rotates.
-    pub velocities: Vec<Vec<(usize, [f64; 3])>>,
+    pub velocities: Vec<Vec<(usize, Vec<f64>)>>,
 }
 
 /// Rank of rows that have been decided together: those of the whole mechanism, or of a part that

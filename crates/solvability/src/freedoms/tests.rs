@@ -96,8 +96,11 @@ fn moves(motions: &FreeMotions, which: usize, expected: &[(usize, [f64; 3])]) {
     let [found] = motions.motions[which].velocities.as_slice() else {
         panic!("{motions:?}");
     };
-    let bodies = |v: &[(usize, [f64; 3])]| v.iter().map(|(b, _)| *b).collect::<Vec<_>>();
-    assert_eq!(bodies(found), bodies(expected), "{motions:?}");
+    let bodies: Vec<usize> = found.iter().map(|(b, _)| *b).collect();
+    assert!(
+        bodies.iter().eq(expected.iter().map(|(b, _)| b)),
+        "{motions:?}"
+    );
     for ((body, v), (_, w)) in found.iter().zip(expected) {
         let off = v
             .iter()
@@ -245,8 +248,8 @@ fn a_body_that_nothing_holds_is_free() {
     let free = freedoms(&d);
     assert_eq!(free.mobility, 4);
     assert_eq!(texts(&free.motions)[1], "`stone` is free");
-    let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
-    let expected: Vec<Vec<(usize, [f64; 3])>> = (0..3).map(|k| vec![(3, unit(k))]).collect();
+    let unit = |k: usize| (0..3).map(|i| f64::from(u8::from(i == k))).collect();
+    let expected: Vec<Vec<(usize, Vec<f64>)>> = (0..3).map(|k| vec![(3, unit(k))]).collect();
     assert_eq!(free.motions.motions[1].velocities, expected);
 }
 
@@ -281,7 +284,7 @@ fn bodies_that_hold_only_each_other_are_free_together() {
     assert_eq!(texts(&free.motions), words);
     moves(&free.motions, 1, &[(1, [0.0, 1.0, 1.0])]);
     // Two translations, and a rotation about the first centre of mass.
-    let rotation = vec![(0, [0.0, 0.0, 1.0]), (1, [0.0, 2.0, 1.0])];
+    let rotation = vec![(0, vec![0.0, 0.0, 1.0]), (1, vec![0.0, 2.0, 1.0])];
     assert_eq!(free.motions.motions[0].velocities[2], rotation);
 }
 

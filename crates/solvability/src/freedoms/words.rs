@@ -23,12 +23,12 @@ pub(super) fn tell(
     mut velocities: Velocities,
 ) -> (String, Velocities) {
     let moving: Vec<usize> = (0..velocities.len())
-        .filter(|&b| velocities[b] != [0.0; 3])
+        .filter(|&b| velocities[b].iter().any(|v| *v != 0.0))
         .collect();
     let Some(leader) = leader(of, driven, &velocities, &moving) else {
         return ("nothing moves".to_owned(), velocities);
     };
-    let [x, y, turn] = velocities[leader];
+    let [x, y, turn] = planar(&velocities[leader]);
     let first = [turn, x, y].into_iter().find(|v| *v != 0.0);
     if first.is_some_and(|v| v < 0.0) {
         let bodies = velocities.iter_mut().flatten();
@@ -107,26 +107,30 @@ fn leader(
 
 /// Whether a body moves as if it were rigidly attached to another.
 fn moves_as(of: &Component<'_>, v: &Velocities, leader: usize, body: usize) -> bool {
-    let [p, o] = [body, leader].map(|b| &of.s.poses[b]);
-    let turn = v[leader][2];
-    let carried = [
-        v[leader][0] - turn * (p.y - o.y),
-        v[leader][1] + turn * (p.x - o.x),
-    ];
-    let fastest = v.iter().fold(0.0_f64, |a, [x, y, turn]| {
-        a.max(x.hypot(*y)).max(turn.abs() * of.size)
+    let [p, o] = [body, leader].map(|b| of.origin(b));
+    let [vx, vy, turn] = planar(&v[leader]);
+    let carried = [vx - turn * (p[1] - o[1]), vy + turn * (p[0] - o[0])];
+    let fastest = v.iter().fold(0.0_f64, |a, v| {
+        let [x, y, turn] = planar(v);
+        a.max(x.hypot(y)).max(turn.abs() * of.size)
     });
-    let apart = (v[body][0] - carried[0]).hypot(v[body][1] - carried[1]);
-    apart.max((v[body][2] - turn).abs() * of.size) <= SAME_PLACE * fastest
+    let [x, y, own_turn] = planar(&v[body]);
+    let apart = (x - carried[0]).hypot(y - carried[1]);
+    apart.max((own_turn - turn).abs() * of.size) <= SAME_PLACE * fastest
+}
+
+/// Velocities of a planar body, of which alone these sentences tell: vx, vy and ω.
+fn planar(v: &[f64]) -> [f64; 3] {
+    [v[0], v[1], v[2]]
 }
 
 fn movement(of: &Component<'_>, v: &Velocities, body: usize) -> Movement {
-    let ([x, y, turn], pose) = (v[body], &of.s.poses[body]);
+    let ([x, y, turn], centre) = (planar(&v[body]), of.origin(body));
     let speed = x.hypot(y);
     if turn.abs() * of.size <= VISIBLE * speed {
         return Movement::Slide([x / speed, y / speed]);
     }
-    Movement::Turn([pose.x - y / turn, pose.y + x / turn])
+    Movement::Turn([centre[0] - y / turn, centre[1] + x / turn])
 }
 
 /// The joint of these bodies located at a point, or "its centre of mass", or the coordinates of the
@@ -136,9 +140,7 @@ fn about(of: &Component<'_>, bodies: &[usize], centre: [f64; 2]) -> String {
         return format!("`{joint}`");
     }
     match bodies {
-        [only] if is_at(of, [of.s.poses[*only].x, of.s.poses[*only].y], centre) => {
-            "its centre of mass".to_owned()
-        }
+        [only] if is_at(of, of.origin(*only), centre) => "its centre of mass".to_owned(),
         _ => point(centre, of.size),
     }
 }
@@ -151,13 +153,7 @@ fn joint_at<'m>(of: &Component<'m>, bodies: &[usize], centre: [f64; 2]) -> Optio
     let mut named: Option<(usize, &str)> = None;
     for (k, group) in groups {
         let is_theirs = |b: &usize| group.bodies.contains(&BodyRef::Body(*b));
-        if !bodies.iter().any(is_theirs)
-            || !is_at(
-                of,
-                mechanism.reactions(&of.s).place(ConstraintId(k)),
-                centre,
-            )
-        {
+        if !bodies.iter().any(is_theirs) || !is_at(of, of.place(ConstraintId(k)), centre) {
             continue;
         }
         let holds = group
@@ -173,7 +169,7 @@ fn joint_at<'m>(of: &Component<'m>, bodies: &[usize], centre: [f64; 2]) -> Optio
 }
 
 /// Whether two points coincide at the scale of the mechanism.
-fn is_at(of: &Component<'_>, [x, y]: [f64; 2], other: [f64; 2]) -> bool {
+fn is_at(of: &Component<'_>, [x, y, _]: [f64; 3], other: [f64; 2]) -> bool {
     (x - other[0]).hypot(y - other[1]) <= SAME_PLACE * of.size
 }
 

@@ -4,8 +4,8 @@
 use std::borrow::Cow;
 
 use linalg::Matrix;
-use model::reaction::COMPONENTS;
-use model::{ConstraintId, Mechanism, Scratch, System};
+use model::space::norm;
+use model::{ConstraintId, Mechanism, Reaction, Scratch, SpaceKind, System};
 
 use super::error::{RequestError, check, check_finite};
 use super::form::LinearForm;
@@ -24,18 +24,19 @@ impl ReactionForms<'_> {
     ///
     /// # Errors
     /// [`RequestError::UnknownBody`]
-    pub fn origin(&self, body: usize) -> Result<[f64; 2], RequestError> {
-        let bodies = self.s.poses.len();
-        let pose = self.s.poses.get(body);
-        pose.map(|p| [p.x, p.y])
-            .ok_or(RequestError::UnknownBody { body, bodies })
+    pub fn origin(&self, body: usize) -> Result<[f64; 3], RequestError> {
+        let bodies = self.s.bodies.len();
+        if body >= bodies {
+            return Err(RequestError::UnknownBody { body, bodies });
+        }
+        Ok(self.s.bodies.origin(body))
     }
 
     /// The point where the reaction of a joint or drive is reported, global components (m).
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`]
-    pub fn place(&self, id: ConstraintId) -> Result<[f64; 2], RequestError> {
+    pub fn place(&self, id: ConstraintId) -> Result<[f64; 3], RequestError> {
         self.check_id(id)?;
         Ok(self.mechanism.reactions(&self.s).place(id))
     }
@@ -44,47 +45,61 @@ impl ReactionForms<'_> {
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::NotFinite`]
-    pub fn force(&self, id: ConstraintId, along: [f64; 2]) -> Result<LinearForm, RequestError> {
+    pub fn force(&self, id: ConstraintId, along: [f64; 3]) -> Result<LinearForm, RequestError> {
         self.check_id(id)?;
-        check("direction", &along, 2)?;
+        check("direction", &along, 3)?;
         let map = self.mechanism.reactions(&self.s).wrench_map(id);
         let mut form = self.zero();
-        self.add_wrench(
-            &mut form,
-            &map,
-            self.first_row(id),
-            [along[0], along[1], 0.0],
-        );
+        let along = Along {
+            force: along,
+            torque: [0.0; 3],
+        };
+        self.add_wrench(&mut form, &map, self.first_row(id), along);
         Ok(form)
     }
 
-    /// The torque of a reaction about a global point.
+    /// The torque of a reaction along a direction (a unit vector gives N·m), about a point, all in
+    /// ground axes. In the plane only its z component counts.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::NotFinite`]
-    pub fn torque(&self, id: ConstraintId, about: [f64; 2]) -> Result<LinearForm, RequestError> {
+    pub fn torque(
+        &self,
+        id: ConstraintId,
+        along: [f64; 3],
+        about: [f64; 3],
+    ) -> Result<LinearForm, RequestError> {
         self.check_id(id)?;
-        check("point", &about, 2)?;
+        check("direction", &along, 3)?;
+        check("point", &about, 3)?;
         let map = self
             .mechanism
             .reactions(&self.s)
             .wrench_map_about(id, about);
         let mut form = self.zero();
-        self.add_wrench(&mut form, &map, self.first_row(id), [0.0, 0.0, 1.0]);
+        let along = Along {
+            force: [0.0; 3],
+            torque: along,
+        };
+        self.add_wrench(&mut form, &map, self.first_row(id), along);
         Ok(form)
     }
 
-    /// A component of a reaction by its name: `Fx`, `Fy`, `T`, or the named component of the
-    /// definition.
+    /// A component of a reaction by its name: one of the components of its space, or the named
+    /// component of the definition.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`]
     pub fn component(&self, id: ConstraintId, name: &str) -> Result<LinearForm, RequestError> {
-        match name {
-            "Fx" => self.force(id, [1.0, 0.0]),
-            "Fy" => self.force(id, [0.0, 1.0]),
-            "T" => self.torque(id, self.place(id)?),
-            _ => self.named_component(id, name),
+        let space = self.mechanism.space();
+        let Some(component) = space.component(name) else {
+            return self.named_component(id, name);
+        };
+        let Along { force, torque } = Along::component(space, component);
+        if space.forces().contains(&component) {
+            self.force(id, force)
+        } else {
+            self.torque(id, torque, self.place(id)?)
         }
     }
 
@@ -100,7 +115,11 @@ impl ReactionForms<'_> {
             return Err(RequestError::UnknownComponent {
                 reaction: group.name.clone(),
                 component: name.to_owned(),
-                available: format!("`Fx`, `Fy`, `T`{}", named.unwrap_or_default()),
+                available: format!(
+                    "`{}`{}",
+                    self.mechanism.space().components().join("`, `"),
+                    named.unwrap_or_default()
+                ),
             });
         };
         let rows = self.first_row(id)..;
@@ -109,21 +128,22 @@ impl ReactionForms<'_> {
         Ok(form)
     }
 
-    /// The total of all reactions on a set of bodies, `[Fx, Fy, T]` with the torque about a global
-    /// point. A body that is listed twice counts once.
+    /// The total of all reactions on a set of bodies: all components, torques about a point in
+    /// ground axes. A body that is listed twice counts once.
     ///
     /// # Errors
     /// [`RequestError::UnknownBody`], [`RequestError::Empty`], [`RequestError::NotFinite`]
     pub fn resultant(
         &self,
         bodies: &[usize],
-        about: [f64; 2],
-    ) -> Result<[LinearForm; 3], RequestError> {
-        check("point", &about, 2)?;
+        about: [f64; 3],
+    ) -> Result<Vec<LinearForm>, RequestError> {
+        check("point", &about, 3)?;
         if bodies.is_empty() {
             return Err(RequestError::Empty { of: "body" });
         }
-        let mut forms = [(); 3].map(|()| self.zero());
+        let space = self.mechanism.space();
+        let mut forms = self.zeros();
         for (k, &body) in bodies.iter().enumerate() {
             let map = self
                 .mechanism
@@ -136,42 +156,60 @@ impl ReactionForms<'_> {
             if bodies[..k].contains(&body) {
                 continue;
             }
-            for (form, along) in forms.iter_mut().zip(UNITS) {
-                self.add_wrench(form, &map, 0, along);
+            for (k, form) in forms.iter_mut().enumerate() {
+                self.add_wrench(form, &map, 0, Along::component(space, k));
             }
         }
         Ok(forms)
     }
 
-    /// `coefficient · [Fx, Fy, T]` of a reaction about a global point, added to three forms.
+    /// `coefficient` times all components of a reaction about a point, added to their forms.
     pub(super) fn add_reaction(
         &self,
-        forms: &mut [LinearForm; 3],
+        forms: &mut [LinearForm],
         id: ConstraintId,
         coefficient: f64,
-        about: [f64; 2],
+        about: [f64; 3],
     ) {
         let map = self
             .mechanism
             .reactions(&self.s)
             .wrench_map_about(id, about);
-        for (form, along) in forms.iter_mut().zip(UNITS) {
-            let along = along.map(|x| coefficient * x);
+        for (k, form) in forms.iter_mut().enumerate() {
+            let Along { force, torque } = Along::component(self.mechanism.space(), k);
+            let along = Along {
+                force: force.map(|x| coefficient * x),
+                torque: torque.map(|x| coefficient * x),
+            };
             self.add_wrench(form, &map, self.first_row(id), along);
         }
     }
 
     /// Adds `along · (map·λ)` for a map of some rows. The size of a term is the magnitude of its
     /// force, and for torques also that force times the size of the mechanism.
-    fn add_wrench(&self, form: &mut LinearForm, map: &Matrix, first_row: usize, along: [f64; 3]) {
+    fn add_wrench(&self, form: &mut LinearForm, map: &Matrix, first_row: usize, along: Along) {
+        let space = self.mechanism.space();
         for j in 0..map.ncols() {
-            let [x, y, t] = [0, 1, 2].map(|k| map[(k, j)]);
-            let force = x.hypot(y);
-            let coefficient = along[0] * x + along[1] * y + along[2] * t;
+            let (mut force, mut torque) = ([0.0; 3], [0.0; 3]);
+            space
+                .forces()
+                .for_each(|k| force[space.axis_of(k)] = map[(k, j)]);
+            space
+                .torques()
+                .for_each(|k| torque[space.axis_of(k)] = map[(k, j)]);
+            let pairs = along.force.iter().zip(&force);
+            let pairs = pairs.chain(along.torque.iter().zip(&torque));
+            let coefficient = pairs.fold(0.0, |sum, (along, x)| sum + along * x);
+            let (force, torque) = (norm(&force), norm(&torque));
             let size =
-                force * along[0].hypot(along[1]) + (t.abs() + force * self.size) * along[2].abs();
+                force * norm(&along.force) + (torque + force * self.size) * norm(&along.torque);
             form.add_term(first_row + j, coefficient, size);
         }
+    }
+
+    /// A form for each component.
+    fn zeros(&self) -> Vec<LinearForm> {
+        vec![self.zero(); self.mechanism.space().n_v()]
     }
 
     pub(super) fn zero(&self) -> LinearForm {
@@ -194,7 +232,7 @@ impl ReactionForms<'_> {
         self.mechanism.layout().groups[id.0].rows.start
     }
 
-    /// The numbers of a group, with their names: the `sum` of a combination; `Fx`, `Fy` and `T` of
+    /// The numbers of a group, with their names: the `sum` of a combination; all components of
     /// wrenches. A group of several separate reactions has none.
     ///
     /// # Errors
@@ -207,20 +245,22 @@ impl ReactionForms<'_> {
     pub(crate) fn numbers_about(
         &self,
         group: &Group,
-        about: Option<[f64; 2]>,
+        about: Option<[f64; 3]>,
     ) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
         Ok(match group {
             Group::Members(_) | Group::OneJoint(_) => Vec::new(),
             Group::Combination(terms) => vec![("sum", self.combination(terms)?)],
             Group::WrenchSum(terms) => {
-                named(self.wrench_sum_about(terms, about.ok_or(NO_REACTION)?)?)
+                self.named(self.wrench_sum_about(terms, about.ok_or(NO_REACTION)?)?)
             }
-            Group::Resultant(bodies) => named(self.resultant(bodies, about.unwrap_or_default())?),
+            Group::Resultant(bodies) => {
+                self.named(self.resultant(bodies, about.unwrap_or_default())?)
+            }
         })
     }
 
     /// The point about which T of a sum of wrenches or a resultant is taken.
-    pub(crate) fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
+    pub(crate) fn about(&self, group: &Group) -> Result<Option<[f64; 3]>, RequestError> {
         match group {
             Group::WrenchSum(terms) => terms.first().map(|&(_, id)| self.place(id)).transpose(),
             Group::Resultant(bodies) => bodies.first().map(|&body| self.origin(body)).transpose(),
@@ -248,14 +288,14 @@ impl ReactionForms<'_> {
         Ok(sum)
     }
 
-    /// `[Fx, Fy, T]` of `Σ coefficient · wrench`, T about the place of the first reaction.
+    /// All components of `Σ coefficient · wrench`, torques about the place of the first reaction.
     ///
     /// # Errors
     /// As [`crate::judge_groups`].
     pub fn wrench_sum(
         &self,
         terms: &[(f64, ConstraintId)],
-    ) -> Result<[LinearForm; 3], RequestError> {
+    ) -> Result<Vec<LinearForm>, RequestError> {
         let Some(&(_, first)) = terms.first() else {
             return Err(NO_REACTION);
         };
@@ -265,16 +305,21 @@ impl ReactionForms<'_> {
     fn wrench_sum_about(
         &self,
         terms: &[(f64, ConstraintId)],
-        about: [f64; 2],
-    ) -> Result<[LinearForm; 3], RequestError> {
+        about: [f64; 3],
+    ) -> Result<Vec<LinearForm>, RequestError> {
         let factors: Vec<f64> = terms.iter().map(|(factor, _)| *factor).collect();
         check_finite("coefficients", &factors)?;
-        let mut sum = [(); 3].map(|()| self.zero());
+        let mut sum = self.zeros();
         for &(coefficient, id) in terms {
             self.check_id(id)?;
             self.add_reaction(&mut sum, id, coefficient, about);
         }
         Ok(sum)
+    }
+
+    fn named(&self, forms: Vec<LinearForm>) -> Vec<(&'static str, LinearForm)> {
+        let names = self.mechanism.space().components();
+        names.iter().copied().zip(forms).collect()
     }
 
     pub(super) fn rows_of(
@@ -292,9 +337,19 @@ impl ReactionForms<'_> {
     }
 }
 
-fn named(forms: [LinearForm; 3]) -> Vec<(&'static str, LinearForm)> {
-    COMPONENTS.into_iter().zip(forms).collect()
+/// A direction of wrenches, ground axes.
+#[derive(Clone, Copy)]
+struct Along {
+    force: [f64; 3],
+    torque: [f64; 3],
 }
 
-/// Unit vectors of the wrench.
-const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+impl Along {
+    /// The unit vector of a component.
+    fn component(space: SpaceKind, component: usize) -> Self {
+        let mut units = vec![0.0; space.n_v()];
+        units[component] = 1.0;
+        let Reaction { force, torque, .. } = Reaction::new(space, &units, None);
+        Self { force, torque }
+    }
+}

@@ -5,11 +5,11 @@
 //! A vector is the block of the force rows or of the moment rows of a joint, in the columns of the
 //! translation or of the rotation of one body. Each vector has one scale.
 
-use crate::pose::{COLUMNS, TRANSLATIONS, dimensionless};
+use crate::pose::dimensionless;
 use std::ops::Range;
 
 use linalg::{DdMatrix, Matrix, Scaling, equilibrate_blocks};
-use model::{Known, Mechanism, Scratch, System};
+use model::{Known, Mechanism, Scratch, SpaceKind, System};
 
 /// C without dimensions, with the uncertainty of its entries.
 #[derive(Clone, Debug)]
@@ -38,7 +38,9 @@ impl UncertainMatrix {
     /// Starts from C without dimensions and the uncertainty of its entries.
     pub(crate) fn of(mechanism: &Mechanism, c: Matrix, uncertainty: Matrix) -> Self {
         let mut uncertain = Self {
-            col_blocks: (0..c.ncols()).map(col_block).collect(),
+            col_blocks: (0..c.ncols())
+                .map(|j| col_block(mechanism.space(), j))
+                .collect(),
             row_blocks: row_blocks(mechanism),
             zeros: Vec::new(),
             c,
@@ -130,8 +132,8 @@ impl UncertainMatrix {
 }
 
 /// The block of each column: translation or rotation of its body.
-fn col_block(j: usize) -> usize {
-    2 * (j / COLUMNS) + usize::from(j % COLUMNS >= TRANSLATIONS)
+fn col_block(space: SpaceKind, j: usize) -> usize {
+    2 * space.body_of(j) + usize::from(space.is_rotation(j))
 }
 
 /// The block of each row: the force rows or the moment rows of its joint. The rows of a block are

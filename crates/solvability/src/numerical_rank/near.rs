@@ -303,7 +303,7 @@ impl Lower<'_> {
             Some(Asked {
                 equation: equation(target, &gradient, (blocks, known), noise),
                 unit: question.size,
-                by_start: vec![[0.0; 2]; 2 * question.s.poses.len()],
+                by_start: vec![[0.0; 2]; 2 * question.s.bodies.len()],
             })
         };
         (0..pose.left.nrows().min(PAIRS))

@@ -2,8 +2,9 @@
 //! and the change of dependencies within the uncertainty.
 
 use crate::limits::{ENTRY_ROUNDINGS, PAIRS};
-use crate::pose::{COLUMNS, dimensionless};
+use crate::pose::dimensionless;
 use linalg::{Matrix, Scaling, small_svd};
+use model::space::norm;
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
 use rank::RankDecision;
 
@@ -69,25 +70,27 @@ impl Question<'_> {
     pub(super) fn by_place(&self, gradient: &[f64], length: f64, by_angles: bool) -> Vec<[f64; 2]> {
         let place = if by_angles { 0.0 } else { length };
         let turn = length / self.size;
-        let of_body = |by: &[f64]| [[by[0] * place, by[1] * place], [by[2] * turn, 0.0]];
-        gradient.chunks_exact(COLUMNS).flat_map(of_body).collect()
+        let bodies = gradient.chunks_exact(self.mechanism.space().n_v());
+        bodies.flat_map(|by| self.parts(by, place, turn)).collect()
     }
 
     /// Coefficients with respect to the position and rotation of each body at the start, for
     /// changes of the size of their rounding.
     fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 2]> {
-        let bodies = self
-            .s
-            .poses
-            .iter()
-            .zip(gradient.chunks_exact(3))
-            .enumerate();
-        let of_body = bodies.flat_map(|(body, (pose, by))| {
-            let place = ROUNDING * pose.x.hypot(pose.y).max(self.mechanism.reach(body));
-            let turn = ROUNDING * pose.angle.abs().max(1.0);
-            [[by[0] * place, by[1] * place], [by[2] * turn, 0.0]]
+        let columns = self.mechanism.space().n_v();
+        let (reach, at) = (|body| self.mechanism.reach(body), &self.s.bodies);
+        let bodies = gradient.chunks_exact(columns).enumerate();
+        let of_body = bodies.flat_map(|(body, by)| {
+            let place = ROUNDING * norm(&at.origin(body)).max(reach(body));
+            let turn = ROUNDING * at.angle(body).abs().max(1.0);
+            self.parts(by, place, turn)
         });
         of_body.collect()
+    }
+
+    /// Coefficients of the translation and of the rotation of a body, for changes of this size.
+    fn parts(&self, by: &[f64], place: f64, turn: f64) -> [[f64; 2]; 2] {
+        [[by[0] * place, by[1] * place], [by[2] * turn, 0.0]]
     }
 
     /// The largest tolerance that the scene states for a point or a length; or for an angle, if it
@@ -160,7 +163,8 @@ impl Question<'_> {
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data().blocks(self.s);
         let of_row = |i: usize| {
-            let bodies = scaled.row(i).chunks_exact(COLUMNS).enumerate();
+            let space = self.mechanism.space();
+            let bodies = scaled.row(i).chunks_exact(space.n_v()).enumerate();
             let size = |force: &[f64]| force[0].hypot(force[1]);
             let Some((body, force)) = bodies.max_by(|a, b| size(a.1).total_cmp(&size(b.1))) else {
                 return 0.0;
@@ -171,8 +175,9 @@ impl Question<'_> {
             }
             let (mut own, mut across) = (vec![0.0; scaled.nrows()], vec![0.0; scaled.ncols()]);
             own[i] = 1.0;
-            across[COLUMNS * body] = -force[1] / size;
-            across[COLUMNS * body + 1] = force[0] / size;
+            let [x, y] = [0, 1].map(|axis| space.translations_of(body).start + axis);
+            across[x] = -force[1] / size;
+            across[y] = force[0] / size;
             let gradient = pose.gradient_between(&own, &across).data;
             let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
             changes.sum::<f64>() / size

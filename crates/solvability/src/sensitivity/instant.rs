@@ -2,7 +2,7 @@
 //! reactions with respect to all data.
 
 use crate::limits::{LOAD_ROUNDING, MOVED, PIECE, SAME_EFFECT};
-use crate::pose::{COLUMNS, velocity_units};
+use crate::pose::velocity_units;
 use std::borrow::Cow;
 
 use linalg::{KeptRowSaddle, Matrix, PivotedQr};
@@ -342,8 +342,9 @@ fn largest_stop(mechanism: &Mechanism, v: &[f64], size: f64) -> f64 {
 fn unit_loads(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let kinds = mechanism.layout().column_kinds();
     let number = |(j, kind): (usize, &ColumnKind)| {
-        let (sin, cos) = (GOLDEN_ANGLE * (1 + j / COLUMNS) as f64).sin_cos();
-        match (kind, j % COLUMNS) {
+        let space = mechanism.space();
+        let (sin, cos) = (GOLDEN_ANGLE * (1 + space.body_of(j)) as f64).sin_cos();
+        match (kind, space.dof_of(j)) {
             (ColumnKind::Rotation, _) => size * (2.0 * sin * cos),
             (ColumnKind::Translation, 0) => cos,
             (ColumnKind::Translation, _) => sin,

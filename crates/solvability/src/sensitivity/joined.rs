@@ -4,10 +4,9 @@
 //! Springs do not connect sets. The force of a spring is a load, and its change with the bodies of
 //! a set belongs to the set; the bodies at the other end are kept fixed.
 
-use crate::pose::COLUMNS;
 use std::borrow::Cow;
 
-use model::{Mechanism, System};
+use model::{Mechanism, SpaceKind, System};
 
 use crate::choices::Solution;
 use crate::parts::{Extent, Partition};
@@ -43,7 +42,11 @@ impl Joined<'_> {
     ) -> Joined<'b> {
         let own = |x: &[f64]| extent.velocities(x).into_owned();
         let entries = |all: &[Entry]| {
-            let place = |k: usize| Some(COLUMNS * extent.own_body(k / COLUMNS)? + k % COLUMNS);
+            let space = part.space();
+            let place = |j: usize| {
+                let body = extent.own_body(space.body_of(j))?;
+                Some(space.n_v() * body + space.dof_of(j))
+            };
             let entry = |&(i, j, value): &Entry| Some((place(i)?, place(j)?, value));
             Cow::Owned(all.iter().filter_map(entry).collect())
         };
@@ -116,13 +119,13 @@ impl Sets {
     }
 
     /// Splits the entries of a derivative of forces by set, numbered within each set.
-    fn entries(&self, all: &model::Sparse) -> Vec<Vec<Entry>> {
+    fn entries(&self, space: SpaceKind, all: &model::Sparse) -> Vec<Vec<Entry>> {
         let mut own = vec![Vec::new(); self.count];
         for (row, column, value) in all.iter() {
-            let [(i, a), (j, b)] = [row, column].map(|k| self.of_body[k / COLUMNS]);
+            let [(i, a), (j, b)] = [row, column].map(|j| self.of_body[space.body_of(j)]);
             if i == j {
                 let [row, column] =
-                    [(row, a), (column, b)].map(|(k, place)| COLUMNS * place + k % COLUMNS);
+                    [(row, a), (column, b)].map(|(j, place)| space.n_v() * place + space.dof_of(j));
                 own[i].push((row, column, value));
             }
         }
@@ -143,7 +146,7 @@ pub(super) fn each_joined<T: Send>(
     mechanism.twist(v, &mut s);
     mechanism.force(&mut s);
     let [by_q, by_v] = model::Derivatives::of_forces(mechanism, &s);
-    let [by_q, by_v] = [by_q, by_v].map(|all| sets.entries(&all));
+    let [by_q, by_v] = [by_q, by_v].map(|all| sets.entries(mechanism.space(), &all));
     let found = sets.partition.map(mechanism, |part, extent| {
         let first = extent.groups().first();
         let set = first.and_then(|&k| sets.of_group[k]).unwrap_or(0);

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use joints::spec::ConstraintSpec;
 use joints::{Definition, Element, Magnitude, Pose, Recorded, Twist};
 use linalg::Dd;
-use model::{Joint, PlaneConstraint};
+use model::{ConstraintKernels, Joint};
 
 /// Calls of kernels.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub(super) type Notes = Arc<Mutex<Calls>>;
 /// A constraint and its record.
 #[derive(Clone)]
 struct Watched {
-    inner: Box<dyn PlaneConstraint>,
+    inner: Box<dyn ConstraintKernels>,
     notes: Notes,
 }
 
@@ -54,7 +54,7 @@ impl Watched {
     }
 }
 
-impl PlaneConstraint for Watched {
+impl ConstraintKernels for Watched {
     fn extended(&self) -> &dyn Element<Dd> {
         self.inner.extended()
     }
@@ -64,7 +64,7 @@ impl PlaneConstraint for Watched {
     fn recorded(&self) -> &dyn Element<Recorded> {
         self.inner.recorded()
     }
-    fn boxed(&self) -> Box<dyn PlaneConstraint> {
+    fn boxed(&self) -> Box<dyn ConstraintKernels> {
         Box::new(self.clone())
     }
 }

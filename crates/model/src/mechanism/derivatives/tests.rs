@@ -9,8 +9,8 @@ use joints::{
 
 use super::*;
 use crate::description::{Body, BodyRef, Description, Drive, Force, Joint};
+use crate::element::ForceKernels;
 use crate::function::Function;
-use crate::registry::PlaneForce;
 use crate::system::System;
 
 const G: BodyRef = BodyRef::Ground;
@@ -18,7 +18,7 @@ const fn b(k: usize) -> BodyRef {
     BodyRef::Body(k)
 }
 
-fn force(name: &str, bodies: [BodyRef; 2], element: impl PlaneForce + 'static) -> Force {
+fn force(name: &str, bodies: [BodyRef; 2], element: impl ForceKernels + 'static) -> Force {
     Force {
         name: name.into(),
         bodies: bodies.to_vec(),

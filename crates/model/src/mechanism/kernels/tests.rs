@@ -88,12 +88,15 @@ fn angles_that_stay_have_their_sine_and_cosine_already() {
     };
     assert_eq!(later(&mut s, 0.2), 1, "only the bob has turned");
     assert_eq!(later(&mut s, 0.2), 0);
-    assert_eq!((s.poses[0].x, s.poses[2].sin), (0.5, 0.2_f64.sin()));
-    assert_eq!(s.poses[1].cos, 0.3_f64.cos());
+    assert_eq!(
+        (s.bodies.origin(0)[0], s.bodies.axes(2)[0][1]),
+        (0.5, 0.2_f64.sin())
+    );
+    assert_eq!(s.bodies.axes(1)[0][0], 0.3_f64.cos());
     // −0 is another number, with another sine.
     later(&mut s, 0.0);
     assert_eq!(later(&mut s, -0.0), 1);
-    assert!(s.poses[2].sin.is_sign_negative());
+    assert!(s.bodies.axes(2)[0][1].is_sign_negative());
 }
 
 #[test]
@@ -105,17 +108,20 @@ fn rounding_does_not_turn_what_is_held() {
     // Each changes by one rounding: the angle of the slider is held, that of the bob is not.
     (q[2], q[8]) = (f64::EPSILON, f64::EPSILON);
     assert_eq!(count(Counted::Trigonometry, || m.pose(0.0, &q, &mut s)), 1);
-    assert_eq!([s.poses[0].sin, s.poses[2].sin], [0.0, f64::EPSILON]);
-    assert_eq!(s.poses[0].angle, f64::EPSILON, "rows of angles see it");
+    assert_eq!(
+        [s.bodies.axes(0)[0][1], s.bodies.axes(2)[0][1]],
+        [0.0, f64::EPSILON]
+    );
+    assert_eq!(s.bodies.angle(0), f64::EPSILON, "rows of angles see it");
     // Rounding errors do not accumulate unnoticed.
     for k in 2..8 {
         q[2] = f64::EPSILON * f64::from(k);
         m.pose(0.0, &q, &mut s);
     }
-    assert_eq!(s.poses[0].sin, 5.0 * f64::EPSILON);
+    assert_eq!(s.bodies.axes(0)[0][1], 5.0 * f64::EPSILON);
     q[2] = 1e-9;
     m.pose(0.0, &q, &mut s);
-    assert_eq!(s.poses[0].sin, 1e-9);
+    assert_eq!(s.bodies.axes(0)[0][1], 1e-9);
 }
 
 #[test]

@@ -87,10 +87,9 @@ impl ValuesDocument {
 
 /// Finds a component in `checks`, which are in the order of joints.
 fn nature(checks: &[UnitCheck], id: ConstraintId, name: &str) -> Option<&'static str> {
-    let names = Frame::Global.components();
     let from = checks.partition_point(|c| c.id < id);
     let mut own = checks[from..].iter().take_while(|c| c.id == id);
-    let found = own.find(|c| c.frame == Frame::Global && names[c.component] == name)?;
+    let found = own.find(|c| c.frame == Frame::Global && c.name == name)?;
     Some(match found.nature {
         Nature::Fact => "fact",
         Nature::Choice => "choice",

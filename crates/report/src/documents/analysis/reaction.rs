@@ -1,6 +1,6 @@
 //! The verdict on a joint or drive, with all requested results.
 
-use model::{ConstraintId, Frame};
+use model::{ConstraintId, Frame, SpaceKind};
 use rank::Settled;
 use serde::Serialize;
 use solvability::{
@@ -82,12 +82,27 @@ pub struct ComponentDocument {
 pub struct FreeDirectionDocument {
     /// Index of the self-stress in `dependencies`, from 0.
     pub dependency: usize,
-    /// Point at which it acts on the first body (m), global components.
-    pub place: [f64; 2],
-    /// Force Fx, Fy.
-    pub force: [f64; 2],
-    /// Torque T about the place.
-    pub torque: f64,
+    /// Point at which it acts on the first body (m), with the components of the space.
+    pub place: Vec<f64>,
+    /// Force.
+    pub force: Vec<f64>,
+    /// Torque about the place.
+    pub torque: TorqueDocument,
+}
+
+/// A torque: a number in the plane, where it has one direction only.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum TorqueDocument {
+    /// T
+    Number(f64),
+    /// Tx, Ty, Tz
+    Vector([f64; 3]),
+}
+
+/// The components that a vector has in a space.
+fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
+    vector[..space.n_translations()].to_vec()
 }
 
 /// The verdicts of a reaction in one frame.
@@ -97,8 +112,8 @@ pub struct FrameDocument {
     /// `global`, `first_body` or `edge`.
     pub frame: &'static str,
     /// Unit vectors of the axes, global components.
-    pub axes: [[f64; 2]; 2],
-    /// Verdicts on the components along the first axis and along the second, and on the torque.
+    pub axes: Vec<Vec<f64>>,
+    /// Verdicts on the components along the axes, and on the torque.
     pub components: Vec<ComponentDocument>,
 }
 
@@ -116,7 +131,7 @@ pub struct GroupDocument {
     pub components: Vec<ComponentDocument>,
     /// The point (m, global components) about which the torque of a sum of wrenches is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub about: Option<[f64; 2]>,
+    pub about: Option<Vec<f64>>,
     /// Its unique numbers (N, N·m): the `sum` of components, or those of force and torque.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<ValueDocument>,
@@ -162,9 +177,12 @@ impl FreeDirectionDocument {
     fn new(dependency: usize, direction: &FreeDirection) -> Self {
         Self {
             dependency,
-            place: direction.place,
-            force: direction.force,
-            torque: direction.torque,
+            place: components(direction.space, direction.place),
+            force: components(direction.space, direction.force),
+            torque: match direction.space.n_rotations() {
+                1 => TorqueDocument::Number(direction.torque[2]),
+                _ => TorqueDocument::Vector(direction.torque),
+            },
         }
     }
 }
@@ -211,15 +229,14 @@ impl From<&FrameVerdict> for FrameDocument {
             Frame::FirstBody => "first_body",
             Frame::Edge => "edge",
         };
-        let named = found.frame.components().into_iter().zip(&found.components);
-        let component = |(name, judgement): (&'static str, _)| ComponentDocument {
-            name,
-            verdict: VerdictDocument::from(judgement),
-        };
         Self {
             frame,
-            axes: found.axes,
-            components: named.map(component).collect(),
+            axes: found
+                .axes
+                .iter()
+                .map(|axis| axis[..found.axes.len()].to_vec())
+                .collect(),
+            components: found.components.iter().map(Into::into).collect(),
         }
     }
 }
@@ -232,7 +249,7 @@ impl GroupDocument {
             name: name.to_owned(),
             verdict: (&verdict.judgement).into(),
             components: verdict.components.iter().map(Into::into).collect(),
-            about: verdict.about,
+            about: verdict.about.map(|point| components(verdict.space, point)),
             values: Vec::new(),
         }
     }

@@ -6,7 +6,7 @@ use joints::{
 };
 use model::start::assemble;
 use model::{
-    Body, BodyRef, Description, Drive, Function, Joint, Mechanism, PlaneConstraint, StartOptions,
+    Body, BodyRef, ConstraintKernels, Description, Drive, Function, Joint, Mechanism, StartOptions,
     System,
 };
 
@@ -19,7 +19,7 @@ use crate::recording::Frame;
 const ROUNDING: f64 = 1e-14;
 
 /// Two bodies at general poses with one joint or drive.
-fn two_bodies(element: impl PlaneConstraint + 'static, drives: bool) -> Mechanism {
+fn two_bodies(element: impl ConstraintKernels + 'static, drives: bool) -> Mechanism {
     let body = |name: &str, position, angle| Body {
         name: name.into(),
         mass: 1.0,
@@ -58,7 +58,7 @@ fn two_bodies(element: impl PlaneConstraint + 'static, drives: bool) -> Mechanis
 }
 
 /// The site computed for their joint.
-fn site(element: impl PlaneConstraint + 'static, drives: bool) -> super::Site {
+fn site(element: impl ConstraintKernels + 'static, drives: bool) -> super::Site {
     let mechanism = two_bodies(element, drives);
     let mut s = mechanism.scratch();
     posed(&mechanism, 0.0, &mechanism.described_state().0, &mut s).expect("finite");
@@ -66,7 +66,7 @@ fn site(element: impl PlaneConstraint + 'static, drives: bool) -> super::Site {
 }
 
 /// Corners of the second body in its frame.
-fn outline_of_second(element: impl PlaneConstraint + 'static) -> Vec<[f64; 2]> {
+fn outline_of_second(element: impl ConstraintKernels + 'static) -> Vec<[f64; 2]> {
     let mechanism = two_bodies(element, false);
     let q = mechanism.described_state().0;
     let stage = Stage {

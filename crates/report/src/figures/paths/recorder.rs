@@ -92,8 +92,8 @@ impl<'m> PathRecorder<'m> {
         let s = &mut self.scratch;
         posed(self.mechanism, t, q, s)?;
         for (point, path) in self.points.iter().zip(&mut self.paths) {
-            let [x, y] = match *point {
-                Point::Centre(k) => [s.poses[k].x, s.poses[k].y],
+            let [x, y, _] = match *point {
+                Point::Centre(k) => s.bodies.origin(k),
                 Point::Place(id) => self.mechanism.reactions(s).place(id),
             };
             path.x.push(x);

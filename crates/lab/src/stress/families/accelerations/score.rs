@@ -47,7 +47,7 @@ fn relative(x: f64, y: f64, size: f64) -> f64 {
 /// accelerations themselves.
 fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
-    let unit = |j: usize| model::space::unit(j, prepared.assembly.size);
+    let unit = |j: usize| mechanism.space().unit(j, prepared.assembly.size);
     let terms = (0..exact.len()).map(|j| {
         let speed = prepared.v[j] / unit(j);
         let weight = match mechanism.mass()[j] {
@@ -64,14 +64,14 @@ fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
 pub(super) fn of_accelerations(prepared: &Prepared, a: &[f64], exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
     let kind = |j: usize| {
-        let (body, coordinate) = mechanism.coordinate(j);
-        (body, coordinate == "angle")
+        let body = mechanism.space().body_of(j);
+        (body, mechanism.space().is_rotation(j))
     };
     let rate = rate(prepared, exact);
     worst((0..a.len()).map(|j| {
         let alike = (0..a.len()).filter(|&l| kind(l) == kind(j));
         let size = match worst(alike.map(|l| exact[l])) {
-            0.0 => rate * model::space::unit(j, prepared.assembly.size),
+            0.0 => rate * mechanism.space().unit(j, prepared.assembly.size),
             largest => exact[j].abs().max(LEAST * largest),
         };
         relative(a[j], exact[j], size)
