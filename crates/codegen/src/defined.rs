@@ -130,7 +130,11 @@ impl Defined {
         {
             return dot(g, c, components);
         }
-        let key = (frame, c.to_vec(), other.components().collect::<Components>());
+        let key = (
+            frame,
+            c.to_vec(),
+            other.components().collect::<Components>(),
+        );
         if let Some(known) = self.0.borrow().dots.get(&key)
             && let Some((_, symbol)) = known.iter().find(|(vector, _)| vector == other)
         {

@@ -180,7 +180,11 @@ pub(crate) fn constraint(
     } else {
         Vec::new()
     };
-    let vectors = if body.holonomic { &body.vectors[..] } else { &[] };
+    let vectors = if body.holonomic {
+        &body.vectors[..]
+    } else {
+        &[]
+    };
     let d_phi_dp = gradient(model, &phi, vectors, data);
     let d_residual_dp = match model.inputs.space {
         Space::Plane => gradient(model, &residuals, &[], data),
@@ -223,7 +227,8 @@ pub(crate) fn force(model: &mut Model, terms: &[(Expr, Expr)]) -> ForceKernels {
             let parts: Vec<(f64, Expr)> = terms
                 .iter()
                 .map(|&(law, coordinate)| {
-                    let is_rate = model.depends_on(coordinate, |s| matches!(s, Source::Twist { .. }));
+                    let is_rate =
+                        model.depends_on(coordinate, |s| matches!(s, Source::Twist { .. }));
                     let lever = if is_rate {
                         let n_dof = model.inputs.space.n_dof();
                         let v = model.inputs.slots[k / n_dof].twist[k % n_dof];

@@ -98,9 +98,14 @@ fn value(inputs: &Inputs, name: &str, source: &Source, point: u64) -> f64 {
     let angle = |key: &str| 6.0 * sample(point, key);
     // The last index of an access like `self.axis.uvw()[1][2]`.
     let index = |access: &str, back: usize| {
-        let digits = access.split(['[', ']']).rev().filter(|part| !part.is_empty());
+        let digits = access
+            .split(['[', ']'])
+            .rev()
+            .filter(|part| !part.is_empty());
         let digit = digits.clone().nth(back);
-        digit.and_then(|digit| digit.parse::<usize>().ok()).unwrap_or_default()
+        digit
+            .and_then(|digit| digit.parse::<usize>().ok())
+            .unwrap_or_default()
     };
     match source {
         Source::Pose { slot, field: "cos" } => angle(&slot.to_string()).cos(),
@@ -145,9 +150,21 @@ fn rotation(point: u64, key: &str) -> [[f64; 3]; 3] {
     let square: f64 = e.iter().map(|e| e * e).sum();
     let [w, x, y, z] = e.map(|e| e / square.sqrt());
     [
-        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
-        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
-        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - w * z),
+            2.0 * (x * z + w * y),
+        ],
+        [
+            2.0 * (x * y + w * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - w * x),
+        ],
+        [
+            2.0 * (x * z - w * y),
+            2.0 * (y * z + w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
     ]
 }
 

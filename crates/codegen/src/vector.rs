@@ -260,11 +260,7 @@ fn rotate(g: &mut Graph, frame: Frame, c: &Components, turns: &[Turn]) -> Compon
 
 /// `a · b`
 pub(crate) fn dot(g: &mut Graph, a: &[Expr], b: &[Expr]) -> Expr {
-    let products: Vec<(f64, Expr)> = a
-        .iter()
-        .zip(b)
-        .map(|(&a, &b)| (1.0, g.mul(a, b)))
-        .collect();
+    let products: Vec<(f64, Expr)> = a.iter().zip(b).map(|(&a, &b)| (1.0, g.mul(a, b))).collect();
     g.sum(&products)
 }
 

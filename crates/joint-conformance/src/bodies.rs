@@ -263,7 +263,10 @@ impl Bodies for Space3 {
         let arm = std::array::from_fn(|k| point[k] - x.r[k]);
         let axes = [0, 1, 2].map(|k| x.rot.map(|row| row[k]));
         let moved = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        moved.into_iter().chain(axes.map(|axis| cross(axis, arm))).collect()
+        moved
+            .into_iter()
+            .chain(axes.map(|axis| cross(axis, arm)))
+            .collect()
     }
 }
 

@@ -268,7 +268,9 @@ fn poses<S: Bodies>(n: usize, kind: Kind, random: &mut Random) -> Vec<S::Pose<f6
 fn motion<S: Bodies>(slots: usize, rows: usize, kind: Kind, random: &mut Random) -> Motion {
     let speed = if kind == Kind::AtRest { 0.0 } else { 2.0 };
     let mut numbers = |reach: f64| -> Vec<f64> {
-        (0..S::N_DOF * slots).map(|_| random.within(reach)).collect()
+        (0..S::N_DOF * slots)
+            .map(|_| random.within(reach))
+            .collect()
     };
     let (v, a) = (numbers(speed), numbers(5.0));
     Motion {

@@ -46,7 +46,15 @@ const STARTS: u64 = 20;
 /// The subject of a case, with a start where its requirements hold.
 fn assembled<S: Subject>(case: &Case<S::Space>) -> Result<(S, Case<S::Space>), Failure> {
     let spec = &S::COMMON;
-    let fail = |property, entry| fact(spec.name, property, entry, [0.0, 1.0], Some(case as &dyn std::fmt::Display));
+    let fail = |property, entry| {
+        fact(
+            spec.name,
+            property,
+            entry,
+            [0.0, 1.0],
+            Some(case as &dyn std::fmt::Display),
+        )
+    };
     let mut subject =
         S::from_arguments(&case.arguments).map_err(|e| fail(Property::Arguments, e.to_string()))?;
     let mut case = case.clone();
@@ -225,9 +233,8 @@ impl<S: Subject> Check<'_, S> {
 
 /// Whether a definition relates bodies to each other, by what its spec says.
 pub(crate) fn is_internal<S: Subject>() -> bool {
-    let on_ground = |p: &joints::spec::Parameter| {
-        matches!(p.shape, Shape::GroundLine | Shape::GroundPlane)
-    };
+    let on_ground =
+        |p: &joints::spec::Parameter| matches!(p.shape, Shape::GroundLine | Shape::GroundPlane);
     S::COMMON.slots.len() > 1 && !S::COMMON.parameters.iter().any(on_ground)
 }
 

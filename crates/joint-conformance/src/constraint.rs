@@ -263,7 +263,9 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
 /// Row and column of each entry of C.
 fn c_pattern<K: Constraint<S>, S: Bodies>() -> Vec<[usize; 2]> {
     let entries = K::SPEC.c.iter();
-    entries.map(|e| [e.row, S::N_DOF * e.slot + e.dof]).collect()
+    entries
+        .map(|e| [e.row, S::N_DOF * e.slot + e.dof])
+        .collect()
 }
 
 /// Entries of C in the order of the pattern, constant and varying ones.

@@ -3,7 +3,7 @@
 //! those of the crate `joints`, bit for bit.
 
 use joints::{
-    Argument, Constraint, Derivatives, ConstraintSpec, Force, ForceSpec, Pose, Twist, Visitor,
+    Argument, Constraint, ConstraintSpec, Derivatives, Force, ForceSpec, Pose, Twist, Visitor,
     plane_constraints, plane_forces,
 };
 
@@ -153,6 +153,7 @@ impl Numbers {
         parameters
             .map(|p| match p.shape {
                 Shape::Point { .. } | Shape::Direction { .. } => Argument::Pair(self.array()),
+                Shape::Axes { .. } | Shape::GroundPlane => Argument::Absent,
                 Shape::GroundLine => Argument::Pairs([self.array(), self.array()]),
                 // Every second optional number is given.
                 Shape::Numbers(_) if p.optional && self.next() < 0.0 => Argument::Absent,

@@ -27,18 +27,37 @@ pub struct DataBlock {
     pub group: usize,
     /// Name of the parameter, or of the value kept from the start.
     pub name: &'static str,
-    /// Indices of its numbers among all numbers of the mechanism: two for a point or a direction,
-    /// otherwise one.
+    /// Indices of its numbers among all numbers of the mechanism: as many as a vector has components
+    /// for a point or a direction, three for axes, otherwise one.
     pub numbers: Range<usize>,
     /// Unit of its changes.
     pub unit: DataUnit,
-    /// For a direction: the unit vector perpendicular to it, along which its change is measured.
-    across: Option<[f64; 2]>,
+    /// For a direction: how its change is measured.
+    across: Option<Across>,
     /// The largest number with which it is combined (in its unit); its rounding is proportional to
     /// this.
     pub scale: f64,
     /// The tolerance stated for it (in its unit) by its joint, its body or the scene.
     pub tolerance: Option<f64>,
+}
+
+/// The changes of a direction, which keep its length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Across {
+    /// In the plane: along this unit vector.
+    Along([f64; 2]),
+    /// In space: across this unit vector.
+    Normal([f64; 3]),
+}
+
+impl Across {
+    fn of(direction: &[f64]) -> Option<Self> {
+        match *direction {
+            [x, y] => Some(Self::Along([-y, x])),
+            [x, y, z] => Some(Self::Normal([x, y, z])),
+            _ => None,
+        }
+    }
 }
 
 /// Unit of a change of data.
@@ -51,24 +70,29 @@ pub enum DataUnit {
 }
 
 impl DataBlock {
-    /// Its part of a gradient with respect to all numbers, as a vector over its own change: two
-    /// components for a point, otherwise one.
+    /// Its part of a gradient with respect to all numbers, as a vector over its own change; unused
+    /// components are zero.
     #[must_use]
-    pub fn part(&self, gradient: &[f64]) -> [f64; 2] {
+    pub fn part(&self, gradient: &[f64]) -> [f64; 3] {
         let own = &gradient[self.numbers.clone()];
         match (self.across, own) {
-            (Some([x, y]), &[a, b]) => [a * x + b * y, 0.0],
-            (None, &[a, b]) => [a, b],
-            (_, &[a]) => [a, 0.0],
-            _ => [0.0; 2],
+            (Some(Across::Along([x, y])), &[a, b]) => [a * x + b * y, 0.0, 0.0],
+            (Some(Across::Normal(n)), &[a, b, c]) => {
+                let along = a * n[0] + b * n[1] + c * n[2];
+                [a - along * n[0], b - along * n[1], c - along * n[2]]
+            }
+            (_, &[a]) => [a, 0.0, 0.0],
+            (_, &[a, b]) => [a, b, 0.0],
+            (_, &[a, b, c]) => [a, b, c],
+            _ => [0.0; 3],
         }
     }
 
     /// The largest change of a value with this gradient, if the datum moves by `moved`.
     #[must_use]
     pub fn change(&self, gradient: &[f64], moved: f64) -> f64 {
-        let [x, y] = self.part(gradient);
-        x.hypot(y) * moved
+        let [x, y, z] = self.part(gradient);
+        x.hypot(y).hypot(z) * moved
     }
 
     /// Its uncertainty: the stated tolerance, or its rounding.
@@ -143,7 +167,7 @@ impl<'m> Data<'m> {
                         name: datum.name,
                         numbers: at + offset..at + offset + count,
                         unit,
-                        across: is_direction.then(|| [-own[1], own[0]]),
+                        across: is_direction.then(|| Across::of(own)).flatten(),
                         scale: match (unit, is_direction) {
                             (DataUnit::Length, _) => length,
                             (_, true) => 1.0,
@@ -156,10 +180,17 @@ impl<'m> Data<'m> {
                 };
                 match datum.shape {
                     DatumShape::Point { .. } | DatumShape::KeptVector { .. } => {
-                        blocks.push(block(0, 2, DataUnit::Length, false));
+                        blocks.push(block(0, datum.count, DataUnit::Length, false));
                     }
                     DatumShape::Direction { .. } => {
-                        blocks.push(block(0, 2, DataUnit::Angle, true));
+                        blocks.push(block(0, datum.count, DataUnit::Angle, true));
+                    }
+                    DatumShape::Axes { .. } => {
+                        blocks.push(block(0, datum.count, DataUnit::Angle, false));
+                    }
+                    DatumShape::Plane => {
+                        blocks.push(block(0, 3, DataUnit::Length, false));
+                        blocks.push(block(3, 3, DataUnit::Angle, true));
                     }
                     DatumShape::Line => {
                         blocks.push(block(0, 2, DataUnit::Length, false));
@@ -263,6 +294,10 @@ impl<'m> Data<'m> {
         let points = c.spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];
             match datum.shape {
+                DatumShape::Point { .. } | DatumShape::KeptVector { .. } if at.len() == 3 => {
+                    Some(at[0].hypot(at[1]).hypot(at[2]))
+                }
+                DatumShape::Plane => Some(at[0].hypot(at[1]).hypot(at[2])),
                 DatumShape::Point { .. } | DatumShape::KeptVector { .. } | DatumShape::Line => {
                     Some(at[0].hypot(at[1]))
                 }
@@ -292,8 +327,9 @@ fn tolerance_of(
     let slot = match shape {
         DatumShape::Point { slot }
         | DatumShape::Direction { slot }
+        | DatumShape::Axes { slot }
         | DatumShape::KeptVector { slot } => Some(slot),
-        DatumShape::Line | DatumShape::Number(_) | DatumShape::Kept(_) => None,
+        DatumShape::Line | DatumShape::Plane | DatumShape::Number(_) | DatumShape::Kept(_) => None,
     };
     let body = slot.and_then(|slot| c.site.bodies.get(slot).copied());
     let bodies = mechanism.bodies();

@@ -8,7 +8,9 @@
 use std::ops::Range;
 
 use joints::spec::{ConstraintSpec, ForceSpec};
-use joints::{Constraint, Element, Force, ForceElement, Magnitude, Pose, Recorded, Ring, Twist};
+use joints::{
+    Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Pose, Recorded, Ring, Twist,
+};
 use linalg::Dd;
 
 use crate::description::{Body, BodyRef};
@@ -17,7 +19,7 @@ use crate::record::Input;
 use crate::space::{Number, PlanarSpace, Space, SpaceKind, in_space};
 
 /// The kernels of a constraint as a trait object: in `f64` for motion, and in other number types.
-pub trait ConstraintKernels: Element {
+pub trait ConstraintKernels: Derivatives {
     /// Kernels for certificates.
     fn extended(&self) -> &dyn Element<Dd>;
     /// Kernels for bounds on the rounding of data.

@@ -49,7 +49,7 @@ impl Arguments {
             let field = if parameter.optional {
                 table.optional(key)
             } else {
-                table.needed(key, parameter.shape, findings)
+                table.needed(key, parameter.shape.words(2), findings)
             };
             let Some(field) = field else {
                 let absent = parameter.optional.then_some(Argument::Absent);
@@ -112,7 +112,9 @@ impl Arguments {
 fn harmless(shape: Shape) -> Argument {
     match shape {
         Shape::Point { .. } | Shape::Direction { .. } => Argument::Pair([1.0, 0.0]),
+        Shape::Axes { .. } => Argument::Triple([1.0, 0.0, 0.0]),
         Shape::GroundLine => Argument::Pairs([[0.0, 0.0], [1.0, 0.0]]),
+        Shape::GroundPlane => Argument::Triples([[0.0; 3], [0.0, 0.0, 1.0]]),
         Shape::Numbers(units) => Argument::Numbers(vec![1.0; units.len()]),
         Shape::Functions(_) => Argument::Absent,
     }
@@ -129,7 +131,7 @@ fn label(error: &ArgumentError) -> &'static str {
 
 /// The value of a parameter that does not depend on time.
 fn value(field: &Field, shape: Shape, findings: &mut Findings) -> Option<Argument> {
-    let expected = shape.to_string();
+    let expected = shape.words(2).to_string();
     match shape {
         Shape::Point { .. } => {
             let pair = field.pair(&expected, Dimension::LENGTH, findings);
@@ -139,6 +141,8 @@ fn value(field: &Field, shape: Shape, findings: &mut Findings) -> Option<Argumen
             let pair = field.pair(&expected, Dimension::NONE, findings);
             pair.map(Argument::Pair)
         }
+        // Definitions of space are in no registry of scenes.
+        Shape::Axes { .. } | Shape::GroundPlane => None,
         Shape::GroundLine => {
             let points = field.pairs(2, &expected, findings)?;
             points.try_into().ok().map(Argument::Pairs)
@@ -165,9 +169,14 @@ fn functions(
     if let [unit] = units {
         return function::read(field, (*unit).into(), domains, findings).map(|f| vec![f]);
     }
-    let items = field.items(&shape.to_string(), findings)?;
+    let items = field.items(&shape.words(2).to_string(), findings)?;
     if items.len() != units.len() {
-        field.miscount(&shape.to_string(), items.len(), units.len(), findings);
+        field.miscount(
+            &shape.words(2).to_string(),
+            items.len(),
+            units.len(),
+            findings,
+        );
         return None;
     }
     let mut units = units.iter();

@@ -9,8 +9,8 @@ use super::model::Model;
 use super::scope::Scope;
 use super::value::Value;
 use crate::nearest::hint;
-use crate::space::Space;
 use crate::parse::Definition;
+use crate::space::Space;
 use crate::vector::{Components, Vector};
 
 /// Allowed magnitudes of numbers: products of a few of them, and of their derivatives, do not
@@ -349,7 +349,9 @@ fn no_operator(b: &syn::ExprBinary, op: &BinOp, left: &Value, right: &Value) -> 
             Value::Axes { .. } => {
                 "of axes `a`, `direction(i, a[0])` and `direction(i, a[1])` lie across, `direction(i, a[2])` along"
             }
-            Value::Plane { .. } => "a plane has a point `start(plane)` and a vector `normal(plane)`",
+            Value::Plane { .. } => {
+                "a plane has a point `start(plane)` and a vector `normal(plane)`"
+            }
             Value::Line { .. } => "a line has a point `start(line)` and a direction `along(line)`",
             _ => continue,
         };

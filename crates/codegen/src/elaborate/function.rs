@@ -172,9 +172,9 @@ impl<'a> Scope<'a> {
         let mut axes = Vec::new();
         for e in [from, to] {
             match self.value(e)? {
-                Value::Axes { slot, axes: own } => axes.push(
-                    own.map(|local| Vector::new(Frame::Body(slot), local)),
-                ),
+                Value::Axes { slot, axes: own } => {
+                    axes.push(own.map(|local| Vector::new(Frame::Body(slot), local)))
+                }
                 other => return Err(wrong(e, "an `Axes` parameter", &other)),
             }
         }

@@ -214,7 +214,10 @@ impl Inputs {
             ),
             ParamKind::GroundPlane => {
                 let point = AXES.iter().enumerate().map(|(k, axis)| {
-                    (format!("{name}_point_{axis}"), format!("{name}.point()[{k}]"))
+                    (
+                        format!("{name}_point_{axis}"),
+                        format!("{name}.point()[{k}]"),
+                    )
                 });
                 let normal = AXES.iter().enumerate().map(|(k, axis)| {
                     let access = format!("{name}.normal().xyz()[{k}]");
@@ -328,7 +331,8 @@ impl Inputs {
 
     /// Whether the input of this name is the cosine (0) or the sine (1) of a drive's motion.
     pub(crate) fn is_motion_turn(&self, name: &str, part: usize) -> bool {
-        self.space == Space::Space3 && name.trim_end_matches('_') == ["motion_cos", "motion_sin"][part]
+        self.space == Space::Space3
+            && name.trim_end_matches('_') == ["motion_cos", "motion_sin"][part]
     }
 
     pub(crate) fn source(&self, s: Symbol) -> &Source {
@@ -363,7 +367,14 @@ impl Inputs {
         let images = self.pose_rates(g, slot, &velocity);
         let images: Vec<_> = images.into_iter().filter(|i| !g.is_zero(i.1)).collect();
         let still = vec![zero; 3];
-        let mut spins = vec![still; if self.space == Space::Space3 { self.slots.len() } else { 0 }];
+        let mut spins = vec![
+            still;
+            if self.space == Space::Space3 {
+                self.slots.len()
+            } else {
+                0
+            }
+        ];
         if let Some(spin) = spins.get_mut(slot) {
             *spin = velocity[3..].to_vec();
         }

@@ -109,9 +109,7 @@ impl Model {
     /// Whether an expression depends on inputs of some origin.
     pub(crate) fn depends_on(&self, e: Expr, origin: impl Fn(&Source) -> bool) -> bool {
         let inputs = self.inputs.defined.inputs(&self.g, e);
-        inputs
-            .into_iter()
-            .any(|s| origin(self.inputs.source(s)))
+        inputs.into_iter().any(|s| origin(self.inputs.source(s)))
     }
 
     /// The expression with every symbol replaced that stands for a rotated vector or a product.
@@ -131,7 +129,9 @@ impl Model {
         } = self;
         let mut expand = |e: &mut Expr| *e = inputs.defined.expand(g, *e);
         names.iter_mut().for_each(|(e, _)| expand(e));
-        kept.iter_mut().flat_map(|k| &mut k.values).for_each(&mut expand);
+        kept.iter_mut()
+            .flat_map(|k| &mut k.values)
+            .for_each(&mut expand);
         requirements.iter_mut().for_each(|c| c.visit(&mut expand));
     }
 

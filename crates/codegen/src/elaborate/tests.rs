@@ -402,24 +402,57 @@ fn what_belongs_to_one_space_is_refused_in_the_other() {
         error(Kind::Constraint, &spatial(&items))
     };
     let cases = [
-        (plane("dot(cross(origin(i), origin(j)), origin(i))"), "`cross` is a function of a `space` definition"),
-        (plane("dot(spin(i), origin(i))"), "`spin` is a function of a `space` definition"),
-        (space("dot(perp(origin(i)), origin(j))"), "`perp` is a function of a `plane` definition"),
+        (
+            plane("dot(cross(origin(i), origin(j)), origin(i))"),
+            "`cross` is a function of a `space` definition",
+        ),
+        (
+            plane("dot(spin(i), origin(i))"),
+            "`spin` is a function of a `space` definition",
+        ),
+        (
+            space("dot(perp(origin(i)), origin(j))"),
+            "`perp` is a function of a `plane` definition",
+        ),
         (space("angle(i)"), "`angle` takes 2 arguments, found 1"),
-        (space("angle(a, b)"), "an angle in space, which only a measure can be"),
-        (space("a"), "`+` does not apply to a scalar and a parameter of axes"),
-        (space("direction(i, b[0])"), "given in the frame of body `j`, and used in the frame of body `i`"),
+        (
+            space("angle(a, b)"),
+            "an angle in space, which only a measure can be",
+        ),
+        (
+            space("a"),
+            "`+` does not apply to a scalar and a parameter of axes",
+        ),
+        (
+            space("direction(i, b[0])"),
+            "given in the frame of body `j`, and used in the frame of body `i`",
+        ),
         (space("direction(i, a[3])"), "there are 3 entries"),
-        (space("dot(origin(i), vector(ground, [1.0, 2.0]))"), "expected three components"),
-        (space("dot(spin(i), origin(i))"), "`phi` depends on a velocity"),
+        (
+            space("dot(origin(i), vector(ground, [1.0, 2.0]))"),
+            "expected three components",
+        ),
+        (
+            space("dot(spin(i), origin(i))"),
+            "`phi` depends on a velocity",
+        ),
     ];
     for (found, expected) in cases {
         assert!(found.contains(expected), "{found:?}, expected {expected:?}");
     }
     let kinds = [
-        ("plane A(i) { /// D.\n params { a: Axes in i } rows: [x]; phi: a; place: origin(i); }", "`Axes` is a kind of a `space` definition"),
-        ("space A(i) { /// D.\n params { a: GroundLine } rows: [x]; phi: a; place: origin(i); }", "`GroundLine` is a kind of a `plane` definition"),
-        ("space A(i) { /// D.\n params { a: Axes in i like b } rows: [x]; phi: a; place: origin(i); }", "`b` is no `Axes` parameter before `a`"),
+        (
+            "plane A(i) { /// D.\n params { a: Axes in i } rows: [x]; phi: a; place: origin(i); }",
+            "`Axes` is a kind of a `space` definition",
+        ),
+        (
+            "space A(i) { /// D.\n params { a: GroundLine } rows: [x]; phi: a; place: origin(i); }",
+            "`GroundLine` is a kind of a `plane` definition",
+        ),
+        (
+            "space A(i) { /// D.\n params { a: Axes in i like b } rows: [x]; phi: a; place: origin(i); }",
+            "`b` is no `Axes` parameter before `a`",
+        ),
     ];
     for (text, expected) in kinds {
         let found = error(Kind::Constraint, text);

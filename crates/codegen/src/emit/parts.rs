@@ -8,8 +8,8 @@ use crate::data::Datum;
 use crate::elaborate::{Comparison, Condition, KeptValue, Measure, Model};
 use crate::kernel::kernel;
 use crate::names::kebab_case;
-use crate::space::Space;
 use crate::parse::{Definition, Kept, Param, ParamKind};
+use crate::space::Space;
 
 /// The differences between a constraint and the drives of its measures.
 pub(super) struct Type {
@@ -68,7 +68,15 @@ pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> Tok
         (
             match space {
                 Space::Plane => {
-                    quote!(Constraint, Definition, Derivatives, Element, Real, Ring, Visitor)
+                    quote!(
+                        Constraint,
+                        Definition,
+                        Derivatives,
+                        Element,
+                        Real,
+                        Ring,
+                        Visitor
+                    )
                 }
                 Space::Space3 => quote!(
                     Constraint,

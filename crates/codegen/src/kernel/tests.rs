@@ -35,7 +35,7 @@ fn a_kernel_reads_what_it_uses_and_names_what_it_shares() {
 #[test]
 fn numbers_of_the_type_f64_are_read_as_they_are() {
     let mut m = model(Kind::Constraint, REVOLUTE).unwrap_or_else(|e| panic!("{e}"));
-    let [x, _] = m.inputs.pair("s_i");
+    let x = m.inputs.values("s_i")[0];
     let doubled = m.g.product(2.0, &[(x, 1)]);
     let printed = kernel(&m, &[doubled], Scalar::F64);
     assert_eq!(

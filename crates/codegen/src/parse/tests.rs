@@ -101,7 +101,9 @@ fn kind_name(kind: &ParamKind) -> &'static str {
     match kind {
         ParamKind::Point(_) => "Point",
         ParamKind::Direction(_) => "Direction",
+        ParamKind::Axes { .. } => "Axes",
         ParamKind::GroundLine => "GroundLine",
+        ParamKind::GroundPlane => "GroundPlane",
         ParamKind::Number(_) => "Number",
         ParamKind::Numbers(_) => "Numbers",
         ParamKind::Function(_) => "Function",

@@ -100,7 +100,9 @@ fn two_right_angles_turn_back() {
     let Bodies {
         mut g, turns, a, ..
     } = bodies();
-    let twice = Vector::new(Frame::Body(0), a.clone()).perp(&mut g).perp(&mut g);
+    let twice = Vector::new(Frame::Body(0), a.clone())
+        .perp(&mut g)
+        .perp(&mut g);
     let expected: Components = a.iter().map(|&e| g.neg(e)).collect();
     assert_eq!(twice.in_body(&mut g, 0, &turns), expected);
 }

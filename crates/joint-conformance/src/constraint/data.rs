@@ -58,7 +58,11 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     }
 
     /// The answer of `ask` for the constraint with these numbers.
-    fn with_data<T>(&self, numbers: &[f64], ask: impl Fn(&Check<'_, OfConstraint<K, S>>) -> T) -> T {
+    fn with_data<T>(
+        &self,
+        numbers: &[f64],
+        ask: impl Fn(&Check<'_, OfConstraint<K, S>>) -> T,
+    ) -> T {
         let mut subject = OfConstraint(self.subject.0.clone(), PhantomData);
         subject.0.set_data(numbers);
         ask(&Check {

@@ -27,7 +27,9 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         for row in 0..c.rows() {
             let q: Vec<f64> = (0..S::N_DOF).map(|k| -c.get(row, k)).collect();
             let wrench = S::wrench(&x[0], &q, point(&place)).into_iter();
-            wrench.enumerate().for_each(|(k, w)| expected.set(k, row, w));
+            wrench
+                .enumerate()
+                .for_each(|(k, w)| expected.set(k, row, w));
         }
         self.identity(Property::Wrench, &self.first(Kernel::Wrench), &expected)
     }
@@ -142,7 +144,13 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
 
 /// A column of coordinates as a point.
 fn point(place: &Block) -> [f64; 3] {
-    std::array::from_fn(|k| if k < place.rows() { place.get(k, 0) } else { 0.0 })
+    std::array::from_fn(|k| {
+        if k < place.rows() {
+            place.get(k, 0)
+        } else {
+            0.0
+        }
+    })
 }
 
 /// Φ at the start, functions of time zero.

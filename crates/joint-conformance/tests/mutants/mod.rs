@@ -6,8 +6,8 @@ use joints::generated::{
 };
 use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
 use joints::{
-    Argument, ArgumentError, Constraint, Definition, Derivatives, Element, Force, ForceElement, Pose, Real,
-    Ring, Twist, Visitor,
+    Argument, ArgumentError, Constraint, Definition, Derivatives, Element, Force, ForceElement,
+    Pose, Real, Ring, Twist, Visitor,
 };
 
 use crate::SEED;
@@ -188,7 +188,9 @@ impl<T: Ring, K: Constraint, const WRONG: u8> Derivatives<T> for Mutant<K, WRONG
         out: &mut [T],
     ) {
         let mut all = vec![T::from(0.0); K::SPEC.d_residual_dx.len()];
-        self.0.derivatives::<T>().d_residual_dx(x, v, a, f, &mut all);
+        self.0
+            .derivatives::<T>()
+            .d_residual_dx(x, v, a, f, &mut all);
         out.copy_from_slice(&all[all.len() - out.len()..]);
         change(out, WRONG == wrong::D_RESIDUAL_DX);
     }
@@ -209,7 +211,9 @@ impl<T: Ring, K: Constraint, const WRONG: u8> Derivatives<T> for Mutant<K, WRONG
         lambda: &[T],
         out: &mut [T],
     ) {
-        self.0.derivatives::<T>().d_residual_dp(x, v, a, f, lambda, out);
+        self.0
+            .derivatives::<T>()
+            .d_residual_dp(x, v, a, f, lambda, out);
         change(out, WRONG == wrong::D_RESIDUAL_DP);
     }
 }
@@ -306,15 +310,24 @@ fn a_definition_without_a_change_passes() {
 fn a_wrong_entry_of_any_constraint_kernel_is_named() {
     use Property as P;
     let cases = [
-        (found(check_constraint::<Drive<{ wrong::PHI }>, _>(SEED)), P::C),
+        (
+            found(check_constraint::<Drive<{ wrong::PHI }>, _>(SEED)),
+            P::C,
+        ),
         (
             found(check_constraint::<Mutant<Fixed, { wrong::C_CONSTANT }>, _>(
                 SEED,
             )),
             P::C,
         ),
-        (found(check_constraint::<Drive<{ wrong::C }>, _>(SEED)), P::C),
-        (found(check_constraint::<Drive<{ wrong::B }>, _>(SEED)), P::B),
+        (
+            found(check_constraint::<Drive<{ wrong::C }>, _>(SEED)),
+            P::C,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::B }>, _>(SEED)),
+            P::B,
+        ),
         (
             found(check_constraint::<Drive<{ wrong::GAMMA }>, _>(SEED)),
             P::GammaFromPhi,
@@ -336,9 +349,7 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
             P::B,
         ),
         (
-            found(check_constraint::<Mutant<KnifeEdge, { wrong::COMPONENT }>, _>(
-                SEED,
-            )),
+            found(check_constraint::<Mutant<KnifeEdge, { wrong::COMPONENT }>, _>(SEED)),
             P::Component,
         ),
         (
@@ -392,7 +403,9 @@ fn a_wrong_entry_of_a_velocity_row_is_named() {
     for found in [
         found(check_constraint::<Mutant<Velocity, { wrong::C }>, _>(SEED)),
         found(check_constraint::<Mutant<Velocity, { wrong::B }>, _>(SEED)),
-        found(check_constraint::<Mutant<Velocity, { wrong::GAMMA }>, _>(SEED)),
+        found(check_constraint::<Mutant<Velocity, { wrong::GAMMA }>, _>(
+            SEED,
+        )),
     ] {
         assert_eq!(found, Property::Gamma);
     }

@@ -18,7 +18,7 @@ joint! { space WheelContact(i) {
     let k = dot(n, a);
     let steep = 1.0 - k * k;
     initial { half_inverse: PerLength = 0.5 / radius }
-    require "the radius is positive": radius > 0.0;
+    require "the radius is not zero": radius * radius > 0.0;
     require "the wheel does not lie flat": steep > 0.000001;
     rows: [contact];
     phi: (h * h - radius * radius * steep) * half_inverse;

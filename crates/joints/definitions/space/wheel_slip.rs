@@ -21,7 +21,7 @@ joint! { space WheelSlip(i) {
     let across = cross(n, along);
     initial { inverse: PerLength = 1.0 / radius }
     let turned = cross(spin(i), (a * k - n) * (radius * radius));
-    require "the radius is positive": radius > 0.0;
+    require "the radius is not zero": radius * radius > 0.0;
     require "the wheel does not lie flat": 1.0 - k * k > 0.000001;
     rows: [longitudinal, lateral];
     psi: [

@@ -155,9 +155,7 @@ impl Golden {
         }
         let argument = |p: &joints::spec::Parameter| match (self.parameters.get(p.name), p.shape) {
             (None, _) => Argument::Absent,
-            (Some(Value::Many(v)), Shape::Point { .. } | Shape::Direction { .. }) => {
-                S::vector(v)
-            }
+            (Some(Value::Many(v)), Shape::Point { .. } | Shape::Direction { .. }) => S::vector(v),
             (Some(Value::Two([a, b])), Shape::GroundPlane) => {
                 Argument::Triples([a, b].map(|v| [0, 1, 2].map(|k| v[k])))
             }

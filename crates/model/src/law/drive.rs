@@ -9,7 +9,9 @@
 
 use joints::plane::N_DOF;
 use joints::spec::{ConstraintSpec, ForceSpec};
-use joints::{Argument, Constraint, Definition, Element, ForceElement, Pose, Recorded, Twist};
+use joints::{
+    Argument, Constraint, Definition, Derivatives, Element, ForceElement, Pose, Recorded, Twist,
+};
 
 use super::number::Smooth;
 use super::{DriveForce, Law, LawError};
@@ -164,7 +166,7 @@ impl<T: Smooth, K: Constraint> ForceElement<T> for LawDrive<K> {
     }
 
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        let element: &dyn Element<T> = self.drive.element();
+        let element: &dyn Derivatives<T> = self.drive.derivatives();
         let [zero, one, nan] = [0.0, 1.0, f64::NAN].map(T::from);
         let along = self.along(x);
         let (g, rate) = (along.gradient, along.rate(v));

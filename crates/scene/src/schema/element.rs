@@ -175,7 +175,8 @@ fn value(parameter: &Parameter, spec: &Spec) -> Value {
     let mut schema = match parameter.shape {
         Shape::Point { .. } => reference("point"),
         Shape::Direction { .. } => tuple(vec![number(Interval::Any); 2]),
-        Shape::GroundLine => tuple(vec![reference("point"); 2]),
+        Shape::Axes { .. } => tuple(vec![number(Interval::Any); 3]),
+        Shape::GroundLine | Shape::GroundPlane => tuple(vec![reference("point"); 2]),
         Shape::Numbers(units) => {
             let numbers = units.iter().map(|unit| number(range(*unit)));
             one_or_many(numbers.collect())
@@ -187,7 +188,9 @@ fn value(parameter: &Parameter, spec: &Spec) -> Value {
         doc => in_one_line(doc).trim_end_matches('.').to_owned(),
     };
     let frame = match parameter.shape {
-        Shape::Direction { slot } => format!(" in the frame of {}", owner(spec, slot)),
+        Shape::Direction { slot } | Shape::Axes { slot, .. } => {
+            format!(" in the frame of {}", owner(spec, slot))
+        }
         Shape::GroundLine => " in global coordinates (m)".to_owned(),
         _ => String::new(),
     };
@@ -196,7 +199,8 @@ fn value(parameter: &Parameter, spec: &Spec) -> Value {
     } else {
         ""
     };
-    schema["description"] = format!("{meaning}: {}{frame}{default}", parameter.shape.words(2)).into();
+    schema["description"] =
+        format!("{meaning}: {}{frame}{default}", parameter.shape.words(2)).into();
     schema
 }
 

@@ -20,12 +20,12 @@ pub(super) struct Equation {
     /// has, of relative size up to one.
     pub(super) rounding: f64,
     /// Coefficients of each point, direction or number.
-    pub(super) parts: Vec<[f64; 2]>,
+    pub(super) parts: Vec<[f64; 3]>,
 }
 
 impl Equation {
     fn slack(&self) -> f64 {
-        let squares = self.parts.iter().map(|[x, y]| x * x + y * y);
+        let squares = self.parts.iter().map(|[x, y, z]| x * x + y * y + z * z);
         self.rounding
             .max(CONE_RESOLVED * squares.sum::<f64>().sqrt())
     }
@@ -63,7 +63,7 @@ pub(super) fn least_change(equations: &[Equation]) -> Bounds {
             for (j, right) in equations.iter().enumerate().take(i + 1) {
                 let mut sum = 0.0;
                 for ((a, b), w) in left.parts.iter().zip(&right.parts).zip(&weights) {
-                    sum += (a[0] * b[0] + a[1] * b[1]) / w;
+                    sum += (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / w;
                 }
                 matrix[i * e + j] = sum;
                 matrix[j * e + i] = sum;
@@ -78,12 +78,13 @@ pub(super) fn least_change(equations: &[Equation]) -> Bounds {
         let share_of = |p: usize| match p.checked_sub(blocks) {
             Some(i) => (slack[i] * y[i] / weights[p]).abs(),
             None => {
-                let mut x = [0.0; 2];
+                let mut x = [0.0; 3];
                 for (equation, y) in equations.iter().zip(&y) {
                     x[0] += equation.parts[p][0] * y;
                     x[1] += equation.parts[p][1] * y;
+                    x[2] += equation.parts[p][2] * y;
                 }
-                x[0].hypot(x[1]) / weights[p]
+                x[0].hypot(x[1]).hypot(x[2]) / weights[p]
             }
         };
         let shares: Vec<f64> = (0..blocks + e).map(share_of).collect();
@@ -121,7 +122,7 @@ pub(super) fn least_change(equations: &[Equation]) -> Bounds {
 mod tests {
     use super::*;
 
-    fn equation(target: f64, parts: &[[f64; 2]]) -> Equation {
+    fn equation(target: f64, parts: &[[f64; 3]]) -> Equation {
         Equation {
             target,
             rounding: 1e-12,
@@ -141,7 +142,10 @@ mod tests {
     fn one_equation_is_shared_by_all() {
         // 6 = 1·x₁ + 2·x₂ + |(0, 3)·x₃|: all change by 1.
         is_near(
-            least_change(&[equation(6.0, &[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]])]),
+            least_change(&[equation(
+                6.0,
+                &[[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]],
+            )]),
             1.0,
         );
     }
@@ -149,17 +153,20 @@ mod tests {
     #[test]
     fn a_point_has_one_change_in_both_directions() {
         // x = 3, y = 4 of one point: 5, of two numbers: 4.
-        let (x, y) = ([[1.0, 0.0]], [[0.0, 1.0]]);
+        let (x, y) = ([[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]);
         is_near(least_change(&[equation(3.0, &x), equation(4.0, &y)]), 5.0);
-        let (x, y) = ([[1.0, 0.0], [0.0; 2]], [[0.0; 2], [1.0, 0.0]]);
+        let (x, y) = ([[1.0, 0.0, 0.0], [0.0; 3]], [[0.0; 3], [1.0, 0.0, 0.0]]);
         is_near(least_change(&[equation(3.0, &x), equation(4.0, &y)]), 4.0);
     }
 
     #[test]
     fn what_no_change_satisfies_is_far_away() {
-        let contradicting = [equation(1.0, &[[1.0, 0.0]]), equation(-1.0, &[[1.0, 0.0]])];
+        let contradicting = [
+            equation(1.0, &[[1.0, 0.0, 0.0]]),
+            equation(-1.0, &[[1.0, 0.0, 0.0]]),
+        ];
         assert!(least_change(&contradicting).low > 1e4);
-        assert!(least_change(&[equation(1.0, &[[0.0; 2]])]).low > 1e6);
-        assert_eq!(least_change(&[equation(0.0, &[[1.0, 0.0]])]).high, 0.0);
+        assert!(least_change(&[equation(1.0, &[[0.0; 3]])]).low > 1e6);
+        assert_eq!(least_change(&[equation(0.0, &[[1.0, 0.0, 0.0]])]).high, 0.0);
     }
 }

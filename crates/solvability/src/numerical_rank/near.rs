@@ -303,7 +303,7 @@ impl Lower<'_> {
             Some(Asked {
                 equation: equation(target, &gradient, (blocks, known), noise),
                 unit: question.size,
-                by_start: vec![[0.0; 2]; 2 * question.s.bodies.len()],
+                by_start: vec![[0.0; 3]; 2 * question.s.bodies.len()],
             })
         };
         (0..pose.left.nrows().min(PAIRS))
@@ -335,7 +335,7 @@ struct Asked {
     /// Unit of the equation (m, or 1 for an entry).
     unit: f64,
     /// Coefficients of changes of the body positions at the start.
-    by_start: Vec<[f64; 2]>,
+    by_start: Vec<[f64; 3]>,
 }
 
 impl Asked {

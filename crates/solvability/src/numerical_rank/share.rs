@@ -67,7 +67,7 @@ impl Question<'_> {
 
     /// Coefficients of an entry with respect to the position and rotation of each body, for changes
     /// of this length (m).
-    pub(super) fn by_place(&self, gradient: &[f64], length: f64, by_angles: bool) -> Vec<[f64; 2]> {
+    pub(super) fn by_place(&self, gradient: &[f64], length: f64, by_angles: bool) -> Vec<[f64; 3]> {
         let place = if by_angles { 0.0 } else { length };
         let turn = length / self.size;
         let bodies = gradient.chunks_exact(self.mechanism.space().n_v());
@@ -76,7 +76,7 @@ impl Question<'_> {
 
     /// Coefficients with respect to the position and rotation of each body at the start, for
     /// changes of the size of their rounding.
-    fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 2]> {
+    fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 3]> {
         let columns = self.mechanism.space().n_v();
         let (reach, at) = (|body| self.mechanism.reach(body), &self.s.bodies);
         let bodies = gradient.chunks_exact(columns).enumerate();
@@ -89,8 +89,12 @@ impl Question<'_> {
     }
 
     /// Coefficients of the translation and of the rotation of a body, for changes of this size.
-    fn parts(&self, by: &[f64], place: f64, turn: f64) -> [[f64; 2]; 2] {
-        [[by[0] * place, by[1] * place], [by[2] * turn, 0.0]]
+    fn parts(&self, by: &[f64], place: f64, turn: f64) -> [[f64; 3]; 2] {
+        let (by_place, by_turn) = by.split_at(self.mechanism.space().n_translations());
+        let scaled = |by: &[f64], unit: f64| -> [f64; 3] {
+            std::array::from_fn(|k| by.get(k).map_or(0.0, |x| x * unit))
+        };
+        [scaled(by_place, place), scaled(by_turn, turn)]
     }
 
     /// The largest tolerance that the scene states for a point or a length; or for an angle, if it
@@ -142,7 +146,7 @@ impl Question<'_> {
                     .iter()
                     .map(|b| b.change(&gradient.data, b.known_to()));
                 let by_start = self.by_start(&gradient.pose);
-                let by_start = by_start.iter().map(|[x, y]| x.hypot(*y));
+                let by_start = by_start.iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
                 changes.chain(by_start).sum::<f64>()
             };
             let of_rows = |z: &Matrix| (0..z.nrows()).map(|k| of_vector(z.row(k))).collect();

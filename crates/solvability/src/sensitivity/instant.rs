@@ -185,8 +185,8 @@ impl<'a> Instant<'a> {
                 }
             }
             for (sum, (block, _)) in squares.iter_mut().zip(&self.blocks) {
-                let [x, y] = block.part(&gradient);
-                *sum += x * x + y * y;
+                let [x, y, z] = block.part(&gradient);
+                *sum += x * x + y * y + z * z;
             }
         }
         let changes = squares.iter().zip(&self.blocks);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
 use joints::spec::ConstraintSpec;
-use joints::{Definition, Element, Magnitude, Pose, Recorded, Twist};
+use joints::{Definition, Derivatives, Element, Magnitude, Pose, Recorded, Twist};
 use linalg::Dd;
 use model::{ConstraintKernels, Joint};
 
@@ -120,6 +120,12 @@ impl Element for Watched {
     fn place(&self, x: &[Pose]) -> [f64; 2] {
         self.inner.place(x)
     }
+    fn d_phi_dp(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
+        self.inner.d_phi_dp(x, f, lambda, out);
+    }
+}
+
+impl Derivatives for Watched {
     fn d_force_dx(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.derivatives);
         self.inner.d_force_dx(x, f, lambda, out);
@@ -132,9 +138,6 @@ impl Element for Watched {
     }
     fn d_velocity_dx(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
         self.inner.d_velocity_dx(x, v, f, out);
-    }
-    fn d_phi_dp(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
-        self.inner.d_phi_dp(x, f, lambda, out);
     }
     fn d_residual_dp(
         &self,

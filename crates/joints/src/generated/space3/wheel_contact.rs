@@ -35,7 +35,7 @@ impl Constraint<Space3> for WheelContact {
             scene_type: "wheel-contact",
             variant: None,
             doc: "A wheel touches a plane of the ground: of the circle of `radius` about point `s` across `axis` the lowest point lies in the plane. With the height h of the centre above the plane and the slope k = up·axis that is `(h² − radius²·(1 − k²))/(2·radius) = 0`.",
-            text: "joint! { space WheelContact(i) {\n    /// A wheel touches a plane of the ground: of the circle of `radius` about point `s` across `axis` the lowest point\n    /// lies in the plane. With the height h of the centre above the plane and the slope k = up·axis that is\n    /// `(h² − radius²·(1 − k²))/(2·radius) = 0`.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane.\n        radius: Length,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let h = dot(n, point(i, s) - start(plane));\n    let k = dot(n, a);\n    let steep = 1.0 - k * k;\n    initial { half_inverse: PerLength = 0.5 / radius }\n    require \"the radius is positive\": radius > 0.0;\n    require \"the wheel does not lie flat\": steep > 0.000001;\n    rows: [contact];\n    phi: (h * h - radius * radius * steep) * half_inverse;\n    place: point(i, s) - (n - a * k) * (radius / norm(n - a * k));\n} }",
+            text: "joint! { space WheelContact(i) {\n    /// A wheel touches a plane of the ground: of the circle of `radius` about point `s` across `axis` the lowest point\n    /// lies in the plane. With the height h of the centre above the plane and the slope k = up·axis that is\n    /// `(h² − radius²·(1 − k²))/(2·radius) = 0`.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane.\n        radius: Length,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let h = dot(n, point(i, s) - start(plane));\n    let k = dot(n, a);\n    let steep = 1.0 - k * k;\n    initial { half_inverse: PerLength = 0.5 / radius }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    require \"the wheel does not lie flat\": steep > 0.000001;\n    rows: [contact];\n    phi: (h * h - radius * radius * steep) * half_inverse;\n    place: point(i, s) - (n - a * k) * (radius / norm(n - a * k));\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
@@ -60,7 +60,7 @@ impl Constraint<Space3> for WheelContact {
                 ),
             ],
             points_apart: false,
-            requirements: &["the radius is positive", "the wheel does not lie flat"],
+            requirements: &["the radius is not zero", "the wheel does not lie flat"],
         },
         role: Role::Joint,
         level: Level::Holonomic,
@@ -161,7 +161,7 @@ impl Definition<Space3> for WheelContact {
         match k {
             0 => {
                 let radius = self.radius;
-                radius > 0.0
+                radius * radius > 0.0
             }
             1 => {
                 let rot_i_xx = x[0].rot[0][0];

@@ -35,7 +35,7 @@ impl Constraint<Space3> for WheelSlip {
             scene_type: "wheel-slip",
             variant: None,
             doc: "A wheel that touches a plane of the ground does not slip on it: the point of contact has no velocity along the track (axis × up) and across it. Rows are multiplied by the height of the centre over the radius, so that no quotient is needed; arms are those of a wheel that touches.",
-            text: "joint! { space WheelSlip(i) {\n    /// A wheel that touches a plane of the ground does not slip on it: the point of contact has no velocity along the\n    /// track (axis × up) and across it. Rows are multiplied by the height of the centre over the radius, so that no\n    /// quotient is needed; arms are those of a wheel that touches.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane.\n        radius: Length,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let centre = point(i, s);\n    let h = dot(n, centre - start(plane));\n    let k = dot(n, a);\n    let along = cross(a, n);\n    let across = cross(n, along);\n    initial { inverse: PerLength = 1.0 / radius }\n    let turned = cross(spin(i), (a * k - n) * (radius * radius));\n    require \"the radius is positive\": radius > 0.0;\n    require \"the wheel does not lie flat\": 1.0 - k * k > 0.000001;\n    rows: [longitudinal, lateral];\n    psi: [\n        (h * dot(along, velocity(centre)) + dot(along, turned)) * inverse,\n        (h * dot(across, velocity(centre)) + dot(across, turned)) * inverse,\n    ];\n    place: centre - (n - a * k) * (radius / norm(n - a * k));\n} }",
+            text: "joint! { space WheelSlip(i) {\n    /// A wheel that touches a plane of the ground does not slip on it: the point of contact has no velocity along the\n    /// track (axis × up) and across it. Rows are multiplied by the height of the centre over the radius, so that no\n    /// quotient is needed; arms are those of a wheel that touches.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane.\n        radius: Length,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let centre = point(i, s);\n    let h = dot(n, centre - start(plane));\n    let k = dot(n, a);\n    let along = cross(a, n);\n    let across = cross(n, along);\n    initial { inverse: PerLength = 1.0 / radius }\n    let turned = cross(spin(i), (a * k - n) * (radius * radius));\n    require \"the radius is not zero\": radius * radius > 0.0;\n    require \"the wheel does not lie flat\": 1.0 - k * k > 0.000001;\n    rows: [longitudinal, lateral];\n    psi: [\n        (h * dot(along, velocity(centre)) + dot(along, turned)) * inverse,\n        (h * dot(across, velocity(centre)) + dot(across, turned)) * inverse,\n    ];\n    place: centre - (n - a * k) * (radius / norm(n - a * k));\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
@@ -60,7 +60,7 @@ impl Constraint<Space3> for WheelSlip {
                 ),
             ],
             points_apart: false,
-            requirements: &["the radius is positive", "the wheel does not lie flat"],
+            requirements: &["the radius is not zero", "the wheel does not lie flat"],
         },
         role: Role::Joint,
         level: Level::Nonholonomic,
@@ -222,7 +222,7 @@ impl Definition<Space3> for WheelSlip {
         match k {
             0 => {
                 let radius = self.radius;
-                radius > 0.0
+                radius * radius > 0.0
             }
             1 => {
                 let rot_i_xx = x[0].rot[0][0];
