@@ -214,7 +214,7 @@ impl<'m> Data<'m> {
         let mut rates = OwnRates::default();
         self.add(lambda, factor, out, |c, lambda, own| {
             rates.take(c, v);
-            c.d_power_dp(&s.slots, &rates, lambda, own);
+            c.d_power_dp(&s.slots, &mut rates, lambda, own);
         });
     }
 

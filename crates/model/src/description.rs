@@ -1,10 +1,11 @@
 //! A mechanism as plain data: the result of reading a scene, or written directly by a program.
 //! Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
 
-use crate::element::{ConstraintKernels, ForceKernels};
+use joints::{Plane, Space3};
+
+use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
 use crate::function::Function;
 use crate::observed::Observed;
-use crate::space::SpaceKind;
 use crate::tolerance::Tolerance;
 
 /// A mechanism before it is assembled.
@@ -29,29 +30,66 @@ use crate::tolerance::Tolerance;
 /// let faults = Mechanism::build(&pendulum).err().unwrap();
 /// assert_eq!(faults[0].to_string(), "the name `pivot` is used twice");
 /// ```
-#[derive(Clone, Default)]
-pub struct Description {
+#[derive(Clone)]
+pub struct Described<S: BodySpace> {
     /// Its name.
     pub name: String,
-    /// The space in which its bodies move.
-    pub space: SpaceKind,
     /// Acceleration of free fall (m/s²).
-    pub gravity: [f64; 2],
+    pub gravity: S::Vector<f64>,
     /// Bodies; their order is that of the coordinates.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<S::Body>,
     /// Joints; their order is that of the rows.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<Joint<S>>,
     /// Drives; their rows follow the holonomic rows of the joints.
-    pub drives: Vec<Drive>,
+    pub drives: Vec<Drive<S>>,
     /// Forces.
-    pub forces: Vec<Force>,
+    pub forces: Vec<Force<S>>,
     /// Tolerance of the numbers, unless one is stated for their joint or body.
     pub tolerance: Tolerance,
     /// Markers and measures.
     pub observed: Observed,
 }
 
-impl Description {
+/// A mechanism in the plane before it is assembled; see [`Described`].
+pub type Description = Described<Plane>;
+
+/// A mechanism in space before it is assembled.
+///
+/// ```
+/// use joints::space3::{Axes, Revolute};
+/// use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription, System};
+/// // A door on two hinges: five of their ten rows are redundant.
+/// let mut d = SpatialDescription::new("door");
+/// let door = d.body(SpatialBody {
+///     position: [0.5, 0.0, 1.0],
+///     ..SpatialBody::new("door", 20.0, [[6.0, 0.0, 0.0], [0.0, 8.0, 0.0], [0.0, 0.0, 2.0]])
+/// });
+/// for (name, z) in [("bottom", 0.2), ("top", 1.8)] {
+///     let [s_i, s_j] = [BodyRef::Ground, door].map(|body| d.local(body, [0.0, 0.0, z]));
+///     let hinge = Revolute { s_i, s_j, axis: Axes::FRAME, axis_j: Axes::FRAME };
+///     d.joint(name, &[BodyRef::Ground, door], hinge);
+/// }
+/// let mechanism = Mechanism::build(&d).unwrap();
+/// assert_eq!((mechanism.layout().rows(), mechanism.layout().n_v), (10, 6));
+/// ```
+pub type SpatialDescription = Described<Space3>;
+
+impl<S: BodySpace> Default for Described<S> {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            gravity: S::vector([0.0; 3]),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            drives: Vec::new(),
+            forces: Vec::new(),
+            tolerance: Tolerance::default(),
+            observed: Observed::default(),
+        }
+    }
+}
+
+impl<S: BodySpace> Described<S> {
     /// A description without bodies.
     #[must_use]
     pub fn new(name: &str) -> Self {
@@ -62,7 +100,7 @@ impl Description {
     }
 
     /// Adds a body and returns the reference by which joints refer to it.
-    pub fn body(&mut self, body: Body) -> BodyRef {
+    pub fn body(&mut self, body: S::Body) -> BodyRef {
         self.bodies.push(body);
         BodyRef::Body(self.bodies.len() - 1)
     }
@@ -73,8 +111,8 @@ impl Description {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: impl ConstraintKernels + 'static,
-    ) -> &mut Joint {
+        element: impl ConstraintKernels<S> + 'static,
+    ) -> &mut Joint<S> {
         self.joints.push_mut(Joint::new(name, bodies, element))
     }
 
@@ -83,7 +121,7 @@ impl Description {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: impl ConstraintKernels + 'static,
+        element: impl ConstraintKernels<S> + 'static,
         motion: Function,
     ) {
         self.drives.push(Drive {
@@ -101,8 +139,8 @@ impl Description {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: impl ForceKernels + 'static,
-    ) -> &mut Force {
+        element: impl ForceKernels<S> + 'static,
+    ) -> &mut Force<S> {
         self.forces.push_mut(Force {
             name: name.to_owned(),
             bodies: bodies.to_vec(),
@@ -112,10 +150,11 @@ impl Description {
     }
 
     /// A global point (m) relative to the centre of mass of a body as described, as joints and
-    /// forces take it; see [`BodyRef::to_local`].
+    /// forces take it; for the ground, and for a body that does not exist, the point itself.
     #[must_use]
-    pub fn local(&self, body: BodyRef, point: [f64; 2]) -> [f64; 2] {
-        body.to_local(&self.bodies, point)
+    pub fn local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
+        let described = body.moving().and_then(|at| self.bodies.get(at));
+        described.map_or(point, |body| S::to_local(body, point))
     }
 }
 
@@ -160,6 +199,134 @@ impl Body {
     }
 }
 
+/// A rigid body in space with its state at the start. The origin of its frame is its centre of mass,
+/// unless `centre` says otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpatialBody {
+    /// Its name.
+    pub name: String,
+    /// Mass (kg), ≥ 0.
+    pub mass: f64,
+    /// Inertia about the centre of mass in the axes of its frame (kg·m²), symmetric. Off the diagonal
+    /// are the entries of the matrix, −∫xy dm.
+    pub inertia: [[f64; 3]; 3],
+    /// The centre of mass in its frame (m). Points of joints and forces are relative to it.
+    pub centre: [f64; 3],
+    /// Position of the origin of its frame (m).
+    pub position: [f64; 3],
+    /// Orientation of its frame: a quaternion (w, x, y, z) of any length but zero, body to ground.
+    pub orientation: [f64; 4],
+    /// Velocity of the origin of its frame (m/s), ground axes. `None`: it follows from the given
+    /// velocities and the prescribed motions, with the least kinetic energy.
+    pub velocity: Option<[f64; 3]>,
+    /// Angular velocity (rad/s), ground axes. `None`: it follows in the same way.
+    pub angular_velocity: Option<[f64; 3]>,
+    /// Tolerance of points and directions in its frame (m; directions: divided by the size of the
+    /// mechanism); takes precedence over that of the scene.
+    pub tolerance: Option<f64>,
+}
+
+impl SpatialBody {
+    /// A body with this mass (kg) and inertia about the centre of mass (kg·m²), at the origin, not
+    /// turned, with velocities not given.
+    #[must_use]
+    pub fn new(name: &str, mass: f64, inertia: [[f64; 3]; 3]) -> Self {
+        Self {
+            name: name.to_owned(),
+            mass,
+            inertia,
+            centre: [0.0; 3],
+            position: [0.0; 3],
+            orientation: [1.0, 0.0, 0.0, 0.0],
+            velocity: None,
+            angular_velocity: None,
+            tolerance: None,
+        }
+    }
+}
+
+/// A body of a mechanism, as described.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyRecord {
+    /// Its name.
+    pub name: String,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Tolerance of points and directions in its frame (m), if stated.
+    pub tolerance: Option<f64>,
+    /// The rest, in its space.
+    pub described: DescribedBody,
+}
+
+/// What describes a body in its space.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DescribedBody {
+    /// In the plane.
+    Plane(Body),
+    /// In space.
+    Space3(SpatialBody),
+}
+
+impl From<Body> for DescribedBody {
+    fn from(body: Body) -> Self {
+        Self::Plane(body)
+    }
+}
+
+impl From<SpatialBody> for DescribedBody {
+    fn from(body: SpatialBody) -> Self {
+        Self::Space3(body)
+    }
+}
+
+impl From<DescribedBody> for BodyRecord {
+    fn from(described: DescribedBody) -> Self {
+        let (name, mass, tolerance) = match &described {
+            DescribedBody::Plane(b) => (b.name.clone(), b.mass, b.tolerance),
+            DescribedBody::Space3(b) => (b.name.clone(), b.mass, b.tolerance),
+        };
+        Self {
+            name,
+            mass,
+            tolerance,
+            described,
+        }
+    }
+}
+
+impl BodyRecord {
+    /// Whether the origin of its frame is its centre of mass.
+    #[must_use]
+    pub fn is_centred(&self) -> bool {
+        self.centre() == [0.0; 3]
+    }
+
+    /// The centre of mass in its frame (m).
+    #[must_use]
+    pub fn centre(&self) -> [f64; 3] {
+        match &self.described {
+            DescribedBody::Plane(b) => [b.centre[0], b.centre[1], 0.0],
+            DescribedBody::Space3(b) => b.centre,
+        }
+    }
+
+    /// A point of its frame relative to its centre of mass (m), as joints and forces take it.
+    #[must_use]
+    pub fn from_centre(&self, point: [f64; 3]) -> [f64; 3] {
+        let centre = self.centre();
+        std::array::from_fn(|k| point[k] - centre[k])
+    }
+
+    /// Whether the description gives a velocity of its frame.
+    #[must_use]
+    pub fn has_velocity(&self) -> bool {
+        match &self.described {
+            DescribedBody::Plane(b) => b.velocity.is_some(),
+            DescribedBody::Space3(b) => b.velocity.is_some(),
+        }
+    }
+}
+
 /// A body of the mechanism, by its index in the list, or the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum BodyRef {
@@ -191,13 +358,13 @@ impl BodyRef {
 
 /// A joint between bodies.
 #[derive(Clone)]
-pub struct Joint {
+pub struct Joint<S: BodySpace = Plane> {
     /// Its name.
     pub name: String,
     /// One body for each slot of the definition.
     pub bodies: Vec<BodyRef>,
     /// Its definition with parameters.
-    pub element: Box<dyn ConstraintKernels>,
+    pub element: Box<dyn ConstraintKernels<S>>,
     /// Its functions of time, in the order of the definition.
     pub functions: Vec<Function>,
     /// Tolerance of its points, directions and numbers (m; angles: divided by the size of the
@@ -205,9 +372,13 @@ pub struct Joint {
     pub tolerance: Option<f64>,
 }
 
-impl Joint {
+impl<S: BodySpace> Joint<S> {
     /// A joint that does not depend on time.
-    pub fn new(name: &str, bodies: &[BodyRef], element: impl ConstraintKernels + 'static) -> Self {
+    pub fn new(
+        name: &str,
+        bodies: &[BodyRef],
+        element: impl ConstraintKernels<S> + 'static,
+    ) -> Self {
         Self {
             name: name.to_owned(),
             bodies: bodies.to_vec(),
@@ -220,13 +391,13 @@ impl Joint {
 
 /// A prescribed relative motion: measure − initial measure − (f(t) − f(0)) = 0.
 #[derive(Clone)]
-pub struct Drive {
+pub struct Drive<S: BodySpace = Plane> {
     /// Its name.
     pub name: String,
     /// One body for each slot of the joint's definition.
     pub bodies: Vec<BodyRef>,
     /// The element that drives one measure of the joint, with the parameters of the joint.
-    pub element: Box<dyn ConstraintKernels>,
+    pub element: Box<dyn ConstraintKernels<S>>,
     /// The function f.
     pub motion: Function,
     /// Tolerance of its points, directions and numbers (m): that of the driven joint.
@@ -235,13 +406,13 @@ pub struct Drive {
 
 /// An applied force.
 #[derive(Clone)]
-pub struct Force {
+pub struct Force<S: BodySpace = Plane> {
     /// Its name.
     pub name: String,
     /// One body for each slot of the definition.
     pub bodies: Vec<BodyRef>,
     /// Its definition with parameters.
-    pub element: Box<dyn ForceKernels>,
+    pub element: Box<dyn ForceKernels<S>>,
     /// Its functions of time, in the order of the definition.
     pub functions: Vec<Function>,
 }

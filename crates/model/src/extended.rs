@@ -138,7 +138,7 @@ fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
 /// Poses of the bodies, and values of the functions of time.
 fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> (Bodies<Dd>, Vec<[Dd; 3]>) {
     let jets = mechanism.elements.functions.iter();
-    let jets = jets.map(|f| f.jet(t).map(Dd::from)).collect();
+    let jets = jets.map(|f| f.extended_jet(t)).collect();
     (Bodies::at(mechanism.space(), q), jets)
 }
 

@@ -5,8 +5,8 @@
 //! description, and everything that is written, is about the origin o of the body's frame, with
 //! c = [`Body::centre`]: `r = o + R·c`, `ṙ = ȯ + ω × R·c`.
 
-use crate::description::{Body, BodyRef};
-use crate::element::{angle_at, turned_at};
+use crate::description::{Body, BodyRecord, BodyRef, DescribedBody};
+use crate::element::{angle_at, axes_at, turned_at};
 use crate::mechanism::Mechanism;
 use crate::observed::{Marker, Measure, MeasureKind, Observed};
 use crate::space::{SpaceKind, cross, difference};
@@ -24,13 +24,25 @@ pub struct FrameState {
     pub velocity: [f64; 3],
     /// Angular velocity (rad/s).
     pub omega: [f64; 3],
+    /// Orientation in space, as the coordinates have it.
+    pub quaternion: [f64; 4],
 }
 
 impl FrameState {
     /// Its numbers, in the order of [`SpaceKind::columns`].
     pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
         let ([x, y, _], [vx, vy, _], [.., omega]) = (self.place, self.velocity, self.omega);
-        [x, y, self.angle, vx, vy, omega].into_iter()
+        let numbers = match self.space {
+            SpaceKind::Space3 => [
+                &self.place[..],
+                &self.quaternion,
+                &self.velocity,
+                &self.omega,
+            ]
+            .concat(),
+            _ => vec![x, y, self.angle, vx, vy, omega],
+        };
+        numbers.into_iter()
     }
 }
 
@@ -115,7 +127,7 @@ impl<'m> Frames<'m> {
     pub fn point(self, body: usize, point: [f64; 2], q: &[f64], v: &[f64]) -> FrameState {
         let space = self.0.space();
         let own = &q[space.coordinates(body)];
-        let [x, y] = self.0.bodies()[body].from_centre(point);
+        let arm = self.0.bodies()[body].from_centre([point[0], point[1], 0.0]);
         let mut state = FrameState {
             space,
             angle: angle_at(space, own),
@@ -128,8 +140,12 @@ impl<'m> Frames<'m> {
         for k in space.torques() {
             state.omega[space.axis_of(k)] = v[k];
         }
-        if [x, y] != [0.0; 2] {
-            let arm = turned_at(space, own, [x, y, 0.0]);
+        if space == SpaceKind::Space3 {
+            state.omega = turned_at(space, own, state.omega);
+            state.quaternion = [own[3], own[4], own[5], own[6]];
+        }
+        if arm != [0.0; 3] {
+            let arm = turned_at(space, own, arm);
             let moved = cross(state.omega, arm);
             for k in 0..3 {
                 state.place[k] += arm[k];
@@ -144,7 +160,7 @@ impl<'m> Frames<'m> {
     #[must_use]
     pub fn given_velocities(self, q: &[f64]) -> Vec<Option<f64>> {
         let space = self.0.space();
-        let of = |(k, b): (usize, &Body)| {
+        let of_plane = |k: usize, b: &Body| -> Vec<Option<f64>> {
             let [mut vx, mut vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
             if let (Some([x, y]), Some(omega), false) =
                 (b.velocity, b.angular_velocity, b.is_centred())
@@ -153,7 +169,29 @@ impl<'m> Frames<'m> {
                 let [ax, ay, _] = turned_at(space, &q[space.coordinates(k)], [cx, cy, 0.0]);
                 (vx, vy) = (Some(x - omega * ay), Some(y + omega * ax));
             }
-            [vx, vy, b.angular_velocity]
+            vec![vx, vy, b.angular_velocity]
+        };
+        let of = |(k, record): (usize, &BodyRecord)| match &record.described {
+            DescribedBody::Plane(b) => of_plane(k, b),
+            DescribedBody::Space3(b) => {
+                let own = &q[space.coordinates(k)];
+                let arm = turned_at(space, own, b.centre);
+                let carried = |v: [f64; 3], omega: [f64; 3]| -> [f64; 3] {
+                    let turned = cross(omega, arm);
+                    std::array::from_fn(|k| v[k] + turned[k])
+                };
+                // Without a rotation the frame is at the centre of mass: the build sees to it.
+                let velocity = b.velocity.map(|v| match b.angular_velocity {
+                    Some(omega) if arm != [0.0; 3] => carried(v, omega),
+                    _ => v,
+                });
+                let axes = axes_at(space, own);
+                let omega = b
+                    .angular_velocity
+                    .map(|omega| axes.map(|axis| (0..3).map(|k| axis[k] * omega[k]).sum::<f64>()));
+                let all = [velocity, omega].map(|v| v.map_or([None; 3], |v| v.map(Some)));
+                all.concat()
+            }
         };
         self.0.bodies().iter().enumerate().flat_map(of).collect()
     }

@@ -63,8 +63,11 @@ mod uncertainty;
 pub mod words;
 
 pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED, explained};
-pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
-pub use element::{Bodies, ConstraintKernels, ForceKernels};
+pub use description::{
+    Body, BodyRecord, BodyRef, Described, DescribedBody, Description, Drive, Force, Joint,
+    SpatialBody, SpatialDescription,
+};
+pub use element::{Bodies, BodySpace, ConstraintKernels, ForceKernels};
 pub use extended::Polished;
 pub use frame::{FrameState, Frames};
 pub use function::{Function, FunctionError};

@@ -11,7 +11,10 @@ mod kernels;
 mod part;
 mod work;
 
-use crate::description::Body;
+use joints::Ring;
+use linalg::Dd;
+
+use crate::description::BodyRecord;
 use crate::element::{PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
 use crate::observed::Observed;
@@ -61,7 +64,7 @@ pub use work::Work;
 #[derive(Clone)]
 pub struct Mechanism {
     name: String,
-    bodies: Vec<Body>,
+    bodies: Vec<BodyRecord>,
     pub(crate) elements: Elements,
     mass: Vec<f64>,
     weight: Vec<f64>,
@@ -101,6 +104,18 @@ pub(crate) struct TimeFunction {
     function: Function,
     /// f(0) for drives, which follow f(t) − f(0); otherwise zero.
     offset: f64,
+    form: FunctionForm,
+}
+
+/// The form in which a function enters.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FunctionForm {
+    /// The function itself.
+    Value,
+    /// Its cosine; its sine follows.
+    Cosine,
+    /// Its sine.
+    Sine,
 }
 
 impl TimeFunction {
@@ -111,7 +126,26 @@ impl TimeFunction {
 
     pub(crate) fn jet(&self, t: f64) -> [f64; 3] {
         let [f, d, dd] = self.function.jet(t);
-        [f - self.offset, d, dd]
+        self.formed([f - self.offset, d, dd], f64::sin_cos)
+    }
+
+    /// The same in double-double, from the value in `f64`.
+    pub(crate) fn extended_jet(&self, t: f64) -> [Dd; 3] {
+        let [f, d, dd] = self.function.jet(t);
+        let jet = [f - self.offset, d, dd].map(Dd::from);
+        self.formed(jet, Dd::sin_cos)
+    }
+
+    /// The form of a value with two derivatives.
+    fn formed<T: Ring>(&self, [f, d, dd]: [T; 3], sin_cos: impl Fn(T) -> (T, T)) -> [T; 3] {
+        if self.form == FunctionForm::Value {
+            return [f, d, dd];
+        }
+        let (sin, cos) = sin_cos(f);
+        match self.form {
+            FunctionForm::Cosine => [cos, -(sin * d), -(cos * d * d) - sin * dd],
+            _ => [sin, cos * d, cos * dd - sin * d * d],
+        }
     }
 }
 
@@ -146,7 +180,7 @@ impl Mechanism {
 
     /// Its bodies, as described.
     #[must_use]
-    pub fn bodies(&self) -> &[Body] {
+    pub fn bodies(&self) -> &[BodyRecord] {
         &self.bodies
     }
 
@@ -155,11 +189,10 @@ impl Mechanism {
     #[must_use]
     pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
         let mut q = vec![0.0; self.layout.n_q];
-        in_space!(self.space(), S => {
-            for (b, q) in self.bodies.iter().zip(q.chunks_exact_mut(S::N_Q)) {
-                S::described(b, q);
-            }
-        });
+        let n_q = self.space().n_q();
+        for (body, q) in self.bodies.iter().zip(q.chunks_exact_mut(n_q)) {
+            body.coordinates(self.space(), q);
+        }
         let v = self.frames().given_velocities(&q).into_iter();
         let v = v.map(Option::unwrap_or_default).collect();
         (q, v)

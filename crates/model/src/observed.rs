@@ -1,7 +1,7 @@
 //! Markers and measures: places by name, and quantities between them, read off a motion. They
 //! restrict nothing, and are evaluated by [`crate::frame`] where somebody asks.
 
-use crate::description::{Body, BodyRef};
+use crate::description::{Body, BodyRecord, BodyRef};
 
 /// A place of a body by name.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,17 @@ impl Marker {
     #[must_use]
     pub fn from_centre(&self, bodies: &[Body]) -> [f64; 2] {
         self.body.from_centre(bodies, self.point)
+    }
+
+    /// The same for the bodies of a mechanism.
+    #[must_use]
+    pub fn from_centre_of(&self, bodies: &[BodyRecord]) -> [f64; 2] {
+        let [x, y] = self.point;
+        let own = self.body.moving().and_then(|at| bodies.get(at));
+        own.map_or(self.point, |body| {
+            let [x, y, _] = body.from_centre([x, y, 0.0]);
+            [x, y]
+        })
     }
 }
 
@@ -111,14 +122,14 @@ impl Observed {
     /// with a tolerance is there.
     pub(crate) fn tolerance_at(
         &self,
-        bodies: &[Body],
+        bodies: &[BodyRecord],
         body: BodyRef,
         point: &[f64],
     ) -> Option<f64> {
         let mut here = self.markers.iter().filter(|marker| {
             marker.tolerance.is_some()
                 && marker.body == body
-                && marker.from_centre(bodies).as_slice() == point
+                && marker.from_centre_of(bodies).as_slice() == point
         });
         here.next()?.tolerance
     }

@@ -171,7 +171,7 @@ impl<'a> Reactions<'a> {
         // −Cᵀ of the other slots that the first body takes, moved from its origin to the place.
         block.clear();
         block.resize(group.spec.c.len(), 0.0);
-        c.c_constant(block);
+        c.kernels().c_constant(block);
         c.c(slots, block);
         let (space, arm) = (
             group.space,

@@ -32,11 +32,11 @@ pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
         .layout()
         .constraint_ids()
         .flat_map(|id| mechanism.points(id));
-    points.extend(of_joints.map(|(body, [x, y])| match body.moving() {
-        None => [x, y, 0.0],
+    points.extend(of_joints.map(|(body, [x, y, z])| match body.moving() {
+        None => [x, y, z],
         Some(k) => {
-            let ([along, across, _], origin) = (s.bodies.axes(k), s.bodies.origin(k));
-            std::array::from_fn(|axis| origin[axis] + along[axis] * x + across[axis] * y)
+            let ([u, v, w], origin) = (s.bodies.axes(k), s.bodies.origin(k));
+            std::array::from_fn(|axis| origin[axis] + u[axis] * x + v[axis] * y + w[axis] * z)
         }
     }));
     diagonal(&points).unwrap_or(1.0)

@@ -245,6 +245,8 @@ pub struct Scratch {
     pub force: Vec<f64>,
     /// Arguments of the kernels of all elements.
     pub(crate) slots: Slots,
+    /// Angular velocities of the bodies in their axes, in space only.
+    pub(crate) spins: Vec<[f64; 3]>,
     /// Time at which its functions of time were evaluated; NaN at the beginning.
     pub(crate) jets_at: f64,
     /// Results of one kernel.

@@ -169,7 +169,6 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     }
     let description = Description {
         name: heading.name,
-        space: parts.names.space,
         gravity: heading.gravity,
         tolerance: heading.tolerance,
         observed: Observed {

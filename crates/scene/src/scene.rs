@@ -2,7 +2,7 @@
 //! by a program.
 
 use dynamics::{MotionError, MotionOptions};
-use model::{BuildError, Description, StartError, StartOptions};
+use model::{BuildError, Description, SpaceKind, StartError, StartOptions};
 
 use crate::combination::{self, Combination, CombinationError, ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
@@ -125,7 +125,7 @@ impl Scene {
         let drives = drives.map(|x| (&x.name, x.element.spec()));
         let names = joints.chain(drives).map(|(name, spec)| ReactionNames {
             name,
-            components: Some(components(self.description.space, spec)),
+            components: Some(components(SpaceKind::Plane, spec)),
         });
         let inactive = self.inactive.iter().map(|x| x.name.as_str());
         combination::parse(text, &Reactions::new(names.collect()).without(inactive))

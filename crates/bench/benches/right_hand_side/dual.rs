@@ -49,10 +49,8 @@ pub(crate) struct DualRobot {
 impl DualRobot {
     /// Takes the places of the bodies at the start from the mechanism.
     pub(crate) fn new(mechanism: &Mechanism, drive: Function) -> Self {
-        let local = |body: usize, [x, y]: [f64; 2]| {
-            let [x_0, y_0] = mechanism.bodies()[body].position;
-            [x - x_0, y - y_0]
-        };
+        let (q, _) = mechanism.described_state();
+        let local = |body: usize, [x, y]: [f64; 2]| [x - q[3 * body], y - q[3 * body + 1]];
         let pair = |(i, j, at)| (i, j, [local(i, at), local(j, at)]);
         Self {
             revolutes: REVOLUTES.map(pair),

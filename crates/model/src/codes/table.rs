@@ -521,6 +521,24 @@ pub const TABLE: &[Entry] = &[
         ),
     ),
     entry(
+        152,
+        "An orientation is no rotation",
+        "Give a quaternion (w, x, y, z) that is not zero; its length does not matter.",
+        LIBRARY,
+    ),
+    entry(
+        153,
+        "No body has this tensor of inertia",
+        "Give a symmetric tensor about the centre of mass whose largest principal moment is at most the sum of the others.",
+        LIBRARY,
+    ),
+    entry(
+        154,
+        "A tensor of inertia has products",
+        "Turn the frame of the body into its principal axes, where the tensor is diagonal.",
+        LIBRARY,
+    ),
+    entry(
         180,
         "A warning that is to be silenced does not exist",
         "Write the codes of warnings, P0190 to P0198; errors cannot be silenced.",

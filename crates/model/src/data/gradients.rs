@@ -59,7 +59,7 @@ impl Data<'_> {
                 bodies.push(space.columns_of(body));
                 for dof in 0..space.n_v() {
                     rates.unit(c, k, dof);
-                    column(&mut |out| c.d_power_dp(slots, &rates, own, out));
+                    column(&mut |out| c.d_power_dp(slots, &mut rates, own, out));
                 }
             }
             let of = |x: &[f64]| {
@@ -67,14 +67,14 @@ impl Data<'_> {
                 rates.take(c, x);
                 rates
             };
-            let (a, v) = (of(a), of(v));
+            let (a, mut v) = (of(a), of(v));
             let is_holonomic = c.rows.start < self.0.layout().m;
             let mut unit = vec![0.0; c.rows.len()];
             for i in 0..unit.len() {
                 unit[i] = 1.0;
                 column(&mut |out| c.d_residual_dp(slots, &a, &unit, out));
                 if moves {
-                    column(&mut |out| c.d_power_dp(slots, &v, &unit, out));
+                    column(&mut |out| c.d_power_dp(slots, &mut v, &unit, out));
                 }
                 if is_holonomic {
                     column(&mut |out| c.d_phi_dp(slots, &unit, out));

@@ -8,9 +8,11 @@ use joints::{LARGEST, is_usable};
 
 use super::check;
 use super::work::held_bodies;
-use super::{Elements, Mechanism, TimeFunction, initialise};
-use crate::description::{Body, BodyRef, Description};
-use crate::element::{ConstraintKernels, ForceKernels, PlacedConstraint, PlacedForce, Site};
+use super::{Elements, FunctionForm, Mechanism, TimeFunction, initialise};
+use crate::description::{Body, BodyRecord, BodyRef, Described, DescribedBody, SpatialBody};
+use crate::element::{
+    AnyConstraint, AnyForce, BodySpace, ConstraintKernels, PlacedConstraint, PlacedForce, Site,
+};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
 use crate::observed::Observed;
@@ -64,12 +66,40 @@ pub enum BuildError {
         value: f64,
     },
     /// Gravity is NaN or infinite.
-    #[error("gravity is [{x:?}, {y:?}], need finite numbers up to {LARGEST:e}")]
+    #[error("gravity is {gravity:?}, need finite numbers up to {LARGEST:e}")]
     Gravity {
-        /// Its x component.
-        x: f64,
-        /// Its y component.
-        y: f64,
+        /// Its components.
+        gravity: Vec<f64>,
+    },
+    /// A quaternion of length zero.
+    #[error("body `{body}`: the quaternion of its orientation is zero")]
+    NoOrientation {
+        /// The body.
+        body: String,
+    },
+    /// A tensor of inertia is not symmetric.
+    #[error("body `{body}`: the tensor of inertia is not symmetric")]
+    NotSymmetric {
+        /// The body.
+        body: String,
+    },
+    /// A tensor of inertia has products.
+    #[error(
+        "body `{body}`: products of inertia are not supported yet: turn its frame into the principal axes, where the tensor is diagonal"
+    )]
+    NotPrincipal {
+        /// The body.
+        body: String,
+    },
+    /// No body has this tensor of inertia.
+    #[error(
+        "body `{body}`: no body has the principal moments {moments:?}: the largest is above the sum of the others"
+    )]
+    NoSuchTensor {
+        /// The body.
+        body: String,
+        /// The principal moments (kg·m²).
+        moments: [f64; 3],
     },
     /// A tolerance is not a finite number > 0 up to [`LARGEST`].
     #[error("{of}: {field} is {value:?}, need a finite number > 0 up to {LARGEST:e}")]
@@ -118,14 +148,12 @@ pub enum BuildError {
         name: String,
     },
     /// A point of a joint, drive or force is NaN or infinite.
-    #[error("`{name}`: a point is [{x:?}, {y:?}], need finite numbers up to {LARGEST:e}")]
+    #[error("`{name}`: a point is {point:?}, need finite numbers up to {LARGEST:e}")]
     Point {
         /// The joint, drive or force.
         name: String,
-        /// Its x component.
-        x: f64,
-        /// Its y component.
-        y: f64,
+        /// Its components.
+        point: Vec<f64>,
     },
     /// A number of a marker is NaN or infinite.
     #[error(
@@ -206,6 +234,9 @@ impl BuildError {
             Self::Marker { .. } => const { Code::new(134) },
             Self::UnknownMarker { .. } => const { Code::new(135) },
             Self::SameMarker { .. } => const { Code::new(136) },
+            Self::NoOrientation { .. } => const { Code::new(152) },
+            Self::NotSymmetric { .. } | Self::NoSuchTensor { .. } => const { Code::new(153) },
+            Self::NotPrincipal { .. } => const { Code::new(154) },
         }
     }
 }
@@ -216,7 +247,7 @@ impl Mechanism {
     ///
     /// # Errors
     /// All faults of the description.
-    pub fn build(d: &Description) -> Result<Self, Vec<BuildError>> {
+    pub fn build<S: BodySpace>(d: &Described<S>) -> Result<Self, Vec<BuildError>> {
         let mut errors = Vec::new();
         check_bodies(d, &mut errors);
         check_names(d, &mut errors);
@@ -226,14 +257,14 @@ impl Mechanism {
         if !errors.is_empty() {
             return Err(errors);
         }
-        let mut b = Builder::new(d.space);
+        let mut b = Builder::new(S::KIND);
         b.joints(d, Level::Holonomic);
         for drive in &d.drives {
             b.constraint(
                 &drive.name,
                 ConstraintKind::Drive,
                 &drive.bodies,
-                drive.element.as_ref(),
+                S::any_constraint(drive.element.clone()),
                 std::slice::from_ref(&drive.motion),
                 drive.tolerance,
             );
@@ -242,14 +273,21 @@ impl Mechanism {
         b.joints(d, Level::Nonholonomic);
         b.layout.h = b.layout.labels.len() - b.layout.m;
         for f in &d.forces {
-            b.force(&f.name, &f.bodies, f.element.as_ref(), &f.functions);
+            let kernels = S::any_force(f.element.clone());
+            b.force(&f.name, &f.bodies, kernels, &f.functions);
         }
-        let [gx, gy] = d.gravity;
-        let weight = d.bodies.iter();
-        let weight = weight
-            .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
-            .collect();
-        let mut mechanism = b.finish(&d.name, d.bodies.clone(), weight);
+        let records = d.bodies.iter().cloned().map(Into::<DescribedBody>::into);
+        let bodies: Vec<BodyRecord> = records.map(BodyRecord::from).collect();
+        let (space, gravity) = (S::KIND, S::point(d.gravity));
+        let weight = bodies.iter().flat_map(|b| {
+            let of_axis = move |k: usize| match k < space.n_translations() {
+                true => b.mass * gravity[k],
+                false => 0.0,
+            };
+            (0..space.n_v()).map(of_axis)
+        });
+        let weight = weight.collect();
+        let mut mechanism = b.finish(&d.name, bodies, weight);
         mechanism.tolerance = d.tolerance;
         mechanism.observed = d.observed.clone();
         let (q, _) = mechanism.described_state();
@@ -292,10 +330,12 @@ fn check_tolerance(tolerance: Tolerance) -> Result<(), BuildError> {
 }
 
 /// Reports every tolerance of a description that is not a finite number > 0.
-fn check_tolerances(d: &Description, errors: &mut Vec<BuildError>) {
+fn check_tolerances<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) {
     errors.extend(check_tolerance(d.tolerance).err());
-    let bodies = d.bodies.iter();
-    let bodies = bodies.map(|b| (b.tolerance, Stated::Body(b.name.clone())));
+    let bodies = records(d);
+    let bodies = bodies
+        .into_iter()
+        .map(|b| (b.tolerance, Stated::Body(b.name)));
     let joints = d.joints.iter();
     let joints = joints.map(|j| (j.tolerance, Stated::Joint(j.name.clone())));
     let drives = d.drives.iter();
@@ -310,45 +350,122 @@ fn check_tolerances(d: &Description, errors: &mut Vec<BuildError>) {
     }
 }
 
-fn check_bodies(d: &Description, errors: &mut Vec<BuildError>) {
+/// The bodies of a description, whatever their space.
+fn records<S: BodySpace>(d: &Described<S>) -> Vec<BodyRecord> {
+    let bodies = d.bodies.iter().cloned().map(Into::<DescribedBody>::into);
+    bodies.map(BodyRecord::from).collect()
+}
+
+fn check_bodies<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) {
     if d.bodies.is_empty() {
         errors.push(BuildError::NoBodies);
     }
-    let [x, y] = d.gravity;
-    if !(is_usable(x) && is_usable(y)) {
-        errors.push(BuildError::Gravity { x, y });
+    let gravity = S::point(d.gravity);
+    if !gravity.iter().all(|g| is_usable(*g)) {
+        let gravity = gravity[..S::DIM].to_vec();
+        errors.push(BuildError::Gravity { gravity });
     }
-    for b in &d.bodies {
-        let fields = [
-            ("mass", b.mass),
-            ("inertia", b.inertia),
-            ("position", b.position[0]),
-            ("position", b.position[1]),
-            ("centre", b.centre[0]),
-            ("centre", b.centre[1]),
-            ("angle", b.angle),
-            ("velocity", b.velocity.unwrap_or_default()[0]),
-            ("velocity", b.velocity.unwrap_or_default()[1]),
-            ("angular velocity", b.angular_velocity.unwrap_or_default()),
-        ];
+    for record in records(d) {
+        let fields: Vec<(&'static str, f64)> = match &record.described {
+            DescribedBody::Plane(b) => planar_numbers(b),
+            DescribedBody::Space3(b) => spatial_numbers(b),
+        };
+        let before = errors.len();
         for (field, value) in fields {
-            let body = b.name.clone();
+            let body = record.name.clone();
             if !is_usable(value) {
                 errors.push(BuildError::NotFinite { body, field, value });
             } else if value < 0.0 && matches!(field, "mass" | "inertia") {
                 errors.push(BuildError::Negative { body, field, value });
             }
         }
-        if b.velocity.is_some() && b.angular_velocity.is_none() && !b.is_centred() {
-            let body = b.name.clone();
-            errors.push(BuildError::VelocityAlone { body });
+        match &record.described {
+            DescribedBody::Plane(b)
+                if b.velocity.is_some() && b.angular_velocity.is_none() && !b.is_centred() =>
+            {
+                let body = record.name.clone();
+                errors.push(BuildError::VelocityAlone { body });
+            }
+            DescribedBody::Plane(_) => {}
+            DescribedBody::Space3(b) if errors.len() == before => {
+                errors.extend(check_spatial(b));
+            }
+            DescribedBody::Space3(_) => {}
         }
     }
 }
 
-fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
+fn planar_numbers(b: &Body) -> Vec<(&'static str, f64)> {
+    vec![
+        ("mass", b.mass),
+        ("inertia", b.inertia),
+        ("position", b.position[0]),
+        ("position", b.position[1]),
+        ("centre", b.centre[0]),
+        ("centre", b.centre[1]),
+        ("angle", b.angle),
+        ("velocity", b.velocity.unwrap_or_default()[0]),
+        ("velocity", b.velocity.unwrap_or_default()[1]),
+        ("angular velocity", b.angular_velocity.unwrap_or_default()),
+    ]
+}
+
+fn spatial_numbers(b: &SpatialBody) -> Vec<(&'static str, f64)> {
+    let all = |field: &'static str, values: &[f64]| -> Vec<(&'static str, f64)> {
+        values.iter().map(|value| (field, *value)).collect()
+    };
+    let diagonal = [0, 1, 2].map(|k| b.inertia[k][k]);
+    let products = [b.inertia[0][1], b.inertia[0][2], b.inertia[1][2]];
+    [
+        all("mass", &[b.mass]),
+        all("inertia", &diagonal),
+        all("product of inertia", &products),
+        all("position", &b.position),
+        all("centre", &b.centre),
+        all("orientation", &b.orientation),
+        all("velocity", &b.velocity.unwrap_or_default()),
+        all("angular velocity", &b.angular_velocity.unwrap_or_default()),
+    ]
+    .concat()
+}
+
+/// Parts of the trace that principal moments may break the inequality of the triangle by.
+const TRIANGLE: f64 = 1e-2;
+
+/// Faults of a spatial body with finite numbers.
+fn check_spatial(b: &SpatialBody) -> Vec<BuildError> {
+    let mut errors = Vec::new();
+    let body = || b.name.clone();
+    if b.orientation.iter().all(|e| *e == 0.0) {
+        errors.push(BuildError::NoOrientation { body: body() });
+    }
+    let pairs = [[0, 1], [0, 2], [1, 2]];
+    if pairs
+        .iter()
+        .any(|&[i, j]| b.inertia[i][j] != b.inertia[j][i])
+    {
+        errors.push(BuildError::NotSymmetric { body: body() });
+    } else if pairs.iter().any(|&[i, j]| b.inertia[i][j] != 0.0) {
+        errors.push(BuildError::NotPrincipal { body: body() });
+    } else {
+        let moments = [0, 1, 2].map(|k| b.inertia[k][k]);
+        let trace: f64 = moments.iter().sum();
+        let largest = moments.into_iter().fold(0.0, f64::max);
+        if 2.0 * largest - trace > TRIANGLE * trace {
+            let body = body();
+            errors.push(BuildError::NoSuchTensor { body, moments });
+        }
+    }
+    if b.velocity.is_some() && b.angular_velocity.is_none() && b.centre != [0.0; 3] {
+        errors.push(BuildError::VelocityAlone { body: body() });
+    }
+    errors
+}
+
+fn check_names<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) {
     let mut seen = HashSet::new();
-    let bodies = d.bodies.iter().map(|b| &b.name);
+    let records = records(d);
+    let bodies = records.iter().map(|b| &b.name);
     let markers = d.observed.markers.iter().map(|m| &m.name);
     let measures = d.observed.measures.iter().map(|m| &m.name);
     let bodies = bodies
@@ -371,8 +488,9 @@ fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
     }
 }
 
-fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
-    let constraint = |element: &dyn ConstraintKernels| (element.spec(), element.points());
+fn check_places<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) {
+    let records = records(d);
+    let constraint = |element: &dyn ConstraintKernels<S>| (element.spec(), element.points());
     for j in &d.joints {
         let (spec, points) = constraint(j.element.as_ref());
         check_role(&j.name, spec, Role::Joint, "joints", errors);
@@ -385,13 +503,13 @@ fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
             errors.push(BuildError::SameBody { name, body });
         }
         let takes = (&points[..], j.functions.len());
-        check_place(&d.bodies, &j.name, &spec.common, &j.bodies, takes, errors);
+        check_place::<S>(&records, &j.name, &spec.common, &j.bodies, takes, errors);
     }
     for x in &d.drives {
         let (spec, points) = constraint(x.element.as_ref());
         check_role(&x.name, spec, Role::Drive, "drives", errors);
-        check_place(
-            &d.bodies,
+        check_place::<S>(
+            &records,
             &x.name,
             &spec.common,
             &x.bodies,
@@ -402,7 +520,7 @@ fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
     for f in &d.forces {
         let (spec, points) = (&f.element.spec().common, f.element.points());
         let takes = (&points[..], f.functions.len());
-        check_place(&d.bodies, &f.name, spec, &f.bodies, takes, errors);
+        check_place::<S>(&records, &f.name, spec, &f.bodies, takes, errors);
     }
 }
 
@@ -422,18 +540,22 @@ fn check_role(
     }
 }
 
-fn check_place(
-    all: &[Body],
+fn check_place<S: BodySpace>(
+    all: &[BodyRecord],
     name: &str,
     spec: &'static Spec,
     bodies: &[BodyRef],
-    (points, functions): (&[[f64; 2]], usize),
+    (points, functions): (&[S::Vector<f64>], usize),
     errors: &mut Vec<BuildError>,
 ) {
     let name = || name.to_owned();
-    let is_none = |p: &&[f64; 2]| !p.iter().all(|x| is_usable(*x));
-    if let Some(&[x, y]) = points.iter().find(is_none) {
-        errors.push(BuildError::Point { name: name(), x, y });
+    let is_none = |p: &&S::Vector<f64>| !p.as_ref().iter().all(|x| is_usable(*x));
+    if let Some(point) = points.iter().find(is_none) {
+        let point = point.as_ref().to_vec();
+        errors.push(BuildError::Point {
+            name: name(),
+            point,
+        });
     }
     if bodies.len() != spec.slots.len() {
         let (expected, found) = (spec.slots.len(), bodies.len());
@@ -495,9 +617,9 @@ impl Builder {
     }
 
     /// Adds the joints of one level.
-    fn joints(&mut self, d: &Description, level: Level) {
+    fn joints<S: BodySpace>(&mut self, d: &Described<S>, level: Level) {
         for j in d.joints.iter().filter(|j| j.element.spec().level == level) {
-            let (name, element) = (&j.name, j.element.as_ref());
+            let (name, element) = (&j.name, S::any_constraint(j.element.clone()));
             let kind = ConstraintKind::Joint;
             self.constraint(name, kind, &j.bodies, element, &j.functions, j.tolerance);
         }
@@ -508,7 +630,7 @@ impl Builder {
         name: &str,
         kind: ConstraintKind,
         bodies: &[BodyRef],
-        element: &dyn ConstraintKernels,
+        element: AnyConstraint,
         functions: &[Function],
         tolerance: Option<f64>,
     ) {
@@ -538,7 +660,7 @@ impl Builder {
             ConstraintKind::Drive => f.jet(0.0)[0],
             ConstraintKind::Joint => 0.0,
         };
-        let site = self.site(bodies, functions, offset);
+        let site = self.site(bodies, functions, offset, spec.turning);
         let places = [entries, rows.clone()];
         let placed = PlacedConstraint::new(element, site, places, tolerance);
         self.layout.rheonomic |= spec.rheonomic;
@@ -557,11 +679,11 @@ impl Builder {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: &dyn ForceKernels,
+        element: AnyForce,
         functions: &[Function],
     ) {
         let spec = element.spec();
-        let site = self.site(bodies, functions, |_| 0.0);
+        let site = self.site(bodies, functions, |_| 0.0, false);
         let placed = PlacedForce::new(name, element, site);
         self.elements.block = self.elements.block.max(spec.q.len());
         self.elements.forces.push(placed);
@@ -588,21 +710,28 @@ impl Builder {
     }
 
     /// The next slots, for these bodies and functions of time; `offset` is subtracted from the
-    /// functions.
+    /// functions, which enter by cosine and sine if `turning`.
     fn site(
         &mut self,
         bodies: &[BodyRef],
         functions: &[Function],
         offset: impl Fn(&Function) -> f64,
+        turning: bool,
     ) -> Site {
         let (first_slot, first) = (self.elements.n_slots, self.elements.functions.len());
         self.elements.n_slots += bodies.len();
         for function in functions {
             self.layout.break_times.extend(function.break_times());
-            self.elements.functions.push(TimeFunction {
+            let forms: &[FunctionForm] = match turning {
+                true => &[FunctionForm::Cosine, FunctionForm::Sine],
+                false => &[FunctionForm::Value],
+            };
+            let functions = forms.iter().map(|&form| TimeFunction {
                 function: function.clone(),
                 offset: offset(function),
+                form,
             });
+            self.elements.functions.extend(functions);
         }
         Site {
             space: self.layout.space,
@@ -613,7 +742,12 @@ impl Builder {
     }
 
     /// The mechanism of these bodies; initial values and arms are not yet set.
-    pub(super) fn finish(mut self, name: &str, bodies: Vec<Body>, weight: Vec<f64>) -> Mechanism {
+    pub(super) fn finish(
+        mut self,
+        name: &str,
+        bodies: Vec<BodyRecord>,
+        weight: Vec<f64>,
+    ) -> Mechanism {
         let space = self.layout.space;
         self.layout.n_q = space.n_q() * bodies.len();
         self.layout.n_v = space.n_v() * bodies.len();
@@ -625,7 +759,7 @@ impl Builder {
         let mass = bodies.iter();
         Mechanism {
             name: name.to_owned(),
-            mass: mass.flat_map(|b| [b.mass, b.mass, b.inertia]).collect(),
+            mass: mass.flat_map(inertia).collect(),
             weight,
             tolerance: Tolerance::default(),
             observed: Observed::default(),
@@ -640,3 +774,14 @@ impl Builder {
 
 #[cfg(test)]
 mod tests;
+
+/// The diagonal of M of a body.
+fn inertia(body: &BodyRecord) -> Vec<f64> {
+    let m = body.mass;
+    match &body.described {
+        DescribedBody::Plane(b) => vec![m, m, b.inertia],
+        DescribedBody::Space3(b) => {
+            vec![m, m, m, b.inertia[0][0], b.inertia[1][1], b.inertia[2][2]]
+        }
+    }
+}

@@ -3,11 +3,12 @@
 use joints::is_usable;
 
 use super::BuildError;
-use crate::description::Description;
+use crate::description::Described;
+use crate::element::BodySpace;
 use crate::observed::Observed;
 
 /// Reports markers and measures that cannot be evaluated.
-pub(super) fn observed(d: &Description, errors: &mut Vec<BuildError>) {
+pub(super) fn observed<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) {
     let Observed { markers, measures } = &d.observed;
     for marker in markers {
         let name = || marker.name.clone();

@@ -6,6 +6,7 @@
 
 use super::Mechanism;
 use crate::element::Rates;
+use crate::space::SpaceKind;
 use crate::system::Scratch;
 
 /// Derivatives at one instant, and the storage for them.
@@ -103,7 +104,7 @@ impl Derivatives {
             residual_dq: Sparse::default(),
             gamma_dv: Sparse::default(),
             velocity_dq: Sparse::default(),
-            slots: Rates::zero(mechanism.elements.n_slots),
+            slots: Rates::zero(mechanism.space(), mechanism.elements.n_slots),
         };
         for c in &mechanism.elements.constraints {
             let spec = c.spec();
@@ -178,7 +179,23 @@ fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
         patterns[0].push_block(spec.dq_dx, column, column);
         patterns[1].push_block(spec.dq_dv, column, column);
     }
+    for body in gyroscopic(mechanism) {
+        let first = mechanism.space().rotations_of(body).start;
+        let column = |k: usize| Some(first + k);
+        patterns[1].push_block(&GYROSCOPIC, column, column);
+    }
     patterns
+}
+
+/// Pattern of the derivative of `−ω × J·ω` by ω in principal axes.
+const GYROSCOPIC: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 2], [1, 0], [2, 0], [2, 1]];
+
+/// Bodies with a gyroscopic torque: those of space.
+fn gyroscopic(mechanism: &Mechanism) -> std::ops::Range<usize> {
+    match mechanism.space() {
+        SpaceKind::Space3 => 0..mechanism.bodies.len(),
+        _ => 0..0,
+    }
 }
 
 fn differentiate_forces(mechanism: &Mechanism, s: &Scratch, [by_q, by_v]: [&mut Sparse; 2]) {
@@ -187,6 +204,14 @@ fn differentiate_forces(mechanism: &Mechanism, s: &Scratch, [by_q, by_v]: [&mut 
         let spec = force.spec();
         force.dq_dx(&s.slots, force_dq(spec.dq_dx.len()));
         force.dq_dv(&s.slots, force_dv(spec.dq_dv.len()));
+    }
+    for body in gyroscopic(mechanism) {
+        let first = mechanism.space().rotations_of(body).start;
+        let [jx, jy, jz] = [0, 1, 2].map(|k| mechanism.mass[first + k]);
+        let [x, y, z] = s.spins[body];
+        let (a, b, c) = (jy - jz, jz - jx, jx - jy);
+        let values = [a * z, a * y, b * x, b * z, c * y, c * x];
+        force_dv(GYROSCOPIC.len()).copy_from_slice(&values);
     }
 }
 

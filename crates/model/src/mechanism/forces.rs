@@ -24,7 +24,7 @@ pub struct AppliedForce<'m> {
     /// Its bodies.
     pub bodies: &'m [BodyRef],
     /// Points at which it acts, each in the frame of its body (m).
-    pub points: Vec<(BodyRef, [f64; 2])>,
+    pub points: Vec<(BodyRef, [f64; 3])>,
 }
 
 impl Mechanism {

@@ -24,13 +24,14 @@ impl Mechanism {
     ///     ..Description::default()
     /// };
     /// let points = Mechanism::build(&d).unwrap().points(ConstraintId(0));
-    /// assert_eq!(points, [(BodyRef::Ground, [0.0, 0.0]), (BodyRef::Body(0), [0.0, 2.0])]);
+    /// let [origin, top] = [[0.0; 3], [0.0, 2.0, 0.0]];
+    /// assert_eq!(points, [(BodyRef::Ground, origin), (BodyRef::Body(0), top)]);
     /// ```
     ///
     /// # Panics
     /// If the mechanism has no such joint or drive.
     #[must_use]
-    pub fn points(&self, id: ConstraintId) -> Vec<(BodyRef, [f64; 2])> {
+    pub fn points(&self, id: ConstraintId) -> Vec<(BodyRef, [f64; 3])> {
         let c = &self.elements.constraints[id.0];
         placed(&c.spec().common, &c.site.bodies, c.points())
     }
@@ -88,8 +89,8 @@ impl Mechanism {
 pub(super) fn placed(
     spec: &Spec,
     bodies: &[BodyRef],
-    points: Vec<[f64; 2]>,
-) -> Vec<(BodyRef, [f64; 2])> {
+    points: Vec<[f64; 3]>,
+) -> Vec<(BodyRef, [f64; 3])> {
     let slots = spec.parameters.iter().filter_map(|p| match p.shape {
         Shape::Point { slot } => Some(slot),
         _ => None,

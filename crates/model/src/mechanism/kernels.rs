@@ -5,7 +5,7 @@
 
 use super::Mechanism;
 use crate::element::{Bodies, Slots};
-use crate::space::{Space, in_space};
+use crate::space::{self, Space, SpaceKind, in_space};
 use crate::system::{Layout, Scratch, System};
 
 impl System for Mechanism {
@@ -21,13 +21,21 @@ impl System for Mechanism {
         let layout = &self.layout;
         Scratch {
             t: 0.0,
-            bodies: Bodies::new(self.bodies.len()),
+            bodies: Bodies::new(self.space(), self.bodies.len()),
             phi: vec![0.0; layout.m],
             entries: self.elements.entries.clone(),
             b: vec![0.0; layout.rows()],
             gamma: vec![0.0; layout.rows()],
             force: vec![0.0; layout.n_v],
-            slots: Slots::new(self.elements.n_slots, self.elements.functions.len()),
+            slots: Slots::new(
+                self.space(),
+                self.elements.n_slots,
+                self.elements.functions.len(),
+            ),
+            spins: match self.space() {
+                SpaceKind::Space3 => vec![[0.0; 3]; self.bodies.len()],
+                _ => Vec::new(),
+            },
             jets_at: f64::NAN,
             block: vec![0.0; self.elements.block],
         }
@@ -73,6 +81,12 @@ impl System for Mechanism {
 
     fn twist(&self, v: &[f64], s: &mut Scratch) {
         s.slots.rates.take(self.elements.sites(), v);
+        if self.space() == SpaceKind::Space3 {
+            let bodies = v.chunks_exact(<space::Space3 as Space>::N_V);
+            for (spin, v) in s.spins.iter_mut().zip(bodies) {
+                spin.copy_from_slice(&v[3..]);
+            }
+        }
     }
 
     fn gamma(&self, s: &mut Scratch) {
@@ -87,6 +101,19 @@ impl System for Mechanism {
 
     fn force(&self, s: &mut Scratch) {
         s.force.copy_from_slice(&self.weight);
+        // −ω × J·ω in principal axes.
+        for (body, &[x, y, z]) in s.spins.iter().enumerate() {
+            let at = self.space().rotations_of(body);
+            let [jx, jy, jz] = [0, 1, 2].map(|k| self.mass[at.start + k]);
+            let bias = [
+                (jy - jz) * (y * z),
+                (jz - jx) * (z * x),
+                (jx - jy) * (x * y),
+            ];
+            for (force, bias) in s.force[at].iter_mut().zip(bias) {
+                *force += bias;
+            }
+        }
         for force in &self.elements.forces {
             force.q(&s.slots, &mut s.block);
             for (column, value) in force.columns.iter().zip(&s.block) {

@@ -5,8 +5,8 @@
 use joints::spec::Level;
 use linalg::DisjointSets;
 
-use super::Mechanism;
 use super::build::Builder;
+use super::{FunctionForm, Mechanism};
 use crate::description::BodyRef;
 use crate::element::{PlacedForce, Site};
 use crate::function::Function;
@@ -164,7 +164,7 @@ fn assembled<'a>(
             &group.name,
             group.kind,
             &translated(&group.name, &c.site.bodies),
-            c.kernels(),
+            c.kernels().clone(),
             &laws(whole, &c.site),
             c.tolerance,
         );
@@ -180,7 +180,7 @@ fn assembled<'a>(
     for f in forces {
         let functions = laws(whole, &f.site);
         let to = translated(&f.name, &f.site.bodies);
-        b.force(&f.name, &to, f.kernels(), &functions);
+        b.force(&f.name, &to, f.kernels().clone(), &functions);
     }
     let places = |n: usize| -> Vec<usize> {
         let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));
@@ -206,7 +206,8 @@ fn assembled<'a>(
 /// Functions of time of an element.
 fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
     let functions = whole.elements.functions[site.functions.clone()].iter();
-    functions.map(|f| f.function.clone()).collect()
+    let whole = functions.filter(|f| f.form != FunctionForm::Sine);
+    whole.map(|f| f.function.clone()).collect()
 }
 
 /// Sets of bodies, each ascending, ordered by their first bodies; the bodies of each site belong

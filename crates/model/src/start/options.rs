@@ -68,7 +68,7 @@ pub(super) fn kept_columns(
             let is_turn_kept = || (0..space.n_rotations()).all(is_kept);
             let is_open = match level {
                 KeepLevel::Position => false,
-                KeepLevel::Velocity => described.velocity.is_none(),
+                KeepLevel::Velocity => !described.has_velocity(),
             };
             if !turns(dof) && !described.is_centred() && (is_open || !is_turn_kept()) {
                 let body = described.name.clone();

@@ -207,7 +207,7 @@ impl Stage<'_> {
         let held = self.mechanism.layout().constraint_ids();
         let held = held.flat_map(|id| self.mechanism.points(id));
         for (body, point) in held.filter_map(|(b, p)| Some((b.moving()?, p))) {
-            points[body].push(point);
+            points[body].push(flat(point));
         }
         for &(body, x, y) in forces.iter().flat_map(|f| &f.points) {
             if let Ok(k) = usize::try_from(body) {
@@ -271,7 +271,7 @@ impl Stage<'_> {
         };
         let velocity = |dof: usize| Channel::new(self.frames.iter().map(move |f| f.v[first + dof]));
         let body = &self.mechanism.bodies()[k];
-        let origin = body.from_centre([0.0; 2]).map(Rounded);
+        let origin = flat(body.from_centre([0.0; 3])).map(Rounded);
         DrawnBody {
             name: body.name.clone(),
             frame: (!body.is_centred()).then_some(origin),
@@ -301,7 +301,7 @@ impl Stage<'_> {
             Symbol::Rod | Symbol::Block { .. } | Symbol::Slot { .. } => Some(match second {
                 Some((body, point)) => Place::Of {
                     b: index(body),
-                    p: point.map(Rounded),
+                    p: flat(point).map(Rounded),
                 },
                 None => place(&|site, _| site.end),
             }),
@@ -402,7 +402,8 @@ impl DrawnForce {
         let place = |body: &BodyRef| drawn(bodies, *body);
         let drawn = mechanism.applied_forces().iter().filter_map(|f| {
             let points = f.points.iter();
-            let held = points.map(|(body, [x, y])| Some((place(body)?, Rounded(*x), Rounded(*y))));
+            let held =
+                points.map(|(body, [x, y, _])| Some((place(body)?, Rounded(*x), Rounded(*y))));
             Some(Self {
                 name: f.name.to_owned(),
                 kind: f.spec.common.scene_type,
@@ -422,7 +423,7 @@ impl DrawnMarker {
             Some(Self {
                 name: marker.name.clone(),
                 b: drawn(bodies, marker.body)?,
-                p: marker.from_centre(mechanism.bodies()).map(Rounded),
+                p: marker.from_centre_of(mechanism.bodies()).map(Rounded),
                 a: Rounded(marker.angle.unwrap_or_default()),
             })
         });

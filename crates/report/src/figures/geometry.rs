@@ -216,8 +216,8 @@ impl Force {
 fn other_end(mechanism: &Mechanism, id: ConstraintId, place: [f64; 2], s: &Scratch) -> [f64; 2] {
     let points = mechanism.points(id);
     let end = points.get(1).map(|&(body, point)| match body {
-        BodyRef::Ground => point,
-        BodyRef::Body(k) => flat(s.bodies.to_global(k, [point[0], point[1], 0.0])),
+        BodyRef::Ground => flat(point),
+        BodyRef::Body(k) => flat(s.bodies.to_global(k, point)),
     });
     finite_or(end.unwrap_or(place), place)
 }

@@ -41,7 +41,7 @@ pub(crate) fn check(
 struct Joint<'m> {
     name: &'m str,
     bodies: &'m [BodyRef],
-    points: Vec<(BodyRef, [f64; 2])>,
+    points: Vec<(BodyRef, [f64; 3])>,
 }
 
 fn joints(mechanism: &Mechanism) -> Vec<Joint<'_>> {
@@ -83,16 +83,17 @@ fn length(p: &[f64; 2]) -> f64 {
 
 fn bodies(d: &Description, mechanism: &Mechanism, joints: &[Joint]) -> Vec<Shape> {
     let mut bodies = vec![Shape::default(); d.bodies.len()];
-    let mut add = |points: &[(BodyRef, [f64; 2])]| {
-        for (body, point) in points {
+    let mut add = |points: &[(BodyRef, [f64; 3])]| {
+        for (body, [x, y, _]) in points {
             if let BodyRef::Body(k) = body {
-                bodies[*k].points.push(*point);
+                bodies[*k].points.push([*x, *y]);
             }
         }
     };
     joints.iter().for_each(|joint| add(&joint.points));
     for marker in &d.observed.markers {
-        add(&[(marker.body, marker.from_centre(&d.bodies))]);
+        let [x, y] = marker.from_centre(&d.bodies);
+        add(&[(marker.body, [x, y, 0.0])]);
     }
     let forces: Vec<_> = mechanism.applied_forces().iter().collect();
     forces.iter().for_each(|force| add(&force.points));
@@ -157,7 +158,8 @@ fn far(
 ) {
     let Some(size) = size else { return };
     for (joint, entry) in joints.iter().zip(&map.joints) {
-        let arm = |(body, point): &(BodyRef, [f64; 2])| Some((body.moving()?, length(point)));
+        let arm =
+            |(body, [x, y, _]): &(BodyRef, [f64; 3])| Some((body.moving()?, length(&[*x, *y])));
         let arms = joint.points.iter().filter_map(arm);
         let Some((body, arm)) = arms.max_by(|a, b| a.1.total_cmp(&b.1)) else {
             continue;

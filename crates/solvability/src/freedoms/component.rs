@@ -263,8 +263,10 @@ impl<'a> Component<'a> {
             self.origin(0)
         };
         let motion = |k: usize| -> Vec<f64> {
-            let arms = (0..bodies).map(|body| difference(self.origin(body), centre));
-            let moved = arms.flat_map(|arm| space.rigid_motion(k, arm));
+            let moved = (0..bodies).flat_map(|body| {
+                let arm = difference(self.origin(body), centre);
+                space.rigid_motion(k, arm, self.s.bodies.axes(body))
+            });
             moved.zip(&self.units).map(|(v, unit)| v / unit).collect()
         };
         (0..space.n_v()).map(motion).collect()

@@ -163,7 +163,9 @@ impl<'a> Connected<'a> {
             return;
         }
         if self.is_alone(set) {
-            let unit = |k: usize| self.whole.space().rigid_motion(k, [0.0; 3]);
+            // Rotations about the axes of the body itself.
+            let own = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            let unit = |k: usize| self.whole.space().rigid_motion(k, [0.0; 3], own);
             let velocities = (0..columns).map(|k| set.iter().map(|&b| (b, unit(k))).collect());
             described.freedoms += columns;
             described.motions.push(FreeMotion {

@@ -139,10 +139,7 @@ fn solved(a: &Matrix, b: &[f64], transposed: bool) -> Vec<f64> {
 fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]>) {
     let layout = mechanism.layout();
     let mut s = mechanism.scratch();
-    let bodies = mechanism.bodies().iter();
-    let mut q: Vec<f64> = bodies
-        .flat_map(|b| [b.position[0], b.position[1], b.angle])
-        .collect();
+    let mut q = mechanism.described_state().0;
     for step in 0..40 {
         // The drive is followed in small steps, so that the branch does not change.
         mechanism.pose(t * (f64::from(step) / 20.0).min(1.0), &q, &mut s);

@@ -3,7 +3,8 @@
 use joints::{Revolute, RevoluteAngleDrive};
 
 use super::*;
-use crate::description::{Drive, Joint};
+
+use crate::description::{Description, Drive, Joint};
 
 fn body(name: &str) -> Body {
     Body {
