@@ -36,6 +36,7 @@ mod planted_mechanisms;
 mod robot_trolley;
 mod second_order;
 mod singular_passages;
+mod space_motion;
 mod space_verdicts;
 mod spaces;
 mod starts;

@@ -1,0 +1,217 @@
+//! Motions in space compared with known ones: closed forms, and digits from integrations in higher
+//! precision with other coordinates.
+
+use std::ops::ControlFlow;
+
+use dynamics::{Method, MotionOptions, RowChoice, prepare, simulate};
+use joints::space3::{Axes, Revolute, Spherical};
+use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription, StartOptions};
+
+/// Coordinates and velocities at the end of a run, and the largest drift of the energy relative to
+/// the largest kinetic energy.
+fn moved(
+    d: &SpatialDescription,
+    t_end: f64,
+    method: Method,
+    rtol: f64,
+) -> (Vec<f64>, Vec<f64>, f64) {
+    let mechanism = Mechanism::build(d).unwrap_or_else(|e| panic!("{}: {e:?}", d.name));
+    let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)
+        .unwrap_or_else(|e| panic!("{}: {e}", d.name));
+    let options = MotionOptions {
+        rtol,
+        atol: rtol,
+        method,
+        output_step: t_end / 20.0,
+        ..MotionOptions::to(t_end)
+    };
+    let mut last = (Vec::new(), Vec::new());
+    let (mut energies, mut kinetic) = (Vec::new(), 0.0_f64);
+    simulate(&prepared, &options, |row| {
+        let m = &prepared.mechanism;
+        let own = m.kinetic_energy(row.v);
+        energies.push(own + m.potential_energy(row.q));
+        kinetic = kinetic.max(own);
+        last = (row.q.to_vec(), row.v.to_vec());
+        Ok(ControlFlow::Continue(()))
+    })
+    .unwrap_or_else(|e| panic!("{}: {e}", d.name));
+    let drift = energies
+        .iter()
+        .map(|e| (e - energies[0]).abs())
+        .fold(0.0, f64::max);
+    (last.0, last.1, drift / kinetic)
+}
+
+fn close(found: &[f64], expected: &[f64], bound: f64, what: &str) {
+    for (a, b) in found.iter().zip(expected) {
+        assert!(
+            (a - b).abs() < bound,
+            "{what}: {found:?}, expected {expected:?}"
+        );
+    }
+}
+
+fn diagonal(moments: [f64; 3]) -> [[f64; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { moments[i] } else { 0.0 }))
+}
+
+/// A free body with moments 1, 2, 3: ω(10) by Jacobi's elliptic functions.
+#[test]
+fn a_free_body_turns_as_eulers_equations_say() {
+    let mut d = SpatialDescription::new("free body");
+    d.body(SpatialBody {
+        velocity: Some([0.0; 3]),
+        angular_velocity: Some([0.01, 1.0, 0.01]),
+        ..SpatialBody::new("body", 1.0, diagonal([1.0, 2.0, 3.0]))
+    });
+    let expected = [
+        -0.874_573_437_891_093_6,
+        0.484_996_187_341_048_45,
+        0.505_001_220_547_913_3,
+    ];
+    for (method, rtol, bound) in [
+        (Method::Dop853, 1e-13, 1e-11),
+        (Method::Radau5, 1e-11, 1e-8),
+    ] {
+        let (q, v, drift) = moved(&d, 10.0, method, rtol);
+        close(&v[3..], &expected, bound, "ω");
+        assert!(drift < bound, "{drift:e}");
+        let length: f64 = q[3..].iter().map(|e| e * e).sum();
+        assert!(length > 0.25 && length < 4.0, "{length}");
+    }
+}
+
+/// The spinning top of the benchmark of Romano: 15 kg, its mass centre 1 m from the fixed point.
+#[test]
+fn a_heavy_top() {
+    let mut d = SpatialDescription::new("top");
+    d.gravity = [0.0, 0.0, -9.81];
+    let omega = [0.0, 150.0, -4.615_38];
+    let top = d.body(SpatialBody {
+        position: [0.0, 1.0, 0.0],
+        // ω × (0, 1, 0)
+        velocity: Some([4.615_38, 0.0, 0.0]),
+        angular_velocity: Some(omega),
+        ..SpatialBody::new("top", 15.0, diagonal([0.234_375, 0.468_75, 0.234_375]))
+    });
+    let pivot = Spherical {
+        s_i: [0.0; 3],
+        s_j: [0.0, -1.0, 0.0],
+    };
+    d.joint("pivot", &[BodyRef::Ground, top], pivot);
+    let half = [
+        -0.702_468_297_056_585_6,
+        -0.021_165_184_701_923_307,
+        -0.711_400_257_651_737_4,
+    ];
+    let one = [
+        0.173_343_964_094_386_04,
+        0.640_088_592_070_568_8,
+        -0.748_490_791_133_581_3,
+    ];
+    for (t_end, expected) in [(0.5, half), (1.0, one)] {
+        let (q, v, drift) = moved(&d, t_end, Method::Dop853, 1e-13);
+        close(&q[..3], &expected, 1e-9, "centre");
+        assert!((v[4] - 150.0).abs() < 1e-9, "{}", v[4]);
+        assert!(drift < 1e-11, "{drift:e}");
+    }
+}
+
+/// A point mass on a spherical joint.
+#[test]
+fn a_spherical_pendulum() {
+    let mut d = SpatialDescription::new("pendulum");
+    d.gravity = [0.0, 0.0, -9.81];
+    let bob = d.body(SpatialBody {
+        position: [1.0, 0.0, 0.0],
+        velocity: Some([0.0, 1.0, 0.0]),
+        angular_velocity: Some([0.0, 0.0, 1.0]),
+        // Nearly a point: a tensor of zeros leaves the spin about the rod without inertia.
+        ..SpatialBody::new("bob", 1.0, diagonal([1e-14, 1e-14, 1e-14]))
+    });
+    let pivot = Spherical {
+        s_i: [0.0; 3],
+        s_j: [-1.0, 0.0, 0.0],
+    };
+    d.joint("pivot", &[BodyRef::Ground, bob], pivot);
+    let expected = [
+        -0.810_268_626_725_769_7,
+        0.426_669_594_730_150_03,
+        -0.401_768_353_005_491_65,
+    ];
+    let (q, _, drift) = moved(&d, 5.0, Method::Dop853, 1e-13);
+    close(&q[..3], &expected, 1e-9, "place");
+    assert!(drift < 1e-11, "{drift:e}");
+}
+
+/// Bricard's linkage of the IFToMM benchmark (A04): five rods of 1 kg on six hinges, from rest. It
+/// moves although Grübler counts no freedom; the height of the third pivot is a closed form.
+#[test]
+fn bricards_linkage() {
+    let p: [[f64; 3]; 6] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, -1.0, 0.0],
+        [1.0, -1.0, 1.0],
+        [0.0, -1.0, 1.0],
+        [0.0, 0.0, 1.0],
+    ];
+    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let axes = [y, z, x, y, z, x];
+    let mut d = SpatialDescription::new("Bricard");
+    d.gravity = [0.0, -9.81, 0.0];
+    let (long, thin) = ((1.0 + 0.01) / 12.0, 0.02 / 12.0);
+    let rods: Vec<BodyRef> = (0..5)
+        .map(|k| {
+            let along: [f64; 3] = std::array::from_fn(|j| p[k + 1][j] - p[k][j]);
+            let moments = along.map(|a| if a == 0.0 { long } else { thin });
+            let position = std::array::from_fn(|j| 0.5 * (p[k][j] + p[k + 1][j]));
+            d.body(SpatialBody {
+                position,
+                velocity: Some([0.0; 3]),
+                angular_velocity: Some([0.0; 3]),
+                ..SpatialBody::new(&format!("rod {k}"), 1.0, diagonal(moments))
+            })
+        })
+        .collect();
+    for k in 0..6 {
+        let pair = [
+            if k == 0 { BodyRef::Ground } else { rods[k - 1] },
+            if k == 5 { BodyRef::Ground } else { rods[k] },
+        ];
+        let [s_i, s_j] = pair.map(|body| d.local(body, p[k]));
+        let axis = Axes::new(axes[k], None).expect("an axis");
+        d.joint(
+            &format!("hinge {k}"),
+            &pair,
+            Revolute {
+                s_i,
+                s_j,
+                axis,
+                axis_j: axis,
+            },
+        );
+    }
+    let (q, v, drift) = moved(&d, 1.0, Method::Dop853, 1e-12);
+    // The direction of rod 1 is x of its body.
+    let [w, e1, e2, e3] = [q[3], q[4], q[5], q[6]];
+    let square = w * w + e1 * e1 + e2 * e2 + e3 * e3;
+    let direction = [
+        (w * w + e1 * e1 - e2 * e2 - e3 * e3) / square,
+        2.0 * (e1 * e2 + w * e3) / square,
+        2.0 * (e1 * e3 - w * e2) / square,
+    ];
+    let theta = direction[2].atan2(direction[0]);
+    assert!((theta + 1.035_028_459_518).abs() < 1e-9, "{theta}");
+    assert!((v[4].abs() - 2.036_415_381_0).abs() < 1e-8, "{}", v[4]);
+    assert!(drift < 1e-10, "{drift:e}");
+    // The third pivot: the end of the second rod, half a metre from its middle along its −y.
+    let own = &q[7..14];
+    let [w, e1, e2, e3] = [own[3], own[4], own[5], own[6]];
+    let square = w * w + e1 * e1 + e2 * e2 + e3 * e3;
+    let z_of_y = 2.0 * (e2 * e3 + w * e1) / square;
+    let pivot = own[2] - 0.5 * z_of_y;
+    let closed = theta.sin() / (1.0 - theta.sin());
+    assert!((pivot - closed).abs() < 1e-11, "{pivot} {closed}");
+}
