@@ -14,7 +14,7 @@ macro_rules! examples {
     ($($name:literal)*) => {
         [$(Template {
             name: $name,
-            text: include_str!(concat!("../../../examples/", $name, ".toml")),
+            text: include_str!(concat!(env!("PFAFF_EXAMPLES"), "/", $name, ".toml")),
         }),*]
     };
 }
@@ -27,7 +27,7 @@ const EXAMPLES: [Template; 22] = examples!(
 
 const ROBOT: Template = Template {
     name: "robot-trolley",
-    text: include_str!("../../robot-trolley/robot-trolley.toml"),
+    text: include_str!(env!("PFAFF_ROBOT")),
 };
 
 impl Template {

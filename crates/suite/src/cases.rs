@@ -69,13 +69,16 @@ macro_rules! case {
     };
 }
 
+/// The scene of the robot with its trolley.
+pub const ROBOT: &str = include_str!("../scenes/robot-trolley.toml");
+
 /// Cases by which methods are compared: they have different requirements, and a run takes less than
 /// a second.
 pub const COMPARED: [Case; 11] = [
     case!(
         "robot-trolley",
         "Robot with trolley, two redundant rows",
-        include_str!("../../robot-trolley/robot-trolley.toml"),
+        ROBOT,
         Known::Table(include_str!("../references/robot-trolley.txt"))
     ),
     case!("three-cranks", "Three cranks, one redundant row"),

@@ -14,5 +14,5 @@ pub mod closed_forms;
 pub mod reference;
 mod table;
 
-pub use cases::{CHECKED, COMPARED, Case, all, find};
+pub use cases::{CHECKED, COMPARED, Case, ROBOT, all, find};
 pub use reference::{Fact, Instant, Kind, Quantity, Reference, Trust};

@@ -4,9 +4,6 @@ use crate::numbers::Numbers;
 
 use crate::fuzz::{damage, scenes};
 
-/// The published mechanism.
-const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
-
 /// Largest number of changes of one text.
 const DAMAGES: usize = 4;
 
@@ -32,6 +29,9 @@ pub fn text(seed: u64, number: u64) -> String {
 }
 
 fn known(numbers: &mut Numbers) -> String {
-    let all: Vec<&str> = suite::all().map(|case| case.scene).chain([ROBOT]).collect();
+    let all: Vec<&str> = suite::all()
+        .map(|case| case.scene)
+        .chain([suite::ROBOT])
+        .collect();
     all[numbers.below(all.len())].to_owned()
 }

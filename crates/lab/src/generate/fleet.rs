@@ -7,12 +7,11 @@
 
 use std::io;
 
+use suite::ROBOT;
+
 use super::answer::{Answer, Free, FreeReaction};
 use super::family::Family;
 use super::text::SceneText;
-
-/// The robot.
-const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
 
 /// Joints of the robot whose reactions are not unique while it drives straight, and only across the
 /// direction of travel.
