@@ -408,3 +408,48 @@ fn tables() {
         judge(&s, [6, 3, 3, 3]);
     }
 }
+
+/// V22: a chassis on four wheels, each with a hub and a contact that does not slip; straight, and with
+/// its front axle turned in parallel.
+#[test]
+fn cars() {
+    use joints::space3::{GroundPlane, WheelContact, WheelSlip};
+    let car = |turn: f64| {
+        let mut s = Sketch::new("car");
+        let chassis = s.body("chassis", [0.1, 0.0, 0.5], [1.0, 0.0, 0.0, 0.0]);
+        let wheels = [[1.2, 0.7], [1.2, -0.7], [-1.1, 0.7], [-1.1, -0.7]];
+        for (k, [x, y]) in wheels.into_iter().enumerate() {
+            let angle = if k < 2 { turn } else { 0.0 };
+            let (sin, cos) = (0.5 * angle).sin_cos();
+            // Each wheel has turned about its own axis by another angle.
+            let spin = 0.3 * (k as f64 + 1.0);
+            let own = [spin.cos(), 0.0, spin.sin(), 0.0];
+            let orientation = [cos * own[0], -sin * own[2], cos * own[2], sin * own[0]];
+            let centre = [x, y, 0.3];
+            let wheel = s.body(&format!("wheel {k}"), centre, orientation);
+            let axis = [-angle.sin(), angle.cos(), 0.0];
+            s.joint(&format!("hub {k}"), Kind::R, [chassis, wheel], centre, axis);
+            let axis = Direction::new(s.direction(wheel, axis)).expect("a direction");
+            let plane = GroundPlane::Z;
+            let contact = WheelContact {
+                s: [0.0; 3],
+                axis,
+                radius: 0.3,
+                plane,
+                half_inverse: 0.0,
+            };
+            let slip = WheelSlip {
+                s: [0.0; 3],
+                axis,
+                radius: 0.3,
+                plane,
+                inverse: 0.0,
+            };
+            s.d.joint(&format!("contact {k}"), &[wheel], contact);
+            s.d.joint(&format!("slip {k}"), &[wheel], slip);
+        }
+        s
+    };
+    judge(&car(0.0), [32, 29, 3, 1]);
+    judge(&car(0.2), [32, 30, 2, 0]);
+}

@@ -127,10 +127,12 @@ fn value(inputs: &Inputs, name: &str, source: &Source, point: u64) -> f64 {
         }
         Source::Parameter { access } if access.contains(".xyz()") || access.contains(".uvw()") => {
             let axes = rotation(point, access.split('.').nth(1).unwrap_or_default());
-            match access.contains(".uvw()") {
-                true => axes[index(access, 1)][index(access, 0)],
-                false => axes[0][index(access, 0)],
-            }
+            let row = if access.contains(".uvw()") {
+                index(access, 1)
+            } else {
+                0
+            };
+            axes[row][index(access, 0)]
         }
         Source::Kept { access, .. } if access == "self.measure_0[0]" => angle("measure_0").cos(),
         Source::Kept { access, .. } if access == "self.measure_0[1]" => angle("measure_0").sin(),

@@ -3,7 +3,7 @@
 //! those of the crate `joints`, bit for bit.
 
 use joints::{
-    Argument, Constraint, ConstraintSpec, Derivatives, Force, ForceSpec, Pose, Twist, Visitor,
+    Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, Twist, Visitor,
     plane_constraints, plane_forces,
 };
 

@@ -173,7 +173,7 @@ impl<'a> Scope<'a> {
         for e in [from, to] {
             match self.value(e)? {
                 Value::Axes { slot, axes: own } => {
-                    axes.push(own.map(|local| Vector::new(Frame::Body(slot), local)))
+                    axes.push(own.map(|local| Vector::new(Frame::Body(slot), local)));
                 }
                 other => return Err(wrong(e, "an `Axes` parameter", &other)),
             }

@@ -280,9 +280,12 @@ impl Mechanism {
         let bodies: Vec<BodyRecord> = records.map(BodyRecord::from).collect();
         let (space, gravity) = (S::KIND, S::point(d.gravity));
         let weight = bodies.iter().flat_map(|b| {
-            let of_axis = move |k: usize| match k < space.n_translations() {
-                true => b.mass * gravity[k],
-                false => 0.0,
+            let of_axis = move |k: usize| {
+                if k < space.n_translations() {
+                    b.mass * gravity[k]
+                } else {
+                    0.0
+                }
             };
             (0..space.n_v()).map(of_axis)
         });
@@ -722,9 +725,10 @@ impl Builder {
         self.elements.n_slots += bodies.len();
         for function in functions {
             self.layout.break_times.extend(function.break_times());
-            let forms: &[FunctionForm] = match turning {
-                true => &[FunctionForm::Cosine, FunctionForm::Sine],
-                false => &[FunctionForm::Value],
+            let forms: &[FunctionForm] = if turning {
+                &[FunctionForm::Cosine, FunctionForm::Sine]
+            } else {
+                &[FunctionForm::Value]
             };
             let functions = forms.iter().map(|&form| TimeFunction {
                 function: function.clone(),
