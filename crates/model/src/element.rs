@@ -15,10 +15,29 @@ use joints::{
 };
 use linalg::Dd;
 
-use crate::description::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
+use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
 use crate::law::DriveForce;
-use crate::record::Input;
 use crate::space::{self, Number, PlanarSpace, Space, SpaceKind, in_plane, normalised, quaternion};
+
+/// Meaning of an input of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// A coordinate, by its index in q.
+    Coordinate(usize),
+    /// The cosine of the coordinate with this index in q.
+    Cos(usize),
+    /// The sine of the coordinate with this index in q.
+    Sin(usize),
+    /// A velocity, by its index in v.
+    Velocity(usize),
+    /// A function of time as used by the mechanism, or a derivative of it.
+    Function {
+        /// Index of the function, in the order of [`crate::Mechanism::functions`].
+        function: usize,
+        /// Order of the derivative: 0, 1 or 2.
+        derivative: usize,
+    },
+}
 
 /// A space of kernels in which bodies are described: the plane, or space.
 pub trait BodySpace: joints::Space + Sized {

@@ -5,7 +5,7 @@
 //! description, and everything that is written, is about the origin o of the body's frame, with
 //! c = [`Body::centre`]: `r = o + R·c`, `ṙ = ȯ + ω × R·c`.
 
-use crate::description::{Body, BodyRecord, BodyRef, DescribedBody};
+use crate::body::{Body, BodyRecord, BodyRef, DescribedBody};
 use crate::element::{angle_at, axes_at, turned_at};
 use crate::mechanism::Mechanism;
 use crate::observed::{Marker, Measure, MeasureKind, Observed};

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use joints::spec::{ConstraintSpec, Entry};
 
-use crate::description::BodyRef;
+use crate::body::BodyRef;
 use crate::space::SpaceKind;
 
 /// Index of a joint or drive in [`crate::Layout::groups`].

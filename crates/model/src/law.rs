@@ -102,6 +102,17 @@ pub struct Law {
     operations: Box<[Operation]>,
 }
 
+/// The force of a drive by a law, and what it depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DriveForce {
+    /// The measure (m or rad).
+    pub measure: f64,
+    /// Its rate (m/s or rad/s).
+    pub rate: f64,
+    /// Force (N) or torque (N·m) along the measure: on the second body, opposite on the first.
+    pub force: Result<f64, Undefined>,
+}
+
 /// Error in the operations of a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -132,17 +143,6 @@ pub enum LawError {
     /// The arguments of the joint do not fit.
     #[error(transparent)]
     Argument(#[from] joints::ArgumentError),
-}
-
-/// The force of a drive by a law, and what it depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DriveForce {
-    /// The measure (m or rad).
-    pub measure: f64,
-    /// Its rate (m/s or rad/s).
-    pub rate: f64,
-    /// Force (N) or torque (N·m) along the measure: on the second body, opposite on the first.
-    pub force: Result<f64, Undefined>,
 }
 
 /// The part of a law that has no finite value.

@@ -39,6 +39,7 @@
 //! | `observed` | markers, and measures between them |
 //! | [`reaction`] | multipliers to forces and torques |
 
+mod body;
 pub mod codes;
 mod data;
 pub mod description;

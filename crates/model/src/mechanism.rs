@@ -14,7 +14,7 @@ mod work;
 use joints::Ring;
 use linalg::Dd;
 
-use crate::description::BodyRecord;
+use crate::body::BodyRecord;
 use crate::element::{PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
 use crate::observed::Observed;

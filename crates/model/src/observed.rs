@@ -1,7 +1,7 @@
 //! Markers and measures: places by name, and quantities between them, read off a motion. They
 //! restrict nothing, and are evaluated by [`crate::frame`] where somebody asks.
 
-use crate::description::{Body, BodyRecord, BodyRef};
+use crate::body::{Body, BodyRecord, BodyRef};
 
 /// A place of a body by name.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,9 +8,10 @@
 use joints::Direction;
 use linalg::Matrix;
 
-use crate::description::BodyRef;
+use crate::body::BodyRef;
 use crate::element::PlacedConstraint;
 use crate::mechanism::Mechanism;
+pub use crate::space::Frame;
 use crate::space::{SpaceKind, cross, difference, unit_cross};
 use crate::system::{Layout, Scratch, System};
 
@@ -20,24 +21,6 @@ pub use crate::group::{ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind
 /// the rounding of common points far from the origin. Rows above it are assumed to act against the
 /// ground, which is the cautious choice.
 const ROUNDING: f64 = 1e-10;
-
-/// Axes in which the force of a reaction is expressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Frame {
-    /// The axes of the ground.
-    Global,
-    /// The axes of the first body of the joint; global for the ground.
-    FirstBody,
-    /// The only direction in which the joint can transmit a force, followed by the direction
-    /// rotated by +90°: normal and along for a knife edge, across and along the axis for a slot.
-    /// Joints with no row, or several rows, that have a force do not have this frame.
-    Edge,
-}
-
-impl Frame {
-    /// All frames.
-    pub const ALL: [Self; 3] = [Self::Global, Self::FirstBody, Self::Edge];
-}
 
 /// A reaction: force and torque about the place, ground axes, on the first body. In the plane the
 /// force has no z component, and the torque no other.

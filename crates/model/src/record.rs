@@ -4,31 +4,12 @@
 
 use joints::recorded::{Operation, Recorded, record};
 
+pub use crate::element::Input;
 use crate::element::{PlacedConstraint, RecordedSlots};
 use crate::function::Function;
 use crate::mechanism::Mechanism;
 use crate::space::SpaceKind;
 use crate::system::System;
-
-/// Meaning of an input of a recording.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Input {
-    /// A coordinate, by its index in q.
-    Coordinate(usize),
-    /// The cosine of the coordinate with this index in q.
-    Cos(usize),
-    /// The sine of the coordinate with this index in q.
-    Sin(usize),
-    /// A velocity, by its index in v.
-    Velocity(usize),
-    /// A function of time as used by the mechanism, or a derivative of it.
-    Function {
-        /// Index of the function, in the order of [`Mechanism::functions`].
-        function: usize,
-        /// Order of the derivative: 0, 1 or 2.
-        derivative: usize,
-    },
-}
 
 /// The equations of one mechanism as operations on inputs.
 #[derive(Clone, Debug)]

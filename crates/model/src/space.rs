@@ -13,8 +13,6 @@ use std::ops::Range;
 use joints::Ring;
 use linalg::Dd;
 
-use crate::reaction::Frame;
-
 /// Largest number of coordinates of a body.
 const MOST_COORDINATES: usize = 7;
 
@@ -456,6 +454,24 @@ fn exponential<T: Number>(turn: [T; 3]) -> [T; 4] {
         (cos, T::from(0.5) * (sin / half))
     };
     [cos, half_sinc * x, half_sinc * y, half_sinc * z]
+}
+
+/// Axes in which the force of a reaction is expressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// The axes of the ground.
+    Global,
+    /// The axes of the first body of the joint; global for the ground.
+    FirstBody,
+    /// The only direction in which the joint can transmit a force, followed by the direction
+    /// rotated by +90°: normal and along for a knife edge, across and along the axis for a slot.
+    /// Joints with no row, or several rows, that have a force do not have this frame.
+    Edge,
+}
+
+impl Frame {
+    /// All frames.
+    pub const ALL: [Self; 3] = [Self::Global, Self::FirstBody, Self::Edge];
 }
 
 /// The space of a mechanism.

@@ -9,7 +9,8 @@ use joints::{LARGEST, is_usable};
 use super::check;
 use super::work::held_bodies;
 use super::{Elements, FunctionForm, Mechanism, TimeFunction, initialise};
-use crate::description::{Body, BodyRecord, BodyRef, Described, DescribedBody, SpatialBody};
+use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
+use crate::description::Described;
 use crate::element::{
     AnyConstraint, AnyForce, BodySpace, ConstraintKernels, PlacedConstraint, PlacedForce, Site,
 };

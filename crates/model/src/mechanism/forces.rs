@@ -5,7 +5,7 @@ use joints::spec::{ForceSpec, Unit};
 
 use super::Mechanism;
 use super::holds::placed;
-use crate::description::BodyRef;
+use crate::body::BodyRef;
 use crate::element::PlacedForce;
 use crate::law::DriveForce;
 use crate::system::Scratch;

@@ -6,7 +6,7 @@
 use joints::spec::{Shape, Spec};
 
 use super::Mechanism;
-use crate::description::BodyRef;
+use crate::body::BodyRef;
 use crate::group::ConstraintId;
 use crate::system::Scratch;
 

@@ -7,7 +7,7 @@ use linalg::DisjointSets;
 
 use super::build::Builder;
 use super::{FunctionForm, Mechanism};
-use crate::description::BodyRef;
+use crate::body::BodyRef;
 use crate::element::{PlacedForce, Site};
 use crate::function::Function;
 

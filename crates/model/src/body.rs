@@ -1,0 +1,199 @@
+//! Bodies as described, in the plane and in space, and how joints refer to them.
+
+/// A rigid body with its state at the start. The origin of its frame is its centre of mass, unless
+/// `centre` says otherwise.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Mass (kg), ≥ 0.
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass (kg·m²), ≥ 0.
+    pub inertia: f64,
+    /// The centre of mass in its frame (m). Points of joints and forces are relative to the centre
+    /// of mass: see [`Body::from_centre`] and [`Description::local`].
+    pub centre: [f64; 2],
+    /// Position of the origin of its frame (m).
+    pub position: [f64; 2],
+    /// Angle (rad).
+    pub angle: f64,
+    /// Velocity of the origin of its frame (m/s). `None`: it follows from the given velocities and
+    /// the prescribed motions, with the least kinetic energy.
+    pub velocity: Option<[f64; 2]>,
+    /// Angular velocity (rad/s). `None`: it follows in the same way.
+    pub angular_velocity: Option<f64>,
+    /// Tolerance of points and directions in its frame (m; directions: divided by the size of the
+    /// mechanism); takes precedence over that of the scene.
+    pub tolerance: Option<f64>,
+}
+
+impl Body {
+    /// A body with this mass (kg) and moment of inertia about the centre of mass (kg·m²), at the
+    /// origin, with velocities not given.
+    #[must_use]
+    pub fn new(name: &str, mass: f64, inertia: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            mass,
+            inertia,
+            ..Self::default()
+        }
+    }
+}
+
+/// A rigid body in space with its state at the start. The origin of its frame is its centre of mass,
+/// unless `centre` says otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpatialBody {
+    /// Its name.
+    pub name: String,
+    /// Mass (kg), ≥ 0.
+    pub mass: f64,
+    /// Inertia about the centre of mass in the axes of its frame (kg·m²), symmetric. Off the diagonal
+    /// are the entries of the matrix, −∫xy dm.
+    pub inertia: [[f64; 3]; 3],
+    /// The centre of mass in its frame (m). Points of joints and forces are relative to it.
+    pub centre: [f64; 3],
+    /// Position of the origin of its frame (m).
+    pub position: [f64; 3],
+    /// Orientation of its frame: a quaternion (w, x, y, z) of any length but zero, body to ground.
+    pub orientation: [f64; 4],
+    /// Velocity of the origin of its frame (m/s), ground axes. `None`: it follows from the given
+    /// velocities and the prescribed motions, with the least kinetic energy.
+    pub velocity: Option<[f64; 3]>,
+    /// Angular velocity (rad/s), ground axes. `None`: it follows in the same way.
+    pub angular_velocity: Option<[f64; 3]>,
+    /// Tolerance of points and directions in its frame (m; directions: divided by the size of the
+    /// mechanism); takes precedence over that of the scene.
+    pub tolerance: Option<f64>,
+}
+
+impl SpatialBody {
+    /// A body with this mass (kg) and inertia about the centre of mass (kg·m²), at the origin, not
+    /// turned, with velocities not given.
+    #[must_use]
+    pub fn new(name: &str, mass: f64, inertia: [[f64; 3]; 3]) -> Self {
+        Self {
+            name: name.to_owned(),
+            mass,
+            inertia,
+            centre: [0.0; 3],
+            position: [0.0; 3],
+            orientation: [1.0, 0.0, 0.0, 0.0],
+            velocity: None,
+            angular_velocity: None,
+            tolerance: None,
+        }
+    }
+}
+
+/// A body of a mechanism, as described.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyRecord {
+    /// Its name.
+    pub name: String,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Tolerance of points and directions in its frame (m), if stated.
+    pub tolerance: Option<f64>,
+    /// The rest, in its space.
+    pub described: DescribedBody,
+}
+
+/// What describes a body in its space.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DescribedBody {
+    /// In the plane.
+    Plane(Body),
+    /// In space.
+    Space3(SpatialBody),
+}
+
+impl From<Body> for DescribedBody {
+    fn from(body: Body) -> Self {
+        Self::Plane(body)
+    }
+}
+
+impl From<SpatialBody> for DescribedBody {
+    fn from(body: SpatialBody) -> Self {
+        Self::Space3(body)
+    }
+}
+
+impl From<DescribedBody> for BodyRecord {
+    fn from(described: DescribedBody) -> Self {
+        let (name, mass, tolerance) = match &described {
+            DescribedBody::Plane(b) => (b.name.clone(), b.mass, b.tolerance),
+            DescribedBody::Space3(b) => (b.name.clone(), b.mass, b.tolerance),
+        };
+        Self {
+            name,
+            mass,
+            tolerance,
+            described,
+        }
+    }
+}
+
+impl BodyRecord {
+    /// Whether the origin of its frame is its centre of mass.
+    #[must_use]
+    pub fn is_centred(&self) -> bool {
+        self.centre() == [0.0; 3]
+    }
+
+    /// The centre of mass in its frame (m).
+    #[must_use]
+    pub fn centre(&self) -> [f64; 3] {
+        match &self.described {
+            DescribedBody::Plane(b) => [b.centre[0], b.centre[1], 0.0],
+            DescribedBody::Space3(b) => b.centre,
+        }
+    }
+
+    /// A point of its frame relative to its centre of mass (m), as joints and forces take it.
+    #[must_use]
+    pub fn from_centre(&self, point: [f64; 3]) -> [f64; 3] {
+        let centre = self.centre();
+        std::array::from_fn(|k| point[k] - centre[k])
+    }
+
+    /// Whether the description gives a velocity of its frame.
+    #[must_use]
+    pub fn has_velocity(&self) -> bool {
+        match &self.described {
+            DescribedBody::Plane(b) => b.velocity.is_some(),
+            DescribedBody::Space3(b) => b.velocity.is_some(),
+        }
+    }
+}
+
+/// A body of the mechanism, by its index in the list, or the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum BodyRef {
+    /// The ground.
+    Ground,
+    /// The body with this index.
+    Body(usize),
+}
+
+impl BodyRef {
+    /// Its index in the list; `None` for the ground.
+    #[must_use]
+    pub fn moving(self) -> Option<usize> {
+        match self {
+            Self::Ground => None,
+            Self::Body(k) => Some(k),
+        }
+    }
+
+    /// A global point (m) relative to the centre of mass of this body, one of `bodies` as
+    /// described, in the axes of its frame: `Rᵀ·(point − r)`. For the ground, and for a body that
+    /// does not exist, the point itself.
+    #[must_use]
+    pub fn to_local(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
+        let described = self.moving().and_then(|at| bodies.get(at));
+        described.map_or(point, |body| body.pose().to_local(point))
+    }
+}
