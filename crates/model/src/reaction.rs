@@ -212,7 +212,8 @@ impl<'a> Reactions<'a> {
     /// Returns `None` if the reaction has no such frame.
     #[must_use]
     pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<Axes> {
-        let ground = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        // The second axis is that of a body turned by zero, with the sign of its zero.
+        let ground = [[1.0, 0.0, 0.0], [-0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let axes = match (frame, self.group(id).bodies.first()) {
             (Frame::Edge, _) => {
                 let [x, y] = self.push(id)?;

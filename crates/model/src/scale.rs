@@ -55,7 +55,14 @@ impl Scales<'_> {
                 let entries = row.iter().filter(|(j, _)| *j == column);
                 entries.map(|(_, c)| c).sum::<f64>()
             };
-            let size = |columns: Range<usize>| norm(&columns.map(entry).collect::<Vec<_>>());
+            let size = |columns: Range<usize>| {
+                let mut entries = [0.0; 3];
+                entries
+                    .iter_mut()
+                    .zip(columns)
+                    .for_each(|(x, j)| *x = entry(j));
+                norm(&entries)
+            };
             let force = size(space.translations_of(body));
             let turn = size(space.rotations_of(body)).max(force * self.mechanism.reach(body));
             let bound = move |j| if space.is_rotation(j) { turn } else { force };

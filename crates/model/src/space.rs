@@ -843,7 +843,12 @@ pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 #[must_use]
 pub fn norm(x: &[f64]) -> f64 {
     match x {
-        [x, others @ ..] => others.iter().fold(x.abs(), |norm, x| norm.hypot(*x)),
+        [x, others @ ..] => others.iter().fold(x.abs(), |norm, x| match *x {
+            // Most vectors of planar mechanisms have zeros; roots take time.
+            0.0 => norm,
+            x if norm == 0.0 => x.abs(),
+            x => norm.hypot(x),
+        }),
         [] => 0.0,
     }
 }

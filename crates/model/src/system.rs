@@ -155,10 +155,8 @@ impl Layout {
         let exponent = size.log2().round();
         let mut scaling = Scaling::identity(self.rows(), self.n_v);
         if exponent.is_finite() {
-            for (j, e) in scaling.cols.iter_mut().enumerate() {
-                if self.space.is_rotation(j) {
-                    *e = -(exponent as i32);
-                }
+            for body in scaling.cols.chunks_exact_mut(self.space.n_v()) {
+                body[self.space.torques()].fill(-(exponent as i32));
             }
         }
         scaling

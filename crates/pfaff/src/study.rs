@@ -271,7 +271,7 @@ impl Study {
     /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
     /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
     /// let motion = Study::build(thrown)?.motion(&MotionOptions::to(1.0))?;
-    /// let highest = motion.rows.iter().map(|row| row.bodies["stone"].y).fold(0.0, f64::max);
+    /// let highest = motion.rows.iter().map(|row| row.bodies["stone"]["y"]).fold(0.0, f64::max);
     /// assert!((highest - 1.25).abs() < 1e-9);
     /// assert_eq!(motion.rows.len(), 201);
     /// # Ok::<(), StudyError>(())

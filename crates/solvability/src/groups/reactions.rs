@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use linalg::Matrix;
 use model::space::norm;
-use model::{ConstraintId, Mechanism, Reaction, Scratch, SpaceKind, System};
+use model::{ConstraintId, Mechanism, Scratch, SpaceKind, System};
 
 use super::error::{RequestError, check, check_finite};
 use super::form::LinearForm;
@@ -347,9 +347,16 @@ struct Along {
 impl Along {
     /// The unit vector of a component.
     fn component(space: SpaceKind, component: usize) -> Self {
-        let mut units = vec![0.0; space.n_v()];
-        units[component] = 1.0;
-        let Reaction { force, torque, .. } = Reaction::new(space, &units, None);
-        Self { force, torque }
+        let mut along = Self {
+            force: [0.0; 3],
+            torque: [0.0; 3],
+        };
+        let axis = space.axis_of(component);
+        if space.forces().contains(&component) {
+            along.force[axis] = 1.0;
+        } else {
+            along.torque[axis] = 1.0;
+        }
+        along
     }
 }
