@@ -43,6 +43,8 @@ pub(crate) struct Definitions {
     /// R of the body in each slot, by rows.
     rot: Vec<[[Expr; 3]; 3]>,
     of: HashMap<Expr, Definition>,
+    /// Number of symbols so far.
+    symbols: usize,
     rotated: HashMap<(usize, bool, Components), Components>,
     dots: HashMap<(Frame, Components, Components), Vec<(Vector, Expr)>>,
     expanded: HashMap<Expr, Expr>,
@@ -155,8 +157,9 @@ impl Defined {
 
     /// A symbol with a name that nobody can write.
     fn symbol(&self, g: &mut Graph) -> Expr {
-        let n = g.number_of_symbols();
-        g.symbol(&format!("#{n}"))
+        let mut definitions = self.0.borrow_mut();
+        definitions.symbols += 1;
+        g.symbol(&format!("#{}", definitions.symbols))
     }
 
     fn definition(&self, e: Expr) -> Option<Definition> {

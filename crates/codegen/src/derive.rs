@@ -46,29 +46,6 @@ pub(crate) struct ConstraintKernels {
 }
 
 impl ConstraintKernels {
-    /// Replaces all symbols that stand for something.
-    fn expand(&mut self, model: &mut Model) {
-        let dense = [
-            &mut self.phi,
-            &mut self.b,
-            &mut self.gamma,
-            &mut self.component,
-            &mut self.place,
-            &mut self.d_phi_dp,
-            &mut self.d_residual_dp,
-        ];
-        let sparse = [
-            &mut self.wrench,
-            &mut self.d_force_dx,
-            &mut self.d_residual_dx,
-            &mut self.d_gamma_dv,
-            &mut self.d_velocity_dx,
-        ];
-        expand_all(model, dense.into_iter().flatten());
-        expand_all(model, sparse.into_iter().flatten().map(|(_, e)| e));
-        expand_all(model, self.c.iter_mut().map(|entry| &mut entry.value));
-    }
-
     /// The unit of the measure that a driven row prescribes: it is an angle if the row does not
     /// depend on the velocities of origins.
     pub(crate) fn unit_of_measure(&self, space: Space) -> Ident {
@@ -209,8 +186,31 @@ pub(crate) fn constraint(
         d_phi_dp,
         d_residual_dp,
     };
-    kernels.expand(model);
+    expand(&mut kernels, model);
     Ok(kernels)
+}
+
+/// Replaces all symbols that stand for something.
+fn expand(k: &mut ConstraintKernels, model: &mut Model) {
+    let dense = [
+        &mut k.phi,
+        &mut k.b,
+        &mut k.gamma,
+        &mut k.component,
+        &mut k.place,
+        &mut k.d_phi_dp,
+        &mut k.d_residual_dp,
+    ];
+    let sparse = [
+        &mut k.wrench,
+        &mut k.d_force_dx,
+        &mut k.d_residual_dx,
+        &mut k.d_gamma_dv,
+        &mut k.d_velocity_dx,
+    ];
+    expand_all(model, dense.into_iter().flatten());
+    expand_all(model, sparse.into_iter().flatten().map(|(_, e)| e));
+    expand_all(model, k.c.iter_mut().map(|entry| &mut entry.value));
 }
 
 fn expand_all<'a>(model: &mut Model, all: impl Iterator<Item = &'a mut Expr>) {

@@ -171,10 +171,10 @@ impl<'a> Scope<'a> {
                 Value::Direction { slot, local }
             }
             ParamKind::Axes { slot: at, like, .. } => {
-                self.only_in(Space::Space3, &p.name, "`Axes`")?;
+                only_in(self.definition, Space::Space3, &p.name, "`Axes`")?;
                 let slot = self.slot(at)?;
                 if let Some(like) = like {
-                    self.check_like(like, p)?;
+                    check_like(self.definition, like, p)?;
                 }
                 let axes = self.model.inputs.axes(&name);
                 for (local, letter) in axes.iter().zip(["u", "v", "w"]) {
@@ -184,12 +184,12 @@ impl<'a> Scope<'a> {
                 Value::Axes { slot, axes }
             }
             ParamKind::GroundLine => {
-                self.only_in(Space::Plane, &p.name, "`GroundLine`")?;
+                only_in(self.definition, Space::Plane, &p.name, "`GroundLine`")?;
                 let (start, along) = self.model.inputs.line(&name);
                 Value::Line { start, along }
             }
             ParamKind::GroundPlane => {
-                self.only_in(Space::Space3, &p.name, "`GroundPlane`")?;
+                only_in(self.definition, Space::Space3, &p.name, "`GroundPlane`")?;
                 let values = self.model.inputs.values(&name);
                 Value::Plane {
                     start: values[..3].to_vec(),
@@ -217,31 +217,6 @@ impl<'a> Scope<'a> {
                 }
             },
         })
-    }
-
-    /// Refuses what exists in the other space only.
-    fn only_in(&self, space: Space, at: &Ident, what: &str) -> syn::Result<()> {
-        if self.definition.space == space {
-            return Ok(());
-        }
-        Err(syn::Error::new_spanned(
-            at,
-            format!("{what} is a kind of a `{}` definition", space.word()),
-        ))
-    }
-
-    /// The parameter after `like` must be axes that stand before.
-    fn check_like(&self, like: &Ident, own: &Param) -> syn::Result<()> {
-        let before = self.definition.params.iter();
-        let mut before = before.take_while(|p| p.name != own.name);
-        let is_axes = |p: &Param| matches!(p.kind, ParamKind::Axes { .. });
-        if before.any(|p| p.name == *like && is_axes(p)) {
-            return Ok(());
-        }
-        Err(syn::Error::new_spanned(
-            like,
-            format!("`{like}` is no `Axes` parameter before `{}`", own.name),
-        ))
     }
 
     fn declare(&mut self, name: &Ident, value: Value) -> syn::Result<()> {
@@ -352,4 +327,28 @@ fn check_use(scope: &Scope<'_>) -> syn::Result<()> {
         )),
         None => Ok(()),
     }
+}
+
+/// Refuses what exists in the other space only.
+fn only_in(d: &Definition, space: Space, at: &Ident, what: &str) -> syn::Result<()> {
+    if d.space == space {
+        return Ok(());
+    }
+    Err(syn::Error::new_spanned(
+        at,
+        format!("{what} is a kind of a `{}` definition", space.word()),
+    ))
+}
+
+/// The parameter after `like` must be axes that stand before.
+fn check_like(d: &Definition, like: &Ident, own: &Param) -> syn::Result<()> {
+    let mut before = d.params.iter().take_while(|p| p.name != own.name);
+    let is_axes = |p: &Param| matches!(p.kind, ParamKind::Axes { .. });
+    if before.any(|p| p.name == *like && is_axes(p)) {
+        return Ok(());
+    }
+    Err(syn::Error::new_spanned(
+        like,
+        format!("`{like}` is no `Axes` parameter before `{}`", own.name),
+    ))
 }

@@ -197,3 +197,34 @@ impl BodyRef {
         described.map_or(point, |body| body.pose().to_local(point))
     }
 }
+
+impl Body {
+    /// Whether the origin of its frame is its centre of mass.
+    #[must_use]
+    pub fn is_centred(&self) -> bool {
+        self.centre == [0.0; 2]
+    }
+
+    /// A point of its frame relative to its centre of mass (m), as joints and forces take it.
+    ///
+    /// ```
+    /// let rod = model::Body { centre: [0.5, 0.0], ..model::Body::new("rod", 1.0, 0.1) };
+    /// assert_eq!(rod.from_centre([1.0, 0.0]), [0.5, 0.0]);
+    /// assert_eq!((rod.pose().x, rod.pose().y), (0.5, 0.0));
+    /// ```
+    #[must_use]
+    pub fn from_centre(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [cx, cy] = self.centre;
+        [x - cx, y - cy]
+    }
+}
+
+impl BodyRef {
+    /// A point of the frame of this body, one of `bodies`, relative to its centre of mass; for the
+    /// ground the point itself.
+    #[must_use]
+    pub fn from_centre(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
+        let described = self.moving().and_then(|at| bodies.get(at));
+        described.map_or(point, |body| body.from_centre(point))
+    }
+}

@@ -153,7 +153,7 @@ impl<'m> Data<'m> {
         for (group, (c, places)) in self.numbered().enumerate() {
             numbers.clear();
             numbers.resize(places.len(), 0.0);
-            c.data(&mut numbers);
+            c.kernels().data(&mut numbers);
             let length = self.length_scale(c, s, &numbers);
             let turned = c.site.moving().map(|body| s.bodies.angle(body).abs());
             let angle = turned.fold(1.0, f64::max);

@@ -867,6 +867,10 @@ impl AnyConstraint {
         })
     }
 
+    pub(crate) fn data(&self, out: &mut [f64]) {
+        with!(AnyConstraint, self, element, _S => element.data(out));
+    }
+
     /// Entries of C that depend on parameters only; the others are left as they are.
     pub(crate) fn c_constant(&self, out: &mut [f64]) {
         with!(AnyConstraint, self, element, _S => element.c_constant(out));
@@ -925,14 +929,6 @@ impl PlacedConstraint {
     /// Whether Γ of its rows may differ from zero. C of the other rows is constant, so `C·v̇ = 0`.
     pub(crate) fn has_gamma(&self) -> bool {
         self.has_varying_entries() || self.depends_on_time()
-    }
-
-    pub(crate) fn points(&self) -> Vec<[f64; 3]> {
-        self.element.points()
-    }
-
-    pub(crate) fn data(&self, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, _S => element.data(out));
     }
 
     pub(crate) fn initialise(&mut self, bodies: &Bodies) {

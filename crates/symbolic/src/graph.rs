@@ -119,12 +119,6 @@ impl Graph {
         self.intern(Node::Symbol(id))
     }
 
-    /// Number of inputs so far.
-    #[must_use]
-    pub fn number_of_symbols(&self) -> usize {
-        self.names.len()
-    }
-
     /// The expression of an input.
     ///
     /// # Panics

@@ -195,7 +195,7 @@ impl<'a> Scope<'a> {
     ) -> syn::Result<Value> {
         if function == "vector" && is_ground(slot) {
             let value = self.value(what)?;
-            let components = self.listed(value, what)?;
+            let components = listed(self.definition.space, value, what)?;
             return Ok(Value::Vector(Vector::new(Frame::Ground, components)));
         }
         let at = self.slot_argument(slot)?;
@@ -208,12 +208,18 @@ impl<'a> Scope<'a> {
                 local
             }
             ("vector", value @ Value::Local { .. }) => self.local_in(at, value, what)?,
-            ("vector", value @ Value::List(_)) => self.listed(value, what)?,
+            ("vector", value @ Value::List(_)) => listed(self.definition.space, value, what)?,
             ("point", other) => return Err(wrong(what, "a `Point` parameter", &other)),
             ("direction", other) => {
                 return Err(wrong(what, "a `Direction` parameter", &other));
             }
-            (_, other) => return Err(wrong(what, self.components_in_words(), &other)),
+            (_, other) => {
+                return Err(wrong(
+                    what,
+                    components_in_words(self.definition.space),
+                    &other,
+                ));
+            }
         };
         let turned = Vector::new(Frame::Body(at), local);
         Ok(Value::Vector(match function {
@@ -222,28 +228,6 @@ impl<'a> Scope<'a> {
                 .combine(&mut self.model.g, 1.0, &turned, 1.0),
             _ => turned,
         }))
-    }
-
-    /// The scalars of a list, as many as a vector has components.
-    fn listed(&self, value: Value, at: &syn::Expr) -> syn::Result<Components> {
-        let Value::List(list) = &value else {
-            return Err(wrong(at, self.components_in_words(), &value));
-        };
-        let scalar = |value: &Value| match value {
-            Value::Scalar(e) => Some(*e),
-            _ => None,
-        };
-        let scalars: Option<Components> = list.iter().map(scalar).collect();
-        scalars
-            .filter(|s| s.len() == self.definition.space.dim())
-            .ok_or_else(|| wrong(at, self.components_in_words(), &value))
-    }
-
-    fn components_in_words(&self) -> &'static str {
-        match self.definition.space {
-            Space::Plane => "two components",
-            Space::Space3 => "three components",
-        }
     }
 
     fn origin(&self, slot: usize) -> Vector {
@@ -278,4 +262,27 @@ impl<'a> Scope<'a> {
 /// Whether the frame is the ground.
 fn is_ground(slot: &syn::Expr) -> bool {
     matches!(slot, syn::Expr::Path(p) if p.path.is_ident("ground"))
+}
+
+/// The scalars of a list, as many as a vector has components.
+fn listed(space: Space, value: Value, at: &syn::Expr) -> syn::Result<Components> {
+    let expected = components_in_words(space);
+    let Value::List(list) = &value else {
+        return Err(wrong(at, expected, &value));
+    };
+    let scalar = |value: &Value| match value {
+        Value::Scalar(e) => Some(*e),
+        _ => None,
+    };
+    let scalars: Option<Components> = list.iter().map(scalar).collect();
+    scalars
+        .filter(|s| s.len() == space.dim())
+        .ok_or_else(|| wrong(at, expected, &value))
+}
+
+fn components_in_words(space: Space) -> &'static str {
+    match space {
+        Space::Plane => "two components",
+        Space::Space3 => "three components",
+    }
 }

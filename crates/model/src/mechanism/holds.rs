@@ -33,7 +33,7 @@ impl Mechanism {
     #[must_use]
     pub fn points(&self, id: ConstraintId) -> Vec<(BodyRef, [f64; 3])> {
         let c = &self.elements.constraints[id.0];
-        placed(&c.spec().common, &c.site.bodies, c.points())
+        placed(&c.spec().common, &c.site.bodies, c.kernels().points())
     }
 
     /// The joint whose measure a drive prescribes, and the name of the measure: a joint with the
