@@ -22,12 +22,16 @@ const FAR: f64 = 1e6;
 /// How long they turn (s).
 const SECONDS: f64 = 5.0;
 
-/// A run that stops is to say so within this time.
+/// A run that stops is to say so within this time of its processor.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// What angles and energies may be off by, in tolerances, and at least: a few dozen passages,
 /// each of which may miss its tolerance by a factor of ten.
 const TOLERANCES: f64 = 1e4;
+
+/// No step of a run ends nearer to a flat pose than this (share of pivots; here the angle to it,
+/// in radians): a limit of the product, repeated here.
+const NEAREST: f64 = 1e-3;
 
 /// Stands in for gravity (m/s²).
 const GRAVITY: f64 = 9.81;
@@ -55,7 +59,7 @@ pub enum Verdict {
     Stopped {
         /// What it says.
         error: String,
-        /// Whether it said so within a second.
+        /// Whether it said so within a second of its processor.
         in_time: bool,
     },
     /// A row contradicts the closed form.
@@ -118,10 +122,23 @@ impl Parallelogram {
         self.origin != [0.0; 2]
     }
 
+    /// What rounding of the coordinates may change the speed by, as a share of it.
+    ///
+    /// Coordinates at a distance D from the origin are known to `ε·D`, so the angles of cranks of
+    /// length l to `ε·D/l`. At an angle σ to the flat pose the ratio of their speeds is wrong by
+    /// that over σ, and a step that begins or ends there hands the error on to the speed of all
+    /// cranks. Steps end at various σ, so the passage with the least one decides. The angle is then
+    /// off by this share of what has been turned, the energy by twice this share. Within 2 m of
+    /// the origin it is below 3e-12, and on another branch angles are off by some radians.
+    fn speed_error(&self) -> f64 {
+        let distance = self.origin[0].hypot(self.origin[1]);
+        f64::EPSILON * (distance + self.length) / (self.length * NEAREST)
+    }
+
     /// Runs it and compares every row with the closed form.
     #[must_use]
     pub fn run(&self) -> Verdict {
-        let clock = Instant::now();
+        let clock = Clock::start();
         let stopped = |error: String| Verdict::Stopped {
             error,
             in_time: clock.elapsed() <= PATIENCE,
@@ -160,17 +177,21 @@ impl Parallelogram {
             ..MotionOptions::to(SECONDS)
         };
         let permitted = TOLERANCES * self.rtol;
+        let speed_error = self.speed_error();
         let mut wrong = None;
         let outcome = simulate(&prepared, &options, |row| {
             let (theta, omega) = (row.q[2], row.v[2]);
             let apart = (1..n).map(|k| (row.q[3 * k + 2] - theta).abs());
             let apart = apart.fold(row.q[3 * n + 2].abs(), f64::max);
-            let led = if self.gravity == 0.0 {
-                (theta - self.theta - self.omega * row.t).abs()
+            let turned = self.omega * row.t;
+            let (led, by_rounding) = if self.gravity == 0.0 {
+                let led = (theta - self.theta - turned).abs();
+                (led, turned.abs() * speed_error)
             } else {
-                (energy(theta, omega) - start).abs() / scale
+                let led = (energy(theta, omega) - start).abs() / scale;
+                (led, 2.0 * speed_error)
             };
-            if !(apart <= permitted && led <= permitted) {
+            if !(apart <= permitted && led <= permitted + by_rounding) {
                 let t = row.t;
                 wrong = Some(format!(
                     "at {t} s the angles are {apart:.1e} rad apart, and the cranks by {led:.1e} off"
@@ -184,6 +205,37 @@ impl Parallelogram {
             (None, Ok(_)) => Verdict::Right,
             (None, Err(failure)) => stopped(failure.to_string()),
         }
+    }
+}
+
+/// The time of a thread: of the processor, which others on the machine do not change, or, where
+/// the system does not tell that, of the clock on the wall.
+struct Clock {
+    wall: Instant,
+    processor: Option<Duration>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self {
+            wall: Instant::now(),
+            processor: Self::processor(),
+        }
+    }
+
+    /// Since the start.
+    fn elapsed(&self) -> Duration {
+        match (self.processor, Self::processor()) {
+            (Some(then), Some(now)) => now.saturating_sub(then),
+            _ => self.wall.elapsed(),
+        }
+    }
+
+    /// What the thread has used so far; Linux tells it in nanoseconds.
+    fn processor() -> Option<Duration> {
+        let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+        let used = told.split_whitespace().next()?.parse().ok()?;
+        Some(Duration::from_nanos(used))
     }
 }
 
@@ -274,5 +326,38 @@ mod tests {
         let tally = Tally::of(1, 0, 60, || {});
         assert!(tally.passes(), "{}", tally.describe());
         assert_eq!(tally.counts.len(), 8, "{:?}", tally.counts);
+    }
+
+    /// Rounding explains nothing near the origin, and far away less than a ten-thousandth of a
+    /// radian.
+    #[test]
+    fn rounding_explains_errors_far_from_the_origin_only() {
+        for number in 0..1000 {
+            let one = Parallelogram::draw(3, number);
+            let turned = one.omega.abs() * SECONDS;
+            let off = turned * one.speed_error();
+            let most = if one.is_far() { 1e-4 } else { 1e-10 };
+            assert!(off < most, "run {number}, {one}: {off:e}");
+        }
+    }
+
+    /// Rounding at a passage far from the origin changes the speed by 4e-8 of it, and so the angle
+    /// by 1.0e-6 rad four seconds later.
+    #[test]
+    fn a_passage_far_away_is_as_good_as_its_coordinates_are_known() {
+        let one = Parallelogram::draw(202, 129);
+        assert_eq!(one.run(), Verdict::Right, "{one}");
+    }
+
+    #[test]
+    fn time_asleep_is_no_time_of_the_processor() {
+        let clock = Clock::start();
+        std::thread::sleep(Duration::from_millis(50));
+        let elapsed = clock.elapsed();
+        if clock.processor.is_some() {
+            assert!(elapsed < Duration::from_millis(50), "{elapsed:?}");
+        } else {
+            assert!(elapsed >= Duration::from_millis(50), "{elapsed:?}");
+        }
     }
 }
