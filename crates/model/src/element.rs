@@ -743,6 +743,18 @@ impl Rates {
         Self { space, twists }
     }
 
+    /// Sets so many slots at rest, in the same storage.
+    fn rest(&mut self, space: SpaceKind, slots: usize) {
+        self.space = space;
+        let InEach { plane, space3 } = &mut self.twists;
+        plane.clear();
+        space3.clear();
+        match space {
+            SpaceKind::Space3 => space3.resize(slots, space3::Twist::zero()),
+            _ => plane.resize(slots, Twist::zero()),
+        }
+    }
+
     /// Takes velocities or accelerations of the bodies (n_v); those of the ground stay zero.
     #[inline]
     pub(crate) fn take<'a>(&mut self, sites: impl Iterator<Item = &'a Site>, v: &[f64]) {
@@ -773,8 +785,8 @@ impl OwnRates {
     /// Takes the constraint, with all its bodies at rest.
     fn still(&mut self, c: &PlacedConstraint) {
         let (space, slots) = (c.site.space, c.site.bodies.len());
-        self.own = Rates::zero(space, slots);
-        self.still = Rates::zero(space, slots);
+        self.own.rest(space, slots);
+        self.still.rest(space, slots);
     }
 
     /// Takes velocities or accelerations of all bodies (n_v).

@@ -31,18 +31,16 @@ pub struct FrameState {
 impl FrameState {
     /// Its numbers, in the order of [`SpaceKind::columns`].
     pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
-        let ([x, y, _], [vx, vy, _], [.., omega]) = (self.place, self.velocity, self.omega);
-        let numbers = match self.space {
-            SpaceKind::Space3 => [
-                &self.place[..],
-                &self.quaternion,
-                &self.velocity,
-                &self.omega,
-            ]
-            .concat(),
-            _ => vec![x, y, self.angle, vx, vy, omega],
-        };
-        numbers.into_iter()
+        let ([x, y, z], [vx, vy, vz]) = (self.place, self.velocity);
+        let ([w, e1, e2, e3], [wx, wy, wz]) = (self.quaternion, self.omega);
+        let mut numbers = [x, y, z, w, e1, e2, e3, vx, vy, vz, wx, wy, wz];
+        let mut count = numbers.len();
+        if self.space != SpaceKind::Space3 {
+            let planar = [x, y, self.angle, vx, vy, wz];
+            count = planar.len();
+            numbers[..count].copy_from_slice(&planar);
+        }
+        numbers.into_iter().take(count)
     }
 }
 
