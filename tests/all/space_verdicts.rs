@@ -409,8 +409,8 @@ fn tables() {
     }
 }
 
-/// V22: a chassis on four wheels, each with a hub and a contact that does not slip; straight, and with
-/// its front axle turned in parallel.
+/// V22: a chassis on four wheels, each with a hub and a contact that does not slip; straight, and
+/// with its front axle turned in parallel.
 #[test]
 fn cars() {
     use joints::space3::{GroundPlane, WheelContact, WheelSlip};

@@ -1,8 +1,8 @@
 //! Values of space that are differentiated as a whole: rotated vectors and products of vectors.
 //!
 //! Entry by entry, the derivative of R·s along a rotation differentiates nine products; as a whole
-//! it is R·(ω × s). The product u·w of directions of two bodies changes by (ω × u)·w, for which w is
-//! wanted in the frame of u, once for all three rotations. So each such value is a symbol while
+//! it is R·(ω × s). The product u·w of directions of two bodies changes by (ω × u)·w, for which w
+//! is wanted in the frame of u, once for all three rotations. So each such value is a symbol while
 //! derivatives are taken, with rules for its derivative; it is replaced by what it stands for
 //! before code is printed ([`Defined::expand`]).
 //!

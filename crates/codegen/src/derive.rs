@@ -70,8 +70,8 @@ pub(crate) enum Component {
     None,
     /// The component of the force along the body's vector.
     Along,
-    /// The force along the measure that a motion moves: the negative of this derivative of Φ for each
-    /// multiplier.
+    /// The force along the measure that a motion moves: the negative of this derivative of Φ for
+    /// each multiplier.
     Motion(Along),
 }
 
@@ -315,9 +315,9 @@ fn b_rows(model: &mut Model, velocity: &[Expr]) -> Vec<Expr> {
     }
 }
 
-/// Force and moment on the first body about the place, for each multiplier: the force is `−C_vᵀ`; the
-/// moment is `−C_ωᵀ` at the mass centre, transferred to the place with the arm from the body's origin.
-/// In space `−C_ωᵀ` has components in the body, the moment those of the ground.
+/// Force and moment on the first body about the place, for each multiplier: the force is `−C_vᵀ`;
+/// the moment is `−C_ωᵀ` at the mass centre, transferred to the place with the arm from the body's
+/// origin. In space `−C_ωᵀ` has components in the body, the moment those of the ground.
 fn wrench(model: &mut Model, c: &[Entry], place: &Components, rows: usize) -> Sparse {
     let (space, dim) = (model.inputs.space, model.inputs.space.dim());
     let lever: Components = (0..dim)

@@ -297,7 +297,8 @@ fn expanded(model: &mut Model, measure: Measure) -> Measure {
     }
 }
 
-/// The row of the drive of an angle θ in space, `sin(θ − θ₀ − f)`, from cosine and sine of the angle.
+/// The row of the drive of an angle θ in space, `sin(θ − θ₀ − f)`, from cosine and sine of the
+/// angle.
 fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
     let [cos_0, sin_0] = model.inputs.turn_0;
     let [cos_f, sin_f] = model.inputs.motion_turn.map(|jet| jet[0]);

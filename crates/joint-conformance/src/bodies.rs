@@ -193,8 +193,8 @@ impl Bodies for Space3 {
         Argument::Triple(numbers)
     }
 
-    /// R·exp([ωτ]×) by the formula of Rodrigues; ω is constant in the body, so that the acceleration
-    /// of rotations is zero.
+    /// R·exp([ωτ]×) by the formula of Rodrigues; ω is constant in the body, so that the
+    /// acceleration of rotations is zero.
     fn moved<D: Number>(x: &space3::Pose, v: &[f64], tau: D) -> space3::Pose<D> {
         let omega = [v[3], v[4], v[5]];
         let speed = omega.iter().map(|w| w * w).sum::<f64>().sqrt();

@@ -24,8 +24,8 @@ pub enum Kind {
     Ordinary,
     /// All frames have the same orientation.
     ParallelFrames,
-    /// Angles are 0, ±π/2 or ±π, in space such or a third of a turn, and directions are along a frame
-    /// axis.
+    /// Angles are 0, ±π/2 or ±π, in space such or a third of a turn, and directions are along a
+    /// frame axis.
     RightAngles,
     /// Angles differ from ±π by 1e-9.
     NearPi,

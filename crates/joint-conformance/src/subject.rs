@@ -46,8 +46,8 @@ pub(crate) trait Subject: Sized {
     /// passes over it.
     fn kernel<D: Number>(&self, kernel: Self::Kernel, at: &State<Self::Space, D>) -> Block<D>;
 
-    /// The same for plain numbers, also of kernels that are not differentiated themselves: their code
-    /// is then compiled for one number type.
+    /// The same for plain numbers, also of kernels that are not differentiated themselves: their
+    /// code is then compiled for one number type.
     fn final_kernel(&self, kernel: Self::Kernel, at: &State<Self::Space, f64>) -> Block {
         self.kernel(kernel, at)
     }

@@ -373,7 +373,8 @@ fn the_text_is_what_its_author_wrote() {
 
 // A joint in space: a pin in a slot of two walls, turning about a third direction.
 joint! { space SlottedPin(i, j) {
-    /// Point `p` of body j keeps its distance from two walls of body i, and its axis stays along the slot's.
+    /// Point `p` of body j keeps its distance from two walls of body i, and its axis stays along
+    /// the slot's.
     params {
         s: Point in i,
         p: Point in j,
@@ -392,8 +393,9 @@ joint! { space SlottedPin(i, j) {
     place: point(i, s);
 } }
 
-/// Body i is turned by 90° about z, body j by 180°: u = (0, 1, 0), v = (−1, 0, 0), w = (0, 0, 1), and d =
-/// (−3, 2, 5) − (1, 1, 1). The third row is (u × w)·w = 0; the measure is 90°, 0 at the start.
+/// Body i is turned by 90° about z, body j by 180°: u = (0, 1, 0), v = (−1, 0, 0), w = (0, 0, 1),
+/// and d = (−3, 2, 5) − (1, 1, 1). The third row is (u × w)·w = 0; the measure is 90°, 0 at the
+/// start.
 #[test]
 fn a_joint_in_space_by_hand() {
     use joints::space3::{Axes, Pose};

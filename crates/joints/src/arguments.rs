@@ -250,8 +250,8 @@ impl<'a> Reader<'a> {
     /// the frame.
     ///
     /// # Errors
-    /// If it is missing, of another shape, not finite, of length zero, or if the direction across it
-    /// lies along it.
+    /// If it is missing, of another shape, not finite, of length zero, or if the direction across
+    /// it lies along it.
     pub fn axes(&mut self) -> Result<space3::Axes, ArgumentError> {
         let (parameter, argument) = self.take();
         let (axis, cross) = match argument {

@@ -1,9 +1,10 @@
 //! Constraints: the traits that a definition implements.
 //!
-//! A block has one row for each constraint row, and for each body slot as many columns as a body has
-//! velocities: x, y, rotation in the plane; x, y, z and three rotations in space. Slices `x` and `v` hold the poses and twists of the slots in order, `f` the values
-//! and derivatives `[f, ḟ, f̈]` of the functions of time. Output slices are overwritten. Sparse
-//! outputs follow the pattern of the [`ConstraintSpec`].
+//! A block has one row for each constraint row, and for each body slot as many columns as a body
+//! has velocities: x, y, rotation in the plane; x, y, z and three rotations in space. Slices `x`
+//! and `v` hold the poses and twists of the slots in order, `f` the values and derivatives `[f, ḟ,
+//! f̈]` of the functions of time. Output slices are overwritten. Sparse outputs follow the pattern
+//! of the [`ConstraintSpec`].
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::definition::Definition;
@@ -95,8 +96,9 @@ pub trait Element<T: Ring = f64, S: Space = Plane>: Definition<S> {
     fn d_phi_dp(&self, x: &[S::Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]);
 }
 
-/// Further derivatives of the kernels of a constraint, for implicit methods and for what hangs on data.
-/// They are most of the code of a definition; a number type that does not need them has none of it.
+/// Further derivatives of the kernels of a constraint, for implicit methods and for what hangs on
+/// data. They are most of the code of a definition; a number type that does not need them has none
+/// of it.
 pub trait Derivatives<T: Ring = f64, S: Space = Plane>: Element<T, S> {
     /// Entries of `∂(Cᵀλ)/∂x`, by the degrees of freedom of the slots.
     fn d_force_dx(&self, x: &[S::Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]);

@@ -1,8 +1,9 @@
 //! Spatial bodies in kernels, never coordinates of a system: poses and twists, directions and axes
 //! as they are fixed in a body.
 //!
-//! A body rotates by a matrix R, from its frame to the ground. Its angular velocity ω has components
-//! in the **frame of the body**: `Ṙ = R·[ω]×`. Velocities of origins have ground components.
+//! A body rotates by a matrix R, from its frame to the ground. Its angular velocity ω has
+//! components in the **frame of the body**: `Ṙ = R·[ω]×`. Velocities of origins have ground
+//! components.
 
 use crate::ring::Ring;
 
@@ -142,8 +143,8 @@ impl Direction {
     }
 
     /// Sets components as returned by `Definition::data`, possibly with small changes, without
-    /// normalisation: a derivative with respect to one of them leaves the unit sphere. For generated
-    /// code.
+    /// normalisation: a derivative with respect to one of them leaves the unit sphere. For
+    /// generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn from_data(xyz: [f64; 3]) -> Self {

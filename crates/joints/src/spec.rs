@@ -327,13 +327,14 @@ impl Datum {
 /// Kind of the numbers of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DatumShape {
-    /// As many numbers as a vector has components: a point in the frame of the body in this slot (m).
+    /// As many numbers as a vector has components: a point in the frame of the body in this slot
+    /// (m).
     Point {
         /// The slot.
         slot: usize,
     },
-    /// Components of a unit vector in the frame of the body in this slot. Only changes perpendicular
-    /// to it are meaningful.
+    /// Components of a unit vector in the frame of the body in this slot. Only changes
+    /// perpendicular to it are meaningful.
     Direction {
         /// The slot.
         slot: usize,
@@ -350,7 +351,8 @@ pub enum DatumShape {
     Plane,
     /// One number. An optional one that is not given has its value at the start.
     Number(Unit),
-    /// One number stored at the start; an angle that is stored by its cosine and sine is 0 as it is.
+    /// One number stored at the start; an angle that is stored by its cosine and sine is 0 as it
+    /// is.
     Kept(Unit),
     /// Components, in the frame of the body in this slot, of a vector stored at the start (m).
     KeptVector {

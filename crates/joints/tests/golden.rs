@@ -1,5 +1,6 @@
 //! Φ, velocity rows and forces compared with tables computed by hand, one file for each definition
-//! in `tests/golden`, for space in its folder `space`: no derivative detects a wrong sign, a wrong axis or a missing row.
+//! in `tests/golden`, for space in its folder `space`: no derivative detects a wrong sign, a wrong
+//! axis or a missing row.
 //!
 //! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the derivation of the
 //! numbers is in its comments.

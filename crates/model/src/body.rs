@@ -11,7 +11,7 @@ pub struct Body {
     /// Moment of inertia about the centre of mass (kg·m²), ≥ 0.
     pub inertia: f64,
     /// The centre of mass in its frame (m). Points of joints and forces are relative to the centre
-    /// of mass: see [`Body::from_centre`] and [`Description::local`].
+    /// of mass: see [`Body::from_centre`] and [`crate::Description::local`].
     pub centre: [f64; 2],
     /// Position of the origin of its frame (m).
     pub position: [f64; 2],
@@ -41,16 +41,16 @@ impl Body {
     }
 }
 
-/// A rigid body in space with its state at the start. The origin of its frame is its centre of mass,
-/// unless `centre` says otherwise.
+/// A rigid body in space with its state at the start. The origin of its frame is its centre of
+/// mass, unless `centre` says otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpatialBody {
     /// Its name.
     pub name: String,
     /// Mass (kg), ≥ 0.
     pub mass: f64,
-    /// Inertia about the centre of mass in the axes of its frame (kg·m²), symmetric. Off the diagonal
-    /// are the entries of the matrix, −∫xy dm.
+    /// Inertia about the centre of mass in the axes of its frame (kg·m²), symmetric. Off the
+    /// diagonal are the entries of the matrix, −∫xy dm.
     pub inertia: [[f64; 3]; 3],
     /// The centre of mass in its frame (m). Points of joints and forces are relative to it.
     pub centre: [f64; 3],

@@ -27,8 +27,8 @@ pub struct DataBlock {
     pub group: usize,
     /// Name of the parameter, or of the value kept from the start.
     pub name: &'static str,
-    /// Indices of its numbers among all numbers of the mechanism: as many as a vector has components
-    /// for a point or a direction, three for axes, otherwise one.
+    /// Indices of its numbers among all numbers of the mechanism: as many as a vector has
+    /// components for a point or a direction, three for axes, otherwise one.
     pub numbers: Range<usize>,
     /// Unit of its changes.
     pub unit: DataUnit,

@@ -1058,8 +1058,8 @@ impl PlacedConstraint {
         });
     }
 
-    /// Gradient of `λᵀ·C·v` with respect to its numbers: without velocities and rates of functions of
-    /// time Γ vanishes.
+    /// Gradient of `λᵀ·C·v` with respect to its numbers: without velocities and rates of functions
+    /// of time Γ vanishes.
     pub(crate) fn d_power_dp(&self, s: &Slots, v: &mut OwnRates, lambda: &[f64], out: &mut [f64]) {
         v.still_f.clear();
         let still = self.site.f(s).iter().map(|[f, ..]| [*f, 0.0, 0.0]);

@@ -305,8 +305,8 @@ impl PlanarSpace for UnitCircle {
     }
 }
 
-/// Space: q = (x, y, z, w, x', y', z') with the quaternion of the axes of the body, v = (ẋ, ẏ, ż, ω)
-/// with ω in these axes.
+/// Space: q = (x, y, z, w, x', y', z') with the quaternion of the axes of the body, v = (ẋ, ẏ, ż,
+/// ω) with ω in these axes.
 ///
 /// Only the direction of the quaternion counts, so a stage of an integrator may leave the sphere; a
 /// displacement keeps it on the sphere. A quaternion and its negative are one pose.
@@ -663,8 +663,8 @@ impl SpaceKind {
     }
 
     /// The velocities of a body in one of the [`Self::n_v`] rigid motions: along an axis of the
-    /// ground at 1 m/s, or about one, at this arm from it, at 1 rad/s. `axes` are those of the body,
-    /// in ground components: angular velocities in space are in these axes.
+    /// ground at 1 m/s, or about one, at this arm from it, at 1 rad/s. `axes` are those of the
+    /// body, in ground components: angular velocities in space are in these axes.
     ///
     /// ```
     /// let plane = model::SpaceKind::Plane;

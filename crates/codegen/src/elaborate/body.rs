@@ -134,8 +134,8 @@ impl<'a> Scope<'a> {
         Ok(terms)
     }
 
-    /// Scalars of a list of scalars and vectors, vectors as their global components; these are noted
-    /// with the numbers of their first rows.
+    /// Scalars of a list of scalars and vectors, vectors as their global components; these are
+    /// noted with the numbers of their first rows.
     fn rows(
         &mut self,
         e: &'a syn::Expr,

