@@ -111,8 +111,11 @@ pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Expansion
 pub fn in_module(expansion: &Expansion) -> TokenStream {
     let module = quote::format_ident!("__{}", snake_case(&expansion.name));
     let items = &expansion.items;
+    // All tokens have the place of the call, which is several lines: to Clippy a difference in a
+    // list then looks like two entries without their comma.
     quote! {
         #[doc(hidden)]
+        #[allow(clippy::possible_missing_comma)]
         mod #module { #items }
         pub use #module::*;
     }
