@@ -76,7 +76,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         let velocities = S::point_velocities(&x[0], point(&place));
         for (column, velocity) in velocities.into_iter().enumerate() {
             let touches = column >= S::DIM && touches_plane(K::SPEC.common.parameters);
-            for (k, velocity) in velocity.into_iter().enumerate() {
+            for (k, velocity) in velocity.into_iter().enumerate().take(S::DIM) {
                 let value = if touches {
                     found.get(k, column)
                 } else {
