@@ -126,16 +126,21 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         Ok(())
     }
 
-    /// The derivatives of `λᵀ·kernel` by all numbers, by differences.
+    /// The derivatives of `λᵀ·kernel` by all numbers, by differences. Steps of a small number are a
+    /// share of it: what divides by it has a pole at zero, which no step may cross.
     fn by_data(&self, kernel: Kernel, numbers: &[f64], motion: &Motion) -> Block {
         let slope = |number: usize| {
+            let unit = match numbers[number].abs() {
+                small if small > 0.0 && small < 0.1 => 10.0 * small,
+                _ => 1.0,
+            };
             let differences = by_differences(|step| {
                 let mut numbers = numbers.to_vec();
-                numbers[number] += step;
+                numbers[number] += step * unit;
                 let rows = self.with_data(&numbers, |check| check.at(kernel, motion));
                 Block::column(vec![dot(rows.entries(), &motion.lambda)])
             });
-            differences.get(0, 0)
+            differences.get(0, 0) / unit
         };
         Block::column((0..numbers.len()).map(slope).collect())
     }
