@@ -18,19 +18,21 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         self.at(kernel, &self.case.motions[0])
     }
 
+    /// The place, unless a body that touches a plane lies flat on it: it touches nowhere then, and
+    /// its place divides by zero. Any other place that is no number is compared, and fails.
+    fn place_of_reaction(&self) -> Option<Block> {
+        let place = self.first(Kernel::Place);
+        let nowhere = place.entries().iter().any(|p| p.is_nan());
+        (!(nowhere && touches_plane(K::SPEC.common.parameters))).then_some(place)
+    }
+
     /// `F = −C_v`, `T = −C_ω − (place − origin) × F`.
     pub(super) fn wrench(&self) -> Result<(), Failure> {
-        if self
-            .first(Kernel::Place)
-            .entries()
-            .iter()
-            .any(|p| p.is_nan())
-        {
-            return Ok(()); // A wheel that lies flat touches nowhere: its place divides by zero.
-        }
+        let Some(place) = self.place_of_reaction() else {
+            return Ok(());
+        };
         let x = &self.case.x;
         let c = self.first(Kernel::C);
-        let place = self.first(Kernel::Place);
         let mut expected = Block::filled(S::N_DOF, c.rows(), 0.0);
         for row in 0..c.rows() {
             let q: Vec<f64> = (0..S::N_DOF).map(|k| -c.get(row, k)).collect();
@@ -77,17 +79,11 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     /// The place moves with the first body, and with no other. Where a plane of the ground is
     /// touched, the body touches it elsewhere as it turns: then only its translation is asked.
     pub(super) fn place(&self) -> Result<(), Failure> {
-        if self
-            .first(Kernel::Place)
-            .entries()
-            .iter()
-            .any(|p| p.is_nan())
-        {
-            return Ok(()); // A wheel that lies flat touches nowhere: its place divides by zero.
-        }
+        let Some(place) = self.place_of_reaction() else {
+            return Ok(());
+        };
         let (x, motion) = (&self.case.x, &self.case.motions[0]);
         let found = self.derivative::<DualNumbers>(Kernel::Place, By::Poses, motion);
-        let place = self.first(Kernel::Place);
         let mut expected = Block::filled(S::DIM, OfConstraint::<K, S>::columns(), 0.0);
         let velocities = S::point_velocities(&x[0], point(&place));
         for (column, velocity) in velocities.into_iter().enumerate() {
