@@ -174,9 +174,10 @@ impl Axes {
     /// The axes of the frame.
     pub const FRAME: Self = Self([Direction::X.0, Direction::Y.0, Direction::Z.0]);
 
-    /// The axes with w along `axis` and u along `cross`, as far as it is across the axis; without
-    /// `cross`, u is the coordinate axis that lies least along w, made orthogonal to it. `None` if
-    /// `axis` has no direction, or `cross` none of its own (its angle to the axis is below 1e-6).
+    /// The axes with w along `axis` and u along `across`, as far as that is across the axis;
+    /// without it, u is the coordinate axis that lies least along w, made orthogonal to it. `None`
+    /// if `axis` has no direction, or `across` none of its own (its angle to the axis is below
+    /// 1e-6).
     ///
     /// ```
     /// use joints::space3::Axes;
@@ -186,10 +187,10 @@ impl Axes {
     /// assert!(Axes::new([0.0, 0.0, 1.0], Some([0.0, 0.0, -1.0])).is_none());
     /// ```
     #[must_use]
-    pub fn new(axis: [f64; 3], cross: Option<[f64; 3]>) -> Option<Self> {
+    pub fn new(axis: [f64; 3], across: Option<[f64; 3]>) -> Option<Self> {
         let w = Direction::new(axis)?.0;
-        let across = match cross {
-            Some(cross) => Direction::new(cross)?.0,
+        let across = match across {
+            Some(across) => Direction::new(across)?.0,
             None => {
                 let least = (1..3).fold(0, |k, j| if w[j].abs() < w[k].abs() { j } else { k });
                 std::array::from_fn(|k| if k == least { 1.0 } else { 0.0 })
@@ -204,7 +205,7 @@ impl Axes {
         let u = Direction::new(across)?.0;
         let along = dot(u, w);
         let u = Direction::new(std::array::from_fn(|k| u[k] - along * w[k]))?.0;
-        Some(Self([u, cross_product(w, u), w]))
+        Some(Self([u, cross(w, u), w]))
     }
 
     /// The directions u, v and w.
@@ -232,8 +233,8 @@ impl Axes {
         let half = (0.5 * angle).sin() / angle;
         let (first, second) = (angle.sin() / angle, 2.0 * half * half);
         self.map(|d| {
-            let once = cross_product(turn, d);
-            let twice = cross_product(turn, once);
+            let once = cross(turn, d);
+            let twice = cross(turn, once);
             std::array::from_fn(|k| d[k] + first * once[k] + second * twice[k])
         })
     }
@@ -288,7 +289,9 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross_product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+/// a × b
+#[must_use]
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],

@@ -213,7 +213,7 @@ impl<'m> Data<'m> {
     pub fn add_power(self, s: &Scratch, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
         let mut rates = OwnRates::default();
         self.add(lambda, factor, out, |c, lambda, own| {
-            rates.take(c, v);
+            rates.take(&c.site, v);
             c.d_power_dp(&s.slots, &mut rates, lambda, own);
         });
     }

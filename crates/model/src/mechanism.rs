@@ -2,6 +2,7 @@
 //! checks everything that can be wrong; a built mechanism has no invalid state.
 
 mod build;
+mod build_error;
 mod check;
 mod derivatives;
 mod forces;
@@ -22,7 +23,7 @@ use crate::space::{Space, SpaceKind, in_space};
 use crate::system::Layout;
 use crate::tolerance::Tolerance;
 
-pub use build::BuildError;
+pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
 pub use forces::{AppliedForce, AppliedForces};
 pub(crate) use initial::{initialise, unmet_requirement};

@@ -58,13 +58,13 @@ impl Data<'_> {
                 };
                 bodies.push(space.columns_of(body));
                 for dof in 0..space.n_v() {
-                    rates.unit(c, k, dof);
+                    rates.unit(&c.site, k, dof);
                     column(&mut |out| c.d_power_dp(slots, &mut rates, own, out));
                 }
             }
             let of = |x: &[f64]| {
                 let mut rates = OwnRates::default();
-                rates.take(c, x);
+                rates.take(&c.site, x);
                 rates
             };
             let (a, mut v) = (of(a), of(v));

@@ -1,14 +1,329 @@
-//! Faults of markers and measures.
+//! Faults of a description, all at once.
+
+use std::collections::HashSet;
 
 use joints::is_usable;
+use joints::spec::{ConstraintSpec, Role, Spec};
 
 use super::BuildError;
+use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
 use crate::description::Described;
-use crate::element::BodySpace;
+use crate::element::{BodySpace, ConstraintKernels};
 use crate::observed::Observed;
+use crate::tolerance::{Stated, Tolerance};
+
+/// All faults of a description; `records` are its bodies.
+pub(super) fn faults<S: BodySpace>(d: &Described<S>, records: &[BodyRecord]) -> Vec<BuildError> {
+    let mut errors = Vec::new();
+    check_bodies(d, records, &mut errors);
+    check_names(d, records, &mut errors);
+    check_places(d, records, &mut errors);
+    check_tolerances(d, records, &mut errors);
+    check_observed(d, &mut errors);
+    errors
+}
+
+/// Whether a number is not a valid tolerance.
+fn is_wrong(value: &f64) -> bool {
+    !(is_usable(*value) && *value > 0.0)
+}
+
+/// Checks that the tolerances of the scene are finite and positive.
+pub(super) fn tolerance(tolerance: Tolerance) -> Result<(), BuildError> {
+    let fields = [
+        ("tolerance", tolerance.length),
+        ("angle tolerance", tolerance.angle),
+    ];
+    let mut wrong = fields
+        .into_iter()
+        .filter_map(|(field, value)| Some((field, value.filter(is_wrong)?)));
+    wrong.next().map_or(Ok(()), |(field, value)| {
+        Err(BuildError::Tolerance {
+            of: Stated::Scene,
+            field,
+            value,
+        })
+    })
+}
+
+/// Reports every tolerance of a description that is not a finite number > 0.
+fn check_tolerances<S: BodySpace>(
+    d: &Described<S>,
+    records: &[BodyRecord],
+    errors: &mut Vec<BuildError>,
+) {
+    errors.extend(tolerance(d.tolerance).err());
+    let bodies = records.iter();
+    let bodies = bodies.map(|b| (b.tolerance, Stated::Body(b.name.clone())));
+    let joints = d.joints.iter();
+    let joints = joints.map(|j| (j.tolerance, Stated::Joint(j.name.clone())));
+    let drives = d.drives.iter();
+    let drives = drives.map(|x| (x.tolerance, Stated::Drive(x.name.clone())));
+    let markers = d.observed.markers.iter();
+    let markers = markers.map(|m| (m.tolerance, Stated::Marker(m.name.clone())));
+    for (value, of) in bodies.chain(joints).chain(drives).chain(markers) {
+        if let Some(value) = value.filter(is_wrong) {
+            let field = "tolerance";
+            errors.push(BuildError::Tolerance { of, field, value });
+        }
+    }
+}
+
+fn check_bodies<S: BodySpace>(
+    d: &Described<S>,
+    records: &[BodyRecord],
+    errors: &mut Vec<BuildError>,
+) {
+    if d.bodies.is_empty() {
+        errors.push(BuildError::NoBodies);
+    }
+    let gravity = S::point(d.gravity);
+    if !gravity.iter().all(|g| is_usable(*g)) {
+        let gravity = gravity[..S::DIM].to_vec();
+        errors.push(BuildError::Gravity { gravity });
+    }
+    for record in records {
+        let fields: Vec<(&'static str, f64)> = match &record.described {
+            DescribedBody::Plane(b) => planar_numbers(b),
+            DescribedBody::Space3(b) => spatial_numbers(b),
+        };
+        let before = errors.len();
+        for (field, value) in fields {
+            let body = record.name.clone();
+            if !is_usable(value) {
+                errors.push(BuildError::NotFinite { body, field, value });
+            } else if value < 0.0 && matches!(field, "mass" | "inertia") {
+                errors.push(BuildError::Negative { body, field, value });
+            }
+        }
+        match &record.described {
+            DescribedBody::Plane(b)
+                if b.velocity.is_some() && b.angular_velocity.is_none() && !b.is_centred() =>
+            {
+                let body = record.name.clone();
+                errors.push(BuildError::VelocityAlone { body });
+            }
+            DescribedBody::Plane(_) => {}
+            DescribedBody::Space3(b) if errors.len() == before => {
+                errors.extend(check_spatial(b));
+            }
+            DescribedBody::Space3(_) => {}
+        }
+    }
+}
+
+fn planar_numbers(b: &Body) -> Vec<(&'static str, f64)> {
+    vec![
+        ("mass", b.mass),
+        ("inertia", b.inertia),
+        ("position", b.position[0]),
+        ("position", b.position[1]),
+        ("centre", b.centre[0]),
+        ("centre", b.centre[1]),
+        ("angle", b.angle),
+        ("velocity", b.velocity.unwrap_or_default()[0]),
+        ("velocity", b.velocity.unwrap_or_default()[1]),
+        ("angular velocity", b.angular_velocity.unwrap_or_default()),
+    ]
+}
+
+fn spatial_numbers(b: &SpatialBody) -> Vec<(&'static str, f64)> {
+    let all = |field: &'static str, values: &[f64]| -> Vec<(&'static str, f64)> {
+        values.iter().map(|value| (field, *value)).collect()
+    };
+    let diagonal = [0, 1, 2].map(|k| b.inertia[k][k]);
+    let products = [b.inertia[0][1], b.inertia[0][2], b.inertia[1][2]];
+    [
+        all("mass", &[b.mass]),
+        all("inertia", &diagonal),
+        all("product of inertia", &products),
+        all("position", &b.position),
+        all("centre", &b.centre),
+        all("orientation", &b.orientation),
+        all("velocity", &b.velocity.unwrap_or_default()),
+        all("angular velocity", &b.angular_velocity.unwrap_or_default()),
+    ]
+    .concat()
+}
+
+/// Parts of the trace that principal moments may break the inequality of the triangle by.
+const TRIANGLE: f64 = 1e-2;
+
+/// Faults of a spatial body with finite numbers.
+fn check_spatial(b: &SpatialBody) -> Vec<BuildError> {
+    let mut errors = Vec::new();
+    let body = || b.name.clone();
+    if b.orientation.iter().all(|e| *e == 0.0) {
+        errors.push(BuildError::NoOrientation { body: body() });
+    }
+    let pairs = [[0, 1], [0, 2], [1, 2]];
+    if pairs
+        .iter()
+        .any(|&[i, j]| b.inertia[i][j] != b.inertia[j][i])
+    {
+        errors.push(BuildError::NotSymmetric { body: body() });
+    } else if pairs.iter().any(|&[i, j]| b.inertia[i][j] != 0.0) {
+        errors.push(BuildError::NotPrincipal { body: body() });
+    } else {
+        let moments = [0, 1, 2].map(|k| b.inertia[k][k]);
+        let trace: f64 = moments.iter().sum();
+        let largest = moments.into_iter().fold(0.0, f64::max);
+        if 2.0 * largest - trace > TRIANGLE * trace {
+            let body = body();
+            errors.push(BuildError::NoSuchTensor { body, moments });
+        }
+    }
+    if b.velocity.is_some() && b.angular_velocity.is_none() && b.centre != [0.0; 3] {
+        errors.push(BuildError::VelocityAlone { body: body() });
+    }
+    errors
+}
+
+fn check_names<S: BodySpace>(
+    d: &Described<S>,
+    records: &[BodyRecord],
+    errors: &mut Vec<BuildError>,
+) {
+    let mut seen = HashSet::new();
+    let bodies = records.iter().map(|b| &b.name);
+    let markers = d.observed.markers.iter().map(|m| &m.name);
+    let measures = d.observed.measures.iter().map(|m| &m.name);
+    let bodies = bodies
+        .chain(markers)
+        .chain(measures)
+        .map(|name| (name, "body"));
+    let others = d
+        .joints
+        .iter()
+        .map(|j| &j.name)
+        .chain(d.drives.iter().map(|x| &x.name))
+        .chain(d.forces.iter().map(|f| &f.name))
+        .map(|name| (name, "joint"));
+    for (name, space) in bodies.chain(others) {
+        if name == "ground" {
+            errors.push(BuildError::Ground);
+        } else if !seen.insert((name, space)) {
+            errors.push(BuildError::DuplicateName { name: name.clone() });
+        }
+    }
+}
+
+fn check_places<S: BodySpace>(
+    d: &Described<S>,
+    records: &[BodyRecord],
+    errors: &mut Vec<BuildError>,
+) {
+    let constraint = |element: &dyn ConstraintKernels<S>| (element.spec(), element.points());
+    for j in &d.joints {
+        let (spec, points) = constraint(j.element.as_ref());
+        check_role(&j.name, spec, Role::Joint, "joints", errors);
+        // A named component is that of the force on the first slot only.
+        let on_ground = j.bodies.split_first().is_some_and(|(first, others)| {
+            *first == BodyRef::Ground && others.contains(&BodyRef::Ground)
+        });
+        if on_ground && spec.component.is_some() {
+            let (name, body) = (j.name.clone(), "ground".to_owned());
+            errors.push(BuildError::SameBody { name, body });
+        }
+        let takes = (&points[..], j.functions.len());
+        check_place::<S>(records, &j.name, &spec.common, &j.bodies, takes, errors);
+    }
+    for x in &d.drives {
+        let (spec, points) = constraint(x.element.as_ref());
+        check_role(&x.name, spec, Role::Drive, "drives", errors);
+        check_place::<S>(
+            records,
+            &x.name,
+            &spec.common,
+            &x.bodies,
+            (&points, 1),
+            errors,
+        );
+    }
+    for f in &d.forces {
+        let (spec, points) = (&f.element.spec().common, f.element.points());
+        let takes = (&points[..], f.functions.len());
+        check_place::<S>(records, &f.name, spec, &f.bodies, takes, errors);
+    }
+}
+
+fn check_role(
+    name: &str,
+    spec: &ConstraintSpec,
+    role: Role,
+    list: &'static str,
+    errors: &mut Vec<BuildError>,
+) {
+    if spec.role != role {
+        errors.push(BuildError::Role {
+            name: name.to_owned(),
+            definition: spec.common.name,
+            list,
+        });
+    }
+}
+
+fn check_place<S: BodySpace>(
+    all: &[BodyRecord],
+    name: &str,
+    spec: &'static Spec,
+    bodies: &[BodyRef],
+    (points, functions): (&[S::Vector<f64>], usize),
+    errors: &mut Vec<BuildError>,
+) {
+    let name = || name.to_owned();
+    let is_none = |p: &&S::Vector<f64>| !p.as_ref().iter().all(|x| is_usable(*x));
+    if let Some(point) = points.iter().find(is_none) {
+        let point = point.as_ref().to_vec();
+        errors.push(BuildError::Point {
+            name: name(),
+            point,
+        });
+    }
+    if bodies.len() != spec.slots.len() {
+        let (expected, found) = (spec.slots.len(), bodies.len());
+        errors.push(BuildError::BodyCount {
+            name: name(),
+            definition: spec.name,
+            expected,
+            found,
+        });
+    }
+    let expected = spec.functions().count();
+    if functions != expected {
+        let definition = spec.name;
+        errors.push(BuildError::FunctionCount {
+            name: name(),
+            definition,
+            expected,
+            found: functions,
+        });
+    }
+    for (k, &body) in bodies.iter().enumerate() {
+        if let BodyRef::Body(body) = body
+            && body >= all.len()
+        {
+            errors.push(BuildError::UnknownBody {
+                name: name(),
+                body,
+                n_bodies: all.len(),
+            });
+        } else if let BodyRef::Body(at) = body
+            && bodies[..k].contains(&body)
+        {
+            errors.push(BuildError::SameBody {
+                name: name(),
+                body: all[at].name.clone(),
+            });
+        }
+    }
+    if bodies.iter().all(|b| *b == BodyRef::Ground) {
+        errors.push(BuildError::GroundOnly { name: name() });
+    }
+}
 
 /// Reports markers and measures that cannot be evaluated.
-pub(super) fn observed<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) {
+fn check_observed<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) {
     let Observed { markers, measures } = &d.observed;
     for marker in markers {
         let name = || marker.name.clone();

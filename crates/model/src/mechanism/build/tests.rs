@@ -3,7 +3,7 @@
 use joints::{Revolute, RevoluteAngleDrive};
 
 use super::*;
-
+use crate::body::Body;
 use crate::description::{Description, Drive, Joint};
 
 fn body(name: &str) -> Body {

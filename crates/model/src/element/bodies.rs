@@ -1,0 +1,356 @@
+//! Poses of all bodies: positions of their centres of mass and orientations, from coordinates.
+
+use joints::plane::{Pose, Twist};
+use joints::{Ring, space3};
+
+use crate::body::{Body, BodyRecord, DescribedBody, SpatialBody};
+use crate::space::{self, Number, PlanarSpace, Space, SpaceKind, in_plane, normalised, quaternion};
+
+/// Largest change by rounding of an angle that is held constant.
+const HELD: f64 = 4.0 * f64::EPSILON;
+
+/// One value for each body or slot, in the space of the mechanism; the list of the other space is
+/// empty.
+#[derive(Clone, Debug)]
+pub(super) struct InEach<P, S> {
+    pub(super) plane: Vec<P>,
+    pub(super) space3: Vec<S>,
+}
+
+impl<P: Copy, S: Copy> InEach<P, S> {
+    pub(super) fn filled(space: SpaceKind, count: usize, plane: P, space3: S) -> Self {
+        let [in_plane, in_space] = match space {
+            SpaceKind::Space3 => [0, count],
+            _ => [count, 0],
+        };
+        Self {
+            plane: vec![plane; in_plane],
+            space3: vec![space3; in_space],
+        }
+    }
+}
+
+/// Poses of bodies or slots.
+pub(super) type Poses<T> = InEach<Pose<T>, space3::Pose<T>>;
+/// Twists of slots.
+pub(super) type Twists<T> = InEach<Twist<T>, space3::Twist<T>>;
+
+impl<P, S> Default for InEach<P, S> {
+    fn default() -> Self {
+        Self {
+            plane: Vec::new(),
+            space3: Vec::new(),
+        }
+    }
+}
+
+/// The poses of all bodies of a mechanism: positions of their centres of mass, and orientations.
+///
+/// Methods panic if there is no such body.
+#[derive(Clone, Debug)]
+pub struct Bodies<T: Ring = f64> {
+    pub(super) poses: Poses<T>,
+    /// Angles for which sine and cosine were computed; NaN at the beginning.
+    turned_to: Vec<f64>,
+}
+
+impl<T: Number> Bodies<T> {
+    /// The poses at coordinates q; allocates.
+    #[must_use]
+    pub fn at(space: SpaceKind, q: &[T]) -> Self {
+        let poses: Poses<T> = in_plane!(space, S => InEach {
+            plane: q.chunks_exact(S::N_Q).map(pose::<S, T>).collect(),
+            space3: Vec::new(),
+        }, InEach {
+            plane: Vec::new(),
+            space3: q.chunks_exact(space::Space3::N_Q).map(spatial_pose).collect(),
+        });
+        Self {
+            turned_to: vec![f64::NAN; poses.plane.len()],
+            poses,
+        }
+    }
+}
+
+impl Bodies {
+    pub(crate) fn new(space: SpaceKind, count: usize) -> Self {
+        let poses = InEach::filled(space, count, Pose::GROUND, space3::Pose::GROUND);
+        Self {
+            turned_to: vec![f64::NAN; poses.plane.len()],
+            poses,
+        }
+    }
+
+    /// Takes the coordinates q. Sines and cosines of angles that have not changed are kept;
+    /// `turns` is called for each that is computed.
+    #[inline]
+    pub(crate) fn take(
+        &mut self,
+        space: SpaceKind,
+        q: &[f64],
+        held: &[bool],
+        mut turns: impl FnMut(),
+    ) {
+        let Self { poses, turned_to } = self;
+        in_plane!(space, S => {
+            let places = poses.plane.iter_mut().zip(q.chunks_exact(S::N_Q));
+            for (k, (pose, q)) in places.enumerate() {
+                (pose.x, pose.y, pose.angle) = (q[0], q[1], <S as PlanarSpace>::angle(q));
+                if !stays(held[k], turned_to[k], pose.angle) {
+                    turned_to[k] = pose.angle;
+                    (pose.sin, pose.cos) = <S as PlanarSpace>::sin_cos(q);
+                    turns();
+                }
+            }
+        }, {
+            let places = poses.space3.iter_mut().zip(q.chunks_exact(space::Space3::N_Q));
+            places.for_each(|(pose, q)| *pose = spatial_pose(q));
+        });
+    }
+
+    /// Number of bodies.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.poses.plane.len() + self.poses.space3.len()
+    }
+
+    /// Whether there is no body.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The pose of a body in the plane or in space.
+    fn of(&self, body: usize) -> Either<&Pose, &space3::Pose> {
+        match self.poses.plane.get(body) {
+            Some(pose) => Either::Plane(pose),
+            None => Either::Space3(&self.poses.space3[body]),
+        }
+    }
+
+    /// The centre of mass of a body (m), ground axes.
+    #[must_use]
+    pub fn origin(&self, body: usize) -> [f64; 3] {
+        match self.of(body) {
+            Either::Plane(pose) => [pose.x, pose.y, 0.0],
+            Either::Space3(pose) => pose.r,
+        }
+    }
+
+    /// The centres of mass of all bodies.
+    pub fn origins(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+        (0..self.len()).map(|body| self.origin(body))
+    }
+
+    /// The axes of a body as unit vectors in ground axes: the columns of its rotation matrix.
+    #[must_use]
+    pub fn axes(&self, body: usize) -> [[f64; 3]; 3] {
+        match self.of(body) {
+            Either::Plane(&Pose { cos, sin, .. }) => {
+                [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
+            }
+            Either::Space3(pose) => [0, 1, 2].map(|k| pose.rot.map(|row| row[k])),
+        }
+    }
+
+    /// A vector in the axes of a body, in ground axes.
+    #[must_use]
+    pub fn turned(&self, body: usize, v: [f64; 3]) -> [f64; 3] {
+        match self.of(body) {
+            Either::Plane(pose) => turned_by(pose.sin, pose.cos, v),
+            Either::Space3(pose) => pose.direction_to_global(v),
+        }
+    }
+
+    /// A point relative to the centre of mass of a body, in its axes, as a point of the ground.
+    #[must_use]
+    pub fn to_global(&self, body: usize, point: [f64; 3]) -> [f64; 3] {
+        match self.of(body) {
+            Either::Plane(pose) => {
+                let [x, y] = pose.to_global([point[0], point[1]]);
+                [x, y, point[2]]
+            }
+            Either::Space3(pose) => pose.to_global(point),
+        }
+    }
+
+    /// A point of the ground relative to the centre of mass of a body, in its axes.
+    #[must_use]
+    pub fn to_local(&self, body: usize, point: [f64; 3]) -> [f64; 3] {
+        match self.of(body) {
+            Either::Plane(pose) => {
+                let [x, y] = pose.to_local([point[0], point[1]]);
+                [x, y, point[2]]
+            }
+            Either::Space3(pose) => pose.to_local(point),
+        }
+    }
+
+    /// The angle by which a body is turned against the ground (rad): in the plane not reduced to
+    /// one revolution, in space 0, because a rotation has no such angle.
+    #[must_use]
+    pub fn angle(&self, body: usize) -> f64 {
+        match self.of(body) {
+            Either::Plane(pose) => pose.angle,
+            Either::Space3(_) => 0.0,
+        }
+    }
+
+    /// Position of a body along a freedom: a coordinate (m) or an angle (rad).
+    pub(crate) fn position(&self, body: usize, dof: usize) -> f64 {
+        match self.of(body) {
+            Either::Plane(pose) => match dof {
+                0 => pose.x,
+                1 => pose.y,
+                _ => pose.angle,
+            },
+            Either::Space3(pose) => pose.r.get(dof).copied().unwrap_or_default(),
+        }
+    }
+
+    /// How far a body is from where it was (m), and by what angle it has turned (rad).
+    #[must_use]
+    pub fn moved(&self, from: &Self, body: usize) -> [f64; 2] {
+        match (from.of(body), self.of(body)) {
+            (Either::Plane(from), Either::Plane(to)) => [
+                (to.x - from.x).hypot(to.y - from.y),
+                (to.angle - from.angle).abs(),
+            ],
+            _ => {
+                let way = space::difference(self.origin(body), from.origin(body));
+                let (old, new) = (from.axes(body), self.axes(body));
+                // Three axes that turn by α: the squares of their changes add up to 4·(1 − cos α).
+                let changes = old.iter().zip(new).map(|(&a, b)| {
+                    let change = space::norm(&space::difference(b, a));
+                    change * change
+                });
+                let square: f64 = changes.sum();
+                let half_sine = (square / 8.0).sqrt().min(1.0);
+                [space::norm(&way), 2.0 * half_sine.asin()]
+            }
+        }
+    }
+}
+
+/// A value in the plane or in space.
+enum Either<P, S> {
+    Plane(P),
+    Space3(S),
+}
+
+impl Body {
+    /// Its pose at the start: that of the centre of mass, with the axes of its frame.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        let [x, y] = self.position;
+        let origin = Pose::new(x, y, self.angle);
+        if self.is_centred() {
+            return origin;
+        }
+        let [x, y] = origin.to_global(self.centre);
+        Pose { x, y, ..origin }
+    }
+}
+
+impl SpatialBody {
+    /// Its pose at the start: that of the centre of mass, with the axes of its frame.
+    #[must_use]
+    pub fn pose(&self) -> space3::Pose {
+        let origin = space3::Pose::new(self.position, self.orientation);
+        space3::Pose {
+            r: origin.to_global(self.centre),
+            ..origin
+        }
+    }
+}
+
+impl BodyRecord {
+    /// Its coordinates at the start.
+    pub(crate) fn coordinates(&self, space: SpaceKind, q: &mut [f64]) {
+        match &self.described {
+            DescribedBody::Plane(body) => {
+                let Pose {
+                    x,
+                    y,
+                    angle,
+                    cos,
+                    sin,
+                } = body.pose();
+                (q[0], q[1]) = (x, y);
+                match space {
+                    #[cfg(feature = "unit-circle")]
+                    SpaceKind::UnitCircle => (q[2], q[3]) = (cos, sin),
+                    _ => {
+                        let _ = (cos, sin);
+                        q[2] = angle;
+                    }
+                }
+            }
+            DescribedBody::Space3(body) => {
+                q[..3].copy_from_slice(&body.pose().r);
+                let [w, ..] = body.orientation;
+                // Of a quaternion and its negative, the one with w ≥ 0.
+                let sign = if w < 0.0 { -1.0 } else { 1.0 };
+                q[3..].copy_from_slice(&normalised(body.orientation.map(|e| sign * e)));
+            }
+        }
+    }
+}
+
+/// The angle of a body in the plane, from its own coordinates (rad), not reduced; 0 in space.
+pub(crate) fn angle_at(space: SpaceKind, q: &[f64]) -> f64 {
+    in_plane!(space, S => <S as PlanarSpace>::angle(q), 0.0)
+}
+
+/// A vector in the axes of a body, from its own coordinates, in ground axes.
+pub(crate) fn turned_at(space: SpaceKind, q: &[f64], v: [f64; 3]) -> [f64; 3] {
+    in_plane!(space, S => {
+        let (sin, cos) = <S as PlanarSpace>::sin_cos(q);
+        turned_by(sin, cos, v)
+    }, spatial_pose(q).direction_to_global(v))
+}
+
+/// The axes of a body, from its own coordinates, in ground components.
+pub(crate) fn axes_at(space: SpaceKind, q: &[f64]) -> [[f64; 3]; 3] {
+    let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    units.map(|axis| turned_at(space, q, axis))
+}
+
+fn turned_by(sin: f64, cos: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [cos * x - sin * y, sin * x + cos * y, z]
+}
+
+/// The pose of a spatial body from its coordinates: the rotation divided by the square of the
+/// quaternion's length, so that this does not matter.
+fn spatial_pose<T: Number>(q: &[T]) -> space3::Pose<T> {
+    let e = quaternion(q);
+    let [w, x, y, z] = e;
+    let square = w * w + x * x + y * y + z * z;
+    space3::Pose {
+        r: [q[0], q[1], q[2]],
+        rot: space3::rotation(e).map(|row| row.map(|entry| entry / square)),
+    }
+}
+
+/// Whether a body keeps its sine and cosine when its angle changes. If rows of angles hold the
+/// angle, a change by rounding is not a rotation; otherwise every bit counts: the sine of −0 is not
+/// that of 0.
+fn stays(is_held: bool, from: f64, to: f64) -> bool {
+    if is_held {
+        (to - from).abs() <= HELD * from.abs().max(1.0)
+    } else {
+        to.to_bits() == from.to_bits()
+    }
+}
+
+/// The pose of a body from its coordinates.
+fn pose<S: PlanarSpace, T: Number>(q: &[T]) -> Pose<T> {
+    let (sin, cos) = S::sin_cos(q);
+    Pose {
+        x: q[0],
+        y: q[1],
+        angle: S::angle(q),
+        cos,
+        sin,
+    }
+}

@@ -1,0 +1,250 @@
+//! A constraint with its indices in the mechanism.
+
+use std::ops::Range;
+
+use joints::spec::ConstraintSpec;
+use joints::{Magnitude, Recorded};
+use linalg::Dd;
+
+use super::recorded::RecordedSlots;
+use super::slots::{Kinematics, OwnRates, Rates, Site, Slots};
+use super::{AnyConstraint, Bodies, BodySpace, with};
+
+/// A constraint with its indices in the mechanism. Kernels need the poses of their slots and, where
+/// they depend on them, the velocities; `out` is overwritten.
+#[derive(Clone)]
+pub(crate) struct PlacedConstraint {
+    element: AnyConstraint,
+    pub(crate) site: Site,
+    /// Its entries of C in the scratch.
+    pub(crate) entries: Range<usize>,
+    /// Indices of the varying entries, relative to `entries`.
+    pub(crate) varying: Vec<usize>,
+    pub(crate) rows: Range<usize>,
+    /// Tolerance of its data (m), if stated.
+    pub(crate) tolerance: Option<f64>,
+}
+
+impl PlacedConstraint {
+    pub(crate) fn new(
+        element: AnyConstraint,
+        site: Site,
+        [entries, rows]: [Range<usize>; 2],
+        tolerance: Option<f64>,
+    ) -> Self {
+        let all = element.spec().c.iter().enumerate();
+        let varying = all.filter(|(_, e)| !e.constant).map(|(at, _)| at);
+        Self {
+            varying: varying.collect(),
+            element,
+            site,
+            entries,
+            rows,
+            tolerance,
+        }
+    }
+
+    pub(crate) fn kernels(&self) -> &AnyConstraint {
+        &self.element
+    }
+
+    pub(crate) fn spec(&self) -> &'static ConstraintSpec {
+        self.element.spec()
+    }
+
+    /// Whether its block of C depends on the configuration.
+    pub(crate) fn has_varying_entries(&self) -> bool {
+        !self.varying.is_empty()
+    }
+
+    /// Whether b and Φt of its rows may differ from zero.
+    pub(crate) fn depends_on_time(&self) -> bool {
+        self.spec().rheonomic
+    }
+
+    /// Whether Γ of its rows may differ from zero. C of the other rows is constant, so `C·v̇ = 0`.
+    pub(crate) fn has_gamma(&self) -> bool {
+        self.has_varying_entries() || self.depends_on_time()
+    }
+
+    pub(crate) fn initialise(&mut self, bodies: &Bodies) {
+        with!(AnyConstraint, &mut self.element, element, S => {
+            element.initialise(&self.site.poses::<S, f64>(bodies));
+        });
+    }
+
+    /// The first requirement of its definition that is not met at these poses.
+    pub(crate) fn unmet_requirement(&self, bodies: &Bodies) -> Option<&'static str> {
+        let words = self.spec().common.requirements;
+        let unmet = with!(AnyConstraint, &self.element, element, S => {
+            let x = self.site.poses::<S, f64>(bodies);
+            (0..words.len()).find(|&k| !element.requirement(k, &x))
+        })?;
+        Some(words[unmet])
+    }
+
+    #[inline]
+    pub(crate) fn phi(&self, s: &Slots, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            element.phi(self.site.x::<S>(s), self.site.f(s), out);
+        });
+    }
+
+    #[inline]
+    pub(crate) fn c(&self, s: &Slots, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            element.c(self.site.x::<S>(s), self.site.f(s), out);
+        });
+    }
+
+    #[inline]
+    pub(crate) fn b(&self, s: &Slots, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            element.b(self.site.x::<S>(s), self.site.f(s), out);
+        });
+    }
+
+    #[inline]
+    pub(crate) fn gamma(&self, s: &Slots, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
+            element.gamma(x, v, f, out);
+        });
+    }
+
+    #[inline]
+    pub(crate) fn wrench(&self, s: &Slots, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            element.wrench(self.site.x::<S>(s), self.site.f(s), out);
+        });
+    }
+
+    #[inline]
+    pub(crate) fn component(&self, s: &Slots, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            element.component(self.site.x::<S>(s), self.site.f(s), out);
+        });
+    }
+
+    /// The place of its reaction (m), ground axes.
+    pub(crate) fn place(&self, s: &Slots) -> [f64; 3] {
+        with!(AnyConstraint, &self.element, element, S => {
+            S::point(element.place(self.site.x::<S>(s)))
+        })
+    }
+
+    /// The origin of its first body (m), ground axes.
+    pub(crate) fn first_origin(&self, s: &Slots) -> [f64; 3] {
+        with!(AnyConstraint, &self.element, _element, S => {
+            S::first_origin(self.site.x::<S>(s))
+        })
+    }
+
+    pub(crate) fn d_force_dx(&self, s: &Slots, lambda: &[f64], out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            element.d_force_dx(self.site.x::<S>(s), self.site.f(s), lambda, out);
+        });
+    }
+
+    pub(crate) fn d_residual_dx(&self, s: &Slots, a: &Rates, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
+            element.d_residual_dx(x, v, self.site.v::<S>(a), f, out);
+        });
+    }
+
+    pub(crate) fn d_gamma_dv(&self, s: &Slots, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
+            element.d_gamma_dv(x, v, f, out);
+        });
+    }
+
+    pub(crate) fn d_velocity_dx(&self, s: &Slots, out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
+            element.d_velocity_dx(x, v, f, out);
+        });
+    }
+
+    /// Gradient of `λᵀ·Φ` with respect to its numbers.
+    pub(crate) fn d_phi_dp(&self, s: &Slots, lambda: &[f64], out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            element.d_phi_dp(self.site.x::<S>(s), self.site.f(s), lambda, out);
+        });
+    }
+
+    /// Gradient of `λᵀ·(C·a − Γ)` with respect to its numbers.
+    pub(crate) fn d_residual_dp(&self, s: &Slots, a: &OwnRates, lambda: &[f64], out: &mut [f64]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
+            element.d_residual_dp(x, v, S::twists(&a.own.twists), f, lambda, out);
+        });
+    }
+
+    /// Gradient of `λᵀ·C·v` with respect to its numbers: without velocities and rates of functions
+    /// of time Γ vanishes.
+    pub(crate) fn d_power_dp(&self, s: &Slots, v: &mut OwnRates, lambda: &[f64], out: &mut [f64]) {
+        v.still_f.clear();
+        let still = self.site.f(s).iter().map(|[f, ..]| [*f, 0.0, 0.0]);
+        v.still_f.extend(still);
+        with!(AnyConstraint, &self.element, element, S => {
+            let (own, still) = (S::twists(&v.own.twists), S::twists(&v.still.twists));
+            element.d_residual_dp(self.site.x::<S>(s), still, own, &v.still_f, lambda, out);
+        });
+    }
+
+    /// Φ in double-double, with all functions of time of the mechanism.
+    pub(crate) fn extended_phi(&self, bodies: &Bodies<Dd>, jets: &[[Dd; 3]], out: &mut [Dd]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let x = self.site.poses::<S, Dd>(bodies);
+            element.extended().phi(&x, &jets[self.site.functions.clone()], out);
+        });
+    }
+
+    /// C in double-double.
+    pub(crate) fn extended_c(&self, bodies: &Bodies<Dd>, jets: &[[Dd; 3]], out: &mut [Dd]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let x = self.site.poses::<S, Dd>(bodies);
+            element.extended().c(&x, &jets[self.site.functions.clone()], out);
+        });
+    }
+
+    /// Sizes of the terms of C.
+    pub(crate) fn magnitude_c(&self, s: &Slots, out: &mut [Magnitude]) {
+        let jets = self.site.f(s).iter();
+        let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();
+        with!(AnyConstraint, &self.element, element, S => {
+            let x: Vec<_> = self.site.x::<S>(s).iter().map(S::magnitude).collect();
+            element.magnitude().c(&x, &f, out);
+        });
+    }
+
+    pub(crate) fn recorded_phi(&self, at: &RecordedSlots, out: &mut [Recorded]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, _, f) = at.of::<S>(&self.site);
+            element.recorded().phi(&x, f, out);
+        });
+    }
+
+    pub(crate) fn recorded_c(&self, at: &RecordedSlots, out: &mut [Recorded]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, _, f) = at.of::<S>(&self.site);
+            element.recorded().c(&x, f, out);
+        });
+    }
+
+    pub(crate) fn recorded_b(&self, at: &RecordedSlots, out: &mut [Recorded]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, _, f) = at.of::<S>(&self.site);
+            element.recorded().b(&x, f, out);
+        });
+    }
+
+    pub(crate) fn recorded_gamma(&self, at: &RecordedSlots, out: &mut [Recorded]) {
+        with!(AnyConstraint, &self.element, element, S => {
+            let (x, v, f) = at.of::<S>(&self.site);
+            element.recorded().gamma(&x, &v, f, out);
+        });
+    }
+}

@@ -1,0 +1,289 @@
+//! Arguments of kernels: poses, velocities and functions of time of the slots of all elements.
+
+use std::ops::Range;
+
+use joints::plane::{Pose, Twist};
+use joints::{Magnitude, Plane, Ring, Space3, space3};
+
+use super::bodies::{Bodies, InEach, Poses, Twists};
+use crate::body::BodyRef;
+use crate::space::SpaceKind;
+
+/// What the kernels of a space take of bodies.
+pub(super) trait Kinematics: joints::Space {
+    fn ground<T: Ring>() -> Self::Pose<T>;
+    fn poses<T: Ring>(all: &Poses<T>) -> &[Self::Pose<T>];
+    fn poses_mut<T: Ring>(all: &mut Poses<T>) -> &mut [Self::Pose<T>];
+    fn twists<T: Ring>(all: &Twists<T>) -> &[Self::Twist<T>];
+    fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Self::Twist<T>];
+    /// The twist with these velocities.
+    fn twist<T: Ring>(v: &[T]) -> Self::Twist<T>;
+    /// Sizes of the contributions of a pose to a polynomial.
+    fn magnitude(pose: &Self::Pose<f64>) -> Self::Pose<Magnitude>;
+    fn first_origin(poses: &[Self::Pose<f64>]) -> [f64; 3];
+}
+
+impl Kinematics for Plane {
+    fn ground<T: Ring>() -> Pose<T> {
+        Pose::GROUND.cast()
+    }
+    fn poses<T: Ring>(all: &Poses<T>) -> &[Pose<T>] {
+        &all.plane
+    }
+    fn poses_mut<T: Ring>(all: &mut Poses<T>) -> &mut [Pose<T>] {
+        &mut all.plane
+    }
+    fn twists<T: Ring>(all: &Twists<T>) -> &[Twist<T>] {
+        &all.plane
+    }
+    fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Twist<T>] {
+        &mut all.plane
+    }
+    fn twist<T: Ring>(v: &[T]) -> Twist<T> {
+        Twist {
+            x: v[0],
+            y: v[1],
+            omega: v[2],
+        }
+    }
+    /// Cosine and sine are accurate to the rounding of their angle.
+    fn magnitude(pose: &Pose) -> Pose<Magnitude> {
+        let turned = Magnitude::from(pose.angle.abs().max(1.0));
+        Pose {
+            x: pose.x.into(),
+            y: pose.y.into(),
+            angle: pose.angle.into(),
+            cos: turned,
+            sin: turned,
+        }
+    }
+    fn first_origin(poses: &[Pose]) -> [f64; 3] {
+        [poses[0].x, poses[0].y, 0.0]
+    }
+}
+
+impl Kinematics for Space3 {
+    fn ground<T: Ring>() -> space3::Pose<T> {
+        space3::Pose::GROUND.cast()
+    }
+    fn poses<T: Ring>(all: &Poses<T>) -> &[space3::Pose<T>] {
+        &all.space3
+    }
+    fn poses_mut<T: Ring>(all: &mut Poses<T>) -> &mut [space3::Pose<T>] {
+        &mut all.space3
+    }
+    fn twists<T: Ring>(all: &Twists<T>) -> &[space3::Twist<T>] {
+        &all.space3
+    }
+    fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [space3::Twist<T>] {
+        &mut all.space3
+    }
+    fn twist<T: Ring>(v: &[T]) -> space3::Twist<T> {
+        space3::Twist {
+            v: [v[0], v[1], v[2]],
+            omega: [v[3], v[4], v[5]],
+        }
+    }
+    /// Every entry of a rotation is accurate to the rounding of 1.
+    fn magnitude(pose: &space3::Pose) -> space3::Pose<Magnitude> {
+        space3::Pose {
+            r: pose.r.map(Magnitude::from),
+            rot: [[Magnitude::from(1.0); 3]; 3],
+        }
+    }
+    fn first_origin(poses: &[space3::Pose]) -> [f64; 3] {
+        poses[0].r
+    }
+}
+
+/// The pose of a body, taken from those of all.
+pub(super) fn pose_of<S: Kinematics, T: Ring>(poses: &Poses<T>, body: BodyRef) -> S::Pose<T> {
+    match body {
+        BodyRef::Ground => S::ground(),
+        BodyRef::Body(k) => S::poses(poses)[k],
+    }
+}
+
+/// The velocity of a body, taken from those of all.
+fn twist_of<S: Kinematics>(body: BodyRef, v: &[f64]) -> S::Twist<f64> {
+    match body {
+        BodyRef::Ground => S::twist(&[0.0; 6]),
+        BodyRef::Body(k) => S::twist(&v[S::N_DOF * k..S::N_DOF * (k + 1)]),
+    }
+}
+
+/// Evaluates an expression in which `$kernels` is the space of kernels of a [`SpaceKind`].
+macro_rules! in_kernels {
+    ($kind:expr, $kernels:ident => $body:expr) => {
+        match $kind {
+            SpaceKind::Space3 => {
+                type $kernels = Space3;
+                $body
+            }
+            _ => {
+                type $kernels = Plane;
+                $body
+            }
+        }
+    };
+}
+
+/// Arguments of the kernels of all elements, one after the other: constraints, then forces.
+#[derive(Clone, Debug)]
+pub(crate) struct Slots {
+    space: SpaceKind,
+    /// Poses of the bodies in their slots.
+    pub(super) poses: Poses<f64>,
+    /// Velocities of the same slots.
+    pub(crate) rates: Rates,
+    /// Values of the functions of time.
+    pub(crate) jets: Vec<[f64; 3]>,
+}
+
+impl Slots {
+    pub(crate) fn new(space: SpaceKind, slots: usize, functions: usize) -> Self {
+        Self {
+            space,
+            poses: InEach::filled(space, slots, Pose::GROUND, space3::Pose::GROUND),
+            rates: Rates::zero(space, slots),
+            jets: vec![[0.0; 3]; functions],
+        }
+    }
+
+    /// Takes the poses of the bodies.
+    #[inline]
+    pub(crate) fn take<'a>(&mut self, sites: impl Iterator<Item = &'a Site>, bodies: &Bodies) {
+        in_kernels!(self.space, S => {
+            let all = S::poses_mut(&mut self.poses);
+            for site in sites {
+                let slots = &mut all[site.slots.clone()];
+                for (pose, &body) in slots.iter_mut().zip(&site.bodies) {
+                    *pose = pose_of::<S, f64>(&bodies.poses, body);
+                }
+            }
+        });
+    }
+}
+
+/// Velocities or accelerations of slots.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rates {
+    space: SpaceKind,
+    pub(super) twists: Twists<f64>,
+}
+
+impl Rates {
+    pub(crate) fn zero(space: SpaceKind, slots: usize) -> Self {
+        let twists = InEach::filled(space, slots, Twist::zero(), space3::Twist::zero());
+        Self { space, twists }
+    }
+
+    /// Sets so many slots at rest, in the same storage.
+    fn rest(&mut self, space: SpaceKind, slots: usize) {
+        self.space = space;
+        let InEach { plane, space3 } = &mut self.twists;
+        plane.clear();
+        space3.clear();
+        match space {
+            SpaceKind::Space3 => space3.resize(slots, space3::Twist::zero()),
+            _ => plane.resize(slots, Twist::zero()),
+        }
+    }
+
+    /// Takes velocities or accelerations of the bodies (n_v); those of the ground stay zero.
+    #[inline]
+    pub(crate) fn take<'a>(&mut self, sites: impl Iterator<Item = &'a Site>, v: &[f64]) {
+        in_kernels!(self.space, S => {
+            let all = S::twists_mut(&mut self.twists);
+            for site in sites {
+                let twists = &mut all[site.slots.clone()];
+                for (twist, &body) in twists.iter_mut().zip(&site.bodies) {
+                    if body != BodyRef::Ground {
+                        *twist = twist_of::<S>(body, v);
+                    }
+                }
+            }
+        });
+    }
+}
+
+/// Velocities of the slots of one constraint for derivatives of its power.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct OwnRates {
+    pub(super) own: Rates,
+    pub(super) still: Rates,
+    /// Functions of time as they are, at rest.
+    pub(super) still_f: Vec<[f64; 3]>,
+}
+
+impl OwnRates {
+    /// Takes the constraint, with all its bodies at rest.
+    fn still(&mut self, site: &Site) {
+        let (space, slots) = (site.space, site.bodies.len());
+        self.own.rest(space, slots);
+        self.still.rest(space, slots);
+    }
+
+    /// Takes velocities or accelerations of all bodies (n_v).
+    pub(crate) fn take(&mut self, site: &Site, v: &[f64]) {
+        self.still(site);
+        in_kernels!(site.space, S => {
+            let twists = S::twists_mut(&mut self.own.twists).iter_mut();
+            let bodies = twists.zip(&site.bodies);
+            bodies.for_each(|(twist, &body)| *twist = twist_of::<S>(body, v));
+        });
+    }
+
+    /// The body of one slot moves at 1 m/s or 1 rad/s along one of its freedoms, alone.
+    pub(crate) fn unit(&mut self, site: &Site, slot: usize, dof: usize) {
+        self.still(site);
+        let mut unit = [0.0; 6];
+        unit[dof] = 1.0;
+        in_kernels!(site.space, S => {
+            S::twists_mut(&mut self.own.twists)[slot] = S::twist(&unit);
+        });
+    }
+}
+
+/// Indices of an element: its bodies, and its ranges in [`Slots`].
+#[derive(Clone)]
+pub(crate) struct Site {
+    pub(crate) space: SpaceKind,
+    pub(crate) bodies: Vec<BodyRef>,
+    pub(crate) slots: Range<usize>,
+    pub(crate) functions: Range<usize>,
+}
+
+impl Site {
+    /// Poses of its bodies.
+    pub(super) fn x<'s, S: Kinematics>(&self, all: &'s Slots) -> &'s [S::Pose<f64>] {
+        &S::poses(&all.poses)[self.slots.clone()]
+    }
+
+    /// Twists of its bodies.
+    pub(super) fn v<'s, S: Kinematics>(&self, all: &'s Rates) -> &'s [S::Twist<f64>] {
+        &S::twists(&all.twists)[self.slots.clone()]
+    }
+
+    /// Values of its functions of time.
+    pub(crate) fn f<'s>(&self, all: &'s Slots) -> &'s [[f64; 3]] {
+        &all.jets[self.functions.clone()]
+    }
+
+    /// Poses of its bodies in any number type, from those of all bodies; allocates.
+    pub(super) fn poses<S: Kinematics, T: Ring>(&self, all: &Bodies<T>) -> Vec<S::Pose<T>> {
+        let bodies = self.bodies.iter();
+        bodies.map(|&b| pose_of::<S, T>(&all.poses, b)).collect()
+    }
+
+    /// Its bodies except the ground.
+    pub(crate) fn moving(&self) -> impl Iterator<Item = usize> + '_ {
+        self.bodies.iter().filter_map(|b| b.moving())
+    }
+
+    /// Column of C for a column of its block; `None` for the ground.
+    pub(crate) fn column(&self, k: usize) -> Option<usize> {
+        let body = self.bodies[self.space.body_of(k)].moving()?;
+        Some(self.space.n_v() * body + self.space.dof_of(k))
+    }
+}

@@ -1,0 +1,227 @@
+//! Faults of a description, in words.
+
+use joints::LARGEST;
+
+use crate::codes::Code;
+use crate::tolerance::Stated;
+
+/// One fault of a description.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// There is no body.
+    #[error("a mechanism needs at least one body")]
+    NoBodies,
+    /// Two items have the same name.
+    #[error("the name `{name}` is used twice")]
+    DuplicateName {
+        /// The name.
+        name: String,
+    },
+    /// The name of the ground is reserved.
+    #[error("`ground` is the name of the ground and is always there")]
+    Ground,
+    /// A number of a body is NaN or infinite.
+    #[error("body `{body}`: {field} is {value:?}, need finite numbers up to {LARGEST:e}")]
+    NotFinite {
+        /// The body.
+        body: String,
+        /// Name of the number.
+        field: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// A velocity is that of a point other than the centre of mass, and the rotation that it needs
+    /// is not given.
+    #[error(
+        "body `{body}`: `velocity` is that of the origin of its frame, which is not its centre of mass, so `angular_velocity` is needed with it"
+    )]
+    VelocityAlone {
+        /// The body.
+        body: String,
+    },
+    /// A mass or an inertia is negative.
+    #[error("body `{body}`: {field} is {value}, need a number ≥ 0")]
+    Negative {
+        /// The body.
+        body: String,
+        /// Name of the number.
+        field: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// Gravity is NaN or infinite.
+    #[error("gravity is {gravity:?}, need finite numbers up to {LARGEST:e}")]
+    Gravity {
+        /// Its components.
+        gravity: Vec<f64>,
+    },
+    /// A quaternion of length zero.
+    #[error("body `{body}`: the quaternion of its orientation is zero")]
+    NoOrientation {
+        /// The body.
+        body: String,
+    },
+    /// A tensor of inertia is not symmetric.
+    #[error("body `{body}`: the tensor of inertia is not symmetric")]
+    NotSymmetric {
+        /// The body.
+        body: String,
+    },
+    /// A tensor of inertia has products.
+    #[error(
+        "body `{body}`: products of inertia are not supported yet: turn its frame into the principal axes, where the tensor is diagonal"
+    )]
+    NotPrincipal {
+        /// The body.
+        body: String,
+    },
+    /// No body has this tensor of inertia.
+    #[error(
+        "body `{body}`: no body has the principal moments {moments:?}: the largest is above the sum of the others"
+    )]
+    NoSuchTensor {
+        /// The body.
+        body: String,
+        /// The principal moments (kg·m²).
+        moments: [f64; 3],
+    },
+    /// A tolerance is not a finite number > 0 up to [`LARGEST`].
+    #[error("{of}: {field} is {value:?}, need a finite number > 0 up to {LARGEST:e}")]
+    Tolerance {
+        /// The item for which it is stated.
+        of: Stated,
+        /// Name of the number.
+        field: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// A joint, drive or force has another number of bodies than its definition.
+    #[error("`{name}` connects {found} bodies, `{definition}` needs {expected}")]
+    BodyCount {
+        /// The joint, drive or force.
+        name: String,
+        /// Its definition.
+        definition: &'static str,
+        /// Number of slots.
+        expected: usize,
+        /// Number of bodies given.
+        found: usize,
+    },
+    /// A body does not exist.
+    #[error("`{name}` refers to body number {body}; there are {n_bodies}, counted from 0")]
+    UnknownBody {
+        /// The joint, drive or force.
+        name: String,
+        /// Its index.
+        body: usize,
+        /// Number of bodies.
+        n_bodies: usize,
+    },
+    /// A joint connects a body with itself.
+    #[error("`{name}` connects `{body}` with itself")]
+    SameBody {
+        /// The joint, drive or force.
+        name: String,
+        /// The body.
+        body: String,
+    },
+    /// A joint or force has no moving body.
+    #[error("`{name}` connects the ground with itself")]
+    GroundOnly {
+        /// The joint, drive or force.
+        name: String,
+    },
+    /// A point of a joint, drive or force is NaN or infinite.
+    #[error("`{name}`: a point is {point:?}, need finite numbers up to {LARGEST:e}")]
+    Point {
+        /// The joint, drive or force.
+        name: String,
+        /// Its components.
+        point: Vec<f64>,
+    },
+    /// A number of a marker is NaN or infinite.
+    #[error(
+        "marker `{name}` is at [{x:?}, {y:?}], turned by {angle:?}, need finite numbers up to {LARGEST:e}"
+    )]
+    Marker {
+        /// The marker.
+        name: String,
+        /// Its x coordinate.
+        x: f64,
+        /// Its y coordinate.
+        y: f64,
+        /// Its angle.
+        angle: f64,
+    },
+    /// A marker does not exist.
+    #[error(
+        "measure `{name}` refers to marker number {marker}; there are {n_markers}, counted from 0"
+    )]
+    UnknownMarker {
+        /// The measure.
+        name: String,
+        /// Index of the marker.
+        marker: usize,
+        /// Number of markers.
+        n_markers: usize,
+    },
+    /// A measure is that of a marker relative to itself.
+    #[error("measure `{name}` is between a place and itself")]
+    SameMarker {
+        /// The measure.
+        name: String,
+    },
+    /// A drive is in the list of joints, or a joint in the list of drives.
+    #[error("`{name}` is in the list of {list}, but `{definition}` does not belong there")]
+    Role {
+        /// The joint or drive.
+        name: String,
+        /// Its definition.
+        definition: &'static str,
+        /// The list that contains it.
+        list: &'static str,
+    },
+    /// The number of functions of time differs from that of the definition.
+    #[error("`{name}` has {found} functions of time, `{definition}` needs {expected}")]
+    FunctionCount {
+        /// The joint or force.
+        name: String,
+        /// Its definition.
+        definition: &'static str,
+        /// Number of functions of the definition.
+        expected: usize,
+        /// Number of functions given.
+        found: usize,
+    },
+}
+
+impl BuildError {
+    /// Its code; see [`crate::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NoBodies { .. } => const { Code::new(120) },
+            Self::DuplicateName { .. } => const { Code::new(104) },
+            Self::Ground { .. } => const { Code::new(121) },
+            Self::NotFinite { .. } => const { Code::new(122) },
+            Self::Negative { .. } => const { Code::new(123) },
+            Self::Gravity { .. } => const { Code::new(124) },
+            Self::Tolerance { .. } => const { Code::new(125) },
+            Self::BodyCount { .. } => const { Code::new(126) },
+            Self::UnknownBody { .. } => const { Code::new(127) },
+            Self::SameBody { .. } => const { Code::new(128) },
+            Self::GroundOnly { .. } => const { Code::new(129) },
+            Self::Point { .. } => const { Code::new(130) },
+            Self::Role { .. } => const { Code::new(131) },
+            Self::FunctionCount { .. } => const { Code::new(132) },
+            Self::VelocityAlone { .. } => const { Code::new(133) },
+            Self::Marker { .. } => const { Code::new(134) },
+            Self::UnknownMarker { .. } => const { Code::new(135) },
+            Self::SameMarker { .. } => const { Code::new(136) },
+            Self::NoOrientation { .. } => const { Code::new(152) },
+            Self::NotSymmetric { .. } | Self::NoSuchTensor { .. } => const { Code::new(153) },
+            Self::NotPrincipal { .. } => const { Code::new(154) },
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Number types with angles.
+
+use joints::Ring;
+use linalg::Dd;
+
+/// A number type with angles.
+pub trait Number: Ring + std::ops::Div<Output = Self> {
+    /// √self
+    #[must_use]
+    fn root(self) -> Self;
+
+    /// The nearest `f64`.
+    #[must_use]
+    fn nearest(self) -> f64;
+
+    /// Sine and cosine.
+    #[must_use]
+    fn sin_cos(self) -> (Self, Self);
+
+    /// The angle of the direction (x, y), from −π to π.
+    #[must_use]
+    fn atan2(y: Self, x: Self) -> Self;
+
+    /// The vector (x, y) scaled to length one; it must not be zero.
+    #[must_use]
+    fn normalised(x: Self, y: Self) -> (Self, Self);
+}
+
+impl Number for f64 {
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    fn nearest(self) -> f64 {
+        self
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+
+    fn atan2(y: Self, x: Self) -> Self {
+        y.atan2(x)
+    }
+
+    fn normalised(x: Self, y: Self) -> (Self, Self) {
+        let length = x.hypot(y);
+        (x / length, y / length)
+    }
+}
+
+impl Number for Dd {
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    fn nearest(self) -> f64 {
+        self.to_f64()
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        Dd::sin_cos(self)
+    }
+
+    /// The angle in `f64`, corrected by the remaining angle, whose square is below the last digit.
+    fn atan2(y: Self, x: Self) -> Self {
+        let (x, y) = Self::normalised(x, y);
+        let near = Self::from(y.to_f64().atan2(x.to_f64()));
+        let (sin, cos) = near.sin_cos();
+        near + (y * cos - x * sin)
+    }
+
+    fn normalised(x: Self, y: Self) -> (Self, Self) {
+        let length = (x * x + y * y).sqrt();
+        (x / length, y / length)
+    }
+}
