@@ -18,7 +18,7 @@ fn study(text: &str) -> Study {
     let study = Study::read(
         "test.toml",
         text,
-        &Registry::planar(),
+        &Registry::standard(),
         &Overrides::default(),
     );
     study.unwrap_or_else(|e| panic!("{e}"))
@@ -218,7 +218,7 @@ fn units_of_laws_are_checked() {
         let read = Study::read(
             "test.toml",
             &text,
-            &Registry::planar(),
+            &Registry::standard(),
             &Overrides::default(),
         );
         read.err().expect(law).to_string()

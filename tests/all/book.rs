@@ -163,8 +163,12 @@ fn figures_are_those_of_their_command_and_all_are_shown() {
 fn the_reference_of_scenes_is_complete() {
     let text = read("scene-format.md");
     let has = |piece: &str| assert!(text.contains(piece), "scene-format.md has no {piece}");
-    let registry = Registry::planar();
-    for spec in registry.constraint_specs().chain(registry.force_specs()) {
+    let registry = Registry::standard();
+    for spec in registry
+        .plane()
+        .constraint_specs()
+        .chain(registry.plane().force_specs())
+    {
         has(&format!("| `{}` |", spec.scene_type));
         has(&format!("type = \"{}\"", spec.scene_type));
         for parameter in spec.parameters {
@@ -172,7 +176,7 @@ fn the_reference_of_scenes_is_complete() {
                 has(parameter.name);
             }
         }
-        for definition in registry.constraints(spec.scene_type) {
+        for definition in registry.plane().constraints(spec.scene_type) {
             let rows: Vec<_> = definition.spec.rows.iter().map(|row| row.name).collect();
             has(&format!("| `{}` | {} |", spec.scene_type, rows.join(", ")));
             for measure in definition.spec.measures {

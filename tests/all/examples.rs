@@ -47,7 +47,7 @@ fn page(name: &str) -> String {
 }
 
 fn study(name: &str, text: &str) -> Study {
-    Study::read(name, text, &Registry::planar(), &Overrides::default())
+    Study::read(name, text, &Registry::standard(), &Overrides::default())
         .unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 

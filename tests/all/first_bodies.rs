@@ -60,7 +60,7 @@ fn at_rest(scene: &str, joint: &str) -> [f64; 3] {
     let study = Study::read(
         "scene.toml",
         scene,
-        &Registry::planar(),
+        &Registry::standard(),
         &Overrides::default(),
     )
     .unwrap_or_else(|e| panic!("{scene}: {e}"));
@@ -174,7 +174,7 @@ fn a_body_is_not_its_own_carrier() {
         r#"bodies = ["a", "b"], carrier = "b", ratio = -2.0"#,
     ] {
         let scene = wheels(gear, [0.0; 3]);
-        let read = scene::read("scene.toml", &scene, &Registry::planar());
+        let read = scene::read("scene.toml", &scene, &Registry::standard());
         let faults = read.expect_err("refused");
         assert!(
             faults[0].message.contains("`mesh` connects `"),
@@ -265,7 +265,7 @@ force = [
     let study = Study::read(
         "scene.toml",
         scene,
-        &Registry::planar(),
+        &Registry::standard(),
         &Overrides::default(),
     )
     .unwrap_or_else(|e| panic!("{e}"));

@@ -142,7 +142,7 @@ fn moved(centres: &Centres) -> MotionDocument {
     let study = Study::read(
         "frames.toml",
         &text,
-        &Registry::planar(),
+        &Registry::standard(),
         &Overrides::default(),
     );
     let study = study.unwrap_or_else(|e| panic!("{e}\n{text}"));
@@ -266,7 +266,7 @@ fn refused(change: impl Fn(String) -> String) -> String {
     let read = Study::read(
         "frames.toml",
         &text,
-        &Registry::planar(),
+        &Registry::standard(),
         &Overrides::default(),
     );
     read.err().expect("it is refused").to_string()

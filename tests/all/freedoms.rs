@@ -23,7 +23,7 @@ const INDEPENDENT: f64 = 1e-3;
 
 fn study(name: &str) -> Study {
     let text = read(&scene(name));
-    let found = Study::read(name, &text, &Registry::planar(), &Overrides::default());
+    let found = Study::read(name, &text, &Registry::standard(), &Overrides::default());
     found.unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 

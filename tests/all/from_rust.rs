@@ -141,7 +141,7 @@ fn description() -> Description {
 }
 
 fn from_text() -> Study {
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let study = Study::read("scene.toml", SCENE, &registry, &Overrides::default());
     study.unwrap_or_else(|e| panic!("{e}"))
 }
@@ -198,7 +198,7 @@ fn files_are_the_same() {
         ..description().into()
     };
     let text = format!("{SCENE}simulate = {{ t_end = 0.5 }}\n");
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let text = Study::read("scene.toml", &text, &registry, &Overrides::default()).expect("a scene");
     let code = Study::build(scene).expect("a scene");
     let folder = std::env::temp_dir().join(format!("pfaff-from-rust-{}", std::process::id()));

@@ -129,7 +129,7 @@ fn time_moves_where_a_joint_depends_on_it() {
 
 /// Whether other configurations of a scene were found, and their results.
 fn elsewhere(scene: &str) -> Option<Generic> {
-    let study = Study::read("scene", scene, &Registry::planar(), &Overrides::default());
+    let study = Study::read("scene", scene, &Registry::standard(), &Overrides::default());
     let study = study.unwrap_or_else(|e| panic!("{scene}\n{e}"));
     let start = study.analyse(0.0, None).expect("a rank");
     start.generic()

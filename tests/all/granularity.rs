@@ -599,7 +599,7 @@ fn groups_of_a_study() {
     ] {
         text += &format!("\n[[group]]\nname = \"{name}\"\nmembers = {members}\n");
     }
-    let registry = model::Registry::planar();
+    let registry = model::Registry::standard();
     let mut study = Study::read("robot", &text, &registry, &Overrides::default()).expect("a scene");
     let combine = ["W3+W4", "W3.N + W4.N", "W3.T", "2*A - steering"].map(str::to_owned);
     let configuration = study.analyse(0.0, None).expect("judged");

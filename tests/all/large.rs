@@ -20,7 +20,7 @@ fn study(order: &Order) -> Study {
     Study::read(
         "generated.toml",
         &text(order),
-        &Registry::planar(),
+        &Registry::standard(),
         &overrides,
     )
     .expect("starts")

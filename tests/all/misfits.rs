@@ -63,7 +63,7 @@ fn run(text: &str, drop: Option<&[usize]>) -> Result<RunDocument, StudyError> {
         drop: drop.map(|rows| rows.iter().map(|row| row - 1).collect()),
         ..Overrides::default()
     };
-    let study = Study::read("misfits.toml", text, &Registry::planar(), &overrides)?;
+    let study = Study::read("misfits.toml", text, &Registry::standard(), &overrides)?;
     let options = study.options.clone().expect("the scene says when it ends");
     Ok(study.motion(&options)?.summary)
 }

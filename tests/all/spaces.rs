@@ -38,7 +38,7 @@ const SCENES: [(&str, f64); 9] = [
 
 fn scene(name: &str) -> scene::Scene {
     let text = suite::find(name).expect("a case").scene;
-    scene::read(name, text, &Registry::planar()).expect("a scene")
+    scene::read(name, text, &Registry::standard()).expect("a scene")
 }
 
 /// The difference of poses: lengths relative to the size, angles by sine and cosine.
@@ -93,7 +93,10 @@ fn gaps(two: &[Prepared; 2], options: &MotionOptions) -> (f64, f64) {
 fn starts_and_verdicts_are_the_same() {
     for (name, _) in SCENES {
         let scene = scene(name);
-        let two = both(&scene.description, &scene.start);
+        let two = both(
+            scene.description.plane().expect("a planar scene"),
+            &scene.start,
+        );
         let size = two[0].assembly.size;
         let [a, b] = [&two[0], &two[1]].map(|p| Bodies::at(p.mechanism.space(), &p.q));
         assert!(
@@ -123,7 +126,10 @@ fn starts_and_verdicts_are_the_same() {
 fn the_motion_is_the_same_by_every_way_through_it() {
     for (name, t_end) in SCENES {
         let scene = scene(name);
-        let two = both(&scene.description, &scene.start);
+        let two = both(
+            scene.description.plane().expect("a planar scene"),
+            &scene.start,
+        );
         let ways = [
             (Method::Dop853, 1e-13),
             (Method::Dopri5, 1e-10),

@@ -37,7 +37,7 @@ struct Rows {
 }
 
 fn read(text: &str) -> AssembledScene {
-    AssembledScene::read("starts.toml", text, &Registry::planar())
+    AssembledScene::read("starts.toml", text, &Registry::standard())
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 

@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut text = Vec::new();
     Order::of(Kind::NFourBar, N).generate()?.write(&mut text)?;
     let text = String::from_utf8(text)?;
-    let study = Study::read("a02", &text, &Registry::planar(), &Overrides::default())?;
+    let study = Study::read("a02", &text, &Registry::standard(), &Overrides::default())?;
     let tops = tops();
     println!("method    tolerance  largest error     time  evaluations");
     for method in [Method::Dop853, Method::Dopri5] {

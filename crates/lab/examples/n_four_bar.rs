@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     t_end: Some(T_END),
                     ..Overrides::default()
                 };
-                let study = Study::read("n-four-bar", &text, &Registry::planar(), &overrides)?;
+                let study = Study::read("n-four-bar", &text, &Registry::standard(), &overrides)?;
                 rows = study.prepared.decision.rank;
                 let mut options = study.options.clone().ok_or("no end")?;
                 options.output_step = T_END;

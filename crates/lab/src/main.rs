@@ -9,7 +9,7 @@ use pfaff_cli::Stream;
 fn main() -> ExitCode {
     let (out, err) = (&mut io::stdout(), &mut io::stderr());
     lab::command::run(
-        &Registry::planar(),
+        &Registry::standard(),
         std::env::args_os(),
         Stream::terminal(out),
         Stream::terminal(err),

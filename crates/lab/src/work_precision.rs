@@ -37,7 +37,7 @@ pub fn ways() -> Vec<Comparator> {
 /// # Errors
 /// As [`Study::read`].
 pub fn of_case(case: &Case) -> Result<Subject, StudyError> {
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let study = Study::read(case.name, case.scene, &registry, &Overrides::default())?;
     let known = case.reference();
     let instants = known.instants.iter().map(|instant| {

@@ -159,6 +159,27 @@ impl BodyRecord {
         std::array::from_fn(|k| point[k] - centre[k])
     }
 
+    /// The numbers of a field, by its name in messages.
+    #[must_use]
+    pub fn numbers(&self, field: &str) -> Vec<f64> {
+        match (field, &self.described) {
+            ("mass", _) => vec![self.mass],
+            ("tolerance", _) => self.tolerance.into_iter().collect(),
+            ("inertia", DescribedBody::Plane(b)) => vec![b.inertia],
+            ("inertia", DescribedBody::Space3(b)) => b.inertia.concat(),
+            ("position", DescribedBody::Plane(b)) => b.position.to_vec(),
+            ("position", DescribedBody::Space3(b)) => b.position.to_vec(),
+            ("centre", DescribedBody::Plane(b)) => b.centre.to_vec(),
+            ("centre", DescribedBody::Space3(b)) => b.centre.to_vec(),
+            ("angle", DescribedBody::Plane(b)) => vec![b.angle],
+            ("orientation", DescribedBody::Space3(b)) => b.orientation.to_vec(),
+            ("velocity", DescribedBody::Plane(b)) => b.velocity.into_iter().flatten().collect(),
+            ("velocity", DescribedBody::Space3(b)) => b.velocity.into_iter().flatten().collect(),
+            (_, DescribedBody::Plane(b)) => b.angular_velocity.into_iter().collect(),
+            (_, DescribedBody::Space3(b)) => b.angular_velocity.into_iter().flatten().collect(),
+        }
+    }
+
     /// Whether the description gives a velocity of its frame.
     #[must_use]
     pub fn has_velocity(&self) -> bool {
@@ -187,15 +208,6 @@ impl BodyRef {
             Self::Body(k) => Some(k),
         }
     }
-
-    /// A global point (m) relative to the centre of mass of this body, one of `bodies` as
-    /// described, in the axes of its frame: `Rᵀ·(point − r)`. For the ground, and for a body that
-    /// does not exist, the point itself.
-    #[must_use]
-    pub fn to_local(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
-        let described = self.moving().and_then(|at| bodies.get(at));
-        described.map_or(point, |body| body.pose().to_local(point))
-    }
 }
 
 impl Body {
@@ -216,15 +228,5 @@ impl Body {
     pub fn from_centre(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [cx, cy] = self.centre;
         [x - cx, y - cy]
-    }
-}
-
-impl BodyRef {
-    /// A point of the frame of this body, one of `bodies`, relative to its centre of mass; for the
-    /// ground the point itself.
-    #[must_use]
-    pub fn from_centre(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
-        let described = self.moving().and_then(|at| bodies.get(at));
-        described.map_or(point, |body| body.from_centre(point))
     }
 }

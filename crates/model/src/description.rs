@@ -1,12 +1,14 @@
 //! A mechanism as plain data: the result of reading a scene, or written directly by a program.
 //! Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
 
+use joints::spec::ConstraintSpec;
 use joints::{Plane, Space3};
 
 pub use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
 use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
 use crate::function::Function;
 use crate::observed::Observed;
+use crate::space::SpaceKind;
 use crate::tolerance::Tolerance;
 
 /// A mechanism before it is assembled.
@@ -150,6 +152,13 @@ impl<S: BodySpace> Described<S> {
         })
     }
 
+    /// Its bodies as those of a mechanism.
+    #[must_use]
+    pub fn records(&self) -> Vec<BodyRecord> {
+        let described = self.bodies.iter().cloned().map(Into::<DescribedBody>::into);
+        described.map(BodyRecord::from).collect()
+    }
+
     /// A global point (m) relative to the centre of mass of a body as described, as joints and
     /// forces take it; for the ground, and for a body that does not exist, the point itself.
     #[must_use]
@@ -157,6 +166,168 @@ impl<S: BodySpace> Described<S> {
         let described = body.moving().and_then(|at| self.bodies.get(at));
         described.map_or(point, |body| S::to_local(body, point))
     }
+}
+
+/// A mechanism before it is assembled, in the plane or in space.
+///
+/// ```
+/// use model::{AnyDescription, Body, Description, Mechanism};
+/// let mut d = Description::new("stone");
+/// d.body(Body::new("stone", 1.0, 1.0));
+/// let d = AnyDescription::from(d);
+/// assert_eq!((d.name(), d.joints().count()), ("stone", 0));
+/// assert_eq!(Mechanism::build(&d).unwrap().bodies().len(), 1);
+/// ```
+#[derive(Clone)]
+pub enum AnyDescription {
+    /// In the plane.
+    Plane(Description),
+    /// In space.
+    Space3(SpatialDescription),
+}
+
+impl Default for AnyDescription {
+    fn default() -> Self {
+        Self::Plane(Description::default())
+    }
+}
+
+impl From<Description> for AnyDescription {
+    fn from(d: Description) -> Self {
+        Self::Plane(d)
+    }
+}
+
+impl From<SpatialDescription> for AnyDescription {
+    fn from(d: SpatialDescription) -> Self {
+        Self::Space3(d)
+    }
+}
+
+/// Evaluates an expression for the description of either space.
+macro_rules! either {
+    ($any:expr, $d:ident => $body:expr) => {
+        match $any {
+            AnyDescription::Plane($d) => $body,
+            AnyDescription::Space3($d) => $body,
+        }
+    };
+}
+
+impl AnyDescription {
+    /// Its space.
+    #[must_use]
+    pub fn space(&self) -> SpaceKind {
+        match self {
+            Self::Plane(_) => SpaceKind::Plane,
+            Self::Space3(_) => SpaceKind::Space3,
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        either!(self, d => &d.name)
+    }
+
+    /// Tolerance of its numbers, unless one is stated for their joint or body.
+    #[must_use]
+    pub fn tolerance(&self) -> Tolerance {
+        either!(self, d => d.tolerance)
+    }
+
+    /// Replaces this tolerance.
+    pub fn set_tolerance(&mut self, tolerance: Tolerance) {
+        either!(self, d => d.tolerance = tolerance);
+    }
+
+    /// Its bodies.
+    #[must_use]
+    pub fn bodies(&self) -> Vec<BodyRecord> {
+        either!(self, d => d.records())
+    }
+
+    /// Names and descriptions of its joints.
+    pub fn joints(&self) -> impl Iterator<Item = (&str, &'static ConstraintSpec)> {
+        let named: Vec<_> = either!(self, d => d
+            .joints
+            .iter()
+            .map(|joint| (joint.name.as_str(), joint.element.spec()))
+            .collect());
+        named.into_iter()
+    }
+
+    /// Names and descriptions of its drives.
+    pub fn drives(&self) -> impl Iterator<Item = (&str, &'static ConstraintSpec)> {
+        let named: Vec<_> = either!(self, d => d
+            .drives
+            .iter()
+            .map(|drive| (drive.name.as_str(), drive.element.spec()))
+            .collect());
+        named.into_iter()
+    }
+
+    /// The motions that its drives prescribe.
+    pub fn motions(&self) -> impl Iterator<Item = Motion<'_>> {
+        let all: Vec<Motion> = either!(self, d => d
+            .drives
+            .iter()
+            .map(|drive| Motion {
+                name: &drive.name,
+                bodies: &drive.bodies,
+                spec: drive.element.spec(),
+                of_time: &drive.motion,
+            })
+            .collect());
+        all.into_iter()
+    }
+
+    /// Names and bodies of its joints, drives and forces.
+    pub fn connections(&self) -> impl Iterator<Item = (&str, &[BodyRef])> {
+        let all: Vec<(&str, &[BodyRef])> = either!(self, d => {
+            let joints = d.joints.iter().map(|x| (x.name.as_str(), x.bodies.as_slice()));
+            let drives = d.drives.iter().map(|x| (x.name.as_str(), x.bodies.as_slice()));
+            let forces = d.forces.iter().map(|x| (x.name.as_str(), x.bodies.as_slice()));
+            joints.chain(drives).chain(forces).collect()
+        });
+        all.into_iter()
+    }
+
+    /// Number of its forces.
+    #[must_use]
+    pub fn n_forces(&self) -> usize {
+        either!(self, d => d.forces.len())
+    }
+
+    /// The description, if it is one of the plane.
+    #[must_use]
+    pub fn plane(&self) -> Option<&Description> {
+        match self {
+            Self::Plane(d) => Some(d),
+            Self::Space3(_) => None,
+        }
+    }
+
+    /// The same to be changed.
+    pub fn plane_mut(&mut self) -> Option<&mut Description> {
+        match self {
+            Self::Plane(d) => Some(d),
+            Self::Space3(_) => None,
+        }
+    }
+}
+
+/// A prescribed motion, in the plane or in space.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'d> {
+    /// The name of the drive.
+    pub name: &'d str,
+    /// The bodies of its joint.
+    pub bodies: &'d [BodyRef],
+    /// The definition of the drive.
+    pub spec: &'static ConstraintSpec,
+    /// The change of its measure.
+    pub of_time: &'d Function,
 }
 
 /// A joint between bodies.

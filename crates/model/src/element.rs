@@ -21,12 +21,13 @@ pub(crate) use slots::{OwnRates, Rates, Site, Slots};
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
-    Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Plane, Recorded, Space3,
+    Argument, Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Plane, Recorded,
+    Space3,
 };
 use linalg::Dd;
 
 use crate::body::{Body, DescribedBody, SpatialBody};
-use crate::law::DriveForce;
+use crate::law::{DriveForce, Law, LawError, build_law};
 use crate::space::SpaceKind;
 
 /// A space of kernels in which bodies are described: the plane, or space.
@@ -56,6 +57,13 @@ pub trait BodySpace: joints::Space + Sized {
     /// A global point relative to the centre of mass of a body, in its axes.
     #[doc(hidden)]
     fn to_local(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
+
+    /// A law on the measure that `K` drives, from the arguments of its joint.
+    #[doc(hidden)]
+    fn law<K: Constraint<Self>>(
+        arguments: &[Argument],
+        law: Law,
+    ) -> Result<Box<dyn ForceKernels<Self>>, LawError>;
 }
 
 impl BodySpace for Plane {
@@ -82,6 +90,13 @@ impl BodySpace for Plane {
     fn to_local(body: &Body, point: [f64; 2]) -> [f64; 2] {
         body.pose().to_local(point)
     }
+
+    fn law<K: Constraint>(
+        arguments: &[Argument],
+        law: Law,
+    ) -> Result<Box<dyn ForceKernels>, LawError> {
+        build_law::<K>(arguments, law)
+    }
 }
 
 impl BodySpace for Space3 {
@@ -107,6 +122,14 @@ impl BodySpace for Space3 {
 
     fn to_local(body: &SpatialBody, point: [f64; 3]) -> [f64; 3] {
         body.pose().to_local(point)
+    }
+
+    // Drives of angles tell the sine of what is left of the angle, not the angle with its turns.
+    fn law<K: Constraint<Self>>(
+        _: &[Argument],
+        _: Law,
+    ) -> Result<Box<dyn ForceKernels<Self>>, LawError> {
+        Err(LawError::Space)
     }
 }
 

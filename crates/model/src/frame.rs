@@ -9,7 +9,7 @@ use crate::body::{Body, BodyRecord, BodyRef, DescribedBody};
 use crate::element::{angle_at, axes_at, turned_at};
 use crate::mechanism::Mechanism;
 use crate::observed::{Marker, Measure, MeasureKind, Observed};
-use crate::space::{SpaceKind, cross, difference};
+use crate::space::{SpaceKind, cross, difference, norm};
 
 /// Position and velocity of a point of a body, or of its frame; ground axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,6 +29,27 @@ pub struct FrameState {
 }
 
 impl FrameState {
+    /// The frame of the ground.
+    fn of_ground(space: SpaceKind) -> Self {
+        Self {
+            space,
+            quaternion: [1.0, 0.0, 0.0, 0.0],
+            ..Self::default()
+        }
+    }
+
+    /// A vector of the ground in the axes of the frame.
+    fn own(&self, d: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = d;
+        if self.space == SpaceKind::Space3 {
+            let [w, e1, e2, e3] = self.quaternion;
+            let axes = axes_at(self.space, &[0.0, 0.0, 0.0, w, e1, e2, e3]);
+            return axes.map(|axis| axis[0] * x + axis[1] * y + axis[2] * z);
+        }
+        let (sin, cos) = self.angle.sin_cos();
+        [cos * x + sin * y, cos * y - sin * x, z]
+    }
+
     /// Its numbers, in the order of [`SpaceKind::columns`].
     pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
         let ([x, y, z], [vx, vy, vz]) = (self.place, self.velocity);
@@ -83,7 +104,7 @@ impl<'m> Frames<'m> {
     /// If there is no such body, or q and v are not those of the mechanism.
     #[must_use]
     pub fn body(self, body: usize, q: &[f64], v: &[f64]) -> FrameState {
-        self.point(body, [0.0; 2], q, v)
+        self.point(body, [0.0; 3], q, v)
     }
 
     /// A point of the frame of a body at q and v.
@@ -91,10 +112,10 @@ impl<'m> Frames<'m> {
     /// # Panics
     /// As [`Self::body`].
     #[must_use]
-    pub fn point(self, body: usize, point: [f64; 2], q: &[f64], v: &[f64]) -> FrameState {
+    pub fn point(self, body: usize, point: [f64; 3], q: &[f64], v: &[f64]) -> FrameState {
         let space = self.0.space();
         let own = &q[space.coordinates(body)];
-        let arm = self.0.bodies()[body].from_centre([point[0], point[1], 0.0]);
+        let arm = self.0.bodies()[body].from_centre(point);
         let mut state = FrameState {
             space,
             angle: angle_at(space, own),
@@ -175,9 +196,8 @@ impl<'m> Frames<'m> {
         let of_body = match body {
             BodyRef::Body(k) => self.point(k, point, q, v),
             BodyRef::Ground => FrameState {
-                space: self.0.space(),
-                place: [point[0], point[1], 0.0],
-                ..FrameState::default()
+                place: point,
+                ..FrameState::of_ground(self.0.space())
             },
         };
         FrameState {
@@ -192,7 +212,7 @@ impl<'m> Frames<'m> {
     /// use model::{Body, Description, Marker, Measure, MeasureKind, Mechanism};
     /// let mut d = Description::new("top");
     /// let body = d.body(Body::new("top", 1.0, 1.0));
-    /// let marker = Marker { name: "rim".into(), body, point: [2.0, 0.0], angle: None, tolerance: None };
+    /// let marker = Marker { name: "rim".into(), body, point: [2.0, 0.0, 0.0], angle: None, tolerance: None };
     /// d.observed.markers.push(marker);
     /// for kind in [MeasureKind::Y, MeasureKind::Speed, MeasureKind::Angle] {
     ///     let (name, between) = (kind.name().into(), [None, Some(0)]);
@@ -212,7 +232,8 @@ impl<'m> Frames<'m> {
     pub fn measure(self, measure: usize, q: &[f64], v: &[f64]) -> f64 {
         let Measure { kind, between, .. } = self.0.observed.measures[measure];
         let state = |of: Option<usize>| {
-            of.map_or_else(FrameState::default, |marker| self.marker(marker, q, v))
+            let ground = || FrameState::of_ground(self.0.space());
+            of.map_or_else(ground, |marker| self.marker(marker, q, v))
         };
         let [first, second] = between.map(state);
         value(kind, &first, &second)
@@ -221,18 +242,22 @@ impl<'m> Frames<'m> {
 
 /// Value of a measure from the states of both markers.
 fn value(kind: MeasureKind, first: &FrameState, second: &FrameState) -> f64 {
-    let [dx, dy, _] = difference(second.place, first.place);
-    let (sin, cos) = first.angle.sin_cos();
+    let d = difference(second.place, first.place);
+    let turned = difference(second.omega, first.omega);
     match kind {
-        MeasureKind::Distance => dx.hypot(dy),
+        MeasureKind::Distance => norm(&d),
         MeasureKind::Angle => second.angle - first.angle,
-        MeasureKind::X => cos * dx + sin * dy,
-        MeasureKind::Y => cos * dy - sin * dx,
+        MeasureKind::X => first.own(d)[0],
+        MeasureKind::Y => first.own(d)[1],
+        MeasureKind::Z => first.own(d)[2],
         MeasureKind::Speed => {
-            let [vx, vy, _] = difference(second.velocity, first.velocity);
-            let omega = first.omega[2];
-            (vx + omega * dy).hypot(vy - omega * dx)
+            let carried = cross(first.omega, d);
+            norm(&difference(
+                difference(second.velocity, first.velocity),
+                carried,
+            ))
         }
-        MeasureKind::AngularVelocity => second.omega[2] - first.omega[2],
+        MeasureKind::AngularVelocity if first.space == SpaceKind::Space3 => norm(&turned),
+        MeasureKind::AngularVelocity => turned[2],
     }
 }

@@ -65,8 +65,8 @@ pub mod words;
 
 pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED, explained};
 pub use description::{
-    Body, BodyRecord, BodyRef, Described, DescribedBody, Description, Drive, Force, Joint,
-    SpatialBody, SpatialDescription,
+    AnyDescription, Body, BodyRecord, BodyRef, Described, DescribedBody, Description, Drive, Force,
+    Joint, Motion, SpatialBody, SpatialDescription,
 };
 pub use element::{Bodies, BodySpace, ConstraintKernels, ForceKernels};
 pub use extended::Polished;
@@ -74,12 +74,13 @@ pub use frame::{FrameState, Frames};
 pub use function::{Function, FunctionError};
 pub use law::Law;
 pub use mechanism::{
-    AppliedForce, AppliedForces, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work,
+    AppliedForce, AppliedForces, BuildError, Buildable, Derivatives, Mechanism, Part, Places,
+    Sparse, Work,
 };
 pub use observed::{Marker, Measure, MeasureKind, Observed};
 pub use reaction::{Axes, ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
 pub use record::RecordedEquations;
-pub use registry::{ConstraintDefinition, ForceDefinition, Registry};
+pub use registry::{ConstraintDefinition, Definitions, ForceDefinition, Registry};
 pub use scale::Scales;
 pub use space::{Space, SpaceKind};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};

@@ -23,6 +23,7 @@ use crate::space::{Space, SpaceKind, in_space};
 use crate::system::Layout;
 use crate::tolerance::Tolerance;
 
+pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
 pub use forces::{AppliedForce, AppliedForces};

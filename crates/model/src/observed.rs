@@ -1,7 +1,8 @@
 //! Markers and measures: places by name, and quantities between them, read off a motion. They
 //! restrict nothing, and are evaluated by [`crate::frame`] where somebody asks.
 
-use crate::body::{Body, BodyRecord, BodyRef};
+use crate::body::{BodyRecord, BodyRef};
+use crate::space::SpaceKind;
 
 /// A place of a body by name.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,10 +11,10 @@ pub struct Marker {
     pub name: String,
     /// Its body.
     pub body: BodyRef,
-    /// In the frame of the body (m).
-    pub point: [f64; 2],
-    /// Angle of its axes in the frame of the body (rad); `None`: they are those of the body, and
-    /// nobody asks for their angle.
+    /// In the frame of the body (m); in the plane z = 0.
+    pub point: [f64; 3],
+    /// In the plane, the angle of its axes in the frame of the body (rad); `None`: they are those
+    /// of the body, as in space, and nobody asks for their angle.
     pub angle: Option<f64>,
     /// Tolerance of its point (m), also as a point of joints; takes precedence over those of its
     /// body and of the scene.
@@ -21,21 +22,12 @@ pub struct Marker {
 }
 
 impl Marker {
-    /// Its place relative to the centre of mass of its body (m), as joints and forces take it.
+    /// Its place relative to the centre of mass of its body, one of `bodies` (m), as joints and
+    /// forces take it.
     #[must_use]
-    pub fn from_centre(&self, bodies: &[Body]) -> [f64; 2] {
-        self.body.from_centre(bodies, self.point)
-    }
-
-    /// The same for the bodies of a mechanism.
-    #[must_use]
-    pub fn from_centre_of(&self, bodies: &[BodyRecord]) -> [f64; 2] {
-        let [x, y] = self.point;
+    pub fn from_centre(&self, bodies: &[BodyRecord]) -> [f64; 3] {
         let own = self.body.moving().and_then(|at| bodies.get(at));
-        own.map_or(self.point, |body| {
-            let [x, y, _] = body.from_centre([x, y, 0.0]);
-            [x, y]
-        })
+        own.map_or(self.point, |body| body.from_centre(self.point))
     }
 }
 
@@ -51,33 +43,46 @@ pub struct Measure {
 }
 
 /// What is measured, with p = Rᵀ·(r₂ − r₁) the place of the second marker in the axes of the first,
-/// at angles θ.
+/// in the plane at angles θ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeasureKind {
     /// |p| (m)
     Distance,
-    /// θ₂ − θ₁ (rad), not reduced to one revolution.
+    /// θ₂ − θ₁ (rad), not reduced to one revolution; in the plane.
     Angle,
     /// p_x (m)
     X,
     /// p_y (m)
     Y,
+    /// p_z (m), in space
+    Z,
     /// |ṗ| (m/s)
     Speed,
-    /// θ̇₂ − θ̇₁ (rad/s)
+    /// θ̇₂ − θ̇₁ (rad/s), in space |ω₂ − ω₁|
     AngularVelocity,
 }
 
 impl MeasureKind {
     /// All kinds.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Distance,
         Self::Angle,
         Self::X,
         Self::Y,
+        Self::Z,
         Self::Speed,
         Self::AngularVelocity,
     ];
+
+    /// Whether there is such a measure in a space.
+    #[must_use]
+    pub fn exists_in(self, space: SpaceKind) -> bool {
+        match self {
+            Self::Angle => space != SpaceKind::Space3,
+            Self::Z => space == SpaceKind::Space3,
+            _ => true,
+        }
+    }
 
     /// Its name in scenes.
     #[must_use]
@@ -87,6 +92,7 @@ impl MeasureKind {
             Self::Angle => "angle",
             Self::X => "x",
             Self::Y => "y",
+            Self::Z => "z",
             Self::Speed => "speed",
             Self::AngularVelocity => "angular-velocity",
         }
@@ -96,7 +102,7 @@ impl MeasureKind {
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Distance | Self::X | Self::Y => "m",
+            Self::Distance | Self::X | Self::Y | Self::Z => "m",
             Self::Angle => "rad",
             Self::Speed => "m/s",
             Self::AngularVelocity => "rad/s",
@@ -129,7 +135,7 @@ impl Observed {
         let mut here = self.markers.iter().filter(|marker| {
             marker.tolerance.is_some()
                 && marker.body == body
-                && marker.from_centre_of(bodies).as_slice() == point
+                && marker.from_centre(bodies)[..point.len()] == *point
         });
         here.next()?.tolerance
     }

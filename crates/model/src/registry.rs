@@ -2,108 +2,86 @@
 //! knowing them.
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
-use joints::{Argument, ArgumentError, Constraint, Force, Visitor};
+use joints::{Argument, ArgumentError, Constraint, Force, Plane, Space3, Visitor, space3};
 
-use crate::element::{ConstraintKernels, ForceKernels};
-use crate::law::{Law, LawError, build_law};
+use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
+use crate::law::{Law, LawError};
 
 /// Builds a constraint from the values of its parameters.
-pub type BuildConstraint = fn(&[Argument]) -> Result<Box<dyn ConstraintKernels>, ArgumentError>;
+pub type BuildConstraint<S = Plane> =
+    fn(&[Argument]) -> Result<Box<dyn ConstraintKernels<S>>, ArgumentError>;
 
 /// Builds a force from the values of its parameters.
-pub type BuildForce = fn(&[Argument]) -> Result<Box<dyn ForceKernels>, ArgumentError>;
+pub type BuildForce<S = Plane> = fn(&[Argument]) -> Result<Box<dyn ForceKernels<S>>, ArgumentError>;
 
 /// Builds a force along a measure from the values of the parameters of its joint.
-pub type BuildLaw = fn(&[Argument], Law) -> Result<Box<dyn ForceKernels>, LawError>;
+pub type BuildLaw<S = Plane> = fn(&[Argument], Law) -> Result<Box<dyn ForceKernels<S>>, LawError>;
 
 /// A constraint definition.
 #[derive(Clone, Debug)]
-pub struct ConstraintDefinition {
+pub struct ConstraintDefinition<S: BodySpace = Plane> {
     /// Its description.
     pub spec: &'static ConstraintSpec,
     /// Its constructor.
-    pub build: BuildConstraint,
+    pub build: BuildConstraint<S>,
     /// The drives of its measures, in the same order.
-    pub drives: Vec<DriveDefinition>,
+    pub drives: Vec<DriveDefinition<S>>,
 }
 
 /// The drive of a measure. It has the arguments of its joint and one function of time.
 #[derive(Clone, Debug)]
-pub struct DriveDefinition {
+pub struct DriveDefinition<S: BodySpace = Plane> {
     /// Its description.
     pub spec: &'static ConstraintSpec,
     /// Its constructor.
-    pub build: BuildConstraint,
+    pub build: BuildConstraint<S>,
     /// Constructor of a law in place of the motion: a force with one function, the time.
-    pub law: BuildLaw,
+    pub law: BuildLaw<S>,
 }
 
 /// A force definition.
 #[derive(Clone, Debug)]
-pub struct ForceDefinition {
+pub struct ForceDefinition<S: BodySpace = Plane> {
     /// Its description.
     pub spec: &'static ForceSpec,
     /// Its constructor.
-    pub build: BuildForce,
+    pub build: BuildForce<S>,
 }
 
-/// All definitions to which a scene may refer.
-///
-/// ```
-/// use model::Registry;
-/// let registry = Registry::planar();
-/// let revolute = registry.constraints("revolute").next().unwrap();
-/// assert_eq!(revolute.spec.rows.len(), 2);
-/// assert_eq!(revolute.drives.len(), 1); // its angle
-/// ```
-#[derive(Clone, Debug, Default)]
-pub struct Registry {
-    constraints: Vec<ConstraintDefinition>,
-    forces: Vec<ForceDefinition>,
+/// The definitions of one space.
+#[derive(Clone, Debug)]
+pub struct Definitions<S: BodySpace> {
+    constraints: Vec<ConstraintDefinition<S>>,
+    forces: Vec<ForceDefinition<S>>,
 }
 
-impl Registry {
-    /// A registry without definitions.
-    #[must_use]
-    pub fn empty() -> Self {
-        Self::default()
+impl<S: BodySpace> Default for Definitions<S> {
+    fn default() -> Self {
+        Self {
+            constraints: Vec::new(),
+            forces: Vec::new(),
+        }
     }
+}
 
-    /// All planar definitions of the library.
-    #[must_use]
-    pub fn planar() -> Self {
-        let mut registry = Self::empty();
-        joints::plane_constraints(&mut registry);
-        joints::plane_forces(&mut registry);
-        registry
-    }
-
-    /// Adds a constraint definition with the drives of its measures.
-    pub fn add_constraint<K: Constraint>(&mut self) {
-        self.constraint::<K>();
-    }
-
-    /// Adds a force definition.
-    pub fn add_force<K: Force>(&mut self) {
-        self.force::<K>();
-    }
-
+impl<S: BodySpace> Definitions<S> {
     /// Constraints of a scene type. Several may share a type and differ in a key or in the number
     /// of bodies.
     pub fn constraints<'a>(
         &'a self,
         scene_type: &'a str,
-    ) -> impl Iterator<Item = &'a ConstraintDefinition> {
-        self.constraints
-            .iter()
-            .filter(move |d| d.spec.common.scene_type == scene_type)
+    ) -> impl Iterator<Item = &'a ConstraintDefinition<S>> {
+        let mut all = self.constraints.iter();
+        std::iter::from_fn(move || all.find(|d| d.spec.common.scene_type == scene_type))
     }
 
     /// Forces of a scene type.
-    pub fn forces<'a>(&'a self, scene_type: &'a str) -> impl Iterator<Item = &'a ForceDefinition> {
-        self.forces
-            .iter()
-            .filter(move |d| d.spec.common.scene_type == scene_type)
+    pub fn forces<'a>(
+        &'a self,
+        scene_type: &'a str,
+    ) -> impl Iterator<Item = &'a ForceDefinition<S>> {
+        let mut all = self.forces.iter();
+        std::iter::from_fn(move || all.find(|d| d.spec.common.scene_type == scene_type))
     }
 
     /// Descriptions of all constraints.
@@ -117,49 +95,119 @@ impl Registry {
     }
 }
 
-/// The drives of one definition.
-struct Drives(Vec<DriveDefinition>);
+/// All definitions to which a scene may refer, in the plane and in space.
+///
+/// ```
+/// use model::Registry;
+/// let registry = Registry::standard();
+/// let revolute = registry.plane().constraints("revolute").next().unwrap();
+/// assert_eq!(revolute.spec.rows.len(), 2);
+/// assert_eq!(revolute.drives.len(), 1); // its angle
+/// let revolute = registry.space().constraints("revolute").next().unwrap();
+/// assert_eq!(revolute.spec.rows.len(), 5);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Registry {
+    plane: Definitions<Plane>,
+    space: Definitions<Space3>,
+}
 
-impl Visitor for Drives {
-    fn constraint<K: Constraint>(&mut self) {}
-    fn force<K: Force>(&mut self) {}
-    fn drive<K: Constraint>(&mut self) {
+impl Registry {
+    /// A registry without definitions.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self::default()
+    }
+
+    /// All definitions of the library.
+    #[must_use]
+    pub fn standard() -> Self {
+        let mut registry = Self::empty();
+        joints::plane_constraints(&mut registry.plane);
+        joints::plane_forces(&mut registry.plane);
+        space3::constraints(&mut registry.space);
+        space3::forces(&mut registry.space);
+        registry
+    }
+
+    /// Those of the plane.
+    #[must_use]
+    pub fn plane(&self) -> &Definitions<Plane> {
+        &self.plane
+    }
+
+    /// Those of space.
+    #[must_use]
+    pub fn space(&self) -> &Definitions<Space3> {
+        &self.space
+    }
+
+    /// Adds a constraint definition of the plane with the drives of its measures.
+    pub fn add_constraint<K: Constraint>(&mut self) {
+        self.plane.constraint::<K>();
+    }
+
+    /// Adds a force definition of the plane.
+    pub fn add_force<K: Force>(&mut self) {
+        self.plane.force::<K>();
+    }
+
+    /// Adds a constraint definition of space with the drives of its measures.
+    pub fn add_spatial_constraint<K: Constraint<Space3>>(&mut self) {
+        self.space.constraint::<K>();
+    }
+
+    /// Adds a force definition of space.
+    pub fn add_spatial_force<K: Force<Space3>>(&mut self) {
+        self.space.force::<K>();
+    }
+}
+
+/// The drives of one definition.
+struct Drives<S: BodySpace>(Vec<DriveDefinition<S>>);
+
+impl<S: BodySpace> Visitor<S> for Drives<S> {
+    fn constraint<K: Constraint<S>>(&mut self) {}
+    fn force<K: Force<S>>(&mut self) {}
+    fn drive<K: Constraint<S>>(&mut self) {
         self.0.push(DriveDefinition {
             spec: &K::SPEC,
-            build: build_constraint::<K>,
-            law: build_law::<K>,
+            build: build_constraint::<K, S>,
+            law: S::law::<K>,
         });
     }
 }
 
-impl Visitor for Registry {
-    fn constraint<K: Constraint>(&mut self) {
+impl<S: BodySpace> Visitor<S> for Definitions<S> {
+    fn constraint<K: Constraint<S>>(&mut self) {
         let mut drives = Drives(Vec::new());
         K::visit_drives(&mut drives);
         self.constraints.push(ConstraintDefinition {
             spec: &K::SPEC,
-            build: build_constraint::<K>,
+            build: build_constraint::<K, S>,
             drives: drives.0,
         });
     }
 
     /// Drives are added with their constraint.
-    fn drive<K: Constraint>(&mut self) {}
+    fn drive<K: Constraint<S>>(&mut self) {}
 
-    fn force<K: Force>(&mut self) {
+    fn force<K: Force<S>>(&mut self) {
         self.forces.push(ForceDefinition {
             spec: &K::SPEC,
-            build: build_force::<K>,
+            build: build_force::<K, S>,
         });
     }
 }
 
-fn build_constraint<K: Constraint>(
+fn build_constraint<K: Constraint<S>, S: BodySpace>(
     arguments: &[Argument],
-) -> Result<Box<dyn ConstraintKernels>, ArgumentError> {
+) -> Result<Box<dyn ConstraintKernels<S>>, ArgumentError> {
     Ok(Box::new(K::from_arguments(arguments)?))
 }
 
-fn build_force<K: Force>(arguments: &[Argument]) -> Result<Box<dyn ForceKernels>, ArgumentError> {
+fn build_force<K: Force<S>, S: BodySpace>(
+    arguments: &[Argument],
+) -> Result<Box<dyn ForceKernels<S>>, ArgumentError> {
     Ok(Box::new(K::from_arguments(arguments)?))
 }

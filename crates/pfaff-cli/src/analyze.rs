@@ -60,7 +60,12 @@ fn of_study(
     drop: Option<&[usize]>,
     console: &Console<'_>,
 ) -> Outcome {
-    let joints = study.scene.description.joints.len() + study.scene.description.drives.len();
+    let joints = study
+        .scene
+        .description
+        .joints()
+        .chain(study.scene.description.drives())
+        .count();
     let bars = MultiProgress::new();
     let of_configuration = || {
         let bar = Judging::begin(&bars, joints);
@@ -112,7 +117,7 @@ fn of_start(
     let failure = |e| source.failure(e);
     let mut assembled = arguments.resources.assembled(source)?;
     let description = &assembled.scene.description;
-    let joints = description.joints.len() + description.drives.len();
+    let joints = description.joints().chain(description.drives()).count();
     let bar = Judging::begin(&MultiProgress::new(), joints);
     let configuration = assembled.analyse_with_progress(drop, |judged| bar.at(judged));
     let configuration = configuration.map_err(failure)?;

@@ -47,7 +47,7 @@ use output::{Answer, Failure, Outcome};
 /// use pfaff_cli::{Stream, run};
 /// let (mut out, mut err) = (Vec::new(), Vec::new());
 /// let arguments = ["pfaff", "check", "no-such-file.toml"];
-/// let code = run(&Registry::planar(), arguments, Stream::plain(&mut out), Stream::plain(&mut err));
+/// let code = run(&Registry::standard(), arguments, Stream::plain(&mut out), Stream::plain(&mut err));
 /// assert_eq!(code, std::process::ExitCode::from(2));
 /// assert!(String::from_utf8(err).unwrap().contains("no-such-file.toml"));
 /// ```

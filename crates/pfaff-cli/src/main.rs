@@ -10,7 +10,7 @@ fn main() -> ExitCode {
     let (out, err) = (&mut io::stdout(), &mut io::stderr());
     let arguments = std::env::args_os();
     run(
-        &Registry::planar(),
+        &Registry::standard(),
         arguments,
         Stream::terminal(out),
         Stream::terminal(err),

@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     let text = if arguments.json {
         json(&document)?
     } else {
-        let mut text = describe(&study.scene.description.name, &document, t_end);
+        let mut text = describe(study.scene.name(), &document, t_end);
         text.push_str(&written(
             &arguments.place.out.display().to_string(),
             study.scene.output.report,

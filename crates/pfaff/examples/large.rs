@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     for file in std::env::args().skip(1) {
         let text = std::fs::read_to_string(&file)?;
-        let (read, scene) = timed(|| pfaff::scene::read(&file, &text, &Registry::planar()));
+        let (read, scene) = timed(|| pfaff::scene::read(&file, &text, &Registry::standard()));
         let scene = scene.map_err(|all| all.first().map_or(String::new(), ToString::to_string))?;
         let (build, mechanism) = timed(|| Mechanism::build(&scene.description));
         let mut mechanism = mechanism.map_err(|all| format!("{:?}", all.first()))?;

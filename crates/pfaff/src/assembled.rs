@@ -26,7 +26,7 @@ use crate::study::{Overrides, Study};
 ///     { name = "twin", type = "revolute", bodies = ["ground", "bar"], at = [1e-9, 0.0] },
 /// ]
 /// "#;
-/// let mut assembled = AssembledScene::read("bar.toml", scene, &Registry::planar())?;
+/// let mut assembled = AssembledScene::read("bar.toml", scene, &Registry::standard())?;
 /// let start = assembled.analyse(None)?;
 /// assert_eq!((start.analysis.decision.rank, start.analysis.decision.redundancy), (3, 1));
 /// assert!(start.analysis.nearly_redundant.is_some());
@@ -77,21 +77,21 @@ impl AssembledScene {
     /// scene = { name = "stone", space = "plane", tolerance = 1e-3, angle_tolerance = 1e-4 }
     /// body = [{ name = "stone", mass = 1.0, inertia = 1.0 }]
     /// "#;
-    /// let assembled = AssembledScene::read("stone.toml", scene, &Registry::planar())?;
+    /// let assembled = AssembledScene::read("stone.toml", scene, &Registry::standard())?;
     /// let finer = assembled.stating(Tolerance { length: Some(1e-5), angle: None })?;
     /// let expected = Tolerance { length: Some(1e-5), angle: Some(1e-4) };
     /// assert_eq!(finer.mechanism.tolerance(), expected);
-    /// assert_eq!(finer.scene.description.tolerance, expected);
+    /// assert_eq!(finer.scene.description.tolerance(), expected);
     /// # Ok::<(), pfaff::StudyError>(())
     /// ```
     ///
     /// # Errors
     /// [`StudyError::Build`]: a tolerance is not a finite number > 0.
     pub fn stating(mut self, tolerance: Tolerance) -> Result<Self, StudyError> {
-        let tolerance = tolerance.or(self.scene.description.tolerance);
+        let tolerance = tolerance.or(self.scene.description.tolerance());
         let stated = self.mechanism.set_tolerance(tolerance);
         stated.map_err(|fault| StudyError::Build(vec![fault]))?;
-        self.scene.description.tolerance = tolerance;
+        self.scene.description.set_tolerance(tolerance);
         Ok(self)
     }
 

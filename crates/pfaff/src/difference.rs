@@ -29,7 +29,7 @@ use crate::study::Study;
 /// ]"
 /// );
 /// let document = |second: &str| -> Result<AnalysisDocument, pfaff::StudyError> {
-///     let mut bar = AssembledScene::read("bar.toml", &scene(second), &Registry::planar())?;
+///     let mut bar = AssembledScene::read("bar.toml", &scene(second), &Registry::standard())?;
 ///     let start = bar.analyse(None)?;
 ///     Ok(AnalysisDocument::new("bar", &start.analysis, None))
 /// };

@@ -160,24 +160,25 @@ impl<'a> ReportBuilder<'a> {
     /// The values that drives prescribe at the frames.
     fn drives(&self) -> Vec<DriveCurve> {
         let mechanism = &self.prepared.mechanism;
-        let drives = self.scene.description.drives.iter();
+        let forces = mechanism.space().forces();
+        let drives = self.scene.description.motions();
         drives
             .map(|drive| {
-                let spec = drive.element.spec();
-                let start = drive.motion.jet(0.0)[0];
-                let pushes = spec.wrench.iter().any(|[component, _]| *component < 2);
+                let start = drive.of_time.jet(0.0)[0];
+                let mut wrench = drive.spec.wrench.iter();
+                let pushes = wrench.any(|[component, _]| forces.contains(component));
                 DriveCurve {
-                    name: drive.name.clone(),
+                    name: drive.name.to_owned(),
                     text: format!(
                         "change since the start, between {}",
-                        between(mechanism, &drive.bodies)
+                        between(mechanism, drive.bodies)
                     ),
                     unit: if pushes { "m" } else { "rad" },
                     values: self
                         .recording
                         .frames
                         .iter()
-                        .map(|f| drive.motion.jet(f.t)[0] - start)
+                        .map(|f| drive.of_time.jet(f.t)[0] - start)
                         .collect(),
                 }
             })

@@ -327,7 +327,7 @@ impl Study {
     /// simulate = { t_end = 1.0 }
     /// output = { reactions = false }
     /// "#;
-    /// let study = Study::read("pendulum.toml", scene, &Registry::planar(), &Overrides::default())?;
+    /// let study = Study::read("pendulum.toml", scene, &Registry::standard(), &Overrides::default())?;
     /// let plan = study.plan()?;
     /// assert_eq!(plan.components[0].decisions.reactions.taken, "none");
     /// assert_eq!(plan.components[0].decisions.method.reason, "no applied forces, so that nothing can be stiff");

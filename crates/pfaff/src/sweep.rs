@@ -46,7 +46,7 @@ pub use shard::{Shard, ShardError};
 /// simulate = { t_end = 1.0 }
 /// "#;
 /// let axes = vec!["scene.gravity[1]=-1.62,-9.81".parse()?];
-/// let registry = Registry::planar();
+/// let registry = Registry::standard();
 /// let sweep = Sweep::read("stone.toml", scene, &registry, axes)?;
 /// let heights: Vec<f64> = (1..=sweep.runs())
 ///     .filter_map(|run| sweep.row(run).motion)
@@ -128,7 +128,7 @@ impl<'r> Sweep<'r> {
             .filter(|k| is_wanted(&groups[*k].name))
             .collect();
         let plan = SweepPlan {
-            scene: assembled.scene.description.name.clone(),
+            scene: assembled.scene.name().to_owned(),
             digest: format!("{:016x}", digest(text.as_bytes())),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             vary: grid.axes.iter().map(Axis::to_string).collect(),

@@ -40,7 +40,12 @@ pub(crate) struct Instant {
 
 /// Reads the scene, with the given rows dropped.
 pub(crate) fn read(overrides: &Overrides) -> Result<Study, StudyError> {
-    Study::read("robot-trolley.toml", SCENE, &Registry::planar(), overrides)
+    Study::read(
+        "robot-trolley.toml",
+        SCENE,
+        &Registry::standard(),
+        overrides,
+    )
 }
 
 /// Runs all variants.

@@ -63,7 +63,7 @@ fn run(arguments: &Arguments) -> Result<String, CodeError> {
     };
     let module = scene(
         &arguments.scene,
-        &Registry::planar(),
+        &Registry::standard(),
         drop.as_deref(),
         &choices,
     )?;

@@ -26,7 +26,7 @@ use crate::subject::Subject;
 /// body = [{ name = "bob", mass = 1.0, inertia = 0.0, position = [2.0, 0.0] }]
 /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
 /// "#;
-/// let registry = pfaff::model::Registry::planar();
+/// let registry = pfaff::model::Registry::standard();
 /// let mut study = Study::read("pendulum.toml", scene, &registry, &Overrides::default())?;
 /// let tape = Tape::of(&Subject::at_start(&study.prepared))?;
 /// study.prepared = study.prepared.with_code(Arc::new(tape))?; // its runs are on the tape from now on

@@ -62,7 +62,7 @@ pub(crate) fn scenes() -> Vec<(String, String)> {
 }
 
 pub(crate) fn study(name: &str, text: &str) -> Study {
-    AssembledScene::read(name, text, &model::Registry::planar())
+    AssembledScene::read(name, text, &model::Registry::standard())
         .and_then(|b| b.prepare(&Overrides::default()))
         .unwrap_or_else(|e| panic!("{name}: {e}"))
 }

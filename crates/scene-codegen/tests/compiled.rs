@@ -40,7 +40,7 @@ fn rustc(folder: &Path, arguments: &[&str]) {
 }
 
 fn study(case: &suite::Case) -> Study {
-    AssembledScene::read(case.name, case.scene, &Registry::planar())
+    AssembledScene::read(case.name, case.scene, &Registry::standard())
         .and_then(|b| b.prepare(&Overrides::default()))
         .unwrap_or_else(|e| panic!("{}: {e}", case.name))
 }
@@ -170,7 +170,7 @@ fn the_checked_in_module_agrees_with_its_scene() {
         dynamics: Some("pfaff::dynamics".into()),
         libm: false,
     };
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let module = scene_codegen::scene_text(scene, &text, &registry, None, &choices).expect("code");
     let out = "crates/robot-trolley/src/generated/automatic.rs";
     let command =

@@ -28,7 +28,7 @@ fn run(prepared: &Prepared, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary)
 #[test]
 fn runs_on_code_are_those_of_the_interpreter_on_every_scene() {
     for case in suite::all().filter(|case| case.name != "a01-pendulum-2000s") {
-        let study = AssembledScene::read(case.name, case.scene, &Registry::planar())
+        let study = AssembledScene::read(case.name, case.scene, &Registry::standard())
             .and_then(|b| b.prepare(&Overrides::default()))
             .unwrap_or_else(|e| panic!("{}: {e}", case.name));
         let own = study.options.expect("the scene has a run");
@@ -93,7 +93,7 @@ fn passages_do_not_depend_on_tolerances_or_on_who_evaluates() {
             t_end: Some(3.0),
             ..Overrides::default()
         };
-        let study = AssembledScene::read("cranks", scene, &Registry::planar())
+        let study = AssembledScene::read("cranks", scene, &Registry::standard())
             .and_then(|b| b.prepare(&overrides))
             .unwrap_or_else(|e| panic!("{e}"));
         let own = study.options.expect("the scene has a run");

@@ -35,7 +35,7 @@ fn main() -> ExitCode {
         peak()
     );
     let begin = Instant::now();
-    let scene = scene::read(&path, &text, &Registry::planar());
+    let scene = scene::read(&path, &text, &Registry::standard());
     said("scene::read", begin);
     let scene = match scene {
         Ok(scene) => scene,

@@ -2,16 +2,18 @@
 
 use std::ops::Range;
 
-use joints::spec::{Shape, Spec, Unit};
-use joints::{Argument, ArgumentError};
+use joints::spec::{Parameter, Shape, Spec, Unit};
+use joints::{Argument, ArgumentError, Plane};
 use model::Function;
 
 use crate::dimension::Dimension;
+use crate::direction::{self, Directions};
 use crate::field::{Field, all};
 use crate::findings::Findings;
 use crate::function::{self, Domain};
 use crate::mistake::Mistake;
 use crate::place::Place;
+use crate::space::SceneSpace;
 use crate::table::Table;
 
 /// Values in the order of the parameters. A value that could not be read is replaced by a valid
@@ -25,10 +27,11 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     /// Reads all parameters of a definition except the points, which are read with its place.
-    pub(crate) fn read(
+    pub(crate) fn read<S: SceneSpace>(
         table: &mut Table,
         spec: &'static Spec,
-        place: Place,
+        place: Place<S>,
+        directions: &Directions<S>,
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) -> Self {
@@ -41,44 +44,69 @@ impl Arguments {
         let mut points = place.points.into_iter();
         for parameter in spec.parameters {
             if let Shape::Point { .. } = parameter.shape {
-                let point = points.next().flatten().map(Argument::Pair);
-                arguments.push(point, parameter.shape, place.span.clone());
+                let point = points.next().flatten().map(S::argument);
+                arguments.push::<S>(point, parameter.shape, place.span.clone());
+                continue;
+            }
+            if let Shape::Axes { slot, like } = parameter.shape {
+                let (axis, span) = match like {
+                    Some(other) => arguments.like(spec, [other, slot], directions),
+                    None => axis(table, parameter, slot, directions, findings),
+                };
+                arguments.push::<S>(axis, parameter.shape, span);
                 continue;
             }
             let key = parameter.name;
             let field = if parameter.optional {
                 table.optional(key)
             } else {
-                table.needed(key, parameter.shape.words(2), findings)
+                table.needed(key, parameter.shape.words(S::DIM), findings)
             };
             let Some(field) = field else {
                 let absent = parameter.optional.then_some(Argument::Absent);
-                arguments.push(absent, parameter.shape, table.header.clone());
+                arguments.push::<S>(absent, parameter.shape, table.header.clone());
                 continue;
             };
             let value = match parameter.shape {
                 Shape::Functions(units) => {
-                    let functions = functions(&field, units, parameter.shape, domains, findings);
+                    let expected = parameter.shape.words(S::DIM).to_string();
+                    let functions = functions(&field, units, &expected, domains, findings);
                     arguments.complete &= functions.is_some();
                     arguments.functions.extend(functions.unwrap_or_default());
                     Some(Argument::Absent)
                 }
-                shape => value(&field, shape, findings),
+                Shape::Direction { slot } => directions.direction(&field, slot, findings),
+                shape => value::<S>(&field, shape, findings),
             };
-            arguments.push(value, parameter.shape, field.span());
+            arguments.push::<S>(value, parameter.shape, field.span());
         }
         arguments
     }
 
-    fn push(&mut self, value: Option<Argument>, shape: Shape, span: Range<usize>) {
+    fn push<S: SceneSpace>(&mut self, value: Option<Argument>, shape: Shape, span: Range<usize>) {
         self.complete &= value.is_some();
-        self.values.push(value.unwrap_or_else(|| harmless(shape)));
+        self.values
+            .push(value.unwrap_or_else(|| harmless::<S>(shape)));
         self.spans.push(span);
+    }
+
+    /// Axes like those of another parameter, and the place of these.
+    fn like<S: SceneSpace>(
+        &self,
+        spec: &Spec,
+        [other, slot]: [usize; 2],
+        directions: &Directions<S>,
+    ) -> (Option<Argument>, Range<usize>) {
+        let Shape::Axes { slot: from, .. } = spec.parameters[other].shape else {
+            return (None, self.spans[other].clone());
+        };
+        let axes = directions.like(&self.values[other], [from, slot]);
+        (Some(axes), self.spans[other].clone())
     }
 
     /// Builds the element and reports everything that its definition refuses. Returns `None` if
     /// anything is wrong.
-    pub(crate) fn build<E>(
+    pub(crate) fn build<S: SceneSpace, E>(
         &mut self,
         spec: &'static Spec,
         subject: &str,
@@ -101,7 +129,7 @@ impl Arguments {
                 format!("{subject}: {error}"),
                 label(&error),
             );
-            self.values[at] = harmless(spec.parameters[at].shape);
+            self.values[at] = harmless::<S>(spec.parameters[at].shape);
             self.complete = false;
         }
         None
@@ -109,9 +137,9 @@ impl Arguments {
 }
 
 /// A value that every definition accepts.
-fn harmless(shape: Shape) -> Argument {
+fn harmless<S: SceneSpace>(shape: Shape) -> Argument {
     match shape {
-        Shape::Point { .. } | Shape::Direction { .. } => Argument::Pair([1.0, 0.0]),
+        Shape::Point { .. } | Shape::Direction { .. } => S::argument(S::vector([1.0, 0.0, 0.0])),
         Shape::Axes { .. } => Argument::Triple([1.0, 0.0, 0.0]),
         Shape::GroundLine => Argument::Pairs([[0.0, 0.0], [1.0, 0.0]]),
         Shape::GroundPlane => Argument::Triples([[0.0; 3], [0.0, 0.0, 1.0]]),
@@ -130,21 +158,14 @@ fn label(error: &ArgumentError) -> &'static str {
 }
 
 /// The value of a parameter that does not depend on time.
-fn value(field: &Field, shape: Shape, findings: &mut Findings) -> Option<Argument> {
-    let expected = shape.words(2).to_string();
+fn value<S: SceneSpace>(field: &Field, shape: Shape, findings: &mut Findings) -> Option<Argument> {
+    let expected = shape.words(S::DIM).to_string();
     match shape {
-        Shape::Point { .. } => {
-            let pair = field.pair(&expected, Dimension::LENGTH, findings);
-            pair.map(Argument::Pair)
-        }
-        Shape::Direction { .. } => {
-            let pair = field.pair(&expected, Dimension::NONE, findings);
-            pair.map(Argument::Pair)
-        }
-        // Definitions of space are in no registry of scenes.
-        Shape::Axes { .. } | Shape::GroundPlane => None,
+        // Those have been read.
+        Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. } => None,
+        Shape::GroundPlane => plane::<S>(field, &expected, findings),
         Shape::GroundLine => {
-            let points = field.pairs(2, &expected, findings)?;
+            let points = field.points::<Plane>(2, &expected, findings)?;
             points.try_into().ok().map(Argument::Pairs)
         }
         Shape::Numbers([unit]) => {
@@ -158,25 +179,78 @@ fn value(field: &Field, shape: Shape, findings: &mut Findings) -> Option<Argumen
     }
 }
 
+/// An axis, and its place.
+fn axis<S: SceneSpace>(
+    table: &mut Table,
+    parameter: &Parameter,
+    slot: usize,
+    directions: &Directions<S>,
+    findings: &mut Findings,
+) -> (Option<Argument>, Range<usize>) {
+    let key = parameter.name;
+    if parameter.optional {
+        return (directions.axis(None, slot, findings), table.header.clone());
+    }
+    let expected = parameter.shape.words(S::DIM);
+    let field = if directions.has_own_axes() {
+        table.optional(key)
+    } else {
+        table.needed(key, expected, findings)
+    };
+    let span = |table: &Table| match &field {
+        Some(field) => field.span(),
+        None => table.span_of(direction::AXES),
+    };
+    let span = span(table);
+    if let Some(field) = field.as_ref().filter(|_| directions.has_own_axes()) {
+        findings.collision(
+            Mistake::Exclusive,
+            field.span(),
+            format!(
+                "{} takes `{key}` or `{}`, not both",
+                table.subject,
+                direction::AXES
+            ),
+            "and here for the first",
+            table.span_of(direction::AXES),
+            "the axis is given here for both bodies",
+        );
+        return (None, span);
+    }
+    let is_known = field.is_some() || directions.has_own_axes();
+    let axis = directions.axis(field.as_ref(), slot, findings);
+    (axis.filter(|_| is_known), span)
+}
+
+/// A plane of the ground: a point and a normal.
+fn plane<S: SceneSpace>(
+    field: &Field,
+    expected: &str,
+    findings: &mut Findings,
+) -> Option<Argument> {
+    let mut table = field.table(expected, findings)?;
+    let point = table.needed("point", S::POINT, findings);
+    let normal = table.needed("normal", S::VECTOR, findings);
+    let point = point.and_then(|p| p.vector::<S>(S::POINT, Dimension::LENGTH, findings));
+    let normal = normal.and_then(|n| n.vector::<S>(S::VECTOR, Dimension::NONE, findings));
+    table.close(findings);
+    Some(Argument::Triples([S::point(point?), S::point(normal?)]))
+}
+
 /// One function, or a list of them.
 fn functions(
     field: &Field,
     units: &[Unit],
-    shape: Shape,
+    expected: &str,
     domains: &mut Vec<Domain>,
     findings: &mut Findings,
 ) -> Option<Vec<Function>> {
     if let [unit] = units {
         return function::read(field, (*unit).into(), domains, findings).map(|f| vec![f]);
     }
-    let items = field.items(&shape.words(2).to_string(), findings)?;
+    let items = field.items(expected, findings)?;
     if items.len() != units.len() {
-        field.miscount(
-            &shape.words(2).to_string(),
-            items.len(),
-            units.len(),
-            findings,
-        );
+        field.miscount(expected, items.len(), units.len(), findings);
         return None;
     }
     let mut units = units.iter();

@@ -4,74 +4,60 @@ use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
-use model::{Body, BodyRef};
-use serde_json::json;
+use model::BodyRef;
 
-use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
-use crate::key::{Interval, Key, Takes};
 use crate::marker::Markers;
 use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
+use crate::space::SceneSpace;
 use crate::table::Table;
-use crate::tolerance;
 
-const MASS: Key = number("mass", "a number ≥ 0", Interval::NotNegative)
-    .needed()
-    .unit(Dimension::MASS)
-    .doc("Mass");
-const INERTIA: Key = number("inertia", "a number ≥ 0", Interval::NotNegative)
-    .needed()
-    .unit(Dimension::INERTIA)
-    .doc("Moment of inertia about the centre of mass");
-const CENTRE: Key = pair("centre")
-    .unit(Dimension::LENGTH)
-    .doc("Centre of mass [x, y] in the frame of the body; points of joints, `position` and `velocity` belong to the frame")
-    .or(|| json!([0.0, 0.0]));
-const POSITION: Key = pair("position")
-    .unit(Dimension::LENGTH)
-    .doc("Origin [x, y] of the body's frame at the start: its centre of mass, unless `centre` says otherwise")
-    .or(|| json!([0.0, 0.0]));
-const VELOCITY: Key = pair("velocity").unit(Dimension::VELOCITY).doc(
-    "Velocity [vx, vy] of the origin of the body's frame at the start; it follows from what is given and driven, with the least kinetic energy, where it is left out",
-);
-const ANGLE: Key = number("angle", "a number", Interval::Any)
-    .unit(Dimension::ANGLE)
-    .doc("Angle of the body's frame at the start")
-    .or(|| 0.0.into());
-const TOLERANCE: Key = tolerance::length(
-    "What points and directions in the body's frame are known to; that of the scene where it is not given",
-);
-const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
-    .unit(Dimension::ANGULAR_VELOCITY)
-    .doc("Angular velocity at the start; it follows in the same way where it is left out");
-
-/// Keys of a body in addition to its name.
-pub(crate) const KEYS: [Key; 8] = [
-    MASS,
-    INERTIA,
-    CENTRE,
-    POSITION,
-    ANGLE,
-    VELOCITY,
-    ANGULAR_VELOCITY,
-    TOLERANCE,
-];
-
-const fn number(name: &'static str, expected: &'static str, range: Interval) -> Key {
-    Key::optional(name, expected, Takes::Number(range))
+/// The bodies that were read.
+pub(crate) struct Bodies<S: SceneSpace> {
+    pub(crate) list: Vec<S::Body>,
+    pub(crate) names: BodyNames,
+    /// Their places by name.
+    pub(crate) markers: Markers,
 }
 
-const fn pair(name: &'static str) -> Key {
-    Key::optional(name, "a pair [x, y]", Takes::Pair(Interval::Any))
+impl<S: SceneSpace> Default for Bodies<S> {
+    fn default() -> Self {
+        Self {
+            list: Vec::new(),
+            names: BodyNames::default(),
+            markers: Markers::default(),
+        }
+    }
 }
 
-/// The bodies that were read, with their places.
+impl<S: SceneSpace> Bodies<S> {
+    /// Reads one body. Numbers that cannot be read are zero; they have been reported.
+    pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings) {
+        self.list.push(S::read_body(&mut table, name, findings));
+        self.names.add(name, &table);
+        table.close(findings);
+    }
+
+    /// A point in the frame of a body relative to its centre of mass, as joints and forces take it;
+    /// for the ground the point itself.
+    pub(crate) fn from_centre(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
+        let described = body.moving().and_then(|at| self.list.get(at));
+        described.map_or(point, |body| S::from_centre(body, point))
+    }
+
+    /// A global point relative to the centre of mass of a body, in its axes.
+    pub(crate) fn to_local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
+        let described = body.moving().and_then(|at| self.list.get(at));
+        described.map_or(point, |body| S::to_local(body, point))
+    }
+}
+
+/// The names of the bodies, with their places.
 #[derive(Default)]
-pub(crate) struct Bodies {
-    pub(crate) list: Vec<Body>,
+pub(crate) struct BodyNames {
     pub(crate) entries: Vec<Entry>,
     /// Indices by name; if a name is used twice, the first body.
     by_name: HashMap<String, usize>,
@@ -79,56 +65,18 @@ pub(crate) struct Bodies {
     unnamed: usize,
     /// The names assumed for them.
     theirs: RefCell<BTreeSet<String>>,
-    /// Their places by name.
-    pub(crate) markers: Markers,
 }
 
-impl Bodies {
-    /// Reads one body. Numbers that cannot be read are zero; they have been reported.
-    pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings) {
-        let mut required = |key: &Key| {
-            table
-                .required(key, findings)
-                .and_then(|field| field.number(key.unit, findings))
-                .unwrap_or_default()
-        };
-        let (mass, inertia) = (required(&MASS), required(&INERTIA));
-        let mut pair = |key: &Key| {
-            table
-                .optional(key)
-                .and_then(|field| field.pair(key.expected, key.unit, findings))
-        };
-        let mut place = |key: &Key| pair(key).unwrap_or_default();
-        let (centre, position) = (place(&CENTRE), place(&POSITION));
-        let velocity = pair(&VELOCITY);
-        let mut number = |key: &Key| {
-            let field = table.optional(key);
-            field.and_then(|field| field.number(key.unit, findings))
-        };
-        let (angle, angular_velocity) = (
-            number(&ANGLE).unwrap_or_default(),
-            number(&ANGULAR_VELOCITY),
-        );
-        let tolerance = tolerance::read(&mut table, &TOLERANCE, findings);
-        let at = self.list.len();
+impl BodyNames {
+    /// The body of a table.
+    fn add(&mut self, name: &str, table: &Table) {
+        let at = self.entries.len();
         let is_own = table.peek("name") == Some(name) && name != GROUND;
         if !is_own || self.by_name.contains_key(name) {
             self.unnamed += 1;
         }
         self.by_name.entry(name.to_owned()).or_insert(at);
-        self.list.push(Body {
-            name: name.to_owned(),
-            mass,
-            inertia,
-            centre,
-            position,
-            angle,
-            velocity,
-            angular_velocity,
-            tolerance,
-        });
-        self.entries.push(Entry::of(name, &table));
-        table.close(findings);
+        self.entries.push(Entry::of(name, table));
     }
 
     /// The body with the name in this field; `ground` is the ground.
@@ -157,8 +105,8 @@ impl Bodies {
         name: &str,
         findings: &mut Findings,
     ) {
-        let near = findings.suggest(name, self.list.iter().map(|body| body.name.as_str()));
-        if near.is_none() && (self.list.is_empty() || self.is_of_unnamed(name)) {
+        let near = findings.suggest(name, self.all());
+        if near.is_none() && (self.entries.is_empty() || self.is_of_unnamed(name)) {
             return;
         }
         let label = match near.and_then(|near| self.entries.get(self.position(near)?)) {
@@ -176,9 +124,14 @@ impl Bodies {
             label,
             match near {
                 Some(near) => Some(format!("did you mean `{near}`?")),
-                None => all("bodies", self.list.iter().map(|body| body.name.as_str())),
+                None => all("bodies", self.all()),
             },
         );
+    }
+
+    /// All names.
+    fn all(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|entry| entry.name.as_str())
     }
 
     /// Whether an unknown name may belong to a body without a name.
@@ -194,7 +147,7 @@ impl Bodies {
     pub(crate) fn name(&self, body: BodyRef) -> &str {
         match body {
             BodyRef::Ground => GROUND,
-            BodyRef::Body(at) => self.list.get(at).map_or(GROUND, |body| &body.name),
+            BodyRef::Body(at) => self.entries.get(at).map_or(GROUND, |entry| &entry.name),
         }
     }
 }

@@ -5,7 +5,8 @@
 use joints::spec::Spec;
 use model::BodyRef;
 
-use crate::body::Bodies;
+use crate::body::BodyNames;
+use crate::direction;
 use crate::findings::Findings;
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
@@ -30,7 +31,7 @@ pub(crate) type Named = Vec<Option<BodyRef>>;
 pub(crate) fn named(
     table: &mut Table,
     specs: &[&'static Spec],
-    bodies: &Bodies,
+    bodies: &BodyNames,
     findings: &mut Findings,
 ) -> Option<Named> {
     let takes = |n: usize| specs.iter().any(|spec| listed(spec) == n);
@@ -105,7 +106,7 @@ pub(crate) fn named(
 }
 
 /// Checks only that the bodies exist, if the definition is not known.
-pub(crate) fn check_names(table: &mut Table, bodies: &Bodies, findings: &mut Findings) {
+pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames, findings: &mut Findings) {
     if let Some(one) = table.optional(BODY) {
         bodies.find(&one, findings);
     }
@@ -125,7 +126,7 @@ pub(crate) fn slots(
     table: &mut Table,
     spec: &'static Spec,
     mut named: Named,
-    bodies: &Bodies,
+    bodies: &BodyNames,
     findings: &mut Findings,
 ) -> Named {
     for &slot in &spec.slots[listed(spec)..] {
@@ -208,6 +209,9 @@ pub(crate) fn forgive(table: &mut Table, specs: &[&'static Spec]) {
         }
         for parameter in spec.parameters {
             table.optional(parameter.name);
+        }
+        for key in direction::keys(spec) {
+            table.optional(key);
         }
         if let Some(variant) = spec.variant {
             table.optional(variant.key);

@@ -4,11 +4,12 @@
 use joints::ArgumentError;
 use joints::spec::Spec;
 use model::registry::{ConstraintDefinition, ForceDefinition};
-use model::{BodyRef, ConstraintKernels, ForceKernels, Registry};
+use model::{BodyRef, ConstraintKernels, Definitions, ForceKernels};
 
 use crate::arguments::Arguments;
 use crate::body::Bodies;
 use crate::connection;
+use crate::direction::Directions;
 use crate::findings::Findings;
 use crate::function::Domain;
 use crate::key::TYPE;
@@ -16,10 +17,13 @@ use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
 use crate::place;
 use crate::section;
+use crate::space::SceneSpace;
 use crate::table::Table;
 
 /// A definition of the registry.
 pub(crate) trait Definition {
+    /// Its space.
+    type Space: SceneSpace;
     /// The type of the element that it builds.
     type Element;
     /// Its description.
@@ -28,8 +32,9 @@ pub(crate) trait Definition {
     fn constructor(&self) -> fn(&[joints::Argument]) -> Result<Self::Element, ArgumentError>;
 }
 
-impl Definition for ConstraintDefinition {
-    type Element = Box<dyn ConstraintKernels>;
+impl<S: SceneSpace> Definition for ConstraintDefinition<S> {
+    type Space = S;
+    type Element = Box<dyn ConstraintKernels<S>>;
     fn spec(&self) -> &'static Spec {
         &self.spec.common
     }
@@ -38,8 +43,9 @@ impl Definition for ConstraintDefinition {
     }
 }
 
-impl Definition for ForceDefinition {
-    type Element = Box<dyn ForceKernels>;
+impl<S: SceneSpace> Definition for ForceDefinition<S> {
+    type Space = S;
+    type Element = Box<dyn ForceKernels<S>>;
     fn spec(&self) -> &'static Spec {
         &self.spec.common
     }
@@ -57,8 +63,8 @@ pub(crate) struct Read<'r, D: Definition> {
 }
 
 /// Scene types of the registry.
-pub(crate) struct Types<'r> {
-    pub(crate) registry: &'r Registry,
+pub(crate) struct Types<'r, S: SceneSpace> {
+    pub(crate) registry: &'r Definitions<S>,
     /// The kind of element in the section, for messages.
     pub(crate) kind: &'static str,
     pub(crate) known: Vec<&'static str>,
@@ -66,9 +72,9 @@ pub(crate) struct Types<'r> {
     pub(crate) other: (&'static str, &'static str, Vec<&'static str>),
 }
 
-impl<'r> Types<'r> {
+impl<'r, S: SceneSpace> Types<'r, S> {
     /// The types of joints.
-    pub(crate) fn of_joints(registry: &'r Registry) -> Self {
+    pub(crate) fn of_joints(registry: &'r Definitions<S>) -> Self {
         Self {
             registry,
             kind: "joint",
@@ -78,7 +84,7 @@ impl<'r> Types<'r> {
     }
 
     /// The types of forces.
-    pub(crate) fn of_forces(registry: &'r Registry) -> Self {
+    pub(crate) fn of_forces(registry: &'r Definitions<S>) -> Self {
         Self {
             registry,
             kind: "force",
@@ -97,16 +103,16 @@ fn names(specs: impl Iterator<Item = &'static Spec>) -> Vec<&'static str> {
 }
 
 /// The types as a list.
-impl std::fmt::Display for Types<'_> {
+impl<S: SceneSpace> std::fmt::Display for Types<'_, S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&list(self.known.iter().copied()))
     }
 }
 
 /// Reads `type`. Returns `None` and reports if it is missing or no definition has it.
-pub(crate) fn scene_type(
+pub(crate) fn scene_type<S: SceneSpace>(
     table: &mut Table,
-    types: &Types,
+    types: &Types<S>,
     findings: &mut Findings,
 ) -> Option<&'static str> {
     let field = table.needed(TYPE, types, findings)?;
@@ -148,12 +154,12 @@ pub(crate) fn scene_type(
 pub(crate) fn read<'r, D: Definition>(
     table: &mut Table,
     definitions: &[&'r D],
-    bodies: &Bodies,
+    bodies: &Bodies<D::Space>,
     domains: &mut Vec<Domain>,
     findings: &mut Findings,
 ) -> Option<Read<'r, D>> {
     let specs: Vec<&'static Spec> = definitions.iter().map(|d| d.spec()).collect();
-    let chosen = connection::named(table, &specs, bodies, findings).and_then(|named| {
+    let chosen = connection::named(table, &specs, &bodies.names, findings).and_then(|named| {
         let at = connection::choose(table, &specs, named.len(), findings)?;
         Some((at, named))
     });
@@ -162,11 +168,12 @@ pub(crate) fn read<'r, D: Definition>(
         return None;
     };
     let (spec, definition) = (specs[at], definitions[at]);
-    let slots = connection::slots(table, spec, named, bodies, findings);
+    let slots = connection::slots(table, spec, named, &bodies.names, findings);
     let place = place::read(table, spec, &slots, bodies, findings);
-    let mut arguments = Arguments::read(table, spec, place, domains, findings);
+    let directions = Directions::read(table, spec, &slots, bodies, findings);
+    let mut arguments = Arguments::read(table, spec, place, &directions, domains, findings);
     let subject = table.subject.clone();
-    let built = arguments.build(spec, &subject, definition.constructor(), findings);
+    let built = arguments.build::<D::Space, _>(spec, &subject, definition.constructor(), findings);
     let slots: Option<Vec<BodyRef>> = slots.into_iter().collect();
     Some(Read {
         definition,

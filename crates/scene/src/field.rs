@@ -18,6 +18,7 @@ use crate::findings::Findings;
 use crate::language::Language;
 use crate::mistake::Mistake;
 use crate::plausible::angles::{Degrees, Number, degrees};
+use crate::space::SceneSpace;
 use crate::table::Table;
 use crate::{expression, nearest, units};
 
@@ -300,31 +301,31 @@ impl<'t> Field<'t> {
         each(&self.items("a list of numbers", findings)?, of, findings)
     }
 
-    /// Two finite numbers of one dimension.
-    pub(crate) fn pair(
+    /// The components of a vector, finite numbers of one dimension.
+    pub(crate) fn vector<S: SceneSpace>(
         &self,
         expected: &str,
         of: Dimension,
         findings: &mut Findings,
-    ) -> Option<[f64; 2]> {
-        let pair = self.numbers(2, expected, |_| of, findings)?;
-        pair.try_into().ok()
+    ) -> Option<S::Vector<f64>> {
+        let numbers = self.numbers(S::DIM, expected, |_| of, findings)?;
+        S::of_numbers(&numbers)
     }
 
     /// `n` points.
-    pub(crate) fn pairs(
+    pub(crate) fn points<S: SceneSpace>(
         &self,
         n: usize,
         expected: &str,
         findings: &mut Findings,
-    ) -> Option<Vec<[f64; 2]>> {
+    ) -> Option<Vec<S::Vector<f64>>> {
         let items = self.items(expected, findings)?;
         if items.len() != n || items.iter().any(|item| !item.value.get_ref().is_array()) {
             self.miscount(expected, items.len(), n, findings);
             return None;
         }
         all(&items, |item| {
-            item.pair("a point [x, y]", Dimension::LENGTH, findings)
+            item.vector::<S>(S::POINT, Dimension::LENGTH, findings)
         })
     }
 

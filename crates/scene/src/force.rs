@@ -9,29 +9,38 @@ use crate::element::{self, Types};
 use crate::findings::Findings;
 use crate::function::Domain;
 use crate::source_map::Entry;
+use crate::space::SceneSpace;
 use crate::table::Table;
 
 /// The forces that were read.
-#[derive(Default)]
-pub(crate) struct Forces {
-    pub(crate) list: Vec<Force>,
+pub(crate) struct Forces<S: SceneSpace> {
+    pub(crate) list: Vec<Force<S>>,
     pub(crate) entries: Vec<Entry>,
 }
 
-impl Forces {
+impl<S: SceneSpace> Default for Forces<S> {
+    fn default() -> Self {
+        Self {
+            list: Vec::new(),
+            entries: Vec::new(),
+        }
+    }
+}
+
+impl<S: SceneSpace> Forces<S> {
     /// Reads one force.
     pub(crate) fn read(
         &mut self,
         mut table: Table,
         name: &str,
-        types: &Types,
-        bodies: &Bodies,
+        types: &Types<S>,
+        bodies: &Bodies<S>,
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
         let mut own = Vec::new();
         let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
-            connection::check_names(&mut table, bodies, findings);
+            connection::check_names(&mut table, &bodies.names, findings);
             return;
         };
         let definitions: Vec<_> = types.registry.forces(scene_type).collect();

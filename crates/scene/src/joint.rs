@@ -22,6 +22,7 @@ use crate::key::{Key, TYPE, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{all, list, nearest};
 use crate::source_map::Entry;
+use crate::space::SceneSpace;
 use crate::table::Table;
 use crate::tolerance;
 
@@ -49,12 +50,12 @@ enum Action {
 pub(crate) const MEASURE: &str = "a measure of the joint";
 
 /// The data of a joint to which drives and groups refer.
-pub(crate) struct Known<'r> {
+pub(crate) struct Known<'r, S: SceneSpace> {
     pub(crate) name: String,
     /// Place of its name.
     pub(crate) span: Range<usize>,
     /// Its definition, if its type is known.
-    pub(crate) definition: Option<&'r ConstraintDefinition>,
+    pub(crate) definition: Option<&'r ConstraintDefinition<S>>,
     /// Its bodies and arguments, if all could be read.
     complete: Option<(Vec<BodyRef>, Vec<Argument>)>,
     /// Tolerance of its data (m).
@@ -63,21 +64,30 @@ pub(crate) struct Known<'r> {
 }
 
 /// The joints that were read.
-#[derive(Default)]
-pub(crate) struct Joints<'r> {
-    pub(crate) list: Vec<Joint>,
+pub(crate) struct Joints<'r, S: SceneSpace> {
+    pub(crate) list: Vec<Joint<S>>,
     pub(crate) entries: Vec<Entry>,
-    pub(crate) known: Vec<Known<'r>>,
+    pub(crate) known: Vec<Known<'r, S>>,
 }
 
-impl<'r> Joints<'r> {
+impl<S: SceneSpace> Default for Joints<'_, S> {
+    fn default() -> Self {
+        Self {
+            list: Vec::new(),
+            entries: Vec::new(),
+            known: Vec::new(),
+        }
+    }
+}
+
+impl<'r, S: SceneSpace> Joints<'r, S> {
     /// Reads one joint.
     pub(crate) fn read(
         &mut self,
         mut table: Table,
         name: &str,
-        types: &Types<'r>,
-        bodies: &Bodies,
+        types: &Types<'r, S>,
+        bodies: &Bodies<S>,
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
@@ -90,7 +100,7 @@ impl<'r> Joints<'r> {
             is_active: true,
         };
         let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
-            connection::check_names(&mut table, bodies, findings);
+            connection::check_names(&mut table, &bodies.names, findings);
             self.known.push(known);
             return;
         };
@@ -133,14 +143,14 @@ impl<'r> Joints<'r> {
 }
 
 /// The joints by name, for drives.
-pub(crate) struct JointNames<'j, 'r> {
-    list: &'j [Known<'r>],
+pub(crate) struct JointNames<'j, 'r, S: SceneSpace> {
+    list: &'j [Known<'r, S>],
     /// Indices by name; if a name is used twice, the first joint.
-    by_name: HashMap<&'j str, &'j Known<'r>>,
+    by_name: HashMap<&'j str, &'j Known<'r, S>>,
 }
 
-impl<'j, 'r> JointNames<'j, 'r> {
-    pub(crate) fn of(joints: &'j Joints<'r>) -> Self {
+impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
+    pub(crate) fn of(joints: &'j Joints<'r, S>) -> Self {
         let list = joints.known.as_slice();
         let mut by_name = HashMap::with_capacity(list.len());
         for joint in list {
@@ -149,31 +159,42 @@ impl<'j, 'r> JointNames<'j, 'r> {
         Self { list, by_name }
     }
 
-    fn get(&self, name: &str) -> Option<&'j Known<'r>> {
+    fn get(&self, name: &str) -> Option<&'j Known<'r, S>> {
         self.by_name.get(name).copied()
     }
 }
 
 /// The drives that were read.
-#[derive(Default)]
-pub(crate) struct Drives {
+pub(crate) struct Drives<S: SceneSpace> {
     /// Names of all drives, complete or not, and whether they are active.
     pub(crate) known: Vec<(String, bool)>,
-    pub(crate) list: Vec<Drive>,
+    pub(crate) list: Vec<Drive<S>>,
     pub(crate) entries: Vec<Entry>,
     /// Drives by laws, which are applied forces.
-    pub(crate) laws: Forces,
+    pub(crate) laws: Forces<S>,
     /// Joints whose rows keep the driven measure: those of the drive take their place.
     pub(crate) replaced: Vec<String>,
 }
 
-impl Drives {
+impl<S: SceneSpace> Default for Drives<S> {
+    fn default() -> Self {
+        Self {
+            known: Vec::new(),
+            list: Vec::new(),
+            entries: Vec::new(),
+            laws: Forces::default(),
+            replaced: Vec::new(),
+        }
+    }
+}
+
+impl<S: SceneSpace> Drives<S> {
     /// Reads one drive. Two drives of one measure are redundant, which is not an error.
     pub(crate) fn read(
         &mut self,
         mut table: Table,
         name: &str,
-        joints: &JointNames,
+        joints: &JointNames<S>,
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
@@ -368,7 +389,7 @@ fn warn_if_held(motion: &Field, function: &Function, findings: &mut Findings) {
 }
 
 /// Reports a joint that is to be driven and is not active.
-fn is_driven(table: &Table, joint: Option<&Known>, findings: &mut Findings) {
+fn is_driven<S: SceneSpace>(table: &Table, joint: Option<&Known<S>>, findings: &mut Findings) {
     let Some(joint) = joint.filter(|joint| !joint.is_active) else {
         return;
     };
@@ -387,7 +408,7 @@ fn is_driven(table: &Table, joint: Option<&Known>, findings: &mut Findings) {
 }
 
 /// The dimension of a measure of a joint, if it has this measure.
-fn dimension(joint: &Known, measure: &str) -> Option<Dimension> {
+fn dimension<S: SceneSpace>(joint: &Known<S>, measure: &str) -> Option<Dimension> {
     let definition = joint.definition?;
     let mut measures = definition.spec.measures.iter();
     let at = measures.position(|m| m.name == measure)?;
@@ -396,11 +417,11 @@ fn dimension(joint: &Known, measure: &str) -> Option<Dimension> {
 }
 
 /// The joint that a drive names.
-fn joint<'j, 'r>(
+fn joint<'j, 'r, S: SceneSpace>(
     table: &mut Table,
-    joints: &JointNames<'j, 'r>,
+    joints: &JointNames<'j, 'r, S>,
     findings: &mut Findings,
-) -> Option<&'j Known<'r>> {
+) -> Option<&'j Known<'r, S>> {
     let field = table.required(&JOINT, findings)?;
     let name = field.text(JOINT.expected, findings)?;
     let found = joints.get(name);

@@ -47,8 +47,12 @@ pub(crate) enum Takes {
     Warnings,
     /// One number.
     Number(Interval),
-    /// At least this many numbers.
-    Pair(Interval),
+    /// So many numbers.
+    Vector(usize, Interval),
+    /// An orientation of a body.
+    Orientation,
+    /// Three moments of inertia, or a symmetric tensor.
+    Tensor,
     /// At least so many numbers.
     Numbers(usize),
     /// At least this many texts.
@@ -94,6 +98,16 @@ impl Key {
         }
     }
 
+    /// An optional vector of the plane.
+    pub(crate) const fn pair(name: &'static str) -> Self {
+        Self::optional(name, "a pair [x, y]", Takes::Vector(2, Interval::Any))
+    }
+
+    /// An optional vector of space.
+    pub(crate) const fn triple(name: &'static str) -> Self {
+        Self::optional(name, "a vector [x, y, z]", Takes::Vector(3, Interval::Any))
+    }
+
     /// An optional key.
     pub(crate) const fn optional(name: &'static str, expected: &'static str, takes: Takes) -> Self {
         Self {
@@ -106,6 +120,11 @@ impl Key {
             is_required: false,
             default: None,
         }
+    }
+
+    /// With other words for what it takes.
+    pub(crate) const fn expecting(self, expected: &'static str) -> Self {
+        Self { expected, ..self }
     }
 
     /// Makes it required.
@@ -154,7 +173,7 @@ impl Key {
     /// Whether a number is in the allowed range.
     pub(crate) fn allows(&self, x: f64) -> bool {
         match self.takes {
-            Takes::Number(range) | Takes::Pair(range) => range.contains(x),
+            Takes::Number(range) | Takes::Vector(_, range) => range.contains(x),
             _ => true,
         }
     }

@@ -10,8 +10,9 @@
 //! | `language` | what numbers mean: format, units, parameters |
 //! | `expression`, `dimension` | a text to a number with its dimension; what fits where |
 //! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
+//! | `space` | what the plane and space have different names and numbers for |
 //! | `body`, `marker`, `measure` | bodies and places on them, and their names elsewhere; quantities between places |
-//! | `element` | common parts of joints and forces: type, `connection`, `place`, `arguments` |
+//! | `element` | common parts of joints and forces: type, `connection`, `place`, `direction`, `arguments` |
 //! | `joint`, `force` | joints and their drives; forces |
 //! | `active` | what is read and takes no part |
 //! | `function` | functions of time |
@@ -29,6 +30,7 @@ mod combination;
 mod connection;
 mod diagnostic;
 mod dimension;
+mod direction;
 mod element;
 mod expression;
 mod field;
@@ -55,6 +57,7 @@ mod section;
 mod silence;
 mod simulate;
 mod source_map;
+mod space;
 mod start;
 mod table;
 mod template;

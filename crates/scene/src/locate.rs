@@ -7,7 +7,7 @@ use dynamics::{MotionError, MotionFault};
 use joints::is_usable;
 use model::codes::Code;
 use model::start::VelocityConflict;
-use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError, Stated};
+use model::{AnyDescription, BodyRecord, BodyRef, BuildError, RowLabel, StartError, Stated};
 
 use crate::diagnostic::Diagnostic;
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
@@ -36,7 +36,7 @@ impl Coded for MotionError {
 }
 
 /// The place of an error of [`model::Mechanism::build`].
-pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic {
+pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> Diagnostic {
     let (span, label) = match error {
         BuildError::NoBodies => (map.section("scene", ""), "no `[[body]]` in this scene"),
         BuildError::Gravity { .. } => (map.section("scene", "gravity"), "not a usable number"),
@@ -63,6 +63,17 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
             body_key(map, d, body, field, |x| x < 0.0),
             "may not be negative",
         ),
+        BuildError::NotSymmetric { body }
+        | BuildError::NotPrincipal { body }
+        | BuildError::NoSuchTensor { body, .. } => (
+            body_key(map, d, body, "inertia", |_| true),
+            "not the tensor of a body",
+        ),
+        BuildError::NoOrientation { body } => (
+            body_key(map, d, body, "orientation", |_| true),
+            "no orientation",
+        ),
+        BuildError::Measure { name, .. } => (place_key(map, name, &["type"]), "no such measure"),
         BuildError::VelocityAlone { body } => (
             body_key(map, d, body, "velocity", |_| true),
             "needs `angular_velocity` too",
@@ -309,25 +320,16 @@ pub(crate) fn duplicates(
 /// The place of a wrong number of the body with this name.
 fn body_key(
     map: &SourceMap,
-    d: &Description,
+    d: &AnyDescription,
     name: &str,
     field: &str,
     fault: impl Fn(f64) -> bool,
 ) -> Range<usize> {
-    let numbers = |body: &Body| match field {
-        "mass" => vec![body.mass],
-        "inertia" => vec![body.inertia],
-        "position" => body.position.to_vec(),
-        "centre" => body.centre.to_vec(),
-        "angle" => vec![body.angle],
-        "velocity" => body.velocity.into_iter().flatten().collect(),
-        "tolerance" => body.tolerance.into_iter().collect(),
-        _ => body.angular_velocity.into_iter().collect(),
-    };
-    let of_name = d.bodies.iter().zip(&map.bodies);
-    let found = of_name
-        .filter(|(body, _)| body.name == name)
-        .find(|(body, _)| numbers(body).into_iter().any(&fault));
+    let records = d.bodies();
+    let mut of_name = records.iter().zip(&map.bodies);
+    let is_wrong =
+        |body: &BodyRecord| body.name == name && body.numbers(field).into_iter().any(&fault);
+    let found = of_name.find(|(body, _)| is_wrong(body));
     let key = field.replace(' ', "_");
     found.map_or(0..0, |(_, entry)| entry.span(&key))
 }
@@ -336,18 +338,12 @@ fn body_key(
 /// joint.
 fn connection(
     map: &SourceMap,
-    d: &Description,
+    d: &AnyDescription,
     name: &str,
     fault: impl Fn(&[BodyRef]) -> bool,
 ) -> Range<usize> {
-    let joints = d.joints.iter().map(|j| (&j.name, &j.bodies));
-    let drives = d.drives.iter().map(|x| (&x.name, &x.bodies));
-    let forces = d.forces.iter().map(|f| (&f.name, &f.bodies));
-    let found = joints
-        .chain(drives)
-        .chain(forces)
-        .zip(map.elements())
-        .find(|((of, bodies), _)| *of == name && fault(bodies));
+    let mut elements = d.connections().zip(map.elements());
+    let found = elements.find(|((of, bodies), _)| *of == name && fault(bodies));
     found.map_or(0..0, |(_, entry)| {
         entry.first_of(&["bodies", "body", "joint"])
     })

@@ -12,15 +12,23 @@ use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
+use crate::space::SceneSpace;
 use crate::table::Table;
 use crate::tolerance;
 use crate::units;
 
 const BODY: Key = Key::required("body", "the name of a body", Takes::Text)
     .doc("The body that carries the marker, or `ground`");
-const POINT: Key = Key::required("point", "a point [x, y]", Takes::Pair(Interval::Any))
+const POINT: Key = Key::pair("point")
+    .expecting("a point [x, y]")
+    .needed()
     .unit(Dimension::LENGTH)
     .doc("Its place [x, y] in the frame of the body");
+const SPATIAL_POINT: Key = Key::triple("point")
+    .expecting("a point [x, y, z]")
+    .needed()
+    .unit(Dimension::LENGTH)
+    .doc("Its place [x, y, z] in the frame of the body");
 const ANGLE: Key = Key::optional("angle", "a number", Takes::Number(Interval::Any))
     .unit(Dimension::ANGLE)
     .doc("Angle of its axes in the frame of the body; where it is given, the angle of the marker is written, too");
@@ -28,8 +36,10 @@ const TOLERANCE: Key = tolerance::length(
     "What its point is known to, wherever it is used; that of its body, or of the scene, where it is not given",
 );
 
-/// Keys of a marker in addition to its name.
-pub(crate) const KEYS: [Key; 4] = [BODY, POINT, ANGLE, TOLERANCE];
+/// Keys of a marker in the plane in addition to its name.
+pub(crate) const PLANE_KEYS: [Key; 4] = [BODY, POINT, ANGLE, TOLERANCE];
+/// Those in space.
+pub(crate) const SPACE_KEYS: [Key; 3] = [BODY, SPATIAL_POINT, TOLERANCE];
 
 /// What is said of a marker where another thing is expected.
 const NAME: &str = "the name of a marker";
@@ -45,13 +55,21 @@ pub(crate) struct Markers {
 
 impl Markers {
     /// Reads one marker of the bodies.
-    pub(crate) fn read(bodies: &mut Bodies, mut table: Table, name: &str, findings: &mut Findings) {
+    pub(crate) fn read<S: SceneSpace>(
+        bodies: &mut Bodies<S>,
+        mut table: Table,
+        name: &str,
+        findings: &mut Findings,
+    ) {
         let body = table.required(&BODY, findings);
-        let body = body.and_then(|field| bodies.find(&field, findings));
-        let point = table.required(&POINT, findings);
-        let point = point.and_then(|field| field.pair(POINT.expected, POINT.unit, findings));
-        let angle = table.optional(&ANGLE);
-        let angle = angle.map(|field| field.number(ANGLE.unit, findings));
+        let body = body.and_then(|field| bodies.names.find(&field, findings));
+        let point = table.needed(POINT.name, S::POINT, findings);
+        let point = point.and_then(|field| field.vector::<S>(S::POINT, POINT.unit, findings));
+        let mut angle = None;
+        if S::MARKER_KEYS.iter().any(|key| key.name == ANGLE.name) {
+            let field = table.optional(&ANGLE);
+            angle = field.map(|field| field.number(ANGLE.unit, findings));
+        }
         let tolerance = tolerance::read(&mut table, &TOLERANCE, findings);
         let entry = Entry::of(name, &table);
         table.close(findings);
@@ -67,7 +85,7 @@ impl Markers {
             list.push(Marker {
                 name: name.to_owned(),
                 body,
-                point,
+                point: S::point(point),
                 angle: angle.flatten(),
                 tolerance,
             });
@@ -115,16 +133,19 @@ impl Markers {
     }
 }
 
-impl Bodies {
+impl<S: SceneSpace> Bodies<S> {
     /// Global coordinates of a marker in the described configuration.
-    pub(crate) fn global(&self, marker: &Marker) -> [f64; 2] {
+    pub(crate) fn global(&self, marker: &Marker) -> S::Vector<f64> {
+        let point = self.from_centre_of(marker);
         match marker.body {
-            BodyRef::Ground => marker.point,
-            BodyRef::Body(k) => {
-                let pose = self.list[k].pose();
-                pose.to_global(marker.from_centre(&self.list))
-            }
+            BodyRef::Ground => point,
+            BodyRef::Body(k) => S::to_global(&self.list[k], point),
         }
+    }
+
+    /// Place of a marker relative to the centre of mass of its body.
+    pub(crate) fn from_centre_of(&self, marker: &Marker) -> S::Vector<f64> {
+        self.from_centre(marker.body, S::vector(marker.point))
     }
 
     /// Reports a marker where a point of another body is needed.
@@ -135,7 +156,7 @@ impl Bodies {
         field: &Field,
         findings: &mut Findings,
     ) {
-        let (name, body) = (&marker.name, self.name(marker.body));
+        let (name, body) = (&marker.name, self.names.name(marker.body));
         let own = self.markers.list.iter().zip(&self.markers.entries);
         let found = own.clone().find(|(own, _)| own.name == marker.name);
         let place = found.map_or_else(|| field.span(), |(_, entry)| entry.span(BODY.name));
@@ -144,7 +165,7 @@ impl Bodies {
             format!(
                 "{}: marker `{name}` belongs to `{body}`, and a point of `{}` is needed; `at = \"{name}\"` takes the place where it is",
                 field.subject,
-                self.name(needed)
+                self.names.name(needed)
             ),
             "not a marker of this body",
             place,

@@ -1,6 +1,6 @@
 //! `[[measure]]`: quantities between markers.
 
-use model::{Measure, MeasureKind};
+use model::{Measure, MeasureKind, SpaceKind};
 
 use crate::body::GROUND;
 use crate::findings::Findings;
@@ -12,8 +12,10 @@ use crate::plausible;
 use crate::source_map::Entry;
 use crate::table::Table;
 
-const KIND: Key = Key::required(TYPE, "what is measured", Takes::OneOf(kinds))
+const KIND: Key = Key::required(TYPE, "what is measured", Takes::OneOf(in_plane))
     .doc("What is measured, of the second marker relative to the first: `distance` (m); `angle` between their axes, not reduced to one revolution (rad); `x` and `y` in the axes of the first (m); `speed` as seen from the first (m/s); `angular-velocity` (rad/s)");
+const SPATIAL_KIND: Key = Key::required(TYPE, "what is measured", Takes::OneOf(in_space))
+    .doc("What is measured, of the second marker relative to the first: `distance` (m); `x`, `y` and `z` in the axes of the first body (m); `speed` as seen from it (m/s); `angular-velocity`, its size (rad/s)");
 const MARKERS: Key = Key::required(
     "markers",
     "one or two markers [\"a\", \"b\"]",
@@ -22,10 +24,26 @@ const MARKERS: Key = Key::required(
 .doc("Two markers, or one and `ground`; one alone is measured from the ground");
 
 /// Keys of a measure in addition to its name.
-pub(crate) const KEYS: [Key; 2] = [KIND, MARKERS];
+pub(crate) fn keys(space: SpaceKind) -> [Key; 2] {
+    let kind = match space {
+        SpaceKind::Space3 => SPATIAL_KIND,
+        _ => KIND,
+    };
+    [kind, MARKERS]
+}
 
-fn kinds() -> Vec<&'static str> {
-    MeasureKind::ALL.map(MeasureKind::name).to_vec()
+fn kinds(space: SpaceKind) -> Vec<&'static str> {
+    let mut kinds = MeasureKind::ALL.to_vec();
+    kinds.retain(|kind| kind.exists_in(space));
+    kinds.into_iter().map(MeasureKind::name).collect()
+}
+
+fn in_plane() -> Vec<&'static str> {
+    kinds(SpaceKind::Plane)
+}
+
+fn in_space() -> Vec<&'static str> {
+    kinds(SpaceKind::Space3)
 }
 
 /// The measures that were read, with their places.
@@ -41,10 +59,11 @@ impl Measures {
         &mut self,
         mut table: Table,
         name: &str,
+        space: SpaceKind,
         markers: &Markers,
         findings: &mut Findings,
     ) {
-        let kind = kind(&mut table, findings);
+        let kind = kind(&mut table, space, findings);
         let between = between(&mut table, markers, findings);
         let entry = Entry::of(name, &table);
         table.close(findings);
@@ -59,21 +78,20 @@ impl Measures {
     }
 }
 
-fn kind(table: &mut Table, findings: &mut Findings) -> Option<MeasureKind> {
+fn kind(table: &mut Table, space: SpaceKind, findings: &mut Findings) -> Option<MeasureKind> {
     let field = table.required(&KIND, findings)?;
     let name = field.text(KIND.expected, findings)?;
-    let found = MeasureKind::ALL
-        .into_iter()
-        .find(|kind| kind.name() == name);
+    let mut known = MeasureKind::ALL.into_iter();
+    let found = known.find(|kind| kind.name() == name && kind.exists_in(space));
     if found.is_none() {
         findings.error_with_help(
             Mistake::UnknownType,
             field.span(),
             format!("{} has the unknown type `{name}`", table.subject),
             "unknown type",
-            did_you_mean(name, kinds()).or(Some(format!(
+            did_you_mean(name, kinds(space)).or(Some(format!(
                 "the types of a measure are {}",
-                list(kinds())
+                list(kinds(space))
             ))),
         );
     }

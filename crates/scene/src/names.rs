@@ -14,7 +14,6 @@ use crate::source_map::SourceMap;
 use crate::table::Table;
 
 /// All names in their name spaces, including those of incomplete tables.
-#[derive(Default)]
 pub(crate) struct Names {
     /// Bodies, markers and measures, which share the columns of one table.
     pub(crate) bodies: Vec<Use>,
@@ -44,6 +43,16 @@ impl Use {
 const TIME: &str = "t";
 
 impl Names {
+    pub(crate) fn of(space: SpaceKind) -> Self {
+        Self {
+            bodies: Vec::new(),
+            measures: Vec::new(),
+            elements: Vec::new(),
+            groups: Vec::new(),
+            space,
+        }
+    }
+
     /// Reports measures with the name of another column of the trajectory.
     fn check_columns(&self, findings: &mut Findings) {
         let columns = self.space.columns();

@@ -13,18 +13,18 @@ use crate::connection::listed;
 use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::marker::Markers;
 use crate::mistake::Mistake;
 use crate::nearest::list;
+use crate::space::SceneSpace;
 use crate::table::Table;
 
 /// Points in the frames of their bodies, in the order of the point parameters, `None` if not
 /// readable; and their places in the text.
-pub(crate) struct Place {
-    pub(crate) points: Vec<Option<[f64; 2]>>,
+pub(crate) struct Place<S: SceneSpace> {
+    pub(crate) points: Vec<Option<S::Vector<f64>>>,
     pub(crate) span: Range<usize>,
 }
-
-const POINT: &str = "a point [x, y]";
 
 /// The key of the place in global coordinates.
 pub(crate) const AT: &str = "at";
@@ -47,13 +47,13 @@ pub(crate) fn owners(spec: &Spec) -> Vec<usize> {
 }
 
 /// Reads the place of a definition whose slots contain the bodies `slots`.
-pub(crate) fn read(
+pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     spec: &'static Spec,
     slots: &[Option<BodyRef>],
-    bodies: &Bodies,
+    bodies: &Bodies<S>,
     findings: &mut Findings,
-) -> Place {
+) -> Place<S> {
     let of = owners(spec);
     let missing = |span| Place {
         points: vec![None; of.len()],
@@ -91,11 +91,10 @@ pub(crate) fn read(
             span: local.span(),
         },
         (None, None) => {
-            let form = if spec.points_apart {
-                "[[x, y], …]"
-            } else {
-                "[x, y]"
-            };
+            let mut form = S::VECTOR.to_owned();
+            if spec.points_apart {
+                form = format!("[{form}, …]");
+            }
             findings.error(Mistake::Missing,
                 table.header.clone(),
                 format!(
@@ -110,37 +109,37 @@ pub(crate) fn read(
 }
 
 /// `at`: one common point, or one for each parameter.
-fn global(
+fn global<S: SceneSpace>(
     at: &Field,
     spec: &Spec,
     of: &[usize],
     slots: &[Option<BodyRef>],
-    bodies: &Bodies,
+    bodies: &Bodies<S>,
     findings: &mut Findings,
-) -> Vec<Option<[f64; 2]>> {
+) -> Vec<Option<S::Vector<f64>>> {
     let fields = if spec.points_apart {
-        let expected = format!("{} global points [[x, y], …]", of.len());
-        several(at, of.len(), &expected, bodies, findings)
+        let expected = format!("{} global points [{}, …]", of.len(), S::VECTOR);
+        several(at, of.len(), &expected, &bodies.markers, findings)
     } else {
         Some(vec![at.clone()])
     };
     let fields = fields.unwrap_or_default();
-    let read = |field: &Field| point(field, "a global point [x, y]", bodies, findings);
+    let read = |field: &Field| point(field, S::GLOBAL_POINT, bodies, findings);
     let read: Vec<_> = fields.iter().map(read).collect();
     let mut local = |(k, &slot): (usize, &usize)| {
         let body = slots.get(slot).copied().flatten()?;
         let local = match *read.get(k).or(read.first())?.as_ref()? {
-            Point::Of(marker) if marker.body == body => marker.from_centre(&bodies.list),
-            Point::Of(marker) => body.to_local(&bodies.list, bodies.global(marker)),
-            Point::At(point) => body.to_local(&bodies.list, point),
+            Point::Of(marker) if marker.body == body => bodies.from_centre_of(marker),
+            Point::Of(marker) => bodies.to_local(body, bodies.global(marker)),
+            Point::At(point) => bodies.to_local(body, point),
         };
-        if !local.iter().all(|x| is_usable(*x)) {
+        if !S::point(local).iter().all(|x| is_usable(*x)) {
             findings.error(Mistake::NotFinite,
                 at.span(),
                 format!(
                     "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}",
                     at.subject,
-                    bodies.name(body)
+                    bodies.names.name(body)
                 ),
                 "too far away",
             );
@@ -152,23 +151,23 @@ fn global(
 }
 
 /// A point as it is written.
-enum Point<'b> {
-    At([f64; 2]),
+enum Point<'b, S: SceneSpace> {
+    At(S::Vector<f64>),
     Of(&'b Marker),
 }
 
-/// A pair of numbers, or the name of a marker. Returns `None` and reports if it is neither.
-fn point<'b>(
+/// A vector, or the name of a marker. Returns `None` and reports if it is neither.
+fn point<'b, S: SceneSpace>(
     field: &Field,
     expected: &str,
-    bodies: &'b Bodies,
+    bodies: &'b Bodies<S>,
     findings: &mut Findings,
-) -> Option<Point<'b>> {
+) -> Option<Point<'b, S>> {
     if bodies.markers.may_be(field) {
         return bodies.markers.find(field, findings).map(Point::Of);
     }
-    let pair = field.pair(expected, Dimension::LENGTH, findings);
-    pair.map(Point::At)
+    let point = field.vector::<S>(expected, Dimension::LENGTH, findings);
+    point.map(Point::At)
 }
 
 /// The fields of `n` points. Returns `None` and reports if there are not as many.
@@ -176,11 +175,11 @@ fn several<'t>(
     field: &Field<'t>,
     n: usize,
     expected: &str,
-    bodies: &Bodies,
+    markers: &Markers,
     findings: &mut Findings,
 ) -> Option<Vec<Field<'t>>> {
     let items = field.items(expected, findings)?;
-    let is_point = |item: &Field| item.value.get_ref().is_array() || bodies.markers.may_be(item);
+    let is_point = |item: &Field| item.value.get_ref().is_array() || markers.may_be(item);
     if items.len() == n && items.iter().all(is_point) {
         return Some(items);
     }
@@ -189,20 +188,20 @@ fn several<'t>(
 }
 
 /// Points in the frame of one body, relative to its centre of mass; a list if there are several.
-fn of_body(
+fn of_body<S: SceneSpace>(
     field: &Field,
     n: usize,
     body: Option<BodyRef>,
-    bodies: &Bodies,
+    bodies: &Bodies<S>,
     findings: &mut Findings,
-) -> Vec<Option<[f64; 2]>> {
+) -> Vec<Option<S::Vector<f64>>> {
     let fields = match n {
         1 => Some(vec![field.clone()]),
         _ => several(
             field,
             n,
-            &format!("{n} points [[x, y], …]"),
-            bodies,
+            &format!("{n} points [{}, …]", S::VECTOR),
+            &bodies.markers,
             findings,
         ),
     };
@@ -210,11 +209,11 @@ fn of_body(
         return vec![None; n];
     };
     let mut local = |field: &Field| {
-        let read = point(field, POINT, bodies, findings)?;
+        let read = point(field, S::POINT, bodies, findings)?;
         let body = body?;
         match read {
-            Point::At(point) => Some(body.from_centre(&bodies.list, point)),
-            Point::Of(marker) if marker.body == body => Some(marker.from_centre(&bodies.list)),
+            Point::At(point) => Some(bodies.from_centre(body, point)),
+            Point::Of(marker) if marker.body == body => Some(bodies.from_centre_of(marker)),
             Point::Of(marker) => {
                 bodies.foreign(marker, body, field, findings);
                 None
@@ -225,15 +224,15 @@ fn of_body(
 }
 
 /// `points`: a table whose keys are the names of the bodies that have points.
-fn by_body(
+fn by_body<S: SceneSpace>(
     field: &Field,
     of: &[usize],
     slots: &[Option<BodyRef>],
-    bodies: &Bodies,
+    bodies: &Bodies<S>,
     findings: &mut Findings,
-) -> Vec<Option<[f64; 2]>> {
+) -> Vec<Option<S::Vector<f64>>> {
     let mut points = vec![None; of.len()];
-    let Some(table) = field.table("a table { body = [x, y], … }", findings) else {
+    let Some(table) = field.table(S::BY_BODY, findings) else {
         return points;
     };
     // If a name is missing, it cannot be decided which keys are right.
@@ -244,7 +243,7 @@ fn by_body(
     else {
         return points;
     };
-    let mut names: Vec<&str> = owners.iter().map(|&body| bodies.name(body)).collect();
+    let mut names: Vec<&str> = owners.iter().map(|&body| bodies.names.name(body)).collect();
     names.dedup();
     let given = table.all();
     let mut missing = names.clone();
@@ -259,7 +258,7 @@ fn by_body(
     };
     for (key, value) in &given {
         let mine: Vec<usize> = (0..of.len())
-            .filter(|&k| bodies.name(owners[k]) == value.key)
+            .filter(|&k| bodies.names.name(owners[k]) == value.key)
             .collect();
         if mine.is_empty() {
             findings.error_with_help(
@@ -288,7 +287,7 @@ fn by_body(
             Mistake::Missing,
             table.header.clone(),
             format!("{} needs the point of `{name}`", table.subject),
-            format!("`{name} = [x, y]` is missing here"),
+            format!("`{name} = {}` is missing here", S::VECTOR),
         );
     }
     points

@@ -9,6 +9,7 @@ pub(crate) mod angles;
 mod mechanism;
 
 use model::codes::Code;
+use model::space::norm;
 use model::words::rounded;
 use model::{BodyRef, Marker};
 
@@ -29,8 +30,8 @@ const NEAR_EARTH: f64 = 0.03;
 const LARGEST_GRAVITY: f64 = 50.0;
 
 /// Warns of a gravity that no planet has, and of one that is that of the Earth in another unit.
-pub(crate) fn gravity(field: &Field, gravity: [f64; 2], findings: &mut Findings) {
-    let size = gravity[0].hypot(gravity[1]);
+pub(crate) fn gravity(field: &Field, gravity: &[f64], findings: &mut Findings) {
+    let size = norm(gravity);
     let is_earth = |x: f64| (x / EARTH - 1.0).abs() <= NEAR_EARTH;
     let base = field.language.length_unit();
     let lengths = || units().filter(|(_, unit)| unit.dimension == Some(Dimension::LENGTH));
@@ -50,8 +51,9 @@ pub(crate) fn gravity(field: &Field, gravity: [f64; 2], findings: &mut Findings)
     };
     let help = match meant {
         Some(factor) => {
-            let [x, y] = gravity.map(|g| rounded(g * factor / base.metres));
-            format!("write `gravity = [{x}, {y}]`")
+            let meant = gravity.iter().map(|g| rounded(g * factor / base.metres));
+            let meant: Vec<String> = meant.collect();
+            format!("write `gravity = [{}]`", meant.join(", "))
         }
         None => format!("write it in {}/s²", base.name),
     };

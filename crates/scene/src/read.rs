@@ -4,21 +4,23 @@ mod syntax;
 
 use std::collections::{BTreeMap, HashMap};
 
-use model::{BuildError, Description, Mechanism, Observed, Registry, Stated, Tolerance};
-use serde_json::json;
+use joints::{Plane, Space3};
+use model::{
+    AnyDescription, BuildError, Definitions, Described, Mechanism, Observed, Registry, Stated,
+    Tolerance,
+};
 use toml::de::DeTable;
 
 use crate::active;
 use crate::body::Bodies;
 use crate::combination::{ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
-use crate::dimension::Dimension;
 use crate::element::Types;
 use crate::findings::Findings;
 use crate::force::Forces;
 use crate::function::Domain;
 use crate::joint::{Drives, JointNames, Joints};
-use crate::key::{Interval, Key, Takes};
+use crate::key::{Key, Takes};
 use crate::language::{self, Language, LengthUnit, Units};
 use crate::limits;
 use crate::locate;
@@ -26,13 +28,15 @@ use crate::marker::Markers;
 use crate::measure::Measures;
 use crate::mistake::Mistake;
 use crate::names::{Names, Use};
+use crate::nearest::{did_you_mean, list};
 use crate::plausible;
 use crate::reactions::{self, GroupRequest, components};
 use crate::scene::Scene;
-use crate::section::{self, list, section};
+use crate::section::{self, section, tables};
 use crate::silence;
 use crate::simulate;
 use crate::source_map::{Entry, SourceMap};
+use crate::space::SceneSpace;
 use crate::start;
 use crate::table::Table;
 use crate::text::SourceText;
@@ -50,7 +54,7 @@ use crate::tolerance;
 /// ```
 /// use model::Registry;
 /// let text = "[[body]]\nname = \"crank\"\nmas = 2.0\ninertia = 0.1\n";
-/// let problems = scene::read("crank.toml", text, &Registry::planar()).err().unwrap();
+/// let problems = scene::read("crank.toml", text, &Registry::standard()).err().unwrap();
 /// let lines: Vec<_> = problems.iter().map(ToString::to_string).collect();
 /// assert_eq!(lines, [
 ///     "crank.toml:1:1: error: the scene needs the section `[scene]`",
@@ -74,7 +78,11 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     let mut whole = Table::new("the scene", 0..0, root.get_ref(), &plain);
     let language = Language::read(&mut whole, &mut findings);
     let whole = Table::new("the scene", 0..0, root.get_ref(), &language);
-    let mut scene = document(whole, registry, &mut findings);
+    let mut scene = if is_spatial(root.get_ref()) {
+        document::<Space3>(whole, registry, &mut findings)
+    } else {
+        document::<Plane>(whole, registry, &mut findings)
+    };
     scene.units = language.units;
     let unit = language.length_unit();
     drop(language);
@@ -136,8 +144,15 @@ fn say(fault: syntax::Fault, findings: &mut Findings) {
     findings.error_with_help(Mistake::NotToml, span, message, label, help);
 }
 
+/// Whether the scene says that its bodies move in space.
+fn is_spatial(root: &DeTable) -> bool {
+    let heading = root.get(section::SCENE.name);
+    let space = heading.and_then(|heading| heading.get_ref().get(SPACE.name));
+    space.and_then(|space| space.get_ref().as_str()) == Some(Space3::NAME)
+}
+
 /// Reads all sections. The result may be used only if no problem was found.
-fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
+fn document<S: SceneSpace>(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
     let mut sections = BTreeMap::new();
     let head = section(&mut root, &section::SCENE, &mut sections, findings);
     if head.is_none() && root.optional(section::SCENE.name).is_none() {
@@ -145,12 +160,12 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         let label = "`[scene]` is missing in this file";
         root.lacks(section::SCENE.name, message, label, findings);
     }
-    let heading = head.map_or_else(Heading::default, |head| Heading::read(head, findings));
+    let heading = head.map_or_else(Heading::<S>::default, |head| Heading::read(head, findings));
     section(&mut root, &section::PARAMETERS, &mut sections, findings);
-    let mut parts = Parts::read(&mut root, registry, findings);
+    let mut parts = Parts::<S>::read(&mut root, S::definitions(registry), findings);
     let (groups, group_entries) = groups(&mut root, &mut parts, findings);
     let start = section(&mut root, &section::START, &mut sections, findings)
-        .map(|table| start::read(table, &parts.bodies, findings));
+        .map(|table| start::read::<S>(table, &parts.bodies.names, findings));
     let output = section(&mut root, &section::OUTPUT, &mut sections, findings)
         .map(|table| reactions::output(table, &parts.reactions(Asked::Active), findings));
     let simulate = section(&mut root, &section::SIMULATE, &mut sections, findings)
@@ -167,7 +182,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
             simulate.check_rows(rows, findings);
         }
     }
-    let description = Description {
+    let description = S::described(Described {
         name: heading.name,
         gravity: heading.gravity,
         tolerance: heading.tolerance,
@@ -179,12 +194,12 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         joints: parts.joints.list,
         drives: parts.drives.list,
         forces: parts.forces.list,
-    };
+    });
     let source = SourceMap {
         text: findings.source.clone(),
         markers: parts.bodies.markers.entries,
         measures: parts.measures.entries,
-        bodies: parts.bodies.entries,
+        bodies: parts.bodies.names.entries,
         joints: parts.joints.entries,
         drives: parts.drives.entries,
         forces: parts.forces.entries,
@@ -206,20 +221,27 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
 }
 
 /// The parts of the mechanism.
-#[derive(Default)]
-struct Parts<'r> {
-    bodies: Bodies,
+struct Parts<'r, S: SceneSpace> {
+    bodies: Bodies<S>,
     measures: Measures,
-    joints: Joints<'r>,
-    drives: Drives,
-    forces: Forces,
+    joints: Joints<'r, S>,
+    drives: Drives<S>,
+    forces: Forces<S>,
     names: Names,
     domains: Vec<Domain>,
 }
 
-impl<'r> Parts<'r> {
-    fn read(root: &mut Table, registry: &'r Registry, findings: &mut Findings) -> Self {
-        let mut parts = Self::default();
+impl<'r, S: SceneSpace> Parts<'r, S> {
+    fn read(root: &mut Table, registry: &'r Definitions<S>, findings: &mut Findings) -> Self {
+        let mut parts = Self {
+            bodies: Bodies::default(),
+            measures: Measures::default(),
+            joints: Joints::default(),
+            drives: Drives::default(),
+            forces: Forces::default(),
+            names: Names::of(S::KIND),
+            domains: Vec::new(),
+        };
         let Self {
             bodies,
             measures,
@@ -229,25 +251,25 @@ impl<'r> Parts<'r> {
             names,
             domains,
         } = &mut parts;
-        for (table, name) in list(root, &section::BODY, findings) {
+        for (table, name) in tables(root, &section::BODY, findings) {
             names.bodies.push(Use::of(&name, &table));
             bodies.read(table, &name, findings);
         }
-        for (table, name) in list(root, &section::MARKER, findings) {
+        for (table, name) in tables(root, &section::MARKER, findings) {
             names.bodies.push(Use::of(&name, &table));
             Markers::read(bodies, table, &name, findings);
         }
-        for (table, name) in list(root, &section::MEASURE, findings) {
+        for (table, name) in tables(root, &section::MEASURE, findings) {
             names.bodies.push(Use::of(&name, &table));
             names.measures.push(Use::of(&name, &table));
-            measures.read(table, &name, &bodies.markers, findings);
+            measures.read(table, &name, S::KIND, &bodies.markers, findings);
         }
         let types = Types::of_joints(registry);
-        for (table, name) in list(root, &section::JOINT, findings) {
+        for (table, name) in tables(root, &section::JOINT, findings) {
             names.elements.push(Use::of(&name, &table));
             joints.read(table, &name, &types, bodies, domains, findings);
         }
-        let driven = list(root, &section::DRIVE, findings);
+        let driven = tables(root, &section::DRIVE, findings);
         if !driven.is_empty() {
             let by_name = JointNames::of(joints);
             for (table, name) in driven {
@@ -258,7 +280,7 @@ impl<'r> Parts<'r> {
             *forces = std::mem::take(&mut drives.laws);
         }
         let types = Types::of_forces(registry);
-        for (table, name) in list(root, &section::FORCE, findings) {
+        for (table, name) in tables(root, &section::FORCE, findings) {
             names.elements.push(Use::of(&name, &table));
             forces.read(table, &name, &types, bodies, domains, findings);
         }
@@ -319,20 +341,20 @@ enum Asked {
 }
 
 /// Groups with their places.
-fn groups(
+fn groups<S: SceneSpace>(
     root: &mut Table,
-    parts: &mut Parts,
+    parts: &mut Parts<S>,
     findings: &mut Findings,
 ) -> (Vec<GroupRequest>, Vec<Entry>) {
-    let tables = list(root, &section::GROUP, findings);
-    let mut entries = Vec::with_capacity(tables.len());
-    parts.names.groups = tables.iter().map(|(t, name)| Use::of(name, t)).collect();
-    if tables.is_empty() {
+    let found = tables(root, &section::GROUP, findings);
+    let mut entries = Vec::with_capacity(found.len());
+    parts.names.groups = found.iter().map(|(t, name)| Use::of(name, t)).collect();
+    if found.is_empty() {
         return (Vec::new(), entries);
     }
     let (all, active) = (parts.reactions(Asked::All), parts.reactions(Asked::Active));
-    let mut groups = Vec::with_capacity(tables.len());
-    for (mut table, name) in tables {
+    let mut groups = Vec::with_capacity(found.len());
+    for (mut table, name) in found {
         let is_active = active::read(&mut table, findings);
         entries.push(Entry::switched(&name, &table, is_active));
         let names = if is_active { &active } else { &all };
@@ -341,33 +363,37 @@ fn groups(
     (groups, entries)
 }
 
-const PLANE: &str = "plane";
+/// The spaces of scenes.
+fn spaces() -> Vec<&'static str> {
+    vec![Plane::NAME, Space3::NAME]
+}
 
 const NAME: Key = Key::required("name", "the name of the scene", Takes::Text)
     .doc("The name of the scene, as reports and figures say it");
-const SPACE: Key = Key::required("space", "\"plane\"", Takes::OneOf(|| vec![PLANE]))
+const SPACE: Key = Key::required("space", "\"plane\" or \"spatial\"", Takes::OneOf(spaces))
     .doc("The space of the bodies");
-const GRAVITY: Key = Key::optional(
-    "gravity",
-    "an acceleration [gx, gy]",
-    Takes::Pair(Interval::Any),
-)
-.unit(Dimension::ACCELERATION)
-.doc("Acceleration of free bodies [gx, gy]")
-.or(|| json!([0.0, 0.0]));
 
-/// Keys of `[scene]`, in addition to those of tolerances.
-pub(crate) const SCENE_KEYS: [Key; 3] = [NAME, SPACE, GRAVITY];
+/// Keys of `[scene]`, in addition to gravity and those of tolerances.
+pub(crate) const SCENE_KEYS: [Key; 2] = [NAME, SPACE];
 
 /// `[scene]`
-#[derive(Default)]
-struct Heading {
+struct Heading<S: SceneSpace> {
     name: String,
-    gravity: [f64; 2],
+    gravity: S::Vector<f64>,
     tolerance: Tolerance,
 }
 
-impl Heading {
+impl<S: SceneSpace> Default for Heading<S> {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            gravity: S::vector([0.0; 3]),
+            tolerance: Tolerance::default(),
+        }
+    }
+}
+
+impl<S: SceneSpace> Heading<S> {
     fn read(mut table: Table, findings: &mut Findings) -> Self {
         let name = table.required(&NAME, findings).and_then(|field| {
             let name = field.text(NAME.expected, findings)?;
@@ -380,18 +406,21 @@ impl Heading {
         let space = table.required(&SPACE, findings);
         if let Some(field) = space
             && let Some(space) = field.text(SPACE.expected, findings)
-            && space != PLANE
+            && space != S::NAME
         {
-            findings.error(
+            let known = list(spaces());
+            findings.error_with_help(
                 Mistake::UnknownChoice,
                 field.span(),
-                format!("`[scene]`: `space` is \"{space}\", only \"{PLANE}\" is available"),
-                "not available",
+                format!("`[scene]`: `space` is \"{space}\", there are {known}"),
+                "no such space",
+                did_you_mean(space, spaces()),
             );
         }
-        let gravity = table.optional(&GRAVITY).and_then(|field| {
-            let gravity = field.pair(GRAVITY.expected, GRAVITY.unit, findings)?;
-            plausible::gravity(&field, gravity, findings);
+        let gravity = table.optional(&S::GRAVITY).and_then(|field| {
+            let Key { expected, unit, .. } = S::GRAVITY;
+            let gravity = field.vector::<S>(expected, unit, findings)?;
+            plausible::gravity(&field, gravity.as_ref(), findings);
             Some(gravity)
         });
         let tolerance = tolerance::of_scene(&mut table, findings);
@@ -402,7 +431,7 @@ impl Heading {
         table.close(findings);
         Self {
             name: name.unwrap_or_default(),
-            gravity: gravity.unwrap_or_default(),
+            gravity: gravity.unwrap_or_else(|| S::vector([0.0; 3])),
             tolerance,
         }
     }
@@ -411,12 +440,17 @@ impl Heading {
 /// Reports what the mechanism refuses, or else what is not plausible in it. The existence of
 /// bodies has already been checked, and so have names, including those of tables that could not be
 /// read.
-fn check(description: &Description, source: &SourceMap, unit: LengthUnit, findings: &mut Findings) {
+fn check(
+    description: &AnyDescription,
+    source: &SourceMap,
+    unit: LengthUnit,
+    findings: &mut Findings,
+) {
     let errors = match Mechanism::build(description) {
-        Ok(built) => return plausible::check(description, &built, source, unit, findings),
+        Ok(built) => return plausible::check(&built, source, unit, findings),
         Err(errors) => errors,
     };
-    let of_drive = |of: &str| description.drives.iter().any(|drive| drive.name == of);
+    let of_drive = |of: &str| description.drives().any(|(drive, _)| drive == of);
     for (said, error) in errors.iter().enumerate() {
         if findings.is_full() {
             return findings.count(errors.len() - said);

@@ -2,7 +2,10 @@
 //! by a program.
 
 use dynamics::{MotionError, MotionOptions};
-use model::{BuildError, Description, SpaceKind, StartError, StartOptions};
+use model::{
+    AnyDescription, BodySpace, BuildError, Described, Description, SpatialDescription, StartError,
+    StartOptions,
+};
 
 use crate::combination::{self, Combination, CombinationError, ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
@@ -30,7 +33,7 @@ use crate::source_map::{Entry, SourceMap};
 #[derive(Clone, Default)]
 pub struct Scene {
     /// The mechanism as plain data; it has the name of the scene.
-    pub description: Description,
+    pub description: AnyDescription,
     /// Options of the start.
     pub start: StartOptions,
     /// The run, if the file requests one.
@@ -65,8 +68,8 @@ impl std::fmt::Display for Inactive {
 }
 
 /// A scene with the mechanism only: everything else by default, and no run.
-impl From<Description> for Scene {
-    fn from(description: Description) -> Self {
+impl From<AnyDescription> for Scene {
+    fn from(description: AnyDescription) -> Self {
         Self {
             description,
             ..Self::default()
@@ -74,11 +77,23 @@ impl From<Description> for Scene {
     }
 }
 
+impl From<Description> for Scene {
+    fn from(description: Description) -> Self {
+        AnyDescription::from(description).into()
+    }
+}
+
+impl From<SpatialDescription> for Scene {
+    fn from(description: SpatialDescription) -> Self {
+        AnyDescription::from(description).into()
+    }
+}
+
 impl Scene {
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.description.name
+        self.description.name()
     }
 
     /// Its text, if there is one.
@@ -119,13 +134,11 @@ impl Scene {
     /// If the text is not a sum of terms, or refers to a reaction or component that the scene does
     /// not have.
     pub fn combination(&self, text: &str) -> Result<Combination, CombinationError> {
-        let joints = self.description.joints.iter();
-        let joints = joints.map(|j| (&j.name, j.element.spec()));
-        let drives = self.description.drives.iter();
-        let drives = drives.map(|x| (&x.name, x.element.spec()));
-        let names = joints.chain(drives).map(|(name, spec)| ReactionNames {
+        let (d, space) = (&self.description, self.description.space());
+        let names = d.joints().chain(d.drives());
+        let names = names.map(|(name, spec)| ReactionNames {
             name,
-            components: Some(components(SpaceKind::Plane, spec)),
+            components: Some(components(space, spec)),
         });
         let inactive = self.inactive.iter().map(|x| x.name.as_str());
         combination::parse(text, &Reactions::new(names.collect()).without(inactive))
@@ -136,10 +149,11 @@ impl Scene {
         let Some(source) = &mut self.source else {
             return;
         };
-        let (d, inactive) = (&mut self.description, &mut self.inactive);
-        retain("joint", &mut d.joints, &mut source.joints, inactive);
-        retain("drive", &mut d.drives, &mut source.drives, inactive);
-        retain("force", &mut d.forces, &mut source.forces, inactive);
+        let inactive = &mut self.inactive;
+        match &mut self.description {
+            AnyDescription::Plane(d) => retain_active(d, source, inactive),
+            AnyDescription::Space3(d) => retain_active(d, source, inactive),
+        }
         retain("group", &mut self.groups, &mut source.groups, inactive);
     }
 
@@ -153,10 +167,20 @@ impl Scene {
     /// The joint or drive with the most similar name, if one is similar.
     #[must_use]
     pub fn nearest_reaction(&self, name: &str) -> Option<&str> {
-        let joints = self.description.joints.iter().map(|j| j.name.as_str());
-        let drives = self.description.drives.iter().map(|d| d.name.as_str());
-        nearest(name, joints.chain(drives))
+        let named = self.description.joints().chain(self.description.drives());
+        nearest(name, named.map(|(name, _)| name))
     }
+}
+
+/// Keeps the active parts of a mechanism.
+fn retain_active<S: BodySpace>(
+    d: &mut Described<S>,
+    source: &mut SourceMap,
+    inactive: &mut Vec<Inactive>,
+) {
+    retain("joint", &mut d.joints, &mut source.joints, inactive);
+    retain("drive", &mut d.drives, &mut source.drives, inactive);
+    retain("force", &mut d.forces, &mut source.forces, inactive);
 }
 
 /// Keeps the active items of a list, and their entries.
@@ -179,20 +203,13 @@ fn retain<T>(
 
 impl std::fmt::Debug for Scene {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Description {
-            name,
-            bodies,
-            joints,
-            drives,
-            forces,
-            ..
-        } = &self.description;
+        let d = &self.description;
         f.debug_struct("Scene")
-            .field("name", name)
-            .field("bodies", &bodies.len())
-            .field("joints", &joints.len())
-            .field("drives", &drives.len())
-            .field("forces", &forces.len())
+            .field("name", &d.name())
+            .field("bodies", &d.bodies().len())
+            .field("joints", &d.joints().count())
+            .field("drives", &d.drives().count())
+            .field("forces", &d.n_forces())
             .finish_non_exhaustive()
     }
 }

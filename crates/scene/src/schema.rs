@@ -7,7 +7,8 @@ mod value;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use model::Registry;
+use joints::{Plane, Space3};
+use model::{Definitions, Registry};
 use serde_json::{Map, Value, json};
 
 use crate::active::ACTIVE;
@@ -20,7 +21,8 @@ use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
 use crate::silence;
-use crate::{body, marker, measure, simulate, start, tolerance};
+use crate::space::SceneSpace;
+use crate::{measure, simulate, start, tolerance};
 use element::{Kind, elements};
 use value::{described, reference};
 
@@ -30,36 +32,13 @@ use value::{described, reference};
 /// because names, rows and the assembly of a start are not checked by a schema.
 ///
 /// ```
-/// let schema = scene::schema(&model::Registry::planar());
+/// let schema = scene::schema(&model::Registry::standard());
 /// assert_eq!(schema["$defs"]["body"]["properties"]["mass"]["minimum"], 0);
 /// ```
 #[must_use]
 pub fn schema(registry: &Registry) -> Value {
-    let sections = [
-        (&section::SCENE, Times::Once, scene_table()),
+    let common = [
         (&section::PARAMETERS, Times::Once, value::parameters()),
-        (&section::BODY, Times::Many, named("Body", &body::KEYS)),
-        (
-            &section::MARKER,
-            Times::Many,
-            named("Marker", &marker::KEYS),
-        ),
-        (
-            &section::MEASURE,
-            Times::Many,
-            named("Measure", &measure::KEYS),
-        ),
-        (
-            &section::JOINT,
-            Times::Many,
-            elements(registry, Kind::Joint),
-        ),
-        (&section::DRIVE, Times::Many, drive(registry)),
-        (
-            &section::FORCE,
-            Times::Many,
-            elements(registry, Kind::Force),
-        ),
         (&section::GROUP, Times::Many, group()),
         (&section::START, Times::Once, table("Start", &start::KEYS)),
         (
@@ -71,32 +50,86 @@ pub fn schema(registry: &Registry) -> Value {
     ];
     let mut definitions = Map::new();
     let mut properties = Map::new();
-    for (Section { name, doc }, times, definition) in sections {
-        let of = reference(name);
-        let property = match times {
-            Times::Once => json!({ "description": doc, "$ref": of["$ref"] }),
-            Times::Many => json!({ "description": doc, "type": "array", "items": of }),
-        };
-        properties.insert((*name).to_owned(), property);
+    for (Section { name, doc }, times, definition) in common {
+        properties.insert((*name).to_owned(), property(doc, times, name));
         definitions.insert((*name).to_owned(), definition);
     }
-    // A scene needs at least one body.
-    properties[section::BODY.name]["minItems"] = 1.into();
-    definitions.insert("point".to_owned(), value::point());
-    definitions.insert("place".to_owned(), value::place());
+    let plane = in_space::<Plane>(registry, &mut definitions);
+    let space = in_space::<Space3>(registry, &mut definitions);
+    // What it is depends on the space.
+    for section in OF_SPACE {
+        properties.insert(
+            section.name.to_owned(),
+            json!({ "description": section.doc }),
+        );
+    }
     definitions.insert("function".to_owned(), function());
     definitions.insert("units".to_owned(), table("Units", &UNIT_KEYS));
     definitions.insert("step".to_owned(), table("Step", &STEP_KEYS));
+    let is_spatial = json!({ "description": "In space", "properties": { "space": { "const": Space3::NAME } }, "required": ["space"] });
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Scene of pfaff",
-        "description": "A planar multibody mechanism and what is to be done with it. SI units and radians, unless `units` says otherwise.",
+        "description": "A multibody mechanism in the plane or in space, and what is to be done with it. SI units and radians, unless `units` says otherwise.",
         "type": "object",
         "properties": properties,
         "required": [section::SCENE.name, section::BODY.name],
         "additionalProperties": false,
+        "if": { "properties": { "scene": is_spatial }, "required": ["scene"] },
+        "then": { "properties": space },
+        "else": { "properties": plane },
         "$defs": definitions,
     })
+}
+
+/// The sections that are different in the plane and in space.
+const OF_SPACE: [&Section; 7] = [
+    &section::SCENE,
+    &section::BODY,
+    &section::MARKER,
+    &section::MEASURE,
+    &section::JOINT,
+    &section::DRIVE,
+    &section::FORCE,
+];
+
+/// The sections of a space; adds their definitions, those of space with a prefix.
+fn in_space<S: SceneSpace>(registry: &Registry, definitions: &mut Map<String, Value>) -> Value {
+    let registry = S::definitions(registry);
+    let tables = [
+        scene_table::<S>(),
+        named("Body", S::BODY_KEYS),
+        named("Marker", S::MARKER_KEYS),
+        named("Measure", &measure::keys(S::KIND)),
+        elements(registry, Kind::Joint),
+        drive(registry),
+        elements(registry, Kind::Force),
+    ];
+    let mut properties = Map::new();
+    for (Section { name, doc }, definition) in OF_SPACE.into_iter().zip(tables) {
+        let times = if *name == section::SCENE.name {
+            Times::Once
+        } else {
+            Times::Many
+        };
+        let of = value::name_in::<S>(name);
+        properties.insert((*name).to_owned(), property(doc, times, &of));
+        definitions.insert(of, definition);
+    }
+    // A scene needs at least one body.
+    properties[section::BODY.name]["minItems"] = 1.into();
+    definitions.insert(value::name_in::<S>("point"), value::point::<S>());
+    definitions.insert(value::name_in::<S>("place"), value::place::<S>());
+    properties.into()
+}
+
+/// A section with this definition.
+fn property(doc: &str, times: Times, definition: &str) -> Value {
+    let of = reference(definition);
+    match times {
+        Times::Once => json!({ "description": doc, "$ref": of["$ref"] }),
+        Times::Many => json!({ "description": doc, "type": "array", "items": of }),
+    }
 }
 
 /// How often a section may occur in a file.
@@ -124,9 +157,10 @@ fn table(title: &str, keys: &[Key]) -> Value {
     })
 }
 
-fn scene_table() -> Value {
+fn scene_table<S: SceneSpace>() -> Value {
     let keys: Vec<Key> = SCENE_KEYS
         .into_iter()
+        .chain([S::GRAVITY])
         .chain(tolerance::SCENE_KEYS)
         .chain(language::SCENE_KEYS)
         .chain(silence::SCENE_KEYS)
@@ -140,7 +174,7 @@ fn named(title: &str, keys: &[Key]) -> Value {
     table(title, &keys)
 }
 
-fn drive(registry: &Registry) -> Value {
+fn drive<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     let mut table = named("Drive", &[&DRIVE_KEYS[..], &[ACTIVE]].concat());
     // Joints, grouped by the measures that can be prescribed.
     let mut measures: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();

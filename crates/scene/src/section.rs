@@ -82,7 +82,7 @@ pub(crate) fn section<'t>(
 }
 
 /// Tables that may occur many times, with the names of their items.
-pub(crate) fn list<'t>(
+pub(crate) fn tables<'t>(
     root: &mut Table<'t>,
     Section { name: kind, .. }: &Section,
     findings: &mut Findings,

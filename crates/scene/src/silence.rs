@@ -9,7 +9,7 @@ use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
 /// The warnings that a scene can have. They are never errors, and each can be silenced.
-const WARNINGS: [Code; 9] = [
+const WARNINGS: [Code; 10] = [
     Code::new(190),
     Code::new(191),
     Code::new(192),
@@ -19,6 +19,7 @@ const WARNINGS: [Code; 9] = [
     Code::new(196),
     Code::new(197),
     Code::new(198),
+    Code::new(199),
 ];
 
 /// The codes as they are written.

@@ -1,35 +1,41 @@
 //! `[start]`: options of the start.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use model::StartOptions;
 use model::start::{Coordinate, CorrectionLimit, KeepLevel};
 use serde_json::json;
 
-use crate::body::{Bodies, GROUND};
+use crate::body::{BodyNames, GROUND};
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
+use crate::space::SceneSpace;
 use crate::table::Table;
 
-/// Coordinates and velocities of a planar body by name.
-const COORDINATES: [(&str, usize, KeepLevel); 6] = [
-    ("x", 0, KeepLevel::Position),
-    ("y", 1, KeepLevel::Position),
-    ("angle", 2, KeepLevel::Position),
-    ("vx", 0, KeepLevel::Velocity),
-    ("vy", 1, KeepLevel::Velocity),
-    ("omega", 2, KeepLevel::Velocity),
-];
+/// What the start may hold of a body, by its name.
+pub(crate) struct Kept {
+    name: &'static str,
+    /// Freedoms of the body.
+    dofs: Range<usize>,
+    level: KeepLevel,
+}
+
+impl Kept {
+    pub(crate) const fn new(name: &'static str, dofs: Range<usize>, level: KeepLevel) -> Self {
+        Self { name, dofs, level }
+    }
+}
 
 const KEEP: Key = Key::optional(
     "keep",
     "a list of coordinates [\"body.angle\", …]",
     Takes::Texts(0),
 )
-.doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body; a velocity that is not given is held at zero")
+.doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body, in space x, y, z, rotation, vx, vy, vz, omega; a velocity that is not given is held at zero")
 .or(|| json!([]));
 const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false", Takes::Flag)
     .doc("Whether the start may be corrected by more than a thousandth of the scene's size, and given velocities by more than a thousandth of the fastest that hang together with them")
@@ -39,7 +45,11 @@ const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false",
 pub(crate) const KEYS: [Key; 2] = [KEEP, ALLOW_CORRECTION];
 
 /// Reads the section.
-pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -> StartOptions {
+pub(crate) fn read<S: SceneSpace>(
+    mut table: Table,
+    bodies: &BodyNames,
+    findings: &mut Findings,
+) -> StartOptions {
     let mut kept: Vec<Coordinate> = Vec::new();
     let mut named = HashMap::new();
     let items = table
@@ -47,14 +57,19 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
         .and_then(|field| field.items(KEEP.expected, findings))
         .unwrap_or_default();
     for item in items {
-        let Some(coordinate) = coordinate(&item, bodies, findings) else {
+        let Some((body, found)) = kept_of::<S>(&item, bodies, findings) else {
             continue;
         };
-        let Coordinate { body, dof, level } = coordinate;
-        let thing = (body, dof, level == KeepLevel::Position);
+        let Kept { dofs, level, .. } = found;
+        let thing = (body, dofs.start, *level == KeepLevel::Position);
         let twice = "`[start]`: `keep` names a coordinate twice";
         if findings.is_first(&mut named, thing, item.span(), twice) {
-            kept.push(coordinate);
+            let all = dofs.clone().map(|dof| Coordinate {
+                body,
+                dof,
+                level: *level,
+            });
+            kept.extend(all);
         }
     }
     let allowed = table
@@ -72,7 +87,11 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
 }
 
 /// Parses a coordinate such as `body.angle`.
-fn coordinate(item: &Field, bodies: &Bodies, findings: &mut Findings) -> Option<Coordinate> {
+fn kept_of<S: SceneSpace>(
+    item: &Field,
+    bodies: &BodyNames,
+    findings: &mut Findings,
+) -> Option<(usize, &'static Kept)> {
     const EXPECTED: &str = "a coordinate of a body, as \"crank.angle\"";
     let text = item.text(EXPECTED, findings)?;
     let Some((body, name)) = text.rsplit_once('.') else {
@@ -92,9 +111,9 @@ fn coordinate(item: &Field, bodies: &Bodies, findings: &mut Findings) -> Option<
     if at.is_none() {
         bodies.unknown(item.span(), "`[start]`", body, findings);
     }
-    let found = COORDINATES.iter().find(|(known, ..)| *known == name);
+    let found = S::KEPT.iter().find(|known| known.name == name);
     if found.is_none() {
-        let names = || COORDINATES.iter().map(|(known, ..)| *known);
+        let names = || S::KEPT.iter().map(|known| known.name);
         findings.error_with_help(
             Mistake::UnknownCoordinate,
             item.span(),
@@ -103,10 +122,5 @@ fn coordinate(item: &Field, bodies: &Bodies, findings: &mut Findings) -> Option<
             did_you_mean(name, names()).or(Some(format!("there are {}", list(names())))),
         );
     }
-    let &(_, dof, level) = found?;
-    Some(Coordinate {
-        body: at?,
-        dof,
-        level,
-    })
+    Some((at?, found?))
 }

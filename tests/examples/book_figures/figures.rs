@@ -59,7 +59,7 @@ fn read(text: &str, overrides: &Overrides) -> Fallible<Study> {
     Ok(Study::read(
         "scene.toml",
         text,
-        &Registry::planar(),
+        &Registry::standard(),
         overrides,
     )?)
 }
@@ -67,7 +67,8 @@ fn read(text: &str, overrides: &Overrides) -> Fallible<Study> {
 /// A mechanism at its start, its joints marked by verdict and labelled with their rows.
 fn with_rows(text: &str) -> Fallible<String> {
     let study = read(text, &Overrides::default())?;
-    let mut described = study.scene.description.clone();
+    let described = study.scene.description.plane();
+    let mut described = described.ok_or("a scene of the plane")?.clone();
     let rows: Vec<String> = study
         .prepared
         .mechanism

@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut text = Vec::new();
         generator.write(&mut text)?;
         let text = String::from_utf8(text)?;
-        let registry = model::Registry::planar();
+        let registry = model::Registry::standard();
         let study = Study::read(&generator.name(), &text, &registry, &Overrides::default())?;
         compare(&generator.name(), &SaddleSystem::of(&study.prepared)?)?;
     }

@@ -46,7 +46,7 @@ impl Robot {
         let study = Study::read(
             case.name,
             case.scene,
-            &Registry::planar(),
+            &Registry::standard(),
             &Overrides::default(),
         )?;
         let prepared = study.prepared;

@@ -52,7 +52,7 @@ impl Stage {
 #[must_use]
 pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     begin(Stage::Read);
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let read = || AssembledScene::read("scene.toml", text, &registry);
     let assembled = match read() {
         Ok(assembled) => assembled,

@@ -75,7 +75,8 @@ pub fn asking(
 /// # Errors
 /// The refusal, with all its problems.
 pub fn study(text: &str) -> Result<Study, Outcome> {
-    Study::read("scene", text, &Registry::planar(), &Overrides::default()).map_err(|e| refused(&e))
+    Study::read("scene", text, &Registry::standard(), &Overrides::default())
+        .map_err(|e| refused(&e))
 }
 
 /// Builds a described mechanism.

@@ -16,7 +16,7 @@ pub(crate) fn started(d: &Description) -> Prepared {
 /// A case of the suite, at its start.
 fn case(name: &str) -> (Prepared, Vec<Instant>) {
     let case = suite::find(name).expect("a case");
-    let registry = model::Registry::planar();
+    let registry = model::Registry::standard();
     let study = pfaff::Study::read(
         case.name,
         case.scene,

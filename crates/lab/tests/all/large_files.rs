@@ -21,7 +21,7 @@ const LISTED: usize = 5000;
 
 /// Reads a text with the standard joints and forces.
 fn read(text: &str) -> Result<Scene, Vec<Diagnostic>> {
-    pfaff::scene::read("x.toml", text, &Registry::planar())
+    pfaff::scene::read("x.toml", text, &Registry::standard())
 }
 
 /// A chain of parallelograms.
@@ -52,7 +52,7 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     let text = chain(CELLS);
     let begin = Instant::now();
     let scene = read(&text).unwrap_or_else(|problems| panic!("{}", problems[0]));
-    let d = &scene.description;
+    let d = scene.description.plane().expect("a planar scene");
     assert_eq!((d.bodies.len(), d.joints.len()), (68_750, 100_000));
     // Every place is known: the last joint is the last table but one.
     let source = scene.source.as_ref().expect("places");
@@ -372,7 +372,7 @@ fn a_long_line_within_the_limit_is_read() {
     let begin = Instant::now();
     let scene = read(&text).unwrap_or_else(|problems| panic!("{}", problems[0]));
     assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
-    assert_eq!(scene.description.forces.len(), 1);
+    assert_eq!(scene.description.n_forces(), 1);
     // A line that contains only invalid numbers: it is searched only for those that are listed.
     let wrong = text.replace("0.", "nan+0.");
     assert!(problems(&wrong).len() <= LISTED + 1);

@@ -34,7 +34,7 @@ fn pfaff(arguments: &[&str]) -> String {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let arguments = std::iter::once(&"pfaff").chain(arguments);
     let streams = (Stream::plain(&mut out), Stream::plain(&mut err));
-    pfaff_cli::run(&Registry::planar(), arguments, streams.0, streams.1);
+    pfaff_cli::run(&Registry::standard(), arguments, streams.0, streams.1);
     assert!(err.is_empty(), "{}", String::from_utf8_lossy(&err));
     String::from_utf8(out).expect("UTF-8")
 }

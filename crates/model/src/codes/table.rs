@@ -41,6 +41,15 @@ macro_rules! bar {
     };
 }
 
+macro_rules! block {
+    ($text:literal) => {
+        concat!(
+            "[scene]\nname = \"block\"\nspace = \"spatial\"\n\n[[body]]\nname = \"block\"\nmass = 1.0\n",
+            $text
+        )
+    };
+}
+
 /// All codes, ascending.
 pub const TABLE: &[Entry] = &[
     entry(
@@ -523,25 +532,39 @@ pub const TABLE: &[Entry] = &[
     entry(
         152,
         "An orientation is no rotation",
-        "Give a quaternion (w, x, y, z) that is not zero; its length does not matter.",
-        LIBRARY,
+        "Give a quaternion (w, x, y, z) that is not zero, or a rotation matrix, which turns a right hand into a right hand.",
+        Example::Scene(
+            "check -",
+            block!(
+                "inertia = [1, 1, 1]\norientation = { matrix = [[1, 0, 0], [0, 1, 0], [0, 0, -1]] }\n"
+            ),
+        ),
     ),
     entry(
         153,
         "No body has this tensor of inertia",
         "Give a symmetric tensor about the centre of mass whose largest principal moment is at most the sum of the others.",
-        LIBRARY,
+        Example::Scene("check -", block!("inertia = [3, 1, 1]\n")),
     ),
     entry(
         154,
         "A tensor of inertia has products",
         "Turn the frame of the body into its principal axes, where the tensor is diagonal.",
+        Example::Scene(
+            "check -",
+            block!("inertia = [[2, 0.1, 0], [0.1, 2, 0], [0, 0, 2]]\n"),
+        ),
+    ),
+    entry(
+        155,
+        "A measure does not exist in this space",
+        "In the plane there are distance, angle, x, y, speed and angular-velocity; in space there is z, and no angle.",
         LIBRARY,
     ),
     entry(
         180,
         "A warning that is to be silenced does not exist",
-        "Write the codes of warnings, P0190 to P0198; errors cannot be silenced.",
+        "Write the codes of warnings, P0190 to P0199; errors cannot be silenced.",
         Example::Scene(
             "check -",
             "[scene]\nname = \"bar\"\nspace = \"plane\"\nsilence = [\"P0100\"]\n",
@@ -633,6 +656,15 @@ pub const TABLE: &[Entry] = &[
             bar!(
                 "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[marker]]\nname = \"foot\"\nbody = \"bar\"\npoint = [0.0, 0.0]\n\n[[marker]]\nname = \"tip\"\nbody = \"bar\"\npoint = [1.0, 0.0]\n\n[[measure]]\nname = \"swing\"\ntype = \"angle\"\nmarkers = [\"foot\", \"tip\"]\n"
             ),
+        ),
+    ),
+    entry(
+        199,
+        "An orientation is not quite a rotation (warning)",
+        "The nearest rotation is taken: write more digits.",
+        Example::Scene(
+            "check -",
+            block!("inertia = [1, 1, 1]\norientation = { quaternion = [1, 0.5, 0, 0] }\n"),
         ),
     ),
     entry(

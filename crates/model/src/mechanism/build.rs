@@ -6,7 +6,7 @@ use super::check;
 use super::work::held_bodies;
 use super::{BuildError, Elements, FunctionForm, Mechanism, TimeFunction, initialise};
 use crate::body::{BodyRecord, BodyRef, DescribedBody};
-use crate::description::Described;
+use crate::description::{AnyDescription, Described};
 use crate::element::{AnyConstraint, AnyForce, BodySpace, PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
@@ -15,15 +15,40 @@ use crate::space::SpaceKind;
 use crate::system::{Layout, RowLabel};
 use crate::tolerance::Tolerance;
 
+/// What [`Mechanism::build`] takes: a description of the plane, of space, or of either.
+pub trait Buildable {
+    /// The mechanism, or all faults of the description.
+    #[doc(hidden)]
+    fn built(&self) -> Result<Mechanism, Vec<BuildError>>;
+}
+
+impl<S: BodySpace> Buildable for Described<S> {
+    fn built(&self) -> Result<Mechanism, Vec<BuildError>> {
+        Mechanism::of_described(self)
+    }
+}
+
+impl Buildable for AnyDescription {
+    fn built(&self) -> Result<Mechanism, Vec<BuildError>> {
+        match self {
+            Self::Plane(d) => d.built(),
+            Self::Space3(d) => d.built(),
+        }
+    }
+}
+
 impl Mechanism {
     /// Assembles a mechanism. Initial values are those of the described configuration until
     /// [`crate::start::assemble`] has found a consistent one.
     ///
     /// # Errors
     /// All faults of the description.
-    pub fn build<S: BodySpace>(d: &Described<S>) -> Result<Self, Vec<BuildError>> {
-        let records = d.bodies.iter().cloned().map(Into::<DescribedBody>::into);
-        let bodies: Vec<BodyRecord> = records.map(BodyRecord::from).collect();
+    pub fn build(d: &impl Buildable) -> Result<Self, Vec<BuildError>> {
+        d.built()
+    }
+
+    fn of_described<S: BodySpace>(d: &Described<S>) -> Result<Self, Vec<BuildError>> {
+        let bodies = d.records();
         let errors = check::faults(d, &bodies);
         if !errors.is_empty() {
             return Err(errors);

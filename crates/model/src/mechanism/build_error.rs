@@ -3,6 +3,7 @@
 use joints::LARGEST;
 
 use crate::codes::Code;
+use crate::observed::MeasureKind;
 use crate::tolerance::Stated;
 
 /// One fault of a description.
@@ -142,15 +143,13 @@ pub enum BuildError {
     },
     /// A number of a marker is NaN or infinite.
     #[error(
-        "marker `{name}` is at [{x:?}, {y:?}], turned by {angle:?}, need finite numbers up to {LARGEST:e}"
+        "marker `{name}` is at {point:?}, turned by {angle:?}, need finite numbers up to {LARGEST:e}"
     )]
     Marker {
         /// The marker.
         name: String,
-        /// Its x coordinate.
-        x: f64,
-        /// Its y coordinate.
-        y: f64,
+        /// Its place.
+        point: Vec<f64>,
         /// Its angle.
         angle: f64,
     },
@@ -171,6 +170,17 @@ pub enum BuildError {
     SameMarker {
         /// The measure.
         name: String,
+    },
+    /// There is no such measure in this space.
+    #[error("measure `{name}`: there is no `{}` {}", kind.name(), match kind {
+        MeasureKind::Z => "in the plane",
+        _ => "between bodies that turn in space; measure `angular-velocity`, or drive the joint",
+    })]
+    Measure {
+        /// The measure.
+        name: String,
+        /// What it should measure.
+        kind: MeasureKind,
     },
     /// A drive is in the list of joints, or a joint in the list of drives.
     #[error("`{name}` is in the list of {list}, but `{definition}` does not belong there")]
@@ -219,6 +229,7 @@ impl BuildError {
             Self::Marker { .. } => const { Code::new(134) },
             Self::UnknownMarker { .. } => const { Code::new(135) },
             Self::SameMarker { .. } => const { Code::new(136) },
+            Self::Measure { .. } => const { Code::new(155) },
             Self::NoOrientation { .. } => const { Code::new(152) },
             Self::NotSymmetric { .. } | Self::NoSuchTensor { .. } => const { Code::new(153) },
             Self::NotPrincipal { .. } => const { Code::new(154) },

@@ -334,12 +334,11 @@ fn check_observed<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) 
                 n_bodies: d.bodies.len(),
             });
         }
-        let ([x, y], angle) = (marker.point, marker.angle.unwrap_or_default());
-        if ![x, y, angle].iter().all(|x| is_usable(*x)) {
+        let (point, angle) = (marker.point, marker.angle.unwrap_or_default());
+        if !point.iter().chain([&angle]).all(|x| is_usable(*x)) {
             errors.push(BuildError::Marker {
                 name: name(),
-                x,
-                y,
+                point: point[..S::DIM].to_vec(),
                 angle,
             });
         }
@@ -356,6 +355,9 @@ fn check_observed<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) 
             });
         } else if first == second {
             errors.push(BuildError::SameMarker { name });
+        } else if !measure.kind.exists_in(S::KIND) {
+            let kind = measure.kind;
+            errors.push(BuildError::Measure { name, kind });
         }
     }
 }

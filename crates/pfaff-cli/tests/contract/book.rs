@@ -210,7 +210,7 @@ fn lab_in(folder: &Path, arguments: &[&str]) -> String {
     }
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let streams = (Stream::plain(&mut out), Stream::plain(&mut err));
-    lab::command::run(&Registry::planar(), words, streams.0, streams.1);
+    lab::command::run(&Registry::standard(), words, streams.0, streams.1);
     let text = String::from_utf8([out, err].concat()).expect("UTF-8");
     text.replace(&format!("{}/", folder.display()), "")
 }

@@ -11,7 +11,7 @@ use super::singular::flat_cranks;
 use super::{Folder, ROBOT, pfaff, stdout, with_scene};
 
 fn study(name: &str, text: &str) -> Study {
-    let study = Study::read(name, text, &Registry::planar(), &Overrides::default());
+    let study = Study::read(name, text, &Registry::standard(), &Overrides::default());
     study.unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -85,7 +85,7 @@ fn the_summary_of_a_run_is_the_one_of_the_command() {
         ..Overrides::default()
     };
     let text = robot();
-    let study = Study::read(ROBOT, &text, &Registry::planar(), &overrides).expect("a scene");
+    let study = Study::read(ROBOT, &text, &Registry::standard(), &overrides).expect("a scene");
     let directory = OutputDirectory::create(folder.0.join("again")).expect("a folder");
     let run = study.simulate_into(&directory, |_| ControlFlow::Continue(()));
     assert_eq!(timeless(&written(&run.expect("a run"))), of_command);

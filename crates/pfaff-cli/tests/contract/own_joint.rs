@@ -37,7 +37,7 @@ simulate = { t_end = 0.1 }
 
 /// Exit code, answers and errors of a command with the bead's joint.
 fn command(arguments: &[&str]) -> (ExitCode, String, String) {
-    let mut registry = Registry::planar();
+    let mut registry = Registry::standard();
     registry.add_constraint::<BeadOnWire>();
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let arguments = std::iter::once("bead").chain(arguments.iter().copied());

@@ -15,7 +15,7 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
     let study = Study::read(
         "scene.toml",
         scene,
-        &Registry::planar(),
+        &Registry::standard(),
         &Overrides::default(),
     );
     let study = study.expect("the scene is right");

@@ -64,7 +64,7 @@ fn run(sweep: &Sweep<'_>, folder: &Folder, shard: Shard, threads: usize) -> Swee
 /// bottom. Terms of order θ² < 10⁻⁸ are neglected.
 #[test]
 fn a_pendulum_swings_as_its_length_says() {
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let sweep = sweep(&registry, PENDULUM, &["joint.pivot.at[1]=0.25:4:9:log"]);
     let (v, g) = (1e-4, 9.81_f64);
     for run in 1..=sweep.runs() {
@@ -110,7 +110,7 @@ joint = [
 ]
 simulate = { t_end = 0.1 }
 "#;
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let row = sweep(&registry, beam, &["body.beam.mass=1,2"]).row(2);
     let motion = row.motion.expect("it stands still");
     assert_eq!(
@@ -128,7 +128,7 @@ simulate = { t_end = 0.1 }
 
 #[test]
 fn threads_and_shards_leave_no_trace() {
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     // A mass of −1 is refused.
     let sweep = sweep(
         &registry,
@@ -176,7 +176,7 @@ fn threads_and_shards_leave_no_trace() {
 
 #[test]
 fn an_interrupted_sweep_goes_on_where_it_was() {
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let sweep = sweep(&registry, PENDULUM, &["body.bob.mass=1:12:12"]).keeping_rows();
     let (folder, whole) = (Folder::new("interrupted"), Folder::new("whole"));
     let count = AtomicUsize::new(0);
@@ -216,7 +216,7 @@ fn an_interrupted_sweep_goes_on_where_it_was() {
 
 #[test]
 fn wrong_sweeps_are_refused_before_anything_is_written() {
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     let folder = Folder::new("refused");
     let refused = |scene: &str, vary: &[&str]| {
         let axes = vary

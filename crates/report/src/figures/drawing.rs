@@ -423,7 +423,7 @@ impl DrawnMarker {
             Some(Self {
                 name: marker.name.clone(),
                 b: drawn(bodies, marker.body)?,
-                p: marker.from_centre_of(mechanism.bodies()).map(Rounded),
+                p: flat(marker.from_centre(mechanism.bodies())).map(Rounded),
                 a: Rounded(marker.angle.unwrap_or_default()),
             })
         });

@@ -2,8 +2,9 @@
 //! joint holds, and joints far away.
 
 use model::codes::Code;
+use model::space::norm;
 use model::words::rounded;
-use model::{Body, BodyRef, ConstraintId, Description, Mechanism, System};
+use model::{BodyRecord, BodyRef, ConstraintId, DescribedBody, Mechanism, System};
 
 use crate::findings::Findings;
 use crate::language::LengthUnit;
@@ -23,18 +24,18 @@ const FARTHEST: f64 = 100.0;
 
 /// Warns of what is not plausible in a mechanism.
 pub(crate) fn check(
-    d: &Description,
     mechanism: &Mechanism,
     map: &SourceMap,
     unit: LengthUnit,
     findings: &mut Findings,
 ) {
+    let records = mechanism.bodies();
     let joints = joints(mechanism);
-    let bodies = bodies(d, mechanism, &joints);
-    let size = size(d, &bodies);
-    unheld(d, &bodies, map, findings);
-    far(d, &joints, map, size, unit, findings);
-    inertia(d, &bodies, map, size, unit, findings);
+    let bodies = bodies(mechanism, &joints);
+    let size = size(records, &bodies);
+    unheld(records, &bodies, map, findings);
+    far(records, &joints, map, size, unit, findings);
+    inertia(records, &bodies, map, size, unit, findings);
 }
 
 /// A joint with its points. Drives act at the points of their joints.
@@ -60,7 +61,7 @@ fn joints(mechanism: &Mechanism) -> Vec<Joint<'_>> {
 #[derive(Clone, Default)]
 struct Shape {
     /// Points of joints, forces and markers relative to the centre of mass.
-    points: Vec<[f64; 2]>,
+    points: Vec<[f64; 3]>,
     is_held: bool,
     /// Number of forces that act on it.
     forces: usize,
@@ -68,7 +69,7 @@ struct Shape {
 
 impl Shape {
     fn arms(&self) -> impl Iterator<Item = f64> {
-        self.points.iter().map(length)
+        self.points.iter().map(|point| norm(point))
     }
 
     /// Whether not all points are the same one.
@@ -77,23 +78,19 @@ impl Shape {
     }
 }
 
-fn length(p: &[f64; 2]) -> f64 {
-    p[0].hypot(p[1])
-}
-
-fn bodies(d: &Description, mechanism: &Mechanism, joints: &[Joint]) -> Vec<Shape> {
-    let mut bodies = vec![Shape::default(); d.bodies.len()];
+fn bodies(mechanism: &Mechanism, joints: &[Joint]) -> Vec<Shape> {
+    let records = mechanism.bodies();
+    let mut bodies = vec![Shape::default(); records.len()];
     let mut add = |points: &[(BodyRef, [f64; 3])]| {
-        for (body, [x, y, _]) in points {
+        for (body, point) in points {
             if let BodyRef::Body(k) = body {
-                bodies[*k].points.push([*x, *y]);
+                bodies[*k].points.push(*point);
             }
         }
     };
     joints.iter().for_each(|joint| add(&joint.points));
-    for marker in &d.observed.markers {
-        let [x, y] = marker.from_centre(&d.bodies);
-        add(&[(marker.body, [x, y, 0.0])]);
+    for marker in &mechanism.frames().observed().markers {
+        add(&[(marker.body, marker.from_centre(records))]);
     }
     let forces: Vec<_> = mechanism.applied_forces().iter().collect();
     forces.iter().for_each(|force| add(&force.points));
@@ -108,17 +105,22 @@ fn bodies(d: &Description, mechanism: &Mechanism, joints: &[Joint]) -> Vec<Shape
     bodies
 }
 
-/// Radius of gyration of a body; `None` if it has no mass or no inertia, which is allowed.
-fn gyration(body: &Body) -> Option<f64> {
-    let radius = (body.inertia / body.mass).sqrt();
+/// Radius of gyration of a body, the largest one; `None` if it has no mass or no inertia, which is
+/// allowed.
+fn gyration(body: &BodyRecord) -> Option<f64> {
+    let inertia = match &body.described {
+        DescribedBody::Plane(body) => body.inertia,
+        DescribedBody::Space3(body) => (0..3).map(|k| body.inertia[k][k]).fold(0.0, f64::max),
+    };
+    let radius = (inertia / body.mass).sqrt();
     (radius.is_finite() && radius > 0.0).then_some(radius)
 }
 
 /// Size of a mechanism: the upper median of all arms and radii of gyration, so that neither a few
 /// points far away nor many joints near centres of mass change it. `None` if there are none.
-fn size(d: &Description, bodies: &[Shape]) -> Option<f64> {
+fn size(records: &[BodyRecord], bodies: &[Shape]) -> Option<f64> {
     let arms = bodies.iter().flat_map(Shape::arms);
-    let mut sizes: Vec<f64> = arms.chain(d.bodies.iter().filter_map(gyration)).collect();
+    let mut sizes: Vec<f64> = arms.chain(records.iter().filter_map(gyration)).collect();
     sizes.retain(|size| *size > 0.0);
     let middle = sizes.len() / 2;
     sizes.sort_unstable_by(f64::total_cmp);
@@ -126,11 +128,11 @@ fn size(d: &Description, bodies: &[Shape]) -> Option<f64> {
 }
 
 /// Warns of bodies that no joint holds, if there are joints.
-fn unheld(d: &Description, bodies: &[Shape], map: &SourceMap, findings: &mut Findings) {
+fn unheld(records: &[BodyRecord], bodies: &[Shape], map: &SourceMap, findings: &mut Findings) {
     if !bodies.iter().any(|body| body.is_held) {
         return;
     }
-    let all = d.bodies.iter().zip(bodies).zip(&map.bodies);
+    let all = records.iter().zip(bodies).zip(&map.bodies);
     for ((body, shape), entry) in all.filter(|((_, shape), _)| !shape.is_held) {
         let acts = match shape.forces {
             0 => "moves freely".to_owned(),
@@ -149,7 +151,7 @@ fn unheld(d: &Description, bodies: &[Shape], map: &SourceMap, findings: &mut Fin
 
 /// Warns of joints far from the centre of mass of a body.
 fn far(
-    d: &Description,
+    records: &[BodyRecord],
     joints: &[Joint],
     map: &SourceMap,
     size: Option<f64>,
@@ -158,8 +160,7 @@ fn far(
 ) {
     let Some(size) = size else { return };
     for (joint, entry) in joints.iter().zip(&map.joints) {
-        let arm =
-            |(body, [x, y, _]): &(BodyRef, [f64; 3])| Some((body.moving()?, length(&[*x, *y])));
+        let arm = |(body, point): &(BodyRef, [f64; 3])| Some((body.moving()?, norm(point)));
         let arms = joint.points.iter().filter_map(arm);
         let Some((body, arm)) = arms.max_by(|a, b| a.1.total_cmp(&b.1)) else {
             continue;
@@ -175,7 +176,7 @@ fn far(
                 "joint `{}` is {} m from the centre of mass of body `{}`, {} times the size of this mechanism, {} m",
                 joint.name,
                 rounded(arm),
-                d.bodies[body].name,
+                records[body].name,
                 rounded(arm / size),
                 rounded(size)
             ),
@@ -190,7 +191,7 @@ fn far(
 
 /// Warns of moments of inertia that fit no body of that mass and size.
 fn inertia(
-    d: &Description,
+    records: &[BodyRecord],
     bodies: &[Shape],
     map: &SourceMap,
     size: Option<f64>,
@@ -198,7 +199,7 @@ fn inertia(
     findings: &mut Findings,
 ) {
     let Some(size) = size else { return };
-    for ((body, shape), entry) in d.bodies.iter().zip(bodies).zip(&map.bodies) {
+    for ((body, shape), entry) in records.iter().zip(bodies).zip(&map.bodies) {
         // Points far away have a warning of their own.
         let near = shape.arms().filter(|arm| *arm <= FARTHEST * size);
         let arm = near.fold(0.0, f64::max);

@@ -2,16 +2,18 @@
 //! bodies and its place.
 
 use joints::spec::{Parameter, Shape, Spec, Unit};
-use model::Registry;
+use model::Definitions;
 use serde_json::{Map, Value, json};
 
-use super::value::{described, number, reference, tuple};
+use super::value::{described, name_in, number, reference, tuple, vector};
 use crate::active::ACTIVE;
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
+use crate::direction::{self, AXES, CROSS, FRAME, FRAMES};
 use crate::key::{Interval, TYPE};
 use crate::place::{AT, local_key, owners};
 use crate::section::NAME;
+use crate::space::SceneSpace;
 use crate::tolerance;
 
 /// Kind of element in a section.
@@ -22,19 +24,22 @@ pub(super) enum Kind {
 }
 
 /// The items of a section.
-pub(super) fn elements(registry: &Registry, kind: Kind) -> Value {
+pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: Kind) -> Value {
     let (title, mut specs): (_, Vec<&Spec>) = match kind {
         Kind::Joint => ("Joint", registry.constraint_specs().collect()),
         Kind::Force => ("Force", registry.force_specs().collect()),
     };
     // Definitions with the same type follow each other.
     specs.sort_by_key(|spec| spec.scene_type);
-    let tables: Vec<Value> = specs.iter().map(|spec| table(spec, kind, title)).collect();
+    let tables: Vec<Value> = specs
+        .iter()
+        .map(|spec| table::<S>(spec, kind, title))
+        .collect();
     json!({ "title": title, "type": "object", "oneOf": tables })
 }
 
 /// The table of one definition.
-fn table(spec: &Spec, of: Kind, title: &str) -> Value {
+fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
     let mut properties = Map::new();
     let mut required = vec![NAME.name, TYPE];
     properties.insert(NAME.name.to_owned(), described(&NAME));
@@ -68,14 +73,20 @@ fn table(spec: &Spec, of: Kind, title: &str) -> Value {
         }
         properties.insert(variant.key.to_owned(), value);
     }
+    let mut has_axes = None;
     for parameter in spec.parameters {
-        if matches!(parameter.shape, Shape::Point { .. }) {
-            continue;
+        match parameter.shape {
+            Shape::Point { .. } | Shape::Axes { like: Some(_), .. } => continue,
+            Shape::Axes { .. } if parameter.optional => continue,
+            Shape::Axes { .. } => has_axes = Some(parameter.name),
+            _ if !parameter.optional => required.push(parameter.name),
+            _ => {}
         }
-        properties.insert(parameter.name.to_owned(), value(parameter, spec));
-        if !parameter.optional {
-            required.push(parameter.name);
-        }
+        properties.insert(parameter.name.to_owned(), value::<S>(parameter, spec));
+    }
+    let keys: Vec<&str> = direction::keys(spec).filter(|_| S::CARRIES).collect();
+    for key in &keys {
+        properties.insert((*key).to_owned(), beside::<S>(key));
     }
     let mut table = json!({
         "title": format!("{title} `{}`", spec.scene_type),
@@ -87,12 +98,40 @@ fn table(spec: &Spec, of: Kind, title: &str) -> Value {
     let owners = owners(spec);
     if !owners.is_empty() {
         let local = local_key(spec);
-        properties.insert(AT.to_owned(), global(spec, owners.len()));
-        properties.insert(local.to_owned(), in_bodies(spec, &owners));
+        properties.insert(AT.to_owned(), global::<S>(spec, owners.len()));
+        properties.insert(local.to_owned(), in_bodies::<S>(spec, &owners));
         table["oneOf"] = json!([{ "required": [AT] }, { "required": [local] }]);
+    }
+    if let Some(axis) = has_axes {
+        let mut ways = vec![json!({ "required": [axis] })];
+        ways.extend(keys.contains(&AXES).then(|| json!({ "required": [AXES] })));
+        table["allOf"] = json!([{ "oneOf": ways }]);
     }
     table["properties"] = properties.into();
     table
+}
+
+/// A key for directions beside the parameters.
+fn beside<S: SceneSpace>(key: &str) -> Value {
+    match key {
+        FRAME => json!({
+            "description": "Where directions are written: in the frame of the first body, or in ground axes of the described start",
+            "enum": FRAMES,
+            "default": FRAMES[0],
+        }),
+        CROSS => {
+            let mut cross = vector::<S>();
+            cross["description"] = "A direction across the axis, for the rows and for the reaction in joint axes; the coordinate axis of the first body that lies least along the axis where it is not given".into();
+            cross
+        }
+        _ => json!({
+            "description": "The axis in the frames of both bodies { body = [x, y, z], … }, in place of one that follows from the described start",
+            "type": "object",
+            "minProperties": 2,
+            "maxProperties": 2,
+            "additionalProperties": vector::<S>(),
+        }),
+    }
 }
 
 /// `body` or `bodies`.
@@ -113,16 +152,23 @@ fn connection(spec: &Spec) -> Value {
 }
 
 /// `at`
-fn global(spec: &Spec, n: usize) -> Value {
+fn global<S: SceneSpace>(spec: &Spec, n: usize) -> Value {
+    let one = reference(&name_in::<S>("place"));
     let mut place = if spec.points_apart {
-        tuple(vec![reference("place"); n])
+        tuple(vec![one; n])
     } else {
-        reference("place")
+        one
     };
     let words = if spec.points_apart {
-        format!("{n} points [x, y] in global coordinates, at the described start (m)")
+        format!(
+            "{n} points {} in global coordinates, at the described start (m)",
+            S::VECTOR
+        )
     } else {
-        "The place [x, y] in global coordinates, at the described start (m)".to_owned()
+        format!(
+            "The place {} in global coordinates, at the described start (m)",
+            S::VECTOR
+        )
     };
     place["description"] = with_points(words, spec).into();
     place
@@ -141,16 +187,17 @@ fn with_points(words: impl Into<String>, spec: &Spec) -> String {
 }
 
 /// `point` or `points`
-fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
+fn in_bodies<S: SceneSpace>(spec: &Spec, owners: &[usize]) -> Value {
+    let place = reference(&name_in::<S>("place"));
     let on = |slot: usize| owners.iter().filter(|owner| **owner == slot).count();
     let points = |n: usize| match n {
-        1 => reference("place"),
-        n => tuple(vec![reference("place"); n]),
+        1 => place.clone(),
+        n => tuple(vec![place.clone(); n]),
     };
     if listed(spec) == 1 {
         let mut place = points(owners.len());
-        place["description"] =
-            with_points("The place [x, y] in the frame of the body (m)", spec).into();
+        let words = format!("The place {} in the frame of the body (m)", S::VECTOR);
+        place["description"] = with_points(words, spec).into();
         return place;
     }
     let mut forms: Vec<Value> = owners.iter().map(|slot| points(on(*slot))).collect();
@@ -158,8 +205,12 @@ fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
     let mut slots = owners.to_vec();
     slots.sort_unstable();
     slots.dedup();
+    let words = format!(
+        "The place in the frames of the bodies {{ body = {}, … }} (m)",
+        S::VECTOR
+    );
     json!({
-        "description": with_points("The place in the frames of the bodies { body = [x, y], … } (m)", spec),
+        "description": with_points(words, spec),
         "type": "object",
         "minProperties": slots.len(),
         "maxProperties": slots.len(),
@@ -171,12 +222,20 @@ fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
 }
 
 /// The value of a parameter: its purpose and its type.
-fn value(parameter: &Parameter, spec: &Spec) -> Value {
+fn value<S: SceneSpace>(parameter: &Parameter, spec: &Spec) -> Value {
     let mut schema = match parameter.shape {
-        Shape::Point { .. } => reference("point"),
-        Shape::Direction { .. } => tuple(vec![number(Interval::Any); 2]),
-        Shape::Axes { .. } => tuple(vec![number(Interval::Any); 3]),
-        Shape::GroundLine | Shape::GroundPlane => tuple(vec![reference("point"); 2]),
+        Shape::Point { .. } => reference(&name_in::<S>("point")),
+        Shape::Direction { .. } | Shape::Axes { .. } => vector::<S>(),
+        Shape::GroundLine => tuple(vec![reference(&name_in::<S>("point")); 2]),
+        Shape::GroundPlane => json!({
+            "type": "object",
+            "properties": {
+                "point": described_as("A point of the plane", reference(&name_in::<S>("point"))),
+                "normal": described_as("Across the plane, towards the side of the body", vector::<S>()),
+            },
+            "required": ["point", "normal"],
+            "additionalProperties": false,
+        }),
         Shape::Numbers(units) => {
             let numbers = units.iter().map(|unit| number(range(*unit)));
             one_or_many(numbers.collect())
@@ -188,10 +247,13 @@ fn value(parameter: &Parameter, spec: &Spec) -> Value {
         doc => in_one_line(doc).trim_end_matches('.').to_owned(),
     };
     let frame = match parameter.shape {
+        Shape::Direction { .. } | Shape::Axes { .. } if S::CARRIES => {
+            format!(" in the frame of {}, or global", owner(spec, 0))
+        }
         Shape::Direction { slot } | Shape::Axes { slot, .. } => {
             format!(" in the frame of {}", owner(spec, slot))
         }
-        Shape::GroundLine => " in global coordinates (m)".to_owned(),
+        Shape::GroundLine | Shape::GroundPlane => " in global coordinates (m)".to_owned(),
         _ => String::new(),
     };
     let default = if parameter.optional {
@@ -199,8 +261,16 @@ fn value(parameter: &Parameter, spec: &Spec) -> Value {
     } else {
         ""
     };
-    schema["description"] =
-        format!("{meaning}: {}{frame}{default}", parameter.shape.words(2)).into();
+    schema["description"] = format!(
+        "{meaning}: {}{frame}{default}",
+        parameter.shape.words(S::DIM)
+    )
+    .into();
+    schema
+}
+
+fn described_as(words: &str, mut schema: Value) -> Value {
+    schema["description"] = words.into();
     schema
 }
 

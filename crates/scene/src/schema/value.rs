@@ -1,11 +1,13 @@
 //! The value of one key, as a schema.
 
-use serde_json::{Value, json};
+use model::SpaceKind;
+use serde_json::{Map, Value, json};
 
 use crate::dimension::Dimension;
 use crate::key::{Interval, Key, Takes};
 use crate::section::LONGEST_NAME;
 use crate::silence;
+use crate::space::{ANGLE, AXIS, MATRIX, QUATERNION, RPY, SceneSpace};
 
 /// The value of a key with its meaning, its unit and its default.
 pub(super) fn described(key: &Key) -> Value {
@@ -31,7 +33,12 @@ pub(super) fn described(key: &Key) -> Value {
             "items": { "enum": silence::warnings() },
         }),
         Takes::Number(range) => number(range),
-        Takes::Pair(range) => tuple(vec![number(range); 2]),
+        Takes::Vector(n, range) => tuple(vec![number(range); n]),
+        Takes::Orientation => orientation(),
+        Takes::Tensor => {
+            let row = || tuple(vec![number(Interval::Any); 3]);
+            json!({ "anyOf": [row(), tuple(vec![row(); 3])] })
+        }
         Takes::Numbers(least) => {
             json!({ "type": "array", "items": number(Interval::Any), "minItems": least })
         }
@@ -98,19 +105,55 @@ pub(super) fn tuple(items: Vec<Value>) -> Value {
     tuple
 }
 
-/// A point of the plane.
-pub(super) fn point() -> Value {
-    let mut point = tuple(vec![number(Interval::Any); 2]);
-    point["title"] = "Point [x, y] (m)".into();
+/// The name of a definition of a space.
+pub(super) fn name_in<S: SceneSpace>(name: &str) -> String {
+    match S::KIND {
+        SpaceKind::Space3 => format!("{}-{name}", S::NAME),
+        _ => name.to_owned(),
+    }
+}
+
+/// A vector.
+pub(super) fn vector<S: SceneSpace>() -> Value {
+    tuple(vec![number(Interval::Any); S::DIM])
+}
+
+/// A point.
+pub(super) fn point<S: SceneSpace>() -> Value {
+    let mut point = vector::<S>();
+    point["title"] = format!("Point {} (m)", S::VECTOR).into();
     point
 }
 
-/// A point of the plane, or the name of a marker.
-pub(super) fn place() -> Value {
+/// A point, or the name of a marker.
+pub(super) fn place<S: SceneSpace>() -> Value {
     json!({
-        "title": "Point [x, y] (m), or the name of a marker",
-        "anyOf": [reference("point"), { "type": "string" }],
+        "title": format!("Point {} (m), or the name of a marker", S::VECTOR),
+        "anyOf": [reference(&name_in::<S>("point")), { "type": "string" }],
     })
+}
+
+/// The ways in which an orientation is written.
+fn orientation() -> Value {
+    let way = |keys: &[&Key]| {
+        let properties: Map<String, Value> = keys
+            .iter()
+            .map(|key| (key.name.to_owned(), described(key)))
+            .collect();
+        let required: Vec<&str> = keys.iter().map(|key| key.name).collect();
+        json!({
+            "type": "object",
+            "properties": properties,
+            "required": required,
+            "additionalProperties": false,
+        })
+    };
+    json!({ "oneOf": [
+        way(&[&QUATERNION]),
+        way(&[&AXIS, &ANGLE]),
+        way(&[&RPY]),
+        way(&[&MATRIX]),
+    ] })
 }
 
 /// Texts, each once.

@@ -54,7 +54,7 @@ fn check_line(key: &str, value: f64, expected: &str) {
     assert_eq!(new[same], expected, "{key}");
     let rest = new.len() - same - 1;
     assert_eq!(new[same + 1..], old[old.len() - rest..], "{key}");
-    if let Err(problems) = read("cart.toml", &text, &Registry::planar()) {
+    if let Err(problems) = read("cart.toml", &text, &Registry::standard()) {
         panic!("{key}: {problems:?}");
     }
 }
@@ -89,9 +89,13 @@ fn numbers_are_found_by_their_names() {
 #[test]
 fn several_numbers_in_any_order() {
     let keys = ["simulate.rtol", "body.cart.mass", "simulate.atol"];
-    let scene = read("", &changed(&keys, &[1e-5, 7.0, 1e-9]), &Registry::planar());
+    let scene = read(
+        "",
+        &changed(&keys, &[1e-5, 7.0, 1e-9]),
+        &Registry::standard(),
+    );
     let scene = scene.expect("right");
-    assert_eq!(scene.description.bodies[0].mass, 7.0);
+    assert_eq!(scene.description.bodies()[0].mass, 7.0);
     let options = scene.simulate.expect("it has an end");
     assert_eq!((options.rtol, options.atol), (1e-5, 1e-9));
 }
@@ -108,12 +112,15 @@ fn every_number_comes_back_with_its_bits() {
         1e17,
         123_456_789.0,
     ] {
-        let scene = read("", &template.with(&[value]), &Registry::planar()).expect("right");
-        assert_eq!(scene.description.bodies[0].mass.to_bits(), value.to_bits());
+        let scene = read("", &template.with(&[value]), &Registry::standard()).expect("right");
+        assert_eq!(
+            scene.description.bodies()[0].mass.to_bits(),
+            value.to_bits()
+        );
     }
     // These values are refused by the reader, not by TOML.
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX] {
-        let problems = read("", &template.with(&[value]), &Registry::planar()).err();
+        let problems = read("", &template.with(&[value]), &Registry::standard()).err();
         let message = problems.expect("refused")[0].message.clone();
         assert!(message.contains("finite"), "{message}");
     }
@@ -171,7 +178,7 @@ fn wrong_keys_say_what_there_is() {
     let problems = read(
         "",
         &changed(&["body.cart.mas"], &[1.0]),
-        &Registry::planar(),
+        &Registry::standard(),
     );
     let problems = problems.err().unwrap_or_default();
     assert_eq!(problems[0].message, "body `cart` has no key `mas`");

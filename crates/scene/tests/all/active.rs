@@ -64,7 +64,7 @@ fn text() -> String {
 #[test]
 fn what_is_not_active_is_in_no_list() {
     let scene = read(&text()).unwrap_or_else(|problems| panic!("{problems:#?}"));
-    let d = &scene.description;
+    let d = scene.description.plane().expect("a planar scene").clone();
     let joints: Vec<_> = d.joints.iter().map(|j| j.name.as_str()).collect();
     let drives: Vec<_> = d.drives.iter().map(|x| x.name.as_str()).collect();
     assert_eq!((joints, drives), (vec!["A", "B"], vec!["other"]));
@@ -106,10 +106,28 @@ fn a_number_may_say_it() {
     assert_eq!(locked.len(), 1, "{locked:#?}");
     assert!(locked[0].message.contains("motor"), "{locked:#?}");
     let locked = read(&computed.replace("t_end = 2.0", "t_end = 1.0")).expect("all is there");
-    assert_eq!(locked.description.joints.len(), 3);
+    assert_eq!(
+        locked
+            .description
+            .plane()
+            .expect("a planar scene")
+            .joints
+            .len(),
+        3
+    );
     assert!(locked.inactive.is_empty());
     let free = read(&computed.replace("locked = 1", "locked = 0")).expect("as before");
-    assert_eq!((free.description.joints.len(), free.inactive.len()), (2, 4));
+    assert_eq!(
+        (
+            free.description
+                .plane()
+                .expect("a planar scene")
+                .joints
+                .len(),
+            free.inactive.len()
+        ),
+        (2, 4)
+    );
     let plain = read(&text().replace("active = false", "active = 0")).expect("a number");
     assert_eq!(plain.inactive.len(), 4);
 }

@@ -191,7 +191,7 @@ fn values() {
         (
             "\"plane\"",
             "«\"room\"»",
-            "`[scene]`: `space` is \"room\", only \"plane\" is available",
+            "`[scene]`: `space` is \"room\", there are `plane`, `spatial`",
             "not available",
         ),
     ]);

@@ -21,7 +21,11 @@ fn pose(d: &Description, body: BodyRef) -> Pose {
 }
 
 fn joint(text: &str) -> (Description, Joint) {
-    let d = read_more(&format!("[[joint]]\nname = \"X\"\n{text}")).description;
+    let d = read_more(&format!("[[joint]]\nname = \"X\"\n{text}"))
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     let mut joint = d.joints[0].clone();
     let x: Vec<Pose> = joint.bodies.iter().map(|&body| pose(&d, body)).collect();
     joint.element.initialise(&x);
@@ -204,7 +208,11 @@ bodies = ["a", "b"]
 at = [1.0, 4.0]
 axis = [1.0, 0.0]
 "#;
-    let d = read_more(text).description;
+    let d = read_more(text)
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     let value = |k: usize| {
         let mut drive = d.drives[k].clone();
         let described: Vec<Pose> = drive.bodies.iter().map(|&b| pose(&d, b)).collect();
@@ -241,13 +249,21 @@ fn redundant_drives_are_legal() {
     let drive = |name| {
         format!("[[drive]]\nname = \"{name}\"\njoint = \"R\"\ntype = \"angle\"\nmotion = 1\n")
     };
-    let d = read_more(&format!("{joint}{}{}", drive("one"), drive("two"))).description;
+    let d = read_more(&format!("{joint}{}{}", drive("one"), drive("two")))
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     assert_eq!(d.drives.len(), 2);
 }
 
 /// Q with all bodies at the origin and these twists, with functions at t = 0.
 fn q(text: &str, v: &[Twist]) -> Vec<f64> {
-    let d = read_more(&format!("[[force]]\nname = \"X\"\n{text}")).description;
+    let d = read_more(&format!("[[force]]\nname = \"X\"\n{text}"))
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     let mut force = d.forces[0].clone();
     let described: Vec<Pose> = force.bodies.iter().map(|&b| pose(&d, b)).collect();
     force.element.initialise(&described);
@@ -344,7 +360,11 @@ fn point_force() {
         ("frame = \"global\"", "PointForce"),
         ("frame = \"body\"", "BodyPointForce"),
     ] {
-        let d = read_more(&format!("[[force]]\nname = \"X\"\n{text}{frame}")).description;
+        let d = read_more(&format!("[[force]]\nname = \"X\"\n{text}{frame}"))
+            .description
+            .plane()
+            .expect("a planar scene")
+            .clone();
         assert_eq!(d.forces[0].element.spec().common.name, name);
     }
 }
@@ -363,8 +383,12 @@ fn torque() {
 /// The tests above are complete: the registry has no scene type that is not in the contract.
 #[test]
 fn the_types_are_those_of_the_contract() {
-    let registry = Registry::planar();
-    let mut joints: Vec<_> = registry.constraint_specs().map(|s| s.scene_type).collect();
+    let registry = Registry::standard();
+    let mut joints: Vec<_> = registry
+        .plane()
+        .constraint_specs()
+        .map(|s| s.scene_type)
+        .collect();
     joints.sort_unstable();
     assert_eq!(
         joints,
@@ -384,7 +408,11 @@ fn the_types_are_those_of_the_contract() {
             "velocity"
         ]
     );
-    let mut forces: Vec<_> = registry.force_specs().map(|s| s.scene_type).collect();
+    let mut forces: Vec<_> = registry
+        .plane()
+        .force_specs()
+        .map(|s| s.scene_type)
+        .collect();
     forces.sort_unstable();
     forces.dedup();
     assert_eq!(

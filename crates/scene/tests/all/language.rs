@@ -66,7 +66,7 @@ fn crank() -> Scene {
 fn numbers_mean_what_their_units_say() {
     let scene = crank();
     assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
-    let d = &scene.description;
+    let d = scene.description.plane().expect("a planar scene").clone();
     let body = &d.bodies[0];
     let near = |found: f64, expected: f64| {
         let bound = 2.0 * f64::EPSILON * expected.abs();
@@ -132,7 +132,7 @@ fn a_scene_in_millimetres_is_that_in_metres() {
         read(&text).unwrap_or_else(|p| panic!("{text}\n{p:#?}")),
     );
     let show = |scene: &Scene| {
-        let d = &scene.description;
+        let d = scene.description.plane().expect("a planar scene").clone();
         let x = [Pose::GROUND, Pose::new(0.3, -0.2, 0.7)];
         let v = [
             Twist::zero(),
@@ -374,7 +374,10 @@ fn thousands_of_parameters_follow_each_other() {
     let text = CRANK.replacen("[parameters]\n", &chain, 1);
     let text = text.replacen("mass = \"m1/(L/100)\"", &format!("mass = \"p{n}\""), 1);
     let scene = read(&text).unwrap_or_else(|p| panic!("{:#?}", p[0]));
-    assert_eq!(scene.description.bodies[0].mass, 2.0001);
+    assert_eq!(
+        scene.description.plane().expect("a planar scene").bodies[0].mass,
+        2.0001
+    );
     // A circle of all of them is one problem.
     let text = text.replacen("p0 = 1e-4", &format!("p0 = \"p{n}\""), 1);
     let problems = read(&text).expect_err("a circle");

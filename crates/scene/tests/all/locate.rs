@@ -165,8 +165,18 @@ fn velocities_that_do_not_exist_point_at_the_drive() {
 #[test]
 fn changed_numbers_point_at_their_keys() {
     let mut scene = scene();
-    scene.description.bodies[1].mass = -1.0;
-    scene.description.bodies[2].angular_velocity = Some(f64::NAN);
+    scene
+        .description
+        .plane_mut()
+        .expect("a planar scene")
+        .bodies[1]
+        .mass = -1.0;
+    scene
+        .description
+        .plane_mut()
+        .expect("a planar scene")
+        .bodies[2]
+        .angular_velocity = Some(f64::NAN);
     let errors = Mechanism::build(&scene.description).err().expect("refused");
     let places: Vec<_> = errors
         .iter()

@@ -49,7 +49,7 @@ inertia = 1.0
 
 /// Reads a text with the joints and forces of the library.
 fn read(text: &str) -> Result<Scene, Vec<Diagnostic>> {
-    scene::read("x.toml", text, &Registry::planar())
+    scene::read("x.toml", text, &Registry::standard())
 }
 
 /// Reads the three bodies and further text.

@@ -106,7 +106,7 @@ fn mutate(text: &str, by_line: bool, at: usize, mutation: &Mutation) -> String {
 }
 
 fn check(text: &str) {
-    let registry = Registry::planar();
+    let registry = Registry::standard();
     match scene::read("mutated.toml", text, &registry) {
         Ok(scene) => assert!(Mechanism::build(&scene.description).is_ok()),
         Err(problems) => {

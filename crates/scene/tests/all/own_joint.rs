@@ -24,11 +24,14 @@ fn a_registered_joint_has_its_keys_and_measures() {
          points = {{ b = [1, 5] }}\nvertex_radius = 0.25\n\
          [[drive]]\nname = \"run\"\njoint = \"slot\"\ntype = \"run\"\nmotion = 1.0\n"
     );
-    let mut registry = Registry::planar();
+    let mut registry = Registry::standard();
     registry.add_constraint::<PinOnParabola>();
     let d = scene::read("own.toml", &text, &registry)
         .unwrap_or_else(|problems| panic!("{problems:#?}"))
-        .description;
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     let mut element = d.joints[0].element.clone();
     let x = [Pose::GROUND; 2];
     element.initialise(&x);

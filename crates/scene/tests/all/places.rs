@@ -88,7 +88,10 @@ damping = 0.0
 fn points_are_relative_to_the_centre_of_mass() {
     let d = read(SCENE)
         .unwrap_or_else(|problems| panic!("{problems:#?}"))
-        .description;
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     let crank = &d.bodies[0];
     assert_eq!((crank.position, crank.centre), ([1.0, 2.0], [0.5, 0.0]));
     let pose = crank.pose();
@@ -110,7 +113,12 @@ fn a_marker_of_another_body_is_a_place() {
         "points = { crank = \"tip\", slider = [0.3, 0.0] }",
         "at = \"tip\"",
     );
-    let d = read(&text).expect("a scene").description;
+    let d = read(&text)
+        .expect("a scene")
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     assert_close(
         &d.joints[1].element.points().concat(),
         &[0.5, 0.25, 0.75, 3.0],
@@ -120,12 +128,12 @@ fn a_marker_of_another_body_is_a_place() {
 #[test]
 fn markers_and_measures_are_read() {
     let scene = read(SCENE).expect("a scene");
-    let observed = &scene.description.observed;
+    let observed = &scene.description.plane().expect("a planar scene").observed;
     let tip = &observed.markers[1];
     assert_eq!((tip.name.as_str(), tip.body), ("tip", BodyRef::Body(0)));
     assert_eq!(
         (tip.point, tip.angle, tip.tolerance),
-        ([1.0, 0.25], Some(0.5), Some(1e-5))
+        ([1.0, 0.25, 0.0], Some(0.5), Some(1e-5))
     );
     assert_eq!(observed.markers[0].body, BodyRef::Ground);
     let measures: Vec<_> = observed
@@ -148,7 +156,12 @@ fn markers_and_measures_are_read() {
 fn a_tolerance_of_a_marker_is_that_of_its_point() {
     use model::{Mechanism, System};
     let stated = |text: &str| -> Vec<(String, Option<f64>)> {
-        let d = read(text).expect("a scene").description;
+        let d = read(text)
+            .expect("a scene")
+            .description
+            .plane()
+            .expect("a planar scene")
+            .clone();
         let mechanism = Mechanism::build(&d).expect("a mechanism");
         let mut s = mechanism.scratch();
         mechanism.pose(0.0, &mechanism.described_state().0, &mut s);
@@ -172,7 +185,12 @@ fn a_tolerance_of_a_marker_is_that_of_its_point() {
     let with_joint = SCENE.replace("name = \"B\"\n", "name = \"B\"\ntolerance = 1e-2\n");
     assert_eq!(tolerances(&with_joint), [Some(1e-2); 2]);
     // Parts keep it.
-    let d = read(SCENE).expect("a scene").description;
+    let d = read(SCENE)
+        .expect("a scene")
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     let part = Mechanism::build(&d)
         .expect("a mechanism")
         .part_of_groups(&[1]);

@@ -9,7 +9,7 @@ use crate::{ROBOT, read};
 #[test]
 fn the_robot_reads() {
     let scene = read(ROBOT).expect("the pattern of all scenes");
-    let d = &scene.description;
+    let d = scene.description.plane().expect("a planar scene").clone();
     assert_eq!(scene.name(), "robot-trolley");
     assert_eq!((d.bodies.len(), d.joints.len()), (7, 13));
     assert_eq!((d.drives.len(), d.forces.len()), (1, 0));

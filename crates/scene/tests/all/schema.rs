@@ -12,7 +12,7 @@ use super::validator::fault;
 use super::{BODIES, read};
 
 fn schema() -> Value {
-    scene::schema(&Registry::planar())
+    scene::schema(&Registry::standard())
 }
 
 fn json_of(text: &str) -> Value {
@@ -456,10 +456,19 @@ fn defaults_are_those_of_the_reader() {
         ),
         &written("body"),
     );
-    assert_eq!(short.description.gravity, long.description.gravity);
     assert_eq!(
-        format!("{:?}", short.description.bodies),
-        format!("{:?}", long.description.bodies)
+        short.description.plane().expect("a planar scene").gravity,
+        long.description.plane().expect("a planar scene").gravity
+    );
+    assert_eq!(
+        format!(
+            "{:?}",
+            short.description.plane().expect("a planar scene").bodies
+        ),
+        format!(
+            "{:?}",
+            long.description.plane().expect("a planar scene").bodies
+        )
     );
     assert_eq!(
         format!("{:?}", short.simulate),

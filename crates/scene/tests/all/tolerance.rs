@@ -42,7 +42,12 @@ fn what_is_stated_is_read() {
         "tolerance = 1e-4\nangle_tolerance = 1e-6\n",
         "tolerance = 1\n",
     );
-    let d = read(&text).expect("a scene").description;
+    let d = read(&text)
+        .expect("a scene")
+        .description
+        .plane()
+        .expect("a planar scene")
+        .clone();
     let expected = Tolerance {
         length: Some(1e-4),
         angle: Some(1e-6),
@@ -63,12 +68,24 @@ fn what_is_stated_is_read() {
 
 #[test]
 fn each_may_be_stated_alone() {
-    assert_eq!(read_more("").description.tolerance, Tolerance::default());
+    assert_eq!(
+        read_more("")
+            .description
+            .plane()
+            .expect("a planar scene")
+            .tolerance,
+        Tolerance::default()
+    );
     for (head, length, angle) in [
         ("tolerance = 1e-4\n", Some(1e-4), None),
         ("angle_tolerance = 1e-6\n", None, Some(1e-6)),
     ] {
-        let found = read(&with(head, "")).expect("a scene").description;
+        let found = read(&with(head, ""))
+            .expect("a scene")
+            .description
+            .plane()
+            .expect("a planar scene")
+            .clone();
         assert_eq!(found.tolerance, Tolerance { length, angle }, "{head}");
     }
 }
@@ -103,8 +120,18 @@ fn every_wrong_one_has_its_place() {
 #[test]
 fn a_tolerance_that_became_wrong_is_found_in_the_text() {
     let mut scene = read(&with("tolerance = 1e-4\n", "")).expect("a scene");
-    scene.description.drives[0].tolerance = Some(f64::NAN);
-    scene.description.tolerance.length = Some(f64::INFINITY);
+    scene
+        .description
+        .plane_mut()
+        .expect("a planar scene")
+        .drives[0]
+        .tolerance = Some(f64::NAN);
+    scene
+        .description
+        .plane_mut()
+        .expect("a planar scene")
+        .tolerance
+        .length = Some(f64::INFINITY);
     let errors = Mechanism::build(&scene.description).err().expect("two");
     let marked = |error: &BuildError| {
         let d = scene.locate_build(error).expect("a place");

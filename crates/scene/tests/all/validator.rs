@@ -80,6 +80,19 @@ fn check(
             let schemas = of.as_array().expect("schemas");
             refused(schemas.iter().all(|s| fault(root, s, value).is_some()))
         }
+        "allOf" => {
+            let mut schemas = of.as_array().expect("schemas").iter();
+            schemas.find_map(|schema| fault(root, schema, value))
+        }
+        "if" => {
+            let branch = if fault(root, of, value).is_none() {
+                "then"
+            } else {
+                "else"
+            };
+            fault(root, schema.get(branch)?, value)
+        }
+        "then" | "else" => None,
         "properties" => {
             let table = value.as_object()?;
             let known = of.as_object().expect("properties").iter();

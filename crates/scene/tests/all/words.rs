@@ -31,7 +31,7 @@ fn the_book_lists_the_words_that_hints_know() {
 
 #[test]
 fn each_word_leads_to_something_that_is_there() {
-    let schema = scene::schema(&Registry::planar()).to_string();
+    let schema = scene::schema(&Registry::standard()).to_string();
     for (word, here) in ELSEWHERE {
         let is_option = here.starts_with("--");
         assert!(

@@ -60,7 +60,7 @@ impl MovingCase {
     /// If there is none, or it cannot be assembled.
     pub fn find(name: &'static str, scale: VelocityScale) -> Result<Self, CaseError> {
         let case = suite::find(name).ok_or(CaseError::NoSuchCase(name))?;
-        let scene = scene::read(case.name, case.scene, &Registry::planar())
+        let scene = scene::read(case.name, case.scene, &Registry::standard())
             .map_err(|faults| CaseError::Scene(faults.len()))?;
         let bodies: Vec<String> = scene
             .description

@@ -23,7 +23,7 @@ const LIMITS: Limits = Limits {
 /// # Errors
 /// The error message if the scene is refused.
 pub fn answer(text: &str) -> Result<Value, String> {
-    let read = || AssembledScene::read("scene.toml", text, &Registry::planar());
+    let read = || AssembledScene::read("scene.toml", text, &Registry::standard());
     match read().and_then(|assembled| assembled.prepare(&Overrides::default())) {
         Ok(study) => document(study.analyse(0.0, None)),
         Err(e) if e.only_motion().is_some() => match read() {

@@ -1,0 +1,230 @@
+//! Directions and axes of joints and forces. In space they are written in the axes of the first
+//! body, or of the ground (`frame = "global"`), of the described start; what is not given for
+//! another body follows from that start, like a place.
+
+use joints::Argument;
+use joints::space3::Axes;
+use joints::spec::{Parameter, Shape, Spec};
+use model::BodyRef;
+
+use crate::body::Bodies;
+use crate::dimension::Dimension;
+use crate::field::Field;
+use crate::findings::Findings;
+use crate::mistake::Mistake;
+use crate::nearest::did_you_mean;
+use crate::space::SceneSpace;
+use crate::table::Table;
+
+/// The axes in which directions are written.
+pub(crate) const FRAME: &str = "frame";
+/// A direction across an axis.
+pub(crate) const CROSS: &str = "cross";
+/// The axis in the frames of both bodies.
+pub(crate) const AXES: &str = "axes";
+
+/// Values of `frame`; the first is taken where it is not given.
+pub(crate) const FRAMES: [&str; 2] = ["body", "global"];
+
+/// Whether a definition has a parameter of this kind.
+fn has(spec: &Spec, is: impl Fn(&Parameter) -> bool) -> bool {
+    spec.parameters.iter().any(is)
+}
+
+/// The keys of a definition beside its parameters, in a space that carries directions.
+pub(crate) fn keys(spec: &Spec) -> impl Iterator<Item = &'static str> {
+    let is_written = |p: &Parameter| {
+        matches!(
+            p.shape,
+            Shape::Direction { .. } | Shape::Axes { like: None, .. }
+        ) && !p.optional
+    };
+    let has_axes = has(spec, |p| {
+        matches!(p.shape, Shape::Axes { .. }) && is_written(p)
+    });
+    let is_paired = has(spec, |p| {
+        matches!(p.shape, Shape::Axes { like: Some(_), .. })
+    });
+    let takes_cross = has_axes && !has(spec, |p| p.name == CROSS);
+    let keys = [
+        (FRAME, has(spec, is_written)),
+        (CROSS, takes_cross),
+        (AXES, has_axes && is_paired),
+    ];
+    keys.into_iter()
+        .filter(|(_, takes)| *takes)
+        .map(|(key, _)| key)
+}
+
+/// The directions of one element.
+pub(crate) struct Directions<'b, S: SceneSpace> {
+    bodies: &'b Bodies<S>,
+    slots: &'b [Option<BodyRef>],
+    is_global: bool,
+    /// The direction across the axis, as it is written.
+    across: Option<S::Vector<f64>>,
+    /// The axis in the frames of the bodies of the first two slots.
+    own: Option<[S::Vector<f64>; 2]>,
+}
+
+impl<'b, S: SceneSpace> Directions<'b, S> {
+    /// Reads the keys beside the parameters.
+    pub(crate) fn read(
+        table: &mut Table,
+        spec: &'static Spec,
+        slots: &'b [Option<BodyRef>],
+        bodies: &'b Bodies<S>,
+        findings: &mut Findings,
+    ) -> Self {
+        let mut directions = Self {
+            bodies,
+            slots,
+            is_global: false,
+            across: None,
+            own: None,
+        };
+        if !S::CARRIES {
+            return directions;
+        }
+        for key in keys(spec) {
+            let Some(field) = table.optional(key) else {
+                continue;
+            };
+            match key {
+                FRAME => directions.is_global = is_global(&field, findings),
+                CROSS => directions.across = direction::<S>(&field, findings),
+                _ => directions.own = directions.both(&field, findings),
+            }
+        }
+        directions
+    }
+
+    /// `axes`: one direction for each body, in its own frame.
+    fn both(&self, field: &Field, findings: &mut Findings) -> Option<[S::Vector<f64>; 2]> {
+        let mut table = field.table(S::BY_BODY, findings)?;
+        let [Some(first), Some(second)] = self.slots.first_chunk()? else {
+            return None;
+        };
+        let all = table.all();
+        let names = [first, second].map(|body| self.bodies.names.name(*body));
+        let read = names.map(|name| {
+            let own = all.iter().find(|(_, field)| field.key == name);
+            let Some((_, field)) = own else {
+                let message = format!("{} needs the direction of `{name}`", table.subject);
+                let label = format!("`{name} = {}` is missing here", S::VECTOR);
+                findings.error(Mistake::Missing, table.header.clone(), message, label);
+                return None;
+            };
+            direction::<S>(field, findings)
+        });
+        for (key, field) in all
+            .iter()
+            .filter(|(_, field)| !names.contains(&&*field.key))
+        {
+            let message = format!(
+                "{} names `{}`, which is not connected",
+                table.subject, field.key
+            );
+            findings.error(
+                Mistake::UnknownKey,
+                key.clone(),
+                message,
+                "not a body of this joint",
+            );
+        }
+        table.subject = field.subject.clone();
+        match read {
+            [Some(a), Some(b)] => Some([a, b]),
+            _ => None,
+        }
+    }
+
+    /// Whether the axis is given by `axes` already.
+    pub(crate) fn has_own_axes(&self) -> bool {
+        self.own.is_some()
+    }
+
+    /// The body of a slot; `None` for the ground, or if it is unknown, which has been reported.
+    fn body(&self, slot: usize) -> Option<&'b S::Body> {
+        let at = self.slots.get(slot).copied().flatten()?.moving()?;
+        self.bodies.list.get(at)
+    }
+
+    /// A direction as it is written, in the axes of the body in a slot.
+    fn placed(&self, direction: S::Vector<f64>, slot: usize) -> S::Vector<f64> {
+        let written = if self.is_global { None } else { self.body(0) };
+        S::carried(direction, written, self.body(slot))
+    }
+
+    /// The direction of a parameter.
+    pub(crate) fn direction(
+        &self,
+        field: &Field,
+        slot: usize,
+        findings: &mut Findings,
+    ) -> Option<Argument> {
+        let direction = direction::<S>(field, findings)?;
+        Some(S::argument(self.placed(direction, slot)))
+    }
+
+    /// The axis of a parameter; without a field that of `axes`, or the axes of the body.
+    pub(crate) fn axis(
+        &self,
+        field: Option<&Field>,
+        slot: usize,
+        findings: &mut Findings,
+    ) -> Option<Argument> {
+        let axis = match (field, self.own) {
+            (Some(field), _) => self.placed(direction::<S>(field, findings)?, slot),
+            (None, Some(own)) => *own.get(slot)?,
+            (None, None) => return Some(Argument::Axes(Axes::FRAME)),
+        };
+        let across = self.across.map(|across| self.placed(across, slot));
+        Some(S::axis(axis, across))
+    }
+
+    /// The axes of the body in `slot` that are parallel at the described start to those of another
+    /// one.
+    pub(crate) fn like(&self, axes: &Argument, [from, slot]: [usize; 2]) -> Argument {
+        let axes = match axes {
+            Argument::Axes(axes) => Some(*axes),
+            Argument::Axis(axis, across) => Axes::new(*axis, *across),
+            _ => None,
+        };
+        // An axis that is none is reported where it is given.
+        let axes = axes.unwrap_or(Axes::FRAME);
+        let [from, to] = [from, slot].map(|slot| self.body(slot));
+        let carried = axes.map(|d| S::point(S::carried(S::vector(d), from, to)));
+        let [u, _, _] = carried.uvw();
+        let own = self.own.and_then(|own| own.get(slot).copied());
+        let given = own.map(|axis| Argument::Axis(S::point(axis), Some(u)));
+        given.unwrap_or(Argument::Axes(carried))
+    }
+}
+
+/// Components of a direction.
+fn direction<S: SceneSpace>(field: &Field, findings: &mut Findings) -> Option<S::Vector<f64>> {
+    let expected = Shape::Direction { slot: 0 }.words(S::DIM).to_string();
+    field.vector::<S>(&expected, Dimension::NONE, findings)
+}
+
+fn is_global(field: &Field, findings: &mut Findings) -> bool {
+    let [own, global] = FRAMES;
+    let expected = format!("\"{own}\" or \"{global}\"");
+    let Some(text) = field.text(&expected, findings) else {
+        return false;
+    };
+    if !FRAMES.contains(&text) {
+        findings.error_with_help(
+            Mistake::UnknownChoice,
+            field.span(),
+            format!(
+                "{}: `{}` must be {expected}, found `{text}`",
+                field.subject, field.key
+            ),
+            "no such choice",
+            did_you_mean(text, FRAMES),
+        );
+    }
+    text == global
+}
