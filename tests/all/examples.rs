@@ -4,6 +4,7 @@
 mod answers;
 mod fixed;
 mod rolling;
+mod space;
 mod turning;
 mod variants;
 

@@ -29,7 +29,7 @@ const fn answer(
 }
 
 /// In the order of the table.
-const ANSWERS: [Answer; 23] = [
+const ANSWERS: [Answer; 33] = [
     answer("door", [3, 1, 0], &["lower", "upper"]),
     answer("carriage", [2, 2, 1], &["rear", "front"]),
     answer("truss", [12, 1, 0], &["AB", "BC", "CD", "DA", "AC", "BD"]),
@@ -97,6 +97,37 @@ const ANSWERS: [Answer; 23] = [
         ],
     ),
     answer("andrews", [20, 0, 1], &[]),
+    answer("hinges", [5, 10, 1], &["lower", "middle", "upper"]),
+    answer("table", [3, 1, 3], &["A", "B", "C", "D"]),
+    answer(
+        "wagon",
+        [29, 3, 1],
+        &[
+            "hub-front-left",
+            "contact-front-left",
+            "hub-front-right",
+            "contact-front-right",
+            "hub-rear-left",
+            "contact-rear-left",
+            "hub-rear-right",
+            "contact-rear-right",
+            "slip-front-left",
+            "slip-front-right",
+            "slip-rear-left",
+            "slip-rear-right",
+        ],
+    ),
+    answer("linkage", [18, 3, 0], &["A", "B", "C", "D"]),
+    answer("hooke", [18, 3, 0], &["left", "arm-1", "arm-2", "right"]),
+    answer(
+        "sarrus",
+        [30, 1, 0],
+        &["foot-1", "knee-1", "head-1", "foot-2", "knee-2", "head-2"],
+    ),
+    answer("bricard", [29, 1, 1], &["H1", "H2", "H3", "H4", "H5", "H6"]),
+    answer("bennett", [18, 3, 0], &["A", "B", "C", "D"]),
+    answer("hexapod", [78, 0, 0], &[]),
+    answer("top", [3, 0, 3], &[]),
     answer(
         "robot-trolley",
         [20, 2, 1],

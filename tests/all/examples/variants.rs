@@ -143,6 +143,221 @@ const NEIGHBOURS: [Neighbour; 12] = [
     },
 ];
 
+/// In space. The answers are those of screws round one loop, and of bodies on parallel lines.
+const IN_SPACE: [Neighbour; 15] = [
+    Neighbour {
+        name: "hinges",
+        edits: &[
+            (
+                r#""lower", type = "revolute", bodies = ["ground", "leaf"], at = [0.0, 0.0, 0.25], axis = [0, 0, 1]"#,
+                r#""lower", type = "spherical", bodies = ["ground", "leaf"], at = [0.0, 0.0, 0.25]"#,
+            ),
+            (
+                r#""upper", type = "revolute""#,
+                r#""upper", type = "point-on-line""#,
+            ),
+        ],
+        without: &["middle"],
+        numbers: [5, 0, 1],
+        not_unique: &[],
+        said: "3 + 2 rows, redundancy 0",
+    },
+    Neighbour {
+        name: "hinges",
+        edits: &[
+            (
+                r#""middle", type = "revolute""#,
+                r#""middle", type = "cylindrical""#,
+            ),
+            (
+                r#""upper", type = "revolute""#,
+                r#""upper", type = "cylindrical""#,
+            ),
+        ],
+        without: &[],
+        numbers: [5, 8, 1],
+        not_unique: &["lower", "middle", "upper"],
+        said: "redundancy 8",
+    },
+    Neighbour {
+        name: "linkage",
+        edits: &[(r#""C", type = "revolute""#, r#""C", type = "cylindrical""#)],
+        without: &[],
+        numbers: [18, 2, 0],
+        not_unique: &["A", "B", "C", "D"],
+        said: "| R R C R | 2 |",
+    },
+    Neighbour {
+        name: "linkage",
+        edits: &[(
+            r#""D", type = "revolute", bodies = ["ground", "rocker"], at = [1.4, 0.0, 0.0], axis = [0, 0, 1]"#,
+            r#""D", type = "spherical", bodies = ["ground", "rocker"], at = [1.4, 0.0, 0.0]"#,
+        )],
+        without: &[],
+        numbers: [18, 1, 0],
+        not_unique: &["A", "B", "C", "D"],
+        said: "| R R R S | 1 |",
+    },
+    Neighbour {
+        name: "linkage",
+        edits: &[
+            (
+                r#""C", type = "revolute", bodies = ["coupler", "rocker"], at = [1.5, 1.1, 0.0], axis = [0, 0, 1]"#,
+                r#""C", type = "spherical", bodies = ["coupler", "rocker"], at = [1.5, 1.1, 0.0]"#,
+            ),
+            (r#""D", type = "revolute""#, r#""D", type = "cylindrical""#),
+        ],
+        without: &[],
+        numbers: [18, 0, 0],
+        not_unique: &[],
+        said: "| R R S C, R S C R | 0 |",
+    },
+    Neighbour {
+        name: "linkage",
+        edits: &[
+            (
+                r#""B", type = "revolute", bodies = ["crank", "coupler"], at = [0.3, 0.8, 0.0], axis = [0, 0, 1]"#,
+                r#""B", type = "spherical", bodies = ["crank", "coupler"], at = [0.3, 0.8, 0.0]"#,
+            ),
+            (r#""C", type = "revolute""#, r#""C", type = "cylindrical""#),
+        ],
+        without: &[],
+        numbers: [18, 0, 0],
+        not_unique: &[],
+        said: "| R R S C, R S C R | 0 |",
+    },
+    Neighbour {
+        name: "linkage",
+        edits: &[
+            (
+                r#""B", type = "revolute", bodies = ["crank", "coupler"], at = [0.3, 0.8, 0.0], axis = [0, 0, 1]"#,
+                r#""B", type = "spherical", bodies = ["crank", "coupler"], at = [0.3, 0.8, 0.0]"#,
+            ),
+            (
+                r#""C", type = "revolute", bodies = ["coupler", "rocker"], at = [1.5, 1.1, 0.0], axis = [0, 0, 1]"#,
+                r#""C", type = "spherical", bodies = ["coupler", "rocker"], at = [1.5, 1.1, 0.0]"#,
+            ),
+        ],
+        without: &[],
+        numbers: [17, 0, 1],
+        not_unique: &[],
+        said: "| R S S R | 0 |",
+    },
+    Neighbour {
+        name: "hooke",
+        edits: &[(
+            r#""right", type = "revolute""#,
+            r#""right", type = "point-on-line""#,
+        )],
+        without: &[],
+        numbers: [18, 0, 0],
+        not_unique: &[],
+        said: "`point-on-line` in place of `revolute`",
+    },
+    Neighbour {
+        name: "hooke",
+        edits: &[(
+            r#""right", type = "revolute""#,
+            r#""right", type = "cylindrical""#,
+        )],
+        without: &[],
+        numbers: [18, 2, 0],
+        not_unique: &["left", "arm-1", "arm-2", "right"],
+        said: "leaves redundancy 2",
+    },
+    Neighbour {
+        name: "hooke",
+        edits: &[(
+            r#""arm-1", type = "revolute", bodies = ["input", "cross"], at = [0.0, 0.0, 0.0], axis = [0, 0, 1]"#,
+            r#""fork", type = "universal", bodies = ["input", "output"], at = [0.0, 0.0, 0.0], axis = [0, 0, 1], cross = [-3, 4, 0]"#,
+        )],
+        without: &["cross", "arm-2"],
+        numbers: [12, 3, 0],
+        not_unique: &["left", "fork", "right"],
+        said: "14 rows of rank 11",
+    },
+    Neighbour {
+        name: "bennett",
+        edits: &[
+            (
+                r#""B", type = "revolute", bodies = ["crank", "coupler"], at = [0.0, 3.0, 0.0], axis = [3, 0, 4]"#,
+                r#""B", type = "spherical", bodies = ["crank", "coupler"], at = [0.0, 3.0, 0.0]"#,
+            ),
+            (r#""C", type = "revolute""#, r#""C", type = "cylindrical""#),
+        ],
+        without: &[],
+        numbers: [18, 0, 0],
+        not_unique: &[],
+        said: "17 rows of the joints, redundancy 0",
+    },
+    Neighbour {
+        name: "sarrus",
+        edits: &[(
+            r#""head-2", type = "revolute", bodies = ["upper-2", "plate"], at = [0.0, 1.0, 0.6], axis = [1, 0, 0]"#,
+            r#""head-2", type = "universal", bodies = ["upper-2", "plate"], at = [0.0, 1.0, 0.6], axis = [1, 0, 0], cross = [0, 0, 1]"#,
+        )],
+        without: &[],
+        numbers: [30, 0, 0],
+        not_unique: &[],
+        said: "Redundancy 0, the same motion",
+    },
+    Neighbour {
+        name: "bricard",
+        edits: &[(
+            r#""H4", type = "revolute""#,
+            r#""H4", type = "cylindrical""#,
+        )],
+        without: &[],
+        numbers: [29, 0, 1],
+        not_unique: &[],
+        said: "redundancy 0, and all reactions are unique",
+    },
+    Neighbour {
+        name: "table",
+        edits: &[],
+        without: &["D"],
+        numbers: [3, 0, 3],
+        not_unique: &[],
+        said: "Take one leg away",
+    },
+    Neighbour {
+        name: "wagon",
+        edits: &[
+            (
+                r#""front-left"], at = [0.6, 0.4, 0.3], axis = [0, 1, 0]"#,
+                r#""front-left"], at = [0.6, 0.4, 0.3], axis = [-0.19866933079506122, 0.9800665778412416, 0.0]"#,
+            ),
+            (
+                r#""front-left", point = [0.0, 0.0, 0.0], axis = [0, 1, 0]"#,
+                r#""front-left", point = [0.0, 0.0, 0.0], axis = [-0.19866933079506122, 0.9800665778412416, 0.0]"#,
+            ),
+            (
+                r#""front-right"], at = [0.6, -0.4, 0.3], axis = [0, 1, 0]"#,
+                r#""front-right"], at = [0.6, -0.4, 0.3], axis = [-0.19866933079506122, 0.9800665778412416, 0.0]"#,
+            ),
+            (
+                r#""front-right", point = [0.0, 0.0, 0.0], axis = [0, 1, 0]"#,
+                r#""front-right", point = [0.0, 0.0, 0.0], axis = [-0.19866933079506122, 0.9800665778412416, 0.0]"#,
+            ),
+        ],
+        without: &[],
+        numbers: [30, 2, 0],
+        not_unique: &[
+            "hub-front-left",
+            "hub-front-right",
+            "hub-rear-left",
+            "hub-rear-right",
+            "contact-front-left",
+            "contact-front-right",
+            "contact-rear-left",
+            "contact-rear-right",
+            "slip-rear-left",
+            "slip-rear-right",
+        ],
+        said: "rank 30, redundancy 2, mobility 0",
+    },
+];
+
 fn edited(neighbour: &Neighbour) -> String {
     let mut text = read(&scene(neighbour.name));
     for (old, new) in neighbour.edits {
@@ -163,7 +378,7 @@ fn edited(neighbour: &Neighbour) -> String {
 
 #[test]
 fn neighbours_are_as_the_pages_say() {
-    for neighbour in &NEIGHBOURS {
+    for neighbour in NEIGHBOURS.iter().chain(&IN_SPACE) {
         let name = neighbour.name;
         let study = study(name, &edited(neighbour));
         let found = study.analyse(0.0, None);
