@@ -12,7 +12,7 @@ use crate::marker::Markers;
 use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
-use crate::space::SceneSpace;
+use crate::space::{self, SceneSpace};
 use crate::table::Table;
 
 /// The bodies that were read.
@@ -38,6 +38,7 @@ impl<S: SceneSpace> Bodies<S> {
     pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings) {
         self.list.push(S::read_body(&mut table, name, findings));
         self.names.add(name, &table);
+        table.spaces(space::body_keys());
         table.close(findings);
     }
 

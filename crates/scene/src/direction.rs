@@ -2,9 +2,9 @@
 //! body, or of the ground (`frame = "global"`), of the described start; what is not given for
 //! another body follows from that start, like a place.
 
-use joints::Argument;
 use joints::space3::Axes;
 use joints::spec::{Parameter, Shape, Spec};
+use joints::{Argument, Space3};
 use model::BodyRef;
 
 use crate::body::Bodies;
@@ -63,7 +63,9 @@ pub(crate) struct Directions<'b, S: SceneSpace> {
     is_global: bool,
     /// The direction across the axis, as it is written.
     across: Option<S::Vector<f64>>,
-    /// The axis in the frames of the bodies of the first two slots.
+    /// Whether the axis is given for both bodies.
+    is_paired: bool,
+    /// The axis in the frames of the bodies of the first two slots, if it could be read.
     own: Option<[S::Vector<f64>; 2]>,
 }
 
@@ -81,9 +83,12 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             slots,
             is_global: false,
             across: None,
+            is_paired: false,
             own: None,
         };
         if !S::CARRIES {
+            // `axes` is more likely a misspelt `axis`.
+            table.spaces([FRAME, CROSS].map(|key| (key, Space3::NAME)).into_iter());
             return directions;
         }
         for key in keys(spec) {
@@ -93,7 +98,10 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             match key {
                 FRAME => directions.is_global = is_global(&field, findings),
                 CROSS => directions.across = direction::<S>(&field, findings),
-                _ => directions.own = directions.both(&field, findings),
+                _ => {
+                    directions.is_paired = true;
+                    directions.own = directions.both(&field, findings);
+                }
             }
         }
         directions
@@ -141,7 +149,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
 
     /// Whether the axis is given by `axes` already.
     pub(crate) fn has_own_axes(&self) -> bool {
-        self.own.is_some()
+        self.is_paired
     }
 
     /// The body of a slot; `None` for the ground, or if it is unknown, which has been reported.
@@ -177,6 +185,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         let axis = match (field, self.own) {
             (Some(field), _) => self.placed(direction::<S>(field, findings)?, slot),
             (None, Some(own)) => *own.get(slot)?,
+            (None, None) if self.is_paired => return None,
             (None, None) => return Some(Argument::Axes(Axes::FRAME)),
         };
         let across = self.across.map(|across| self.placed(across, slot));

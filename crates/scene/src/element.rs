@@ -4,7 +4,7 @@
 use joints::ArgumentError;
 use joints::spec::Spec;
 use model::registry::{ConstraintDefinition, ForceDefinition};
-use model::{BodyRef, ConstraintKernels, Definitions, ForceKernels};
+use model::{BodyRef, ConstraintKernels, Definitions, ForceKernels, Registry};
 
 use crate::arguments::Arguments;
 use crate::body::Bodies;
@@ -17,8 +17,8 @@ use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
 use crate::place;
 use crate::section;
-use crate::space::SceneSpace;
-use crate::table::Table;
+use crate::space::{self, SceneSpace};
+use crate::table::{Table, belongs};
 
 /// A definition of the registry.
 pub(crate) trait Definition {
@@ -64,6 +64,8 @@ pub(crate) struct Read<'r, D: Definition> {
 
 /// Scene types of the registry.
 pub(crate) struct Types<'r, S: SceneSpace> {
+    /// The definitions of all spaces.
+    all: &'r Registry,
     pub(crate) registry: &'r Definitions<S>,
     /// The kind of element in the section, for messages.
     pub(crate) kind: &'static str,
@@ -74,8 +76,10 @@ pub(crate) struct Types<'r, S: SceneSpace> {
 
 impl<'r, S: SceneSpace> Types<'r, S> {
     /// The types of joints.
-    pub(crate) fn of_joints(registry: &'r Definitions<S>) -> Self {
+    pub(crate) fn of_joints(all: &'r Registry) -> Self {
+        let registry = S::definitions(all);
         Self {
+            all,
             registry,
             kind: "joint",
             known: names(registry.constraint_specs()),
@@ -84,8 +88,10 @@ impl<'r, S: SceneSpace> Types<'r, S> {
     }
 
     /// The types of forces.
-    pub(crate) fn of_forces(registry: &'r Definitions<S>) -> Self {
+    pub(crate) fn of_forces(all: &'r Registry) -> Self {
+        let registry = S::definitions(all);
         Self {
+            all,
             registry,
             kind: "force",
             known: names(registry.force_specs()),
@@ -121,13 +127,16 @@ pub(crate) fn scene_type<S: SceneSpace>(
         return Some(known);
     }
     let (section, kind, others) = &types.other;
-    let (label, help) = match nearest(name, types.known.iter().copied()) {
-        Some(near) => (format!("did you mean `{near}`?"), None),
-        None if others.contains(&name) => (
+    let near = nearest(name, types.known.iter().copied());
+    let elsewhere = space::of_type(S::NAME, types.all, name).filter(|_| !others.contains(&name));
+    let (label, help) = match (elsewhere, near) {
+        (Some(space), _) => (belongs(name, space), None),
+        (None, Some(near)) => (format!("did you mean `{near}`?"), None),
+        (None, None) if others.contains(&name) => (
             format!("`{name}` is a {kind}"),
             Some(format!("write it under `[[{section}]]`")),
         ),
-        None => match nearest(name, [section::DRIVE.name]) {
+        (None, None) => match nearest(name, [section::DRIVE.name]) {
             Some(drive) => (
                 format!("`{name}` is a {drive}"),
                 Some(

@@ -18,7 +18,7 @@ use crate::findings::Findings;
 use crate::language::Language;
 use crate::mistake::Mistake;
 use crate::plausible::angles::{Degrees, Number, degrees};
-use crate::space::SceneSpace;
+use crate::space::{self, SceneSpace};
 use crate::table::Table;
 use crate::{expression, nearest, units};
 
@@ -45,7 +45,7 @@ impl<'t> Field<'t> {
 
     /// Reports that a value of another kind was expected.
     pub(crate) fn mismatch(&self, expected: &str, findings: &mut Findings) {
-        self.is_not(expected, Mistake::Type, findings);
+        self.is_not(expected, Mistake::Type, None, findings);
     }
 
     /// Reports a list of `found` values which is not the expected one of `n`.
@@ -55,23 +55,30 @@ impl<'t> Field<'t> {
         } else {
             Mistake::Count
         };
-        self.is_not(expected, mistake, findings);
+        self.is_not(expected, mistake, None, findings);
     }
 
-    fn is_not(&self, expected: &str, mistake: Mistake, findings: &mut Findings) {
+    fn is_not(
+        &self,
+        expected: &str,
+        mistake: Mistake,
+        help: Option<String>,
+        findings: &mut Findings,
+    ) {
         let text = self.value.get_ref().as_str();
-        let help = text
-            .filter(|_| expected.contains("number"))
-            .and_then(|text| {
-                if units::is_number(text) {
-                    Some(format!(
-                        "numbers stand without quotes: write `{text}` instead of `\"{text}\"`"
-                    ))
-                } else {
-                    const COMPUTED: &str = "texts are computed with `format = 2` in `[scene]`";
-                    units::advice(text).or_else(|| Some(COMPUTED.to_owned()))
-                }
-            });
+        let of_text = || {
+            text.filter(|_| expected.contains("number"))
+                .and_then(|text| {
+                    if units::is_number(text) {
+                        Some(format!(
+                            "numbers stand without quotes: write `{text}` instead of `\"{text}\"`"
+                        ))
+                    } else {
+                        const COMPUTED: &str = "texts are computed with `format = 2` in `[scene]`";
+                        units::advice(text).or_else(|| Some(COMPUTED.to_owned()))
+                    }
+                })
+        };
         findings.error_with_help(
             mistake,
             self.span(),
@@ -82,7 +89,7 @@ impl<'t> Field<'t> {
                 found(self.value.get_ref())
             ),
             format!("expected {expected}"),
-            help,
+            help.or_else(of_text),
         );
     }
 
@@ -308,6 +315,14 @@ impl<'t> Field<'t> {
         of: Dimension,
         findings: &mut Findings,
     ) -> Option<S::Vector<f64>> {
+        let length = self.value.get_ref().as_array().map(|list| list.len());
+        if let Some(n) = length
+            && let Some(space) = space::of_length(S::NAME, n)
+        {
+            let help = format!("vectors of {n} components belong to `space = \"{space}\"`");
+            self.is_not(expected, Mistake::Count, Some(help), findings);
+            return None;
+        }
         let numbers = self.numbers(S::DIM, expected, |_| of, findings)?;
         S::of_numbers(&numbers)
     }

@@ -12,7 +12,7 @@ use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
-use crate::space::SceneSpace;
+use crate::space::{self, SceneSpace};
 use crate::table::Table;
 use crate::tolerance;
 use crate::units;
@@ -72,6 +72,7 @@ impl Markers {
         }
         let tolerance = tolerance::read(&mut table, &TOLERANCE, findings);
         let entry = Entry::of(name, &table);
+        table.spaces(space::marker_keys());
         table.close(findings);
         let Self {
             list,

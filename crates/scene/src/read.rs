@@ -6,8 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use joints::{Plane, Space3};
 use model::{
-    AnyDescription, BuildError, Definitions, Described, Mechanism, Observed, Registry, Stated,
-    Tolerance,
+    AnyDescription, BuildError, Described, Mechanism, Observed, Registry, Stated, Tolerance,
 };
 use toml::de::DeTable;
 
@@ -162,7 +161,7 @@ fn document<S: SceneSpace>(mut root: Table, registry: &Registry, findings: &mut 
     }
     let heading = head.map_or_else(Heading::<S>::default, |head| Heading::read(head, findings));
     section(&mut root, &section::PARAMETERS, &mut sections, findings);
-    let mut parts = Parts::<S>::read(&mut root, S::definitions(registry), findings);
+    let mut parts = Parts::<S>::read(&mut root, registry, findings);
     let (groups, group_entries) = groups(&mut root, &mut parts, findings);
     let start = section(&mut root, &section::START, &mut sections, findings)
         .map(|table| start::read::<S>(table, &parts.bodies.names, findings));
@@ -232,7 +231,7 @@ struct Parts<'r, S: SceneSpace> {
 }
 
 impl<'r, S: SceneSpace> Parts<'r, S> {
-    fn read(root: &mut Table, registry: &'r Definitions<S>, findings: &mut Findings) -> Self {
+    fn read(root: &mut Table, registry: &'r Registry, findings: &mut Findings) -> Self {
         let mut parts = Self {
             bodies: Bodies::default(),
             measures: Measures::default(),

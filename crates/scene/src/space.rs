@@ -6,13 +6,55 @@ mod space3;
 
 pub(crate) use orientation::{ANGLE, AXIS, MATRIX, QUATERNION, RPY};
 
-use joints::Argument;
+use joints::{Argument, Plane, Space, Space3};
 use model::{AnyDescription, BodySpace, Definitions, Described, Registry};
 
 use crate::findings::Findings;
 use crate::key::Key;
 use crate::start::Kept;
 use crate::table::Table;
+
+/// The name of the space, other than that with the name `here`, for which this holds.
+fn other(here: &str, holds: [(&'static str, bool); 2]) -> Option<&'static str> {
+    let mut others = holds.into_iter().filter(|(name, _)| *name != here);
+    others.find_map(|(name, holds)| holds.then_some(name))
+}
+
+/// The other space whose vectors have this number of components.
+pub(crate) fn of_length(here: &str, length: usize) -> Option<&'static str> {
+    let has = [(Plane::NAME, Plane::DIM), (Space3::NAME, Space3::DIM)];
+    other(here, has.map(|(name, dim)| (name, dim == length)))
+}
+
+/// The other space that has this type of joints or forces.
+pub(crate) fn of_type(here: &str, registry: &Registry, name: &str) -> Option<&'static str> {
+    fn has<S: SceneSpace>(registry: &Registry, name: &str) -> (&'static str, bool) {
+        let of = S::definitions(registry);
+        let mut specs = of.constraint_specs().chain(of.force_specs());
+        (S::NAME, specs.any(|spec| spec.scene_type == name))
+    }
+    other(
+        here,
+        [has::<Plane>(registry, name), has::<Space3>(registry, name)],
+    )
+}
+
+/// The keys of bodies in both spaces, each with the name of its space.
+pub(crate) fn body_keys() -> impl Iterator<Item = (&'static str, &'static str)> {
+    named(Plane::NAME, Plane::BODY_KEYS).chain(named(Space3::NAME, Space3::BODY_KEYS))
+}
+
+/// Those of markers.
+pub(crate) fn marker_keys() -> impl Iterator<Item = (&'static str, &'static str)> {
+    named(Plane::NAME, Plane::MARKER_KEYS).chain(named(Space3::NAME, Space3::MARKER_KEYS))
+}
+
+fn named(
+    space: &'static str,
+    keys: &'static [Key],
+) -> impl Iterator<Item = (&'static str, &'static str)> {
+    keys.iter().map(move |key| (key.name, space))
+}
 
 /// The space of a scene.
 pub(crate) trait SceneSpace: BodySpace {

@@ -14,6 +14,11 @@ use crate::language::Language;
 use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
 
+/// What is said of something that another space has.
+pub(crate) fn belongs(what: &str, space: &str) -> String {
+    format!("`{what}` belongs to `space = \"{space}\"`")
+}
+
 /// A table and what it describes.
 pub(crate) struct Table<'t> {
     /// Description of the table at the beginning of messages: joint `A`, or `[simulate]`.
@@ -26,6 +31,8 @@ pub(crate) struct Table<'t> {
     known: Vec<&'static str>,
     /// Keys that are missing, with the index of the problem in the findings.
     missing: Vec<(&'static str, usize)>,
+    /// Keys that scenes of a space have, with its name.
+    by_space: Vec<(&'static str, &'static str)>,
 }
 
 impl<'t> Table<'t> {
@@ -42,7 +49,14 @@ impl<'t> Table<'t> {
             language,
             known: Vec::new(),
             missing: Vec::new(),
+            by_space: Vec::new(),
         }
+    }
+
+    /// Keys of the spaces, each with the name of its space: those that are unknown here are told as
+    /// keys of another one.
+    pub(crate) fn spaces(&mut self, keys: impl Iterator<Item = (&'static str, &'static str)>) {
+        self.by_space.extend(keys);
     }
 
     /// The value of an optional key.
@@ -142,10 +156,12 @@ impl<'t> Table<'t> {
             if known().any(|known| known == name) {
                 continue;
             }
-            let near = nearest(name, known());
-            let label = match near {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => "unknown key".to_owned(),
+            let elsewhere = self.by_space.iter().find(|(key, _)| key == name);
+            let near = nearest(name, known()).filter(|_| elsewhere.is_none());
+            let label = match (elsewhere, near) {
+                (Some((_, space)), _) => belongs(name, space),
+                (None, Some(near)) => format!("did you mean `{near}`?"),
+                (None, None) => "unknown key".to_owned(),
             };
             if let Some((_, problem)) = self.missing.iter().find(|(key, _)| near == Some(key)) {
                 findings.explain(*problem);

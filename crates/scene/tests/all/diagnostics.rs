@@ -192,7 +192,7 @@ fn values() {
             "\"plane\"",
             "«\"room\"»",
             "`[scene]`: `space` is \"room\", there are `plane`, `spatial`",
-            "not available",
+            "no such space",
         ),
     ]);
 }

@@ -12,6 +12,7 @@ mod plausible;
 mod robot_trolley;
 mod schema;
 mod silence;
+mod space;
 mod tolerance;
 mod validator;
 mod words;

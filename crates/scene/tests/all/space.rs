@@ -1,0 +1,422 @@
+//! Scenes in space: every type, orientations and directions in all their forms, and faults that
+//! only space has.
+
+use std::collections::BTreeSet;
+
+use joints::space3::Pose;
+use model::{AnyDescription, Mechanism, Registry, SpatialBody, SpatialDescription};
+
+use crate::diagnostics::check_in;
+use crate::{assert_close, read};
+
+/// Bodies a, b and c: a at (1, 2, 3), its axes turned by a right angle about z, b at (3, 2, 3), c at
+/// the origin.
+const BODIES: &str = r#"[scene]
+name = "small"
+space = "spatial"
+gravity = [0.0, 0.0, -9.81]
+silence = ["P0195"]
+
+[[body]]
+name = "a"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+position = [1.0, 2.0, 3.0]
+orientation = { axis = [0, 0, 1], angle = 1.5707963267948966 }
+
+[[body]]
+name = "b"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+position = [3.0, 2.0, 3.0]
+
+[[body]]
+name = "c"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+
+"#;
+
+const AB: &str = "bodies = [\"a\", \"b\"]\n";
+
+#[track_caller]
+fn described(text: &str) -> SpatialDescription {
+    let scene = read(text).unwrap_or_else(|problems| panic!("{text}\n{problems:#?}"));
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    match scene.description {
+        AnyDescription::Space3(d) => d,
+        AnyDescription::Plane(_) => panic!("a planar description"),
+    }
+}
+
+#[test]
+fn every_type_is_read_and_built() {
+    let place = "at = [1, 0, 0]";
+    let wheel = "body = \"c\"\npoint = [0, 0, 0.3]\naxis = [0, 1, 0]\nradius = 0.3";
+    let two = "at = [[1, 0, 0], [2, 0, 0]]";
+    let joints = [
+        ("spherical", format!("{AB}{place}")),
+        ("revolute", format!("{AB}{place}\naxis = [0, 0, 1]")),
+        (
+            "universal",
+            format!("{AB}{place}\naxis = [0, 0, 1]\ncross = [1, 0, 0]"),
+        ),
+        (
+            "translational",
+            format!("{AB}{place}\naxis = [0, 0, 1]\ncross = [1, 1, 0]"),
+        ),
+        ("cylindrical", format!("{AB}{place}\naxis = [0, 0, 1]")),
+        ("planar", format!("{AB}{place}\nnormal = [0, 0, 1]")),
+        ("fixed", format!("{AB}{place}")),
+        (
+            "point-on-line",
+            format!("{AB}{place}\naxis = [0, 0, 1]\nframe = \"global\""),
+        ),
+        (
+            "point-on-plane",
+            format!("{AB}points = {{ a = [1, 0, 0], b = [1, 0, 0] }}\nnormal = [0, 0, 1]"),
+        ),
+        ("parallel", format!("{AB}axis = [0, 0, 1]")),
+        (
+            "perpendicular",
+            format!("{AB}axis = [0, 0, 1]\ncross = [1, 0, 0]"),
+        ),
+        ("orientation", AB.to_owned()),
+        ("distance", format!("{AB}{two}")),
+        (
+            "knife-edge",
+            "body = \"c\"\npoint = [0, 0, 0]\nnormal = [0, 1, 0]".to_owned(),
+        ),
+        (
+            "velocity",
+            "body = \"c\"\npoint = [0, 0, 0]\ndirection = [1, 0, 0]\nrate = 0.5".to_owned(),
+        ),
+        ("wheel-contact", wheel.to_owned()),
+        (
+            "wheel-slip",
+            format!("{wheel}\nplane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}"),
+        ),
+    ];
+    let forces = [
+        (
+            "spring-damper",
+            format!("{AB}{two}\nstiffness = 1.0\ndamping = 0.1"),
+        ),
+        (
+            "point-force",
+            "body = \"a\"\npoint = [0, 0, 0]\nforce = [1, 2, 3]".to_owned(),
+        ),
+        (
+            "point-force",
+            "body = \"a\"\npoint = [0, 0, 0]\nforce = [1, 2, 3]\nframe = \"body\"".to_owned(),
+        ),
+        ("torque", "body = \"a\"\ntorque = [1, 2, 3]".to_owned()),
+        ("torque", format!("{AB}torque = [1, 2, 3]")),
+    ];
+    let mut text = BODIES.to_owned();
+    for (section, elements) in [("joint", &joints[..]), ("force", &forces[..])] {
+        for (k, (name, keys)) in elements.iter().enumerate() {
+            text +=
+                &format!("[[{section}]]\nname = \"{section} {k}\"\ntype = \"{name}\"\n{keys}\n\n");
+        }
+    }
+    let d = described(&text);
+    let rows: Vec<usize> = d
+        .joints
+        .iter()
+        .map(|j| j.element.spec().rows.len())
+        .collect();
+    assert_eq!(rows, [3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 1, 2]);
+    assert_eq!(d.forces.len(), forces.len());
+    assert!(Mechanism::build(&d).is_ok());
+    let registry = Registry::standard();
+    let of = registry.space();
+    let all: BTreeSet<_> = of
+        .constraint_specs()
+        .chain(of.force_specs())
+        .map(|spec| spec.scene_type)
+        .collect();
+    let given: BTreeSet<_> = joints
+        .iter()
+        .chain(&forces)
+        .map(|(name, _)| *name)
+        .collect();
+    assert_eq!(given, all);
+}
+
+fn body(orientation: &str) -> SpatialBody {
+    let d = described(&format!(
+        "[scene]\nname = \"x\"\nspace = \"spatial\"\n[[body]]\nname = \"a\"\nmass = 1.0\n\
+         inertia = [1, 1, 1]\norientation = {orientation}\n"
+    ));
+    d.bodies[0].clone()
+}
+
+/// Half a turn about (0, 3, 4)/5 takes x to −x and y to (0, −0.28, 0.96).
+#[test]
+fn four_ways_of_an_orientation() {
+    let expected = [[-1.0, 0.0, 0.0], [0.0, -0.28, 0.96], [0.0, 0.96, 0.28]];
+    for way in [
+        "{ quaternion = [0.0, 0.0, 0.6, 0.8] }",
+        "{ quaternion = [0.0, 0.0, -0.6, -0.8] }",
+        "{ axis = [0, 3, 4], angle = 3.141592653589793 }",
+        // About x by ψ = atan2(0.96, 0.28), then by π about z: y goes to (0, −cos ψ, sin ψ).
+        "{ rpy = [1.2870022175865687, 0.0, 3.141592653589793] }",
+        "{ matrix = [[-1, 0, 0], [0, -0.28, 0.96], [0, 0.96, 0.28]] }",
+    ] {
+        let turned = Pose::new([0.0; 3], body(way).orientation);
+        for (k, column) in expected.iter().enumerate() {
+            let mut axis = [0.0; 3];
+            axis[k] = 1.0;
+            let found = turned.to_global(axis);
+            let near = found.iter().zip(column).all(|(a, b)| (a - b).abs() < 1e-12);
+            assert!(near, "{way}: axis {k} is {found:?}");
+        }
+    }
+    // About x first, then y, then z: with right angles x goes to −z under the pitch and stays.
+    let turned = Pose::new(
+        [0.0; 3],
+        body("{ rpy = [1.5707963267948966, 1.5707963267948966, 0.0] }").orientation,
+    );
+    assert_close(&turned.to_global([1.0, 0.0, 0.0]), &[0.0, 0.0, -1.0]);
+    assert_close(&turned.to_global([0.0, 1.0, 0.0]), &[1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn an_orientation_with_few_digits_is_taken_with_a_warning() {
+    let text = BODIES.replace(
+        "{ axis = [0, 0, 1], angle = 1.5707963267948966 }",
+        "{ matrix = [[0.0, -1.02, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]] }",
+    );
+    let scene = read(&text).expect("a scene");
+    assert_eq!(scene.warnings.len(), 1, "{:?}", scene.warnings);
+    let AnyDescription::Space3(d) = &scene.description else {
+        panic!("a planar description");
+    };
+    let turned = Pose::new([0.0; 3], d.bodies[0].orientation);
+    assert_close(&turned.to_global([1.0, 0.0, 0.0]), &[0.0, 1.0, 0.0]);
+}
+
+/// The pose of a body that was turned about an axis of the ground through (1, 0, 0).
+fn turned(pose: Pose, axis: [f64; 3], angle: f64) -> Pose {
+    let (sin, cos) = (0.5 * angle).sin_cos();
+    let turn = Pose::new([0.0; 3], [cos, sin * axis[0], sin * axis[1], sin * axis[2]]);
+    let arm = turn.to_global([pose.r[0] - 1.0, pose.r[1], pose.r[2]]);
+    let column = |k: usize| turn.to_global([0, 1, 2].map(|row| pose.rot[row][k]));
+    let columns = [0, 1, 2].map(column);
+    Pose {
+        r: [arm[0] + 1.0, arm[1], arm[2]],
+        rot: [0, 1, 2].map(|row| columns.map(|column| column[row])),
+    }
+}
+
+/// A hinge turns about the axis that was meant, however it is written: y of the ground is x of a.
+#[test]
+fn directions_of_the_body_of_the_ground_and_of_both() {
+    for axis in [
+        "axis = [1, 0, 0]",
+        "axis = [2, 0, 0]\ncross = [1, 1, 0]",
+        "axis = [0, 1, 0]\nframe = \"global\"",
+        "axes = { a = [1, 0, 0], b = [0, 1, 0] }",
+    ] {
+        let text = format!(
+            "{BODIES}[[joint]]\nname = \"J\"\ntype = \"revolute\"\n{AB}at = [1, 0, 0]\n{axis}\n"
+        );
+        let d = described(&text);
+        let [a, b] = [0, 1].map(|k| {
+            let body = &d.bodies[k];
+            Pose::new(body.position, body.orientation)
+        });
+        let mut element = d.joints[0].element.clone();
+        element.initialise(&[a, b]);
+        let phi = |second: Pose| {
+            let mut out = [f64::NAN; 5];
+            element.phi(&[a, second], &[], &mut out);
+            out.iter().fold(0.0_f64, |m, x| m.max(x.abs()))
+        };
+        assert!(phi(b) < 1e-14, "{axis}: {}", phi(b));
+        assert!(phi(turned(b, [0.0, 1.0, 0.0], 0.7)) < 1e-14, "{axis}");
+        for other in [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]] {
+            assert!(phi(turned(b, other, 0.7)) > 0.5, "{axis}");
+        }
+    }
+}
+
+const SPACE: &str = r#"[scene]
+name = "small"
+space = "spatial"
+gravity = [0.0, 0.0, -9.81]
+
+[[body]]
+name = "a"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+position = [0.0, 0.0, 0.5]
+orientation = { quaternion = [1, 0, 0, 0] }
+
+[[joint]]
+name = "J"
+type = "revolute"
+bodies = ["ground", "a"]
+at = [0.0, 0.0, 0.0]
+axis = [0, 0, 1]
+
+[[joint]]
+name = "R"
+type = "distance"
+bodies = ["ground", "a"]
+at = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+
+[[joint]]
+name = "W"
+type = "wheel-contact"
+body = "a"
+point = [0.0, 0.0, 0.0]
+axis = [0, 1, 0]
+radius = 0.5
+"#;
+
+const MOMENTS: &str = "inertia = [1.0, 1.0, 1.0]";
+const TURNED: &str = "orientation = { quaternion = [1, 0, 0, 0] }";
+
+#[test]
+fn faults_in_space() {
+    check_in(
+        SPACE,
+        &[
+            (
+                "axis = [0, 0, 1]",
+                "axis = «[0, 0, 0]»",
+                "joint `J`: `axis` has no direction: the vector is (0, 0, 0), of length zero",
+                "has no direction",
+            ),
+            (
+                TURNED,
+                "orientation = { matrix = «[[1, 0, 0], [0, 1, 0], [0, 0, -1]]» }",
+                "body `a`: `orientation`: `matrix` is a reflection: no rotation turns a right hand into a left one",
+                "no orientation",
+            ),
+            (
+                TURNED,
+                "orientation = { matrix = «[[1, 0, 0], [0, 1, 0], [0, 0, 0]]» }",
+                "body `a`: `orientation`: `matrix` is singular, which is no orientation",
+                "no orientation",
+            ),
+            (
+                TURNED,
+                "orientation = { quaternion = «[0, 0, 0, 0]» }",
+                "body `a`: `orientation`: `quaternion` is zero, which is no orientation",
+                "no orientation",
+            ),
+            (
+                TURNED,
+                "orientation = «{ quaternion = [1, 0, 0, 0], rpy = [0, 0, 0] }»",
+                "body `a`: `orientation` needs one of the keys `quaternion`, `axis`, `rpy`, `matrix`",
+                "an orientation is written in one way",
+            ),
+            (
+                TURNED,
+                "orientation = { axis = «[1, 0, 0]» }",
+                "body `a`: `orientation` has an `axis` without an `angle`",
+                "turned by how much?",
+            ),
+            (
+                MOMENTS,
+                "inertia = «[1.0, 1.0, 3.0]»",
+                "body `a`: no body has the principal moments [1.0, 1.0, 3.0]: the largest is above the sum of the others",
+                "not the tensor of a body",
+            ),
+            (
+                MOMENTS,
+                "inertia = [1.0, 1.0, «-1.0»]",
+                "body `a`: `inertia` has the moment -1",
+                "may not be negative",
+            ),
+            (
+                "axis = [0, 0, 1]",
+                "axis = «[0, 0, 1]»\naxes = { ground = [0, 0, 1], a = [0, 0, 1] }",
+                "joint `J` takes `axis` or `axes`, not both",
+                "and here for the first",
+            ),
+            (
+                "axis = [0, 0, 1]",
+                "axes = «{ a = [0, 0, 1] }»",
+                "joint `J`: `axes` needs the direction of `ground`",
+                "`ground = [x, y, z]` is missing here",
+            ),
+            (
+                "axis = [0, 0, 1]",
+                "axis = [0, 0, 1]\nframe = «\"globl\"»",
+                "joint `J`: `frame` must be \"body\" or \"global\", found `globl`",
+                "no such choice",
+            ),
+        ],
+    );
+}
+
+/// What belongs to one space is told as such in the other one.
+#[test]
+fn the_other_space_is_named() {
+    check_in(
+        SPACE,
+        &[
+            (
+                TURNED,
+                "«angle» = 0.3",
+                "body `a` has no key `angle`",
+                "`angle` belongs to `space = \"plane\"`",
+            ),
+            (
+                "type = \"revolute\"",
+                "type = «\"pin-in-slot\"»",
+                "joint `J` has the unknown type `pin-in-slot`",
+                "`pin-in-slot` belongs to `space = \"plane\"`",
+            ),
+            (
+                "at = [0.0, 0.0, 0.0]",
+                "at = «[0.0, 0.0]»",
+                "joint `J`: `at` must be a global point [x, y, z], found a list of 2 values",
+                "expected a global point [x, y, z]",
+            ),
+        ],
+    );
+    const PLANE: &str = "[scene]\nname = \"small\"\nspace = \"plane\"\n\n[[body]]\nname = \"a\"\n\
+        mass = 1.0\ninertia = 1.0\nangle = 0.0\n\n[[marker]]\nname = \"m\"\nbody = \"a\"\n\
+        point = [0.0, 0.0]\n\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\n\
+        bodies = [\"ground\", \"a\"]\nat = [0.0, 0.0]\n";
+    check_in(
+        PLANE,
+        &[
+            (
+                "angle = 0.0",
+                "«orientation» = { rpy = [0, 0, 0] }",
+                "body `a` has no key `orientation`",
+                "`orientation` belongs to `space = \"spatial\"`",
+            ),
+            (
+                "type = \"revolute\"",
+                "type = «\"spherical\"»",
+                "joint `J` has the unknown type `spherical`",
+                "`spherical` belongs to `space = \"spatial\"`",
+            ),
+            (
+                "at = [0.0, 0.0]",
+                "at = «[0.0, 0.0, 0.0]»",
+                "joint `J`: `at` must be a global point [x, y], found a list of 3 values",
+                "expected a global point [x, y]",
+            ),
+            (
+                "at = [0.0, 0.0]",
+                "at = [0.0, 0.0]\n«cross» = [1, 0, 0]",
+                "joint `J` has no key `cross`",
+                "`cross` belongs to `space = \"spatial\"`",
+            ),
+        ],
+    );
+    let problems = read(&PLANE.replace("[0.0, 0.0]\n\n", "[0.0, 0.0, 0.0]\n\n")).expect_err("");
+    let help = problems[0].help.as_deref();
+    assert_eq!(
+        help,
+        Some("vectors of 3 components belong to `space = \"spatial\"`")
+    );
+}
