@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use joints::spec::Shape;
 use pfaff::dynamics::{Method, Stabilisation};
-use pfaff::model::Registry;
+use pfaff::model::{BodySpace, Definitions, Registry};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -159,24 +159,23 @@ fn figures_are_those_of_their_command_and_all_are_shown() {
     }
 }
 
-#[test]
-fn the_reference_of_scenes_is_complete() {
-    let text = read("scene-format.md");
-    let has = |piece: &str| assert!(text.contains(piece), "scene-format.md has no {piece}");
-    let registry = Registry::standard();
-    for spec in registry
-        .plane()
-        .constraint_specs()
-        .chain(registry.plane().force_specs())
-    {
+/// Types of one space with their keys, rows and measures.
+fn in_space_of<S: BodySpace>(definitions: &Definitions<S>, has: &impl Fn(&str)) {
+    let constraints = definitions.constraint_specs();
+    for spec in constraints.chain(definitions.force_specs()) {
         has(&format!("| `{}` |", spec.scene_type));
         has(&format!("type = \"{}\"", spec.scene_type));
         for parameter in spec.parameters {
-            if !matches!(parameter.shape, Shape::Point { .. }) {
+            // The place has other keys, and what follows from another parameter has none.
+            let is_key = !matches!(
+                parameter.shape,
+                Shape::Point { .. } | Shape::Axes { like: Some(_), .. }
+            );
+            if is_key {
                 has(parameter.name);
             }
         }
-        for definition in registry.plane().constraints(spec.scene_type) {
+        for definition in definitions.constraints(spec.scene_type) {
             let rows: Vec<_> = definition.spec.rows.iter().map(|row| row.name).collect();
             has(&format!("| `{}` | {} |", spec.scene_type, rows.join(", ")));
             for measure in definition.spec.measures {
@@ -184,6 +183,15 @@ fn the_reference_of_scenes_is_complete() {
             }
         }
     }
+}
+
+#[test]
+fn the_reference_of_scenes_is_complete() {
+    let text = read("scene-format.md");
+    let has = |piece: &str| assert!(text.contains(piece), "scene-format.md has no {piece}");
+    let registry = Registry::standard();
+    in_space_of(registry.plane(), &has);
+    in_space_of(registry.space(), &has);
     let choices = Method::ALL.iter().map(|m| m.name());
     for name in choices.chain(Stabilisation::ALL.iter().map(|s| s.name())) {
         has(&format!("`{name}`"));
