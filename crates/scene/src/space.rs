@@ -96,8 +96,8 @@ pub(crate) trait SceneSpace: BodySpace {
     /// The inverse of [`BodySpace::to_local`].
     fn to_global(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
 
-    /// A direction that is written in the axes of a body, or of the ground, in those of another one.
-    /// In the plane all directions are written in the axes of their own body.
+    /// A direction that is written in the axes of a body, or of the ground, in those of another
+    /// one. In the plane all directions are written in the axes of their own body.
     fn carried(
         direction: Self::Vector<f64>,
         from: Option<&Self::Body>,

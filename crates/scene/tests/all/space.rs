@@ -9,8 +9,8 @@ use model::{AnyDescription, Mechanism, Registry, SpatialBody, SpatialDescription
 use crate::diagnostics::check_in;
 use crate::{assert_close, read};
 
-/// Bodies a, b and c: a at (1, 2, 3), its axes turned by a right angle about z, b at (3, 2, 3), c at
-/// the origin.
+/// Bodies a, b and c: a at (1, 2, 3), its axes turned by a right angle about z, b at (3, 2, 3), c
+/// at the origin.
 const BODIES: &str = r#"[scene]
 name = "small"
 space = "spatial"
