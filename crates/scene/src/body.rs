@@ -44,7 +44,7 @@ impl<S: SceneSpace> Bodies<S> {
 
     /// A point in the frame of a body relative to its centre of mass, as joints and forces take it;
     /// for the ground the point itself.
-    pub(crate) fn from_centre(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
+    pub(crate) fn about_centre(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| self.list.get(at));
         described.map_or(point, |body| S::from_centre(body, point))
     }

@@ -137,7 +137,7 @@ impl Markers {
 impl<S: SceneSpace> Bodies<S> {
     /// Global coordinates of a marker in the described configuration.
     pub(crate) fn global(&self, marker: &Marker) -> S::Vector<f64> {
-        let point = self.from_centre_of(marker);
+        let point = self.place_of(marker);
         match marker.body {
             BodyRef::Ground => point,
             BodyRef::Body(k) => S::to_global(&self.list[k], point),
@@ -145,8 +145,8 @@ impl<S: SceneSpace> Bodies<S> {
     }
 
     /// Place of a marker relative to the centre of mass of its body.
-    pub(crate) fn from_centre_of(&self, marker: &Marker) -> S::Vector<f64> {
-        self.from_centre(marker.body, S::vector(marker.point))
+    pub(crate) fn place_of(&self, marker: &Marker) -> S::Vector<f64> {
+        self.about_centre(marker.body, S::vector(marker.point))
     }
 
     /// Reports a marker where a point of another body is needed.

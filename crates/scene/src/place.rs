@@ -129,7 +129,7 @@ fn global<S: SceneSpace>(
     let mut local = |(k, &slot): (usize, &usize)| {
         let body = slots.get(slot).copied().flatten()?;
         let local = match *read.get(k).or(read.first())?.as_ref()? {
-            Point::Of(marker) if marker.body == body => bodies.from_centre_of(marker),
+            Point::Of(marker) if marker.body == body => bodies.place_of(marker),
             Point::Of(marker) => bodies.to_local(body, bodies.global(marker)),
             Point::At(point) => bodies.to_local(body, point),
         };
@@ -212,8 +212,8 @@ fn of_body<S: SceneSpace>(
         let read = point(field, S::POINT, bodies, findings)?;
         let body = body?;
         match read {
-            Point::At(point) => Some(bodies.from_centre(body, point)),
-            Point::Of(marker) if marker.body == body => Some(bodies.from_centre_of(marker)),
+            Point::At(point) => Some(bodies.about_centre(body, point)),
+            Point::Of(marker) if marker.body == body => Some(bodies.place_of(marker)),
             Point::Of(marker) => {
                 bodies.foreign(marker, body, field, findings);
                 None
