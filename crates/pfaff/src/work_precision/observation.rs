@@ -21,9 +21,9 @@ impl Kind {
     /// Number of kinds.
     pub const COUNT: usize = 4;
 
-    /// Index of the quantity `name` of `of` in an [`Observation`] of planar bodies: `x`, `y` or `angle`,
-    /// for a joint or drive `Fx`, `Fy`, `T`, or the name of its one component. Returns `None` if
-    /// the mechanism has nothing of that name.
+    /// Index of the quantity `name` of `of` in an [`Observation`] of planar bodies: for a body `x`,
+    /// `y` or `angle`, for a joint or drive `Fx`, `Fy`, `T`, or the name of its one component.
+    /// Returns `None` if the mechanism has nothing of that name.
     #[must_use]
     pub fn place(self, of: &str, name: &str, mechanism: &Mechanism) -> Option<usize> {
         if self != Self::Reaction {

@@ -100,7 +100,8 @@ pub struct SweepMotion {
     pub fragile: u64,
     /// Time of the last written state (s); the end of a run that is done.
     pub t_state: f64,
-    /// The last written state, body by body in the order of [`SweepPlan::state`]; NaN if no row was written.
+    /// The last written state, body by body in the order of [`SweepPlan::state`]; NaN if no row was
+    /// written.
     pub state: Vec<f64>,
     /// Extremes of the joints and drives of [`SweepPlan::reactions`].
     pub extremes: Vec<Extreme>,
