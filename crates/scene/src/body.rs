@@ -1,19 +1,43 @@
 //! `[[body]]`, and the names of bodies elsewhere in the file.
 
+mod orientation;
+mod plane;
+mod space3;
+
+pub(crate) use orientation::{ANGLE, AXIS, MATRIX, QUATERNION, RPY};
+
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
+use joints::{Plane, Space3};
 use model::BodyRef;
 
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::key::Key;
 use crate::marker::Markers;
 use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
-use crate::space::{self, SceneSpace};
+use crate::space::SceneSpace;
 use crate::table::Table;
+
+/// A space of which bodies are read.
+pub(crate) trait SceneBody: SceneSpace {
+    /// Keys of a body in addition to its name.
+    const BODY_KEYS: &'static [Key];
+
+    /// Reads one body; numbers that cannot be read are zero.
+    fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> Self::Body;
+}
+
+/// The keys of both spaces, each with the name of its space.
+fn keys() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let plane = Plane::BODY_KEYS.iter().map(|key| (key.name, Plane::NAME));
+    let space = Space3::BODY_KEYS.iter().map(|key| (key.name, Space3::NAME));
+    plane.chain(space)
+}
 
 /// The bodies that were read.
 pub(crate) struct Bodies<S: SceneSpace> {
@@ -35,10 +59,13 @@ impl<S: SceneSpace> Default for Bodies<S> {
 
 impl<S: SceneSpace> Bodies<S> {
     /// Reads one body. Numbers that cannot be read are zero; they have been reported.
-    pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings) {
+    pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings)
+    where
+        S: SceneBody,
+    {
         self.list.push(S::read_body(&mut table, name, findings));
         self.names.add(name, &table);
-        table.spaces(space::body_keys());
+        table.spaces(keys());
         table.close(findings);
     }
 

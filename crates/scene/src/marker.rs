@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use model::{BodyRef, Marker};
+use joints::{Plane, Space3};
+use model::{BodyRef, Marker, SpaceKind};
 
 use crate::body::Bodies;
 use crate::dimension::Dimension;
@@ -12,7 +13,7 @@ use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
-use crate::space::{self, SceneSpace};
+use crate::space::SceneSpace;
 use crate::table::Table;
 use crate::tolerance;
 use crate::units;
@@ -36,10 +37,21 @@ const TOLERANCE: Key = tolerance::length(
     "What its point is known to, wherever it is used; that of its body, or of the scene, where it is not given",
 );
 
-/// Keys of a marker in the plane in addition to its name.
-pub(crate) const PLANE_KEYS: [Key; 4] = [BODY, POINT, ANGLE, TOLERANCE];
-/// Those in space.
-pub(crate) const SPACE_KEYS: [Key; 3] = [BODY, SPATIAL_POINT, TOLERANCE];
+/// Keys of a marker in addition to its name.
+pub(crate) fn keys(space: SpaceKind) -> &'static [Key] {
+    match space {
+        SpaceKind::Space3 => &[BODY, SPATIAL_POINT, TOLERANCE],
+        _ => &[BODY, POINT, ANGLE, TOLERANCE],
+    }
+}
+
+/// The keys of both spaces, each with the name of its space.
+fn all_keys() -> impl Iterator<Item = (&'static str, &'static str)> {
+    fn of<S: SceneSpace>() -> impl Iterator<Item = (&'static str, &'static str)> {
+        keys(S::KIND).iter().map(|key| (key.name, S::NAME))
+    }
+    of::<Plane>().chain(of::<Space3>())
+}
 
 /// What is said of a marker where another thing is expected.
 const NAME: &str = "the name of a marker";
@@ -66,13 +78,13 @@ impl Markers {
         let point = table.needed(POINT.name, S::POINT, findings);
         let point = point.and_then(|field| field.vector::<S>(S::POINT, POINT.unit, findings));
         let mut angle = None;
-        if S::MARKER_KEYS.iter().any(|key| key.name == ANGLE.name) {
+        if S::KIND != SpaceKind::Space3 {
             let field = table.optional(&ANGLE);
             angle = field.map(|field| field.number(ANGLE.unit, findings));
         }
         let tolerance = tolerance::read(&mut table, &TOLERANCE, findings);
         let entry = Entry::of(name, &table);
-        table.spaces(space::marker_keys());
+        table.spaces(all_keys());
         table.close(findings);
         let Self {
             list,

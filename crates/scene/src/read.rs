@@ -11,7 +11,7 @@ use model::{
 use toml::de::DeTable;
 
 use crate::active;
-use crate::body::Bodies;
+use crate::body::{Bodies, SceneBody};
 use crate::combination::{ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
 use crate::element::Types;
@@ -151,7 +151,7 @@ fn is_spatial(root: &DeTable) -> bool {
 }
 
 /// Reads all sections. The result may be used only if no problem was found.
-fn document<S: SceneSpace>(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
+fn document<S: SceneBody>(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
     let mut sections = BTreeMap::new();
     let head = section(&mut root, &section::SCENE, &mut sections, findings);
     if head.is_none() && root.optional(section::SCENE.name).is_none() {
@@ -220,7 +220,7 @@ fn document<S: SceneSpace>(mut root: Table, registry: &Registry, findings: &mut 
 }
 
 /// The parts of the mechanism.
-struct Parts<'r, S: SceneSpace> {
+struct Parts<'r, S: SceneBody> {
     bodies: Bodies<S>,
     measures: Measures,
     joints: Joints<'r, S>,
@@ -230,7 +230,7 @@ struct Parts<'r, S: SceneSpace> {
     domains: Vec<Domain>,
 }
 
-impl<'r, S: SceneSpace> Parts<'r, S> {
+impl<'r, S: SceneBody> Parts<'r, S> {
     fn read(root: &mut Table, registry: &'r Registry, findings: &mut Findings) -> Self {
         let mut parts = Self {
             bodies: Bodies::default(),
@@ -340,7 +340,7 @@ enum Asked {
 }
 
 /// Groups with their places.
-fn groups<S: SceneSpace>(
+fn groups<S: SceneBody>(
     root: &mut Table,
     parts: &mut Parts<S>,
     findings: &mut Findings,

@@ -12,6 +12,7 @@ use model::{Definitions, Registry};
 use serde_json::{Map, Value, json};
 
 use crate::active::ACTIVE;
+use crate::body::SceneBody;
 use crate::function::{KINDS, STEP_KEYS};
 use crate::joint::{DRIVE_KEYS, MEASURE};
 use crate::key::{Interval, Key, TYPE};
@@ -22,7 +23,7 @@ use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
 use crate::silence;
 use crate::space::SceneSpace;
-use crate::{measure, simulate, start, tolerance};
+use crate::{marker, measure, simulate, start, tolerance};
 use element::{Kind, elements};
 use value::{described, reference};
 
@@ -94,12 +95,12 @@ const OF_SPACE: [&Section; 7] = [
 ];
 
 /// The sections of a space; adds their definitions, those of space with a prefix.
-fn in_space<S: SceneSpace>(registry: &Registry, definitions: &mut Map<String, Value>) -> Value {
+fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Value>) -> Value {
     let registry = S::definitions(registry);
     let tables = [
         scene_table::<S>(),
         named("Body", S::BODY_KEYS),
-        named("Marker", S::MARKER_KEYS),
+        named("Marker", marker::keys(S::KIND)),
         named("Measure", &measure::keys(S::KIND)),
         elements(registry, Kind::Joint),
         drive(registry),

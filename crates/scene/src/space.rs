@@ -1,18 +1,15 @@
-//! What the format says differently in the plane and in space: keys, vectors, and what bodies are.
+//! What the format says differently in the plane and in space: vectors, names, and what bodies are.
 
-mod orientation;
 mod plane;
 mod space3;
 
-pub(crate) use orientation::{ANGLE, AXIS, MATRIX, QUATERNION, RPY};
+use std::ops::Range;
 
 use joints::{Argument, Plane, Space, Space3};
+use model::start::KeepLevel;
 use model::{AnyDescription, BodySpace, Definitions, Described, Registry};
 
-use crate::findings::Findings;
 use crate::key::Key;
-use crate::start::Kept;
-use crate::table::Table;
 
 /// The name of the space, other than that with the name `here`, for which this holds.
 fn other(here: &str, holds: [(&'static str, bool); 2]) -> Option<&'static str> {
@@ -39,21 +36,18 @@ pub(crate) fn of_type(here: &str, registry: &Registry, name: &str) -> Option<&'s
     )
 }
 
-/// The keys of bodies in both spaces, each with the name of its space.
-pub(crate) fn body_keys() -> impl Iterator<Item = (&'static str, &'static str)> {
-    named(Plane::NAME, Plane::BODY_KEYS).chain(named(Space3::NAME, Space3::BODY_KEYS))
+/// What the start may hold of a body, by its name.
+pub(crate) struct Kept {
+    pub(crate) name: &'static str,
+    /// Freedoms of the body.
+    pub(crate) dofs: Range<usize>,
+    pub(crate) level: KeepLevel,
 }
 
-/// Those of markers.
-pub(crate) fn marker_keys() -> impl Iterator<Item = (&'static str, &'static str)> {
-    named(Plane::NAME, Plane::MARKER_KEYS).chain(named(Space3::NAME, Space3::MARKER_KEYS))
-}
-
-fn named(
-    space: &'static str,
-    keys: &'static [Key],
-) -> impl Iterator<Item = (&'static str, &'static str)> {
-    keys.iter().map(move |key| (key.name, space))
+impl Kept {
+    pub(crate) const fn new(name: &'static str, dofs: Range<usize>, level: KeepLevel) -> Self {
+        Self { name, dofs, level }
+    }
 }
 
 /// The space of a scene.
@@ -70,10 +64,6 @@ pub(crate) trait SceneSpace: BodySpace {
     const BY_BODY: &'static str;
     /// The acceleration of free fall.
     const GRAVITY: Key;
-    /// Keys of a body in addition to its name.
-    const BODY_KEYS: &'static [Key];
-    /// Keys of a marker in addition to its name.
-    const MARKER_KEYS: &'static [Key];
     /// What the start may hold of a body.
     const KEPT: &'static [Kept];
 
@@ -86,9 +76,6 @@ pub(crate) trait SceneSpace: BodySpace {
 
     /// The definitions of a registry that belong here.
     fn definitions(registry: &Registry) -> &Definitions<Self>;
-
-    /// Reads one body; numbers that cannot be read are zero.
-    fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> Self::Body;
 
     /// A point in the frame of a body relative to its centre of mass.
     fn from_centre(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;

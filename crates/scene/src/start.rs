@@ -1,7 +1,6 @@
 //! `[start]`: options of the start.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use model::StartOptions;
 use model::start::{Coordinate, CorrectionLimit, KeepLevel};
@@ -13,22 +12,8 @@ use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
-use crate::space::SceneSpace;
+use crate::space::{Kept, SceneSpace};
 use crate::table::Table;
-
-/// What the start may hold of a body, by its name.
-pub(crate) struct Kept {
-    name: &'static str,
-    /// Freedoms of the body.
-    dofs: Range<usize>,
-    level: KeepLevel,
-}
-
-impl Kept {
-    pub(crate) const fn new(name: &'static str, dofs: Range<usize>, level: KeepLevel) -> Self {
-        Self { name, dofs, level }
-    }
-}
 
 const KEEP: Key = Key::optional(
     "keep",

@@ -3,11 +3,12 @@
 use model::SpaceKind;
 use serde_json::{Map, Value, json};
 
+use crate::body::{ANGLE, AXIS, MATRIX, QUATERNION, RPY};
 use crate::dimension::Dimension;
 use crate::key::{Interval, Key, Takes};
 use crate::section::LONGEST_NAME;
 use crate::silence;
-use crate::space::{ANGLE, AXIS, MATRIX, QUATERNION, RPY, SceneSpace};
+use crate::space::SceneSpace;
 
 /// The value of a key with its meaning, its unit and its default.
 pub(super) fn described(key: &Key) -> Value {

@@ -1,0 +1,100 @@
+//! Bodies in the plane.
+
+use joints::Plane;
+use model::Body;
+use serde_json::json;
+
+use super::SceneBody;
+use crate::dimension::Dimension;
+use crate::findings::Findings;
+use crate::key::{Interval, Key, Takes};
+use crate::table::Table;
+use crate::tolerance;
+
+const MASS: Key = number("mass", "a number ≥ 0", Interval::NotNegative)
+    .needed()
+    .unit(Dimension::MASS)
+    .doc("Mass");
+const INERTIA: Key = number("inertia", "a number ≥ 0", Interval::NotNegative)
+    .needed()
+    .unit(Dimension::INERTIA)
+    .doc("Moment of inertia about the centre of mass");
+const CENTRE: Key = Key::pair("centre")
+    .unit(Dimension::LENGTH)
+    .doc("Centre of mass [x, y] in the frame of the body; points of joints, `position` and `velocity` belong to the frame")
+    .or(|| json!([0.0, 0.0]));
+const POSITION: Key = Key::pair("position")
+    .unit(Dimension::LENGTH)
+    .doc("Origin [x, y] of the body's frame at the start: its centre of mass, unless `centre` says otherwise")
+    .or(|| json!([0.0, 0.0]));
+const VELOCITY: Key = Key::pair("velocity").unit(Dimension::VELOCITY).doc(
+    "Velocity [vx, vy] of the origin of the body's frame at the start; it follows from what is given and driven, with the least kinetic energy, where it is left out",
+);
+const ANGLE: Key = number("angle", "a number", Interval::Any)
+    .unit(Dimension::ANGLE)
+    .doc("Angle of the body's frame at the start")
+    .or(|| 0.0.into());
+const TOLERANCE: Key = tolerance::length(
+    "What points and directions in the body's frame are known to; that of the scene where it is not given",
+);
+const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
+    .unit(Dimension::ANGULAR_VELOCITY)
+    .doc("Angular velocity at the start; it follows in the same way where it is left out");
+
+/// Keys of a body in addition to its name.
+const BODY_KEYS: [Key; 8] = [
+    MASS,
+    INERTIA,
+    CENTRE,
+    POSITION,
+    ANGLE,
+    VELOCITY,
+    ANGULAR_VELOCITY,
+    TOLERANCE,
+];
+
+/// A number.
+const fn number(name: &'static str, expected: &'static str, range: Interval) -> Key {
+    Key::optional(name, expected, Takes::Number(range))
+}
+
+impl SceneBody for Plane {
+    const BODY_KEYS: &'static [Key] = &BODY_KEYS;
+
+    fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> Body {
+        let mut required = |key: &Key| {
+            table
+                .required(key, findings)
+                .and_then(|field| field.number(key.unit, findings))
+                .unwrap_or_default()
+        };
+        let (mass, inertia) = (required(&MASS), required(&INERTIA));
+        let mut pair = |key: &Key| {
+            table
+                .optional(key)
+                .and_then(|field| field.vector::<Self>(key.expected, key.unit, findings))
+        };
+        let mut place = |key: &Key| pair(key).unwrap_or_default();
+        let (centre, position) = (place(&CENTRE), place(&POSITION));
+        let velocity = pair(&VELOCITY);
+        let mut number = |key: &Key| {
+            let field = table.optional(key);
+            field.and_then(|field| field.number(key.unit, findings))
+        };
+        let (angle, angular_velocity) = (
+            number(&ANGLE).unwrap_or_default(),
+            number(&ANGULAR_VELOCITY),
+        );
+        Body {
+            name: name.to_owned(),
+            mass,
+            inertia,
+            centre,
+            position,
+            angle,
+            velocity,
+            angular_velocity,
+            tolerance: tolerance::read(table, &TOLERANCE, findings),
+        }
+    }
+}
