@@ -83,7 +83,9 @@ fn tensor(field: &Field, findings: &mut Findings) -> Option<[[f64; 3]; 3]> {
     if items.iter().any(|row| row.value.get_ref().is_array()) {
         return matrix(field, INERTIA.expected, INERTIA.unit, findings);
     }
-    let [x, y, z] = field.vector::<Space3>(INERTIA.expected, INERTIA.unit, findings)?;
+    // Not a vector: another number of moments belongs to no space.
+    let moments = field.numbers(3, INERTIA.expected, |_| INERTIA.unit, findings)?;
+    let [x, y, z]: [f64; 3] = moments.try_into().ok()?;
     for (moment, item) in [x, y, z].iter().zip(&items) {
         if *moment < 0.0 {
             findings.error(
