@@ -9,9 +9,11 @@
 #[cfg(test)]
 mod tests;
 
+use std::ops::Range;
+
 use linalg::{Matrix, PivotedQr};
 use model::start::scene_size;
-use model::{Mechanism, Part, Scratch, System};
+use model::{Mechanism, Part, Scratch, SpaceKind, System};
 use rank::{RankDecision, deletions, dependencies};
 use report::{ComparedChoice, Comparison, Frame, Freedom, Recording};
 use solvability::parts::parts;
@@ -187,7 +189,10 @@ impl<'a> Set<'a> {
         let told: Vec<usize> = (0..groups.len()).filter(|&k| free(k)).collect();
         for choice in &mut choices {
             for frame in &mut choice.values {
-                *frame = told.iter().map(|&k| frame[k]).collect();
+                *frame = told
+                    .iter()
+                    .map(|&k| std::mem::take(&mut frame[k]))
+                    .collect();
             }
         }
         for frame in &mut freedom {
@@ -200,8 +205,9 @@ impl<'a> Set<'a> {
         }
     }
 
-    fn unknown(&self) -> Vec<[f64; 3]> {
-        vec![[f64::NAN; 3]; self.part.places.groups.len()]
+    fn unknown(&self) -> Vec<Vec<f64>> {
+        let components = self.part.mechanism.space().n_v();
+        vec![vec![f64::NAN; components]; self.part.places.groups.len()]
     }
 
     fn instant(&self, s: &mut Scratch, frame: &Frame) -> Instant {
@@ -251,7 +257,7 @@ impl<'a> Set<'a> {
         });
         let others = std::iter::once(least).chain(without);
         let others = others.map(|lambda| lambda.map(|lambda| self.wrenches(&maps, &lambda)));
-        let others: Vec<Option<Vec<[f64; 3]>>> = others.collect();
+        let others: Vec<Option<Vec<Vec<f64>>>> = others.collect();
         // A single choice would look like a unique number.
         let own = others.iter().any(Option::is_some).then_some(own);
         let values = std::iter::once(own).chain(others);
@@ -259,30 +265,30 @@ impl<'a> Set<'a> {
             values: values
                 .map(|v| v.unwrap_or_else(|| self.unknown()))
                 .collect(),
-            freedom: freedom(&free, &self.turns(s), scene_size(mechanism, &q)),
+            freedom: freedom(
+                mechanism.space(),
+                &free,
+                &self.turns(s),
+                scene_size(mechanism, &q),
+            ),
         }
     }
 
-    fn wrenches(&self, maps: &[Matrix], lambda: &[f64]) -> Vec<[f64; 3]> {
+    fn wrenches(&self, maps: &[Matrix], lambda: &[f64]) -> Vec<Vec<f64>> {
         let groups = &self.part.mechanism.layout().groups;
         let each = maps.iter().zip(groups);
-        each.map(|(map, group)| {
-            let wrench = map.times(&lambda[group.rows.clone()]);
-            [wrench[0], wrench[1], wrench[2]]
-        })
-        .collect()
+        each.map(|(map, group)| map.times(&lambda[group.rows.clone()]))
+            .collect()
     }
 
-    /// Cosine and sine of the angle of the first body of each joint.
-    fn turns(&self, s: &Scratch) -> Vec<[f64; 2]> {
+    /// The axes of the first body of each joint.
+    fn turns(&self, s: &Scratch) -> Vec<[[f64; 3]; 3]> {
         let groups = self.part.mechanism.layout().groups.iter();
         let first = groups.map(|g| g.bodies.first().and_then(|b| b.moving()));
         first
             .map(|k| {
-                k.map_or([1.0, 0.0], |k| {
-                    let [[cos, sin, _], ..] = s.bodies.axes(k);
-                    [cos, sin]
-                })
+                let ground = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+                k.map_or(ground, |k| s.bodies.axes(k))
             })
             .collect()
     }
@@ -290,48 +296,68 @@ impl<'a> Set<'a> {
 
 /// Directions of the forces `W_X·Z_X·y` of each joint, and which components of its wrench change
 /// with y; torques are divided by the size of the set (m).
-fn freedom(free: &[Matrix], turns: &[[f64; 2]], size: f64) -> Vec<Freedom> {
+fn freedom(space: SpaceKind, free: &[Matrix], turns: &[[[f64; 3]; 3]], size: f64) -> Vec<Freedom> {
     let norm = |m: &Matrix, i: usize| m.row(i).iter().map(|x| x * x).sum::<f64>().sqrt();
-    let along = |m: &Matrix, x: f64, y: f64| {
-        let terms = m.row(0).iter().zip(m.row(1));
-        terms
-            .map(|(a, b)| (x * a + y * b).powi(2))
-            .sum::<f64>()
-            .sqrt()
-    };
-    let as_force = |m: &Matrix| norm(m, 0).hypot(norm(m, 1)).max(norm(m, 2) / size);
+    let all = |m: &Matrix, rows: Range<usize>| rows.map(|i| norm(m, i)).fold(0.0, f64::hypot);
+    let as_force = |m: &Matrix| all(m, space.forces()).max(all(m, space.torques()) / size);
     let least = VISIBLE * free.iter().map(as_force).fold(0.0, f64::max);
-    let of = |(m, &[cos, sin]): (&Matrix, &[f64; 2])| {
-        let dot = |i: usize, j: usize| -> f64 {
-            let terms = m.row(i).iter().zip(m.row(j));
-            terms.map(|(a, b)| a * b).sum()
+    let is_free = |part: f64, component: usize| {
+        let is_torque = space.torques().contains(&component);
+        part > if is_torque { least * size } else { least }
+    };
+    let of = |(m, axes): (&Matrix, &[[f64; 3]; 3])| {
+        let mut freedom = Freedom {
+            angle: f64::NAN,
+            plane: false,
+            components: [false; 6],
+            in_body: [false; 6],
         };
-        let (xx, xy, yy) = (dot(0, 0), dot(0, 1), dot(1, 1));
-        let is_free = (xx + yy).sqrt() > least;
-        // Axes of the ellipse with these moments.
-        let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
-        let minor = (0.5 * (xx + yy) - half).max(0.0);
-        Freedom {
-            angle: if is_free {
-                0.5 * (2.0 * xy).atan2(xx - yy)
+        for c in 0..space.n_v() {
+            freedom.components[c] = is_free(norm(m, c), c);
+            let own = if space.torques().contains(&c) {
+                space.torques()
             } else {
-                f64::NAN
-            },
-            plane: is_free && minor > PLANE * (xx + yy),
-            components: [
-                norm(m, 0) > least,
-                norm(m, 1) > least,
-                norm(m, 2) > least * size,
-            ],
-            in_body: [along(m, cos, sin) > least, along(m, -sin, cos) > least],
+                space.forces()
+            };
+            // The component along an axis of the body, by those along the axes of the ground.
+            let axis = axes[space.axis_of(c)];
+            let along = (0..m.ncols()).map(|y| {
+                let terms = own.clone().map(|i| axis[space.axis_of(i)] * m[(i, y)]);
+                terms.sum::<f64>()
+            });
+            let along = along.map(|x| x * x).sum::<f64>().sqrt();
+            freedom.in_body[c] = is_free(along, c);
         }
+        if space != SpaceKind::Space3 {
+            (freedom.angle, freedom.plane) = direction(m, least);
+        }
+        freedom
     };
     free.iter().zip(turns).map(of).collect()
 }
 
+/// The angle of a direction in which a force in the plane is free, NaN if there is none, and
+/// whether it is also free across it.
+fn direction(m: &Matrix, least: f64) -> (f64, bool) {
+    let dot = |i: usize, j: usize| -> f64 {
+        let terms = m.row(i).iter().zip(m.row(j));
+        terms.map(|(a, b)| a * b).sum()
+    };
+    let (xx, xy, yy) = (dot(0, 0), dot(0, 1), dot(1, 1));
+    let is_free = (xx + yy).sqrt() > least;
+    if !is_free {
+        return (f64::NAN, false);
+    }
+    // Axes of the ellipse with these moments.
+    let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
+    let minor = (0.5 * (xx + yy) - half).max(0.0);
+    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+    (angle, minor > PLANE * (xx + yy))
+}
+
 /// The values of the choices at an instant.
 struct Instant {
-    values: Vec<Vec<[f64; 3]>>,
+    values: Vec<Vec<Vec<f64>>>,
     freedom: Vec<Freedom>,
 }
 

@@ -23,6 +23,7 @@ mod mechanism;
 mod outline;
 mod paths;
 mod plot;
+mod projection;
 mod style;
 mod svg;
 mod symbol;

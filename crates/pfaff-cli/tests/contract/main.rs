@@ -30,6 +30,7 @@ mod resources;
 mod schema;
 mod singular;
 mod sizes;
+mod space;
 mod sweep;
 mod tolerance;
 mod view;

@@ -1,16 +1,23 @@
 //! The single drawing model: outlines of bodies, joints as symbols that move with a body, wheels
 //! and applied forces. A page draws it at any time of a run, an SVG figure at one time. Places that
 //! do not move with a body are given frame by frame.
+//!
+//! Its points are points of the space of the mechanism, in the axes of bodies; its
+//! [`Projection`] makes them points of the picture.
 
-use joints::Pose;
-use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
+mod point;
+
+use model::space::{difference, norm};
+use model::{Bodies, BodyRef, ConstraintId, Mechanism, Scratch, SpaceKind, System};
 use serde::Serialize;
 
-use super::geometry::{Site, flat, site, sites};
+use super::geometry::{Site, site, sites};
 use super::outline::{double_area, hull};
+use super::projection::Projection;
 use super::symbol::{SPRING, Shapes, Symbol};
 use crate::channel::{Channel, Rounded};
 use crate::recording::Frame;
+pub(crate) use point::{Curves, Point};
 
 /// Number of frames at which it is tested whether a place moves with a body.
 const PROBES: usize = 9;
@@ -23,23 +30,22 @@ const FIXED: f64 = 1e-9;
 const GROUND: isize = -1;
 
 /// A point in the frame of a body.
-type Held = (isize, Rounded, Rounded);
+type Held = (isize, Point);
 
 /// A body.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct DrawnBody {
     pub(crate) name: String,
-    /// Convex hull of its centre and of the points of joints and forces, in its frame (m).
-    pub(crate) outline: Vec<[Rounded; 2]>,
+    /// Its centre and the points of joints and forces, in its frame (m): it is drawn as their
+    /// convex hull. In the plane the corners of that hull.
+    pub(crate) outline: Vec<Point>,
     /// Origin of the frame in which the scene describes it, if that is not its centre.
     #[serde(skip_serializing_if = "Option::is_none")]
-    frame: Option<[Rounded; 2]>,
-    pub(crate) x: Channel,
-    pub(crate) y: Channel,
-    pub(crate) angle: Channel,
-    vx: Channel,
-    vy: Channel,
-    omega: Channel,
+    frame: Option<Point>,
+    /// Position of its centre, orientation and velocities, by the names of
+    /// [`SpaceKind::columns`].
+    #[serde(flatten)]
+    curves: Curves,
 }
 
 /// Position of something.
@@ -47,9 +53,9 @@ pub(crate) struct DrawnBody {
 #[serde(untagged)]
 pub(crate) enum Place {
     /// Fixed in the frame of a body.
-    Of { b: isize, p: [Rounded; 2] },
+    Of { b: isize, p: Point },
     /// Given separately for each frame of the run.
-    Free { x: Channel, y: Channel },
+    Free(Curves),
 }
 
 /// Direction of something.
@@ -60,6 +66,8 @@ pub(crate) enum Heading {
     Of { b: isize, a: Rounded },
     /// Given separately for each frame of the run.
     Free { a: Channel },
+    /// In space: this direction, as a unit vector.
+    Along(Place),
 }
 
 /// A joint or drive.
@@ -69,7 +77,7 @@ pub(crate) struct DrawnSite {
     pub(crate) place: Place,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) axis: Option<Heading>,
-    /// The other end of a rod, or the block of a guide.
+    /// The other end of a rod, the block of a guide, or what slides on a plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) end: Option<Place>,
     pub(crate) grounded: bool,
@@ -94,7 +102,7 @@ pub(crate) struct DrawnMarker {
     pub(crate) name: String,
     pub(crate) b: isize,
     /// Place relative to the centre of the body, in its axes (m).
-    pub(crate) p: [Rounded; 2],
+    pub(crate) p: Point,
     /// Angle of its axes in the body (rad).
     a: Rounded,
 }
@@ -102,6 +110,9 @@ pub(crate) struct DrawnMarker {
 /// Everything that is drawn.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct DrawingModel {
+    /// How space is seen; scripts need none for the plane.
+    #[serde(skip_serializing_if = "Projection::is_plane")]
+    pub(crate) view: Projection,
     pub(crate) bodies: Vec<DrawnBody>,
     pub(crate) sites: Vec<DrawnSite>,
     pub(crate) forces: Vec<DrawnForce>,
@@ -110,6 +121,9 @@ pub(crate) struct DrawingModel {
     pub(crate) order: Vec<usize>,
     shapes: Shapes,
     spring: &'static [[f64; 2]],
+    /// Poses at the first frame.
+    #[serde(skip)]
+    poses: Bodies,
 }
 
 impl DrawnSite {
@@ -121,47 +135,71 @@ impl DrawnSite {
     /// Position of its symbol; a block is drawn at the place to which it has moved.
     pub(crate) fn shown(&self) -> &Place {
         match &self.end {
-            Some(end) if self.is_guided() => end,
+            Some(end) if self.symbol != "rod" => end,
             _ => &self.place,
         }
     }
 }
 
-/// Positions at the first frame (global, m and rad).
+/// Positions in the picture at the first frame (m and rad).
 impl DrawingModel {
     /// The centre of a body; the origin for the ground.
     pub(crate) fn centre(&self, body: isize) -> [f64; 2] {
-        self.held(body, [Rounded(0.0); 2])
+        self.held(body, Point::default())
     }
 
     /// A point in the frame of a body.
-    pub(crate) fn held(&self, body: isize, [x, y]: [Rounded; 2]) -> [f64; 2] {
-        match usize::try_from(body) {
-            Ok(k) => {
-                let body = &self.bodies[k];
-                let pose = Pose::new(body.x.first(), body.y.first(), body.angle.first());
-                pose.to_global([x.0, y.0])
-            }
-            Err(_) => [x.0, y.0],
-        }
+    pub(crate) fn held(&self, body: isize, point: Point) -> [f64; 2] {
+        let at = point.at();
+        self.view.flat(match usize::try_from(body) {
+            Ok(k) => self.poses.to_global(k, at),
+            Err(_) => at,
+        })
     }
 
-    /// Global coordinates of a place.
+    /// A place.
     pub(crate) fn at(&self, place: &Place) -> [f64; 2] {
         match place {
             Place::Of { b, p } => self.held(*b, *p),
-            Place::Free { x, y } => [x.first(), y.first()],
+            Place::Free(curves) => self.view.flat(curves.first()),
         }
+    }
+
+    /// The corners of the outline of a body relative to its centre, before they are turned by the
+    /// angle that is returned.
+    pub(crate) fn silhouette(&self, body: usize) -> (Vec<[f64; 2]>, f64) {
+        let points = self.bodies[body].outline.iter();
+        if self.view.is_plane() {
+            let flat = points.map(|p| self.view.flat(p.at()));
+            return (flat.collect(), self.poses.angle(body));
+        }
+        let flat = points.map(|p| self.view.flat(self.poses.turned(body, p.at())));
+        (hull(&flat.collect::<Vec<_>>()), 0.0)
+    }
+
+    /// The axis of a symbol in space, shorter than one where it is seen from the side.
+    pub(crate) fn axis(&self, site: &DrawnSite) -> Option<[f64; 2]> {
+        let Some(Heading::Along(direction)) = &site.axis else {
+            return None;
+        };
+        Some(self.view.flat(match direction {
+            Place::Of { b, p } => match usize::try_from(*b) {
+                Ok(k) => self.poses.turned(k, p.at()),
+                Err(_) => p.at(),
+            },
+            Place::Free(curves) => curves.first(),
+        }))
     }
 
     /// The angle of a symbol.
     pub(crate) fn angle(&self, site: &DrawnSite) -> f64 {
         match &site.axis {
             Some(Heading::Of { b, a }) => {
-                let turn = usize::try_from(*b).map_or(0.0, |k| self.bodies[k].angle.first());
+                let turn = usize::try_from(*b).map_or(0.0, |k| self.poses.angle(k));
                 turn + a.0
             }
             Some(Heading::Free { a }) => a.first(),
+            Some(Heading::Along(_)) => self.axis(site).map_or(0.0, |[x, y]| y.atan2(x)),
             None => 0.0,
         }
     }
@@ -182,46 +220,76 @@ impl Stage<'_> {
         let forces = DrawnForce::all(whole, self.bodies);
         let probes = self.probes();
         let size = self.size();
-        let outlines = self.outlines(&forces);
-        let mut order: Vec<usize> = (0..outlines.len()).collect();
-        order.sort_by(|&a, &b| double_area(&outlines[b]).total_cmp(&double_area(&outlines[a])));
         let sites = self.mechanism.layout().constraint_ids();
-        DrawingModel {
+        let mut drawing = DrawingModel {
+            view: Projection::of(whole),
             sites: sites.map(|id| self.site(id, &probes, size)).collect(),
-            bodies: outlines
+            bodies: self
+                .outlines(&forces)
                 .into_iter()
+                .zip(self.states())
                 .enumerate()
-                .map(|(k, outline)| self.body(k, &outline))
+                .map(|(k, (outline, states))| self.body(k, outline, &states))
                 .collect(),
             forces,
             markers: DrawnMarker::all(whole, self.bodies),
-            order,
+            order: Vec::new(),
             shapes: Shapes,
             spring: &SPRING,
-        }
+            poses: probes.into_iter().next().map_or_else(
+                || Bodies::at(self.mechanism.space(), &[]),
+                |probe| probe.scratch.bodies,
+            ),
+        };
+        let mut order: Vec<(usize, f64)> = (0..drawing.bodies.len())
+            .filter(|_| !self.frames.is_empty())
+            .map(|k| (k, double_area(&drawing.silhouette(k).0)))
+            .collect();
+        order.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+        drawing.order = order.into_iter().map(|(k, _)| k).collect();
+        drawing
     }
 
     /// Outlines of the bodies, each in its frame.
-    fn outlines(&self, forces: &[DrawnForce]) -> Vec<Vec<[f64; 2]>> {
-        let mut points = vec![vec![[0.0; 2]]; self.bodies.len()];
+    fn outlines(&self, forces: &[DrawnForce]) -> Vec<Vec<Point>> {
+        let space = self.mechanism.space();
+        let mut points = vec![vec![[0.0; 3]]; self.bodies.len()];
         let held = self.mechanism.layout().constraint_ids();
         let held = held.flat_map(|id| self.mechanism.points(id));
         for (body, point) in held.filter_map(|(b, p)| Some((b.moving()?, p))) {
-            points[body].push(flat(point));
+            points[body].push(point);
         }
-        for &(body, x, y) in forces.iter().flat_map(|f| &f.points) {
+        for &(body, point) in forces.iter().flat_map(|f| &f.points) {
             if let Ok(k) = usize::try_from(body) {
-                points[k].push([x.0, y.0]);
+                points[k].push(point.at());
             }
         }
-        points.iter().map(|p| hull(p)).collect()
+        let outline = |mut points: Vec<[f64; 3]>| {
+            if space == SpaceKind::Space3 {
+                points.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+                points.dedup();
+                return points;
+            }
+            let flat: Vec<[f64; 2]> = points.iter().map(|&[x, y, _]| [x, y]).collect();
+            hull(&flat).into_iter().map(|[x, y]| [x, y, 0.0]).collect()
+        };
+        let outlines = points.into_iter().map(outline);
+        outlines
+            .map(|points| points.iter().map(|p| Point::new(space, *p)).collect())
+            .collect()
     }
 
     /// Coordinates of its bodies in a frame.
     fn q(&self, frame: &Frame) -> Vec<f64> {
-        let own = self.bodies.iter();
-        let space = self.mechanism.space();
+        let (own, space) = (self.bodies.iter(), self.mechanism.space());
         own.flat_map(|&k| frame.q[space.coordinates(k)].iter().copied())
+            .collect()
+    }
+
+    /// Velocities of its bodies in a frame.
+    fn v(&self, frame: &Frame) -> Vec<f64> {
+        let (own, space) = (self.bodies.iter(), self.mechanism.space());
+        own.flat_map(|&k| frame.v[space.columns_of(k)].iter().copied())
             .collect()
     }
 
@@ -249,7 +317,7 @@ impl Stage<'_> {
     /// Extent of all centres over the run (m).
     fn size(&self) -> f64 {
         let space = self.mechanism.space();
-        let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        let mut range = vec![[f64::INFINITY, f64::NEG_INFINITY]; space.n_translations()];
         for frame in self.frames {
             for &k in self.bodies {
                 for (axis, [low, high]) in range.iter_mut().enumerate() {
@@ -259,29 +327,32 @@ impl Stage<'_> {
             }
         }
         let reach = |[low, high]: [f64; 2]| low.abs().max(high.abs());
-        range.map(reach).into_iter().fold(1e-12, f64::max)
+        range.into_iter().map(reach).fold(1e-12, f64::max)
     }
 
-    fn body(&self, k: usize, outline: &[[f64; 2]]) -> DrawnBody {
-        let at = self.bodies[k];
-        let (space, first) = (self.mechanism.space(), self.mechanism.space().n_v() * at);
-        let position = |dof: usize| {
-            let all = self.frames.iter();
-            Channel::new(all.map(move |f| space.position(&f.q, first + dof)))
-        };
-        let velocity = |dof: usize| Channel::new(self.frames.iter().map(move |f| f.v[first + dof]));
+    /// The states of the centre of mass of each body at the frames.
+    fn states(&self) -> Vec<Vec<Vec<f64>>> {
+        let (bodies, frames) = (self.mechanism.bodies(), self.mechanism.frames());
+        let mut states = vec![Vec::with_capacity(self.frames.len()); bodies.len()];
+        for frame in self.frames {
+            let (q, v) = (self.q(frame), self.v(frame));
+            for (k, own) in states.iter_mut().enumerate() {
+                let state = frames.point(k, bodies[k].centre(), &q, &v);
+                own.push(state.numbers().collect());
+            }
+        }
+        states
+    }
+
+    fn body(&self, k: usize, outline: Vec<Point>, states: &[Vec<f64>]) -> DrawnBody {
         let body = &self.mechanism.bodies()[k];
-        let origin = flat(body.from_centre([0.0; 3])).map(Rounded);
+        let space = self.mechanism.space();
+        let origin = Point::new(space, body.from_centre([0.0; 3]));
         DrawnBody {
             name: body.name.clone(),
             frame: (!body.is_centred()).then_some(origin),
-            outline: outline.iter().map(|p| p.map(Rounded)).collect(),
-            x: position(0),
-            y: position(1),
-            angle: position(2),
-            vx: velocity(0),
-            vy: velocity(1),
-            omega: velocity(2),
+            outline,
+            curves: Curves::new(space.columns(), states),
         }
     }
 
@@ -294,23 +365,36 @@ impl Stage<'_> {
             .copied()
             .chain([BodyRef::Ground])
             .collect();
-        let place =
-            |of: &dyn Fn(&Site, &Scratch) -> [f64; 2]| self.place(id, probes, &carriers, size, of);
-        let second = self.mechanism.points(id).get(1).copied();
-        let end = match symbol {
-            Symbol::Rod | Symbol::Block { .. } | Symbol::Slot { .. } => Some(match second {
-                Some((body, point)) => Place::Of {
-                    b: index(body),
-                    p: flat(point).map(Rounded),
-                },
-                None => place(&|site, _| site.end),
-            }),
-            _ => None,
+        let space = self.mechanism.space();
+        let place = |of: &dyn Fn(&Site) -> [f64; 3]| {
+            self.place(id, probes, &carriers, FIXED * size, (of, &local))
         };
+        let second = self.mechanism.points(id).get(1).copied();
+        let is_apart = match symbol {
+            Symbol::Rod | Symbol::Block { .. } | Symbol::Slot { .. } => true,
+            Symbol::Pin | Symbol::Hinge { .. } => probes.iter().any(|p| {
+                let Site { place, end, .. } = p.sites[id.0];
+                space == SpaceKind::Space3 && norm(&difference(end, place)) > FIXED * size
+            }),
+            _ => false,
+        };
+        let end = is_apart.then(|| match second {
+            Some((body, point)) => Place::Of {
+                b: index(body),
+                p: Point::new(space, point),
+            },
+            None => place(&|site| site.end),
+        });
         DrawnSite {
             symbol: symbol.name(),
-            place: place(&|site, _| site.place),
-            axis: symbol.axis().map(|_| self.heading(id, probes, &carriers)),
+            place: place(&|site| site.place),
+            axis: symbol.axis().map(|_| match space {
+                SpaceKind::Space3 => {
+                    let axis = |site: &Site| site.symbol.axis().unwrap_or_default();
+                    Heading::Along(self.place(id, probes, &carriers, FIXED, (&axis, &turned_back)))
+                }
+                _ => self.heading(id, probes, &carriers),
+            }),
             end,
             grounded: probes.first().is_some_and(|p| p.sites[id.0].grounded),
             bodies: group.bodies.iter().map(|&b| index(b)).collect(),
@@ -321,36 +405,36 @@ impl Stage<'_> {
         }
     }
 
+    /// A point or a direction of a joint: in the axes of the first carrier in which it is fixed, to
+    /// `known`, or frame by frame.
     fn place(
         &self,
         id: ConstraintId,
         probes: &[Probe],
         carriers: &[BodyRef],
-        size: f64,
-        of: &dyn Fn(&Site, &Scratch) -> [f64; 2],
+        known: f64,
+        (of, local): (&OfSite<'_>, &Local),
     ) -> Place {
+        let space = self.mechanism.space();
         for &body in carriers {
             let mut seen = probes
                 .iter()
-                .map(|p| local(body, of(&p.sites[id.0], &p.scratch), &p.scratch));
+                .map(|p| local(body, of(&p.sites[id.0]), &p.scratch));
             let Some(first) = seen.next() else { break };
-            if seen.all(|p| (p[0] - first[0]).hypot(p[1] - first[1]) <= FIXED * size) {
+            if seen.all(|p| norm(&difference(p, first)) <= known) {
                 return Place::Of {
                     b: index(body),
-                    p: first.map(Rounded),
+                    p: Point::new(space, first),
                 };
             }
         }
-        let all = self.every(id, |site, s| of(site, s));
-        Place::Free {
-            x: Channel::new(all.iter().map(|p| p[0])),
-            y: Channel::new(all.iter().map(|p| p[1])),
-        }
+        let all = self.every(id, |site| of(site)[space.forces()].to_vec());
+        Place::Free(Curves::new(&space.columns()[space.forces()], &all))
     }
 
     fn heading(&self, id: ConstraintId, probes: &[Probe], carriers: &[BodyRef]) -> Heading {
         let angle = |site: &Site| {
-            let [x, y] = site.symbol.axis().unwrap_or([1.0, 0.0]);
+            let [x, y, _] = site.symbol.axis().unwrap_or([1.0, 0.0, 0.0]);
             y.atan2(x)
         };
         for &body in carriers {
@@ -366,7 +450,7 @@ impl Stage<'_> {
             }
         }
         let mut last: f64 = 0.0;
-        let all = self.every(id, |site, _| angle(site));
+        let all = self.every(id, angle);
         // An axis has no orientation, so each angle is the one nearest to the angle before.
         let unwound = all.into_iter().map(|a| {
             last = a + std::f64::consts::PI * ((last - a) / std::f64::consts::PI).round();
@@ -379,12 +463,12 @@ impl Stage<'_> {
     }
 
     /// A property of a joint in all frames.
-    fn every<T>(&self, id: ConstraintId, of: impl Fn(&Site, &Scratch) -> T) -> Vec<T> {
+    fn every<T>(&self, id: ConstraintId, of: impl Fn(&Site) -> T) -> Vec<T> {
         let frames = self.frames.iter();
         frames
             .map(|frame| {
                 let s = self.posed(frame);
-                of(&site(self.mechanism, id, &s), &s)
+                of(&site(self.mechanism, id, &s))
             })
             .collect()
     }
@@ -402,8 +486,8 @@ impl DrawnForce {
         let place = |body: &BodyRef| drawn(bodies, *body);
         let drawn = mechanism.applied_forces().iter().filter_map(|f| {
             let points = f.points.iter();
-            let held =
-                points.map(|(body, [x, y, _])| Some((place(body)?, Rounded(*x), Rounded(*y))));
+            let space = mechanism.space();
+            let held = points.map(|(body, p)| Some((place(body)?, Point::new(space, *p))));
             Some(Self {
                 name: f.name.to_owned(),
                 kind: f.spec.common.scene_type,
@@ -423,7 +507,7 @@ impl DrawnMarker {
             Some(Self {
                 name: marker.name.clone(),
                 b: drawn(bodies, marker.body)?,
-                p: flat(marker.from_centre(mechanism.bodies())).map(Rounded),
+                p: Point::new(mechanism.space(), marker.from_centre(mechanism.bodies())),
                 a: Rounded(marker.angle.unwrap_or_default()),
             })
         });
@@ -443,12 +527,21 @@ fn index(body: BodyRef) -> isize {
     body.moving().map_or(GROUND, |k| k as isize)
 }
 
+/// A point or a direction of a joint, in ground axes.
+type OfSite<'a> = dyn Fn(&Site) -> [f64; 3] + 'a;
+
+/// From ground axes to those of a body.
+type Local = dyn Fn(BodyRef, [f64; 3], &Scratch) -> [f64; 3];
+
 /// A global point in the frame of a body.
-fn local(body: BodyRef, [x, y]: [f64; 2], s: &Scratch) -> [f64; 2] {
-    let Some(k) = body.moving() else {
-        return [x, y];
-    };
-    flat(s.bodies.to_local(k, [x, y, 0.0]))
+fn local(body: BodyRef, point: [f64; 3], s: &Scratch) -> [f64; 3] {
+    body.moving().map_or(point, |k| s.bodies.to_local(k, point))
+}
+
+/// A direction of the ground in the axes of a body.
+fn turned_back(body: BodyRef, d: [f64; 3], s: &Scratch) -> [f64; 3] {
+    let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * d[k]).sum();
+    body.moving().map_or(d, |k| s.bodies.axes(k).map(along))
 }
 
 fn turn(body: BodyRef, s: &Scratch) -> f64 {

@@ -1,13 +1,15 @@
 //! Positions of the joints of a mechanism and the kind of freedom they leave, derived from their
 //! rows, wrenches and places: no joint is known by name.
 
+mod space;
 #[cfg(test)]
 mod tests;
 
 use joints::spec::Level;
 use linalg::Matrix;
 use model::reaction::ConstraintGroup;
-use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, System};
+use model::space::difference;
+use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, SpaceKind, System};
 
 use super::FigureError;
 use super::symbol::Symbol;
@@ -45,10 +47,10 @@ pub(crate) fn posed(
 /// A joint or drive at its place (global components, m).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Site {
-    pub(crate) place: [f64; 2],
+    pub(crate) place: [f64; 3],
     pub(crate) symbol: Symbol,
     /// Point at which its only force acts on the other body; its place if there is no such point.
-    pub(crate) end: [f64; 2],
+    pub(crate) end: [f64; 3],
     /// Whether it connects a body to the ground.
     pub(crate) grounded: bool,
     /// Circles that roll on each other at its place, if it couples two rotations.
@@ -76,17 +78,24 @@ pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
 pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site {
     let group = &mechanism.layout().groups[id.0];
     let spec = group.spec;
-    let place = finite_or(flat(mechanism.reactions(s).place(id)), [0.0, 0.0]);
+    let place = finite_or(mechanism.reactions(s).place(id), [0.0; 3]);
     let map = mechanism.reactions(s).wrench_map(id);
     let rows = Rows::of(group);
+    let is_plane = group.space != SpaceKind::Space3;
     // The line along which the only force acts.
-    let force = rows.only_force().map(|row| Force::of(&map, row));
-    let end = match rows.only_force() {
-        Some(_) if spec.common.points_apart => other_end(mechanism, id, place, s),
-        _ => force.map_or(place, |f| f.point_nearest(place)),
+    let force = rows.only_force().filter(|_| is_plane);
+    let force = force.map(|row| Force::of(&map, row));
+    let second = || other_end(mechanism, id, place, s);
+    let end = match (rows.only_force(), force) {
+        (Some(_), _) if spec.common.points_apart => second(),
+        (_, None) if !is_plane => second(),
+        (_, force) => force.map_or(place, |f| f.point_nearest(place)),
     };
     let symbol = match (group.kind, spec.level, force) {
-        (_, Level::Holonomic, Some(_)) if spec.common.points_apart => Symbol::Rod,
+        (_, Level::Holonomic, _) if spec.common.points_apart && rows.only_force().is_some() => {
+            Symbol::Rod
+        }
+        _ if !is_plane => space::symbol(group, &map, difference(end, place)),
         (ConstraintKind::Drive, ..) => Symbol::Drive {
             axis: force.map(|f| f.direction),
         },
@@ -104,7 +113,7 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
         _ => Symbol::Pin,
     };
     let mesh = match (symbol, spec.rows.len()) {
-        (Symbol::Rotation, 1) => mesh(group, map[(2, 0)], s),
+        (Symbol::Rotation, 1) if is_plane => mesh(group, map[(2, 0)], s),
         _ => None,
     };
     Site {
@@ -126,12 +135,12 @@ const LEAST_SLIP: f64 = 1e-2;
 /// one: r_i·ω_i = −r_j·ω_j for external contact, r_i·ω_i = r_j·ω_j for internal contact. The ratio
 /// is the torque on the first body, because rows of rotations have the coefficient one for the
 /// second.
-fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [Pitch; 2])> {
+fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 3], [Pitch; 2])> {
     // A ring that is part of the ground is centred on the carrier.
     let wheel = |slot: usize| {
         let around = [slot, 2].map(|slot| group.bodies.get(slot)?.moving());
         let k = around[0].or(around[1])?;
-        Some((BodyRef::Body(k), flat(s.bodies.origin(k))))
+        Some((BodyRef::Body(k), s.bodies.origin(k)))
     };
     let ((first, a), (second, b)) = (wheel(0)?, wheel(1)?);
     let far = a.iter().chain(&b).fold(0.0, |far: f64, x| far.max(x.abs()));
@@ -141,7 +150,7 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [
         return None;
     }
     let share = ratio / (ratio - 1.0);
-    let point = [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
+    let point = [0, 1, 2].map(|k| a[k] + share * (b[k] - a[k]));
     let circle = |body, share: f64| Pitch {
         body,
         radius: share.abs() * apart,
@@ -178,10 +187,10 @@ impl Rows {
     }
 }
 
-/// A force and its lever arm about the place.
+/// A force in the plane and its lever arm about the place.
 #[derive(Clone, Copy)]
 struct Force {
-    direction: [f64; 2],
+    direction: [f64; 3],
     arm: f64,
 }
 
@@ -191,43 +200,39 @@ impl Force {
         let size = x.hypot(y);
         if !(size > 0.0 && size.is_finite()) {
             return Self {
-                direction: [1.0, 0.0],
+                direction: [1.0, 0.0, 0.0],
                 arm: 0.0,
             };
         }
         Self {
-            direction: [x / size, y / size],
+            direction: [x / size, y / size, 0.0],
             arm: torque / size,
         }
     }
 
-    fn perpendicular(&self) -> [f64; 2] {
-        [-self.direction[1], self.direction[0]]
+    fn perpendicular(&self) -> [f64; 3] {
+        [-self.direction[1], self.direction[0], 0.0]
     }
 
     /// The point of the line of action nearest to the place: offset × direction = arm.
-    fn point_nearest(&self, place: [f64; 2]) -> [f64; 2] {
-        let [x, y] = self.perpendicular();
-        finite_or([place[0] - self.arm * x, place[1] - self.arm * y], place)
+    fn point_nearest(&self, place: [f64; 3]) -> [f64; 3] {
+        let [x, y, _] = self.perpendicular();
+        let [from_x, from_y, z] = place;
+        finite_or([from_x - self.arm * x, from_y - self.arm * y, z], place)
     }
 }
 
-/// The other end of a rod, if its definition has points.
-fn other_end(mechanism: &Mechanism, id: ConstraintId, place: [f64; 2], s: &Scratch) -> [f64; 2] {
+/// The second point of a joint, such as the other end of a rod, if its definition has two.
+fn other_end(mechanism: &Mechanism, id: ConstraintId, place: [f64; 3], s: &Scratch) -> [f64; 3] {
     let points = mechanism.points(id);
     let end = points.get(1).map(|&(body, point)| match body {
-        BodyRef::Ground => flat(point),
-        BodyRef::Body(k) => flat(s.bodies.to_global(k, point)),
+        BodyRef::Ground => point,
+        BodyRef::Body(k) => s.bodies.to_global(k, point),
     });
     finite_or(end.unwrap_or(place), place)
 }
 
-/// The part of a point that planar pictures show.
-pub(crate) fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {
-    [x, y]
-}
-
-fn finite_or(point: [f64; 2], otherwise: [f64; 2]) -> [f64; 2] {
+fn finite_or(point: [f64; 3], otherwise: [f64; 3]) -> [f64; 3] {
     if point.iter().all(|x| within(*x, 2.0 * LIMIT)) {
         point
     } else {

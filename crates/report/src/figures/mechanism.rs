@@ -1,6 +1,8 @@
 //! The drawing of a mechanism as an SVG figure, to scale: it draws the [`DrawingModel`] at one
 //! time, with names and a legend.
 
+mod view;
+
 use std::ops::Range;
 
 use model::reaction::ConstraintGroup;
@@ -8,13 +10,14 @@ use model::{ConstraintKind, Mechanism, System};
 use solvability::ReactionVerdict;
 
 use super::FigureError;
-use super::axis::{DRAWABLE, range, round_step};
+use super::axis::round_step;
 use super::drawing::{DrawingModel, DrawnSite, Stage};
 use super::geometry::posed;
 use super::label::{Rect, Request, place};
 use super::svg::{Svg, number, text_width};
 use super::symbol::{SHAPES, SHORT, SPRING, Shape};
 use crate::recording::Frame;
+use view::View;
 
 /// How joints and drives are marked.
 #[derive(Clone, Copy, Debug)]
@@ -49,8 +52,13 @@ const BODY_SIZE: f64 = 12.0;
 const MAX_LABELS: usize = 300;
 /// Height of a line of the legend and width of a symbol in it (px).
 const LEGEND: [f64; 2] = [36.0, 50.0];
-/// Length of a rail beyond its block (px).
+/// Length of a rail beyond its block, and of half an axis seen from the side (px).
 const RAIL: f64 = 30.0;
+const AXIS: f64 = 36.0;
+/// Where the axes of space are, from the left and the lower edge of the drawing, and their largest
+/// length (px).
+const TRIAD: [f64; 2] = [46.0, 40.0];
+const LONGEST: f64 = 48.0;
 
 /// The style sheet of pages and figures; the first rule names the colours.
 pub(crate) const LOOKS: &str = include_str!("picture.css");
@@ -174,65 +182,6 @@ fn legend(mechanism: &Mechanism, model: &DrawingModel, marking: Marking<'_>) -> 
     entries
 }
 
-/// From the plane of the mechanism (m) to the page (px).
-struct View {
-    /// px/m
-    scale: f64,
-    /// The point in the middle of the drawing.
-    middle: [f64; 2],
-    /// Height of the drawing (px).
-    height: f64,
-}
-
-impl View {
-    fn around(model: &DrawingModel) -> Self {
-        let mut points = Vec::new();
-        for (k, body) in model.bodies.iter().enumerate() {
-            points.extend(body.outline.iter().map(|p| model.held(k as isize, *p)));
-        }
-        for site in &model.sites {
-            points.push(model.at(&site.place));
-            points.extend(site.end.as_ref().map(|end| model.at(end)));
-            for &(body, radius) in &site.wheels {
-                let ([x, y], r) = (model.centre(body), radius.0);
-                points.extend([[x - r, y - r], [x + r, y + r]]);
-            }
-        }
-        for &(body, x, y) in model.forces.iter().flat_map(|f| &f.points) {
-            points.push(model.held(body, [x, y]));
-        }
-        points.extend(model.markers.iter().map(|m| model.held(m.b, m.p)));
-        let [x, y] = [0, 1].map(|k| range(points.iter().map(|p| p[k])).unwrap_or([0.0, 0.0]));
-        let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
-        let room = [WIDTH - 2.0 * ROOM[0], LARGEST_HEIGHT - 2.0 * ROOM[1]];
-        let size = dx.max(dy);
-        // Something without size, or with a size that is rounding relative to its distance from the
-        // origin, gets one metre.
-        let far = x[0].abs().max(y[0].abs());
-        let scale = if size > 1e-9 * far && size > 1.0 / DRAWABLE {
-            (room[0] / dx).min(room[1] / dy)
-        } else {
-            0.2 * room[0] / far.max(1.0)
-        };
-        Self {
-            scale,
-            middle: [x[0] + 0.5 * dx, y[0] + 0.5 * dy],
-            height: (scale * dy + 2.0 * ROOM[1]).max(200.0),
-        }
-    }
-
-    fn to_page(&self, p: [f64; 2]) -> [f64; 2] {
-        [
-            0.5 * WIDTH + self.scale * (p[0] - self.middle[0]),
-            TITLE + 0.5 * self.height - self.scale * (p[1] - self.middle[1]),
-        ]
-    }
-
-    fn bottom(&self) -> f64 {
-        TITLE + self.height
-    }
-}
-
 /// A figure under construction.
 struct Picture<'a> {
     groups: &'a [ConstraintGroup],
@@ -294,16 +243,14 @@ impl Picture<'_> {
 
     fn bodies(&mut self) {
         for &k in &self.model.order {
-            let (body, scale) = (&self.model.bodies[k], self.view.scale);
-            let corners = body
-                .outline
-                .iter()
-                .map(|[x, y]| [x.0 * scale, -y.0 * scale]);
-            let corners: Vec<String> = corners.map(pair).collect();
+            let scale = self.view.scale;
+            let (corners, angle) = self.model.silhouette(k);
+            let corners = corners.iter().map(|[x, y]| pair([x * scale, -y * scale]));
+            let corners: Vec<String> = corners.collect();
             let outline = format!("M{}L{}Z", corners.join("L"), corners[0]);
-            let at = self.view.to_page([body.x.first(), body.y.first()]);
-            self.group(&format!("body b{}", k % 6), at, body.angle.first());
-            self.svg.element("title").text(&body.name);
+            let at = self.view.to_page(self.model.centre(k as isize));
+            self.group(&format!("body b{}", k % 6), at, angle);
+            self.svg.element("title").text(&self.model.bodies[k].name);
             self.svg.element("g").with("class", "hull").open();
             self.path("rim", &outline);
             self.path("flesh", &outline);
@@ -361,7 +308,8 @@ impl Picture<'_> {
             if site.is_guided() {
                 self.rail(site, place);
             } else if site.grounded {
-                self.symbol("foot", "", place, 0.0, "");
+                let shown = self.view.to_page(model.at(site.shown()));
+                self.symbol("foot", "", shown, 0.0, "");
             }
         }
         let layer = |k: &usize| SHAPES.iter().position(|s| s.name == model.sites[*k].symbol);
@@ -381,6 +329,9 @@ impl Picture<'_> {
                 let line = format!("M{}L{}", pair(place), pair(end));
                 self.path(&format!("rod {mark}"), &line);
                 self.symbol("rod", &class, end, 0.0, &title);
+            }
+            if !site.is_guided() {
+                self.axis(site, shown);
             }
             self.symbol(site.symbol, &class, shown, model.angle(site), &title);
         }
@@ -407,14 +358,23 @@ impl Picture<'_> {
         self.svg.close();
     }
 
+    /// The axis about which a joint in space turns, as a short line.
+    fn axis(&mut self, site: &DrawnSite, [x, y]: [f64; 2]) {
+        if let Some([right, up]) = self.model.axis(site) {
+            let (dx, dy) = (AXIS * right, -AXIS * up);
+            let line = format!("M{}L{}", pair([x - dx, y - dy]), pair([x + dx, y + dy]));
+            self.path("rail", &line);
+        }
+    }
+
     fn forces(&mut self) {
         let model = self.model;
         for force in &model.forces {
             let points = force
                 .points
                 .iter()
-                .map(|&(b, x, y)| (b, model.held(b, [x, y])));
-            let points: Vec<_> = points.map(|(b, p)| (b, self.view.to_page(p))).collect();
+                .map(|&(b, p)| (b, self.view.to_page(model.held(b, p))));
+            let points: Vec<_> = points.collect();
             for &(_, at) in points.iter().filter(|(body, _)| *body < 0) {
                 self.symbol("foot", "", at, 0.0, "");
             }
@@ -477,10 +437,8 @@ impl Picture<'_> {
             size: NAME_SIZE,
             anchor: *at,
         });
-        let centres = model
-            .bodies
-            .iter()
-            .map(|b| view.to_page([b.x.first(), b.y.first()]));
+        let bodies = 0..model.bodies.len();
+        let centres = bodies.map(|k| view.to_page(model.centre(k as isize)));
         let centres: Vec<[f64; 2]> = centres.collect();
         let bodies = model.bodies.iter().zip(&centres).map(|(body, at)| Request {
             text: &body.name,
@@ -534,8 +492,13 @@ impl Picture<'_> {
         }
     }
 
-    /// A bar of a round length, about a sixth of the page.
+    /// A bar of a round length, about a sixth of the page; in space the axes of the ground, each of
+    /// a round length.
     fn scale_bar(&mut self) {
+        let view = self.model.view;
+        if !view.is_plane() {
+            return self.triad();
+        }
         let length = round_step(0.1 * WIDTH / self.view.scale);
         let (y, pixels) = (self.view.bottom() + 2.0, length * self.view.scale);
         self.svg.element("g").with("class", "scale").open();
@@ -544,6 +507,26 @@ impl Picture<'_> {
         let text = self.svg.element("text");
         text.at([("x", MARGIN + pixels + 8.0), ("y", y + 4.0)])
             .text(&metres(length));
+        self.svg.close();
+    }
+
+    fn triad(&mut self) {
+        let length = round_step(0.4 * LONGEST / self.view.scale);
+        let at = [TRIAD[0], self.view.bottom() - TRIAD[1]];
+        self.svg.element("g").with("class", "scale").open();
+        for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
+            let axis: [f64; 3] = std::array::from_fn(|j| if j == k { 1.0 } else { 0.0 });
+            let [right, up] = self.model.view.flat(axis);
+            let to = |pixels: f64| [at[0] + pixels * right, at[1] - pixels * up];
+            let arm = length * self.view.scale;
+            self.path("", &format!("M{}L{}", pair(at), pair(to(arm))));
+            let [x, y] = to(arm + 12.0);
+            let text = self.svg.element("text").with("text-anchor", "middle");
+            text.at([("x", x), ("y", y + 4.0)]).text(name);
+        }
+        let text = self.svg.element("text");
+        text.at([("x", MARGIN), ("y", self.view.bottom() + 8.0)])
+            .text(&format!("axes {}", metres(length)));
         self.svg.close();
     }
 

@@ -10,27 +10,31 @@ use super::label::Rect;
 pub(crate) enum Symbol {
     /// Two points coincide.
     Pin,
+    /// In space, a joint that turns about an axis only.
+    Hinge { axis: [f64; 3] },
     /// A weld, which leaves no freedom.
     Weld,
     /// A block on a straight guide.
-    Block { axis: [f64; 2] },
+    Block { axis: [f64; 3] },
     /// A pin in a straight slot.
-    Slot { axis: [f64; 2] },
+    Slot { axis: [f64; 3] },
     /// Two points keep their distance.
     Rod,
     /// A knife edge or wheel, seen from above.
-    Edge { along: [f64; 2] },
+    Edge { along: [f64; 3] },
     /// Rotations depend on each other.
     Rotation,
     /// A prescribed motion along an axis, or about the place.
-    Drive { axis: Option<[f64; 2]> },
+    Drive { axis: Option<[f64; 3]> },
+    /// In space, a prescribed rotation about an axis.
+    Turn { axis: [f64; 3] },
 }
 
 impl Symbol {
     /// Its name in [`SHAPES`].
     pub(crate) fn name(self) -> &'static str {
         match self {
-            Self::Pin => "pin",
+            Self::Pin | Self::Hinge { .. } => "pin",
             Self::Weld => "weld",
             Self::Block { .. } => "block",
             Self::Slot { .. } => "slot",
@@ -38,14 +42,15 @@ impl Symbol {
             Self::Edge { .. } => "edge",
             Self::Rotation => "rotation",
             Self::Drive { axis: Some(_) } => "push",
-            Self::Drive { axis: None } => "turn",
+            Self::Drive { axis: None } | Self::Turn { .. } => "turn",
         }
     }
 
-    /// The direction along which it is drawn.
-    pub(crate) fn axis(self) -> Option<[f64; 2]> {
+    /// The direction along which it is drawn, or about which it turns.
+    pub(crate) fn axis(self) -> Option<[f64; 3]> {
         match self {
             Self::Block { axis } | Self::Slot { axis } | Self::Edge { along: axis } => Some(axis),
+            Self::Hinge { axis } | Self::Turn { axis } => Some(axis),
             Self::Drive { axis } => axis,
             _ => None,
         }

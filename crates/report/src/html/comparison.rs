@@ -17,25 +17,25 @@ pub struct Comparison {
 pub struct ComparedChoice {
     /// Name of the choice.
     pub label: String,
-    /// For each frame and each reaction `[Fx, Fy, T]` on the first body (N, N·m); NaN if the choice
-    /// does not determine it.
-    pub values: Vec<Vec<[f64; 3]>>,
+    /// For each frame and each reaction the components of the force and the torque on the first
+    /// body (N, N·m), ground axes; NaN if the choice does not determine it.
+    pub values: Vec<Vec<Vec<f64>>>,
 }
 
 /// The components of a reaction that the model leaves undetermined at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Freedom {
-    /// Angle of a direction in which the force is free (rad, global); NaN if the force is
-    /// determined or unknown.
+    /// In the plane, angle of a direction in which the force is free (rad, global); NaN if the
+    /// force is determined or unknown.
     pub angle: f64,
     /// Whether the force is also free across that direction.
     pub plane: bool,
-    /// Whether Fx, Fy and T are free. In global components a reaction may be determined at one time
-    /// and not at another.
-    pub components: [bool; 3],
-    /// Whether the force is free along the x and the y axis of the first body, along which it may
-    /// always be determined.
-    pub in_body: [bool; 2],
+    /// Whether the components of [`model::SpaceKind::components`] are free; the rest is false. In
+    /// global components a reaction may be determined at one time and not at another.
+    pub components: [bool; 6],
+    /// The same along the axes of the first body, along which a component may always be
+    /// determined.
+    pub in_body: [bool; 6],
 }
 
 impl Freedom {
@@ -43,15 +43,15 @@ impl Freedom {
     pub const UNKNOWN: Self = Self {
         angle: f64::NAN,
         plane: false,
-        components: [true; 3],
-        in_body: [true; 2],
+        components: [true; 6],
+        in_body: [true; 6],
     };
 
     /// No component is free.
     pub const NONE: Self = Self {
         angle: f64::NAN,
         plane: false,
-        components: [false; 3],
-        in_body: [false; 2],
+        components: [false; 6],
+        in_body: [false; 6],
     };
 }

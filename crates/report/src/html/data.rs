@@ -31,6 +31,8 @@ pub(super) struct Data<'a> {
     /// Times of the frames (s).
     t: Vec<Time>,
     drawing: DrawingModel,
+    /// Names and units of the components of a reaction.
+    components: Vec<(&'static str, &'static str)>,
     joints: Vec<Joint<'a>>,
     comparisons: Vec<ComparisonData<'a>>,
     measures: Vec<MeasureCurve<'a>>,
@@ -65,7 +67,7 @@ struct Joint<'a> {
     explanation: Option<&'a str>,
     /// The choice on which its numbers depend if they are not unique.
     choice: Option<String>,
-    /// Fx, Fy, T, and the named component; `None` if they were not requested.
+    /// Its components, and the named one; `None` if they were not requested.
     reaction: Option<Reaction>,
 }
 
@@ -78,7 +80,7 @@ struct Component {
 
 #[derive(Serialize)]
 struct Reaction {
-    wrench: [Channel; 3],
+    wrench: Vec<Channel>,
     #[serde(skip_serializing_if = "Option::is_none")]
     named: Option<Channel>,
 }
@@ -94,17 +96,17 @@ struct ComparisonData<'a> {
 struct ChoiceData<'a> {
     label: &'a str,
     /// Components of the wrench of each joint.
-    wrenches: Vec<[Channel; 3]>,
+    wrenches: Vec<Vec<Channel>>,
 }
 
 #[derive(Serialize)]
 struct FreedomData {
     angle: Channel,
     plane: bool,
-    /// Whether Fx, Fy and T are free at some time.
-    components: [bool; 3],
-    /// Whether the force is free along the axes of the first body at some time.
-    in_body: [bool; 2],
+    /// Whether the components are free at some time.
+    components: Vec<bool>,
+    /// Whether they are free along the axes of the first body at some time.
+    in_body: Vec<bool>,
 }
 
 #[derive(Serialize)]
@@ -210,6 +212,11 @@ impl<'a> Data<'a> {
             name: page.mechanism.name(),
             t: frames.iter().map(|f| Time(f.t)).collect(),
             drawing: stage.drawing(page.mechanism),
+            components: {
+                let space = page.mechanism.space();
+                let names = space.components().iter();
+                names.map(|name| (*name, unit(space, name))).collect()
+            },
             joints: cast
                 .joints()
                 .iter()
@@ -218,7 +225,7 @@ impl<'a> Data<'a> {
             comparisons: page
                 .comparisons
                 .iter()
-                .filter_map(|c| comparison(c, cast, noise))
+                .filter_map(|c| comparison(c, cast, page.mechanism.space(), noise))
                 .collect(),
             measures: measures(page),
             drives: page.drives.iter().take(DRIVES_MAX).map(drive).collect(),
@@ -277,19 +284,23 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
             of_analysis.and_then(|r| r.explanation.as_deref())
         },
         choice,
-        reaction: reaction(&page.recording.frames, k, noise),
+        reaction: reaction(&page.recording.frames, k, group.space, noise),
     }
 }
 
-fn reaction(frames: &[Frame], k: usize, noise: f64) -> Option<Reaction> {
-    let wanted = frames.iter().all(|f| f.reactions.len() > k);
-    let of = |frame: &Frame| {
-        let r = &frame.reactions[k];
-        [r.force[0], r.force[1], r.torque[2]]
-    };
-    let known = wanted && frames.iter().any(|f| of(f).iter().any(|x| x.is_finite()));
+fn reaction(frames: &[Frame], k: usize, space: SpaceKind, noise: f64) -> Option<Reaction> {
+    if !frames.iter().all(|f| f.reactions.len() > k) {
+        return None;
+    }
+    let all = frames.iter();
+    let wrenches: Vec<Vec<f64>> = all
+        .map(|f| f.reactions[k].components(space).collect())
+        .collect();
+    let known = wrenches.iter().flatten().any(|x| x.is_finite());
     known.then(|| Reaction {
-        wrench: [0, 1, 2].map(|c| Channel::above(noise, frames.iter().map(move |f| of(f)[c]))),
+        wrench: (0..space.n_v())
+            .map(|c| Channel::above(noise, wrenches.iter().map(|wrench| wrench[c])))
+            .collect(),
         named: frames[0].reactions[k].component.map(|_| {
             let named = frames.iter().map(|f| f.reactions[k].component);
             Channel::above(noise, named.map(|x| x.unwrap_or(f64::NAN)))
@@ -298,7 +309,19 @@ fn reaction(frames: &[Frame], k: usize, noise: f64) -> Option<Reaction> {
 }
 
 /// A comparison as data; `None` if a joint of it is not drawn.
-fn comparison<'a>(c: &'a Comparison, cast: &Cast, noise: f64) -> Option<ComparisonData<'a>> {
+fn comparison<'a>(
+    c: &'a Comparison,
+    cast: &Cast,
+    space: SpaceKind,
+    noise: f64,
+) -> Option<ComparisonData<'a>> {
+    let components = 0..space.n_v();
+    // The torque of the plane is the same in all axes.
+    let of_body = if space.n_rotations() > 1 {
+        components.clone()
+    } else {
+        space.forces()
+    };
     let places = c
         .reactions
         .iter()
@@ -309,7 +332,8 @@ fn comparison<'a>(c: &'a Comparison, cast: &Cast, noise: f64) -> Option<Comparis
         wrenches: (0..c.reactions.len())
             .map(|j| {
                 let values = choice.values.iter();
-                [0, 1, 2].map(|k| Channel::above(noise, values.clone().map(move |f| f[j][k])))
+                let curve = |k| Channel::above(noise, values.clone().map(move |f| f[j][k]));
+                components.clone().map(curve).collect()
             })
             .collect(),
     });
@@ -318,8 +342,14 @@ fn comparison<'a>(c: &'a Comparison, cast: &Cast, noise: f64) -> Option<Comparis
         FreedomData {
             angle: Channel::new(unwound(frames()).into_iter()),
             plane: frames().any(|f| f.plane),
-            components: [0, 1, 2].map(|c| frames().any(|f| f.components[c])),
-            in_body: [0, 1].map(|c| frames().any(|f| f.in_body[c])),
+            components: components
+                .clone()
+                .map(|c| frames().any(|f| f.components[c]))
+                .collect(),
+            in_body: of_body
+                .clone()
+                .map(|c| frames().any(|f| f.in_body[c]))
+                .collect(),
         }
     });
     Some(ComparisonData {

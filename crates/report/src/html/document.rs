@@ -1,6 +1,8 @@
 //! The page from its head to its scripts. Names and sentences from outside are escaped where they
 //! are inserted.
 
+use model::SpaceKind;
+
 use super::data::{Cast, Data};
 use super::run_page::RunPage;
 use super::{inputs, verdicts};
@@ -403,12 +405,21 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
             ),
         );
     }
-    out.push_str(
-        "<div class=\"curves\"><div><div class=\"picker\"><select id=\"quantity-a\" aria-label=\"First quantity\"></select></div>\
-         <div id=\"motion-a\"></div></div>\
-         <div><div class=\"picker\"><select id=\"quantity-b\" aria-label=\"Second quantity\"></select></div>\
-         <div id=\"motion-b\"></div></div></div>\n",
-    );
+    out.push_str("<div class=\"curves\">");
+    let panels = match page.mechanism.space() {
+        SpaceKind::Space3 => &[("a", "First"), ("b", "Second"), ("c", "Third")][..],
+        _ => &[("a", "First"), ("b", "Second")],
+    };
+    for (letter, count) in panels {
+        add(
+            out,
+            format_args!(
+                "<div><div class=\"picker\"><select id=\"quantity-{letter}\" aria-label=\"{count} quantity\"></select></div>\
+                 <div id=\"motion-{letter}\"></div></div>"
+            ),
+        );
+    }
+    out.push_str("</div>\n");
     if page.mechanism.frames().observed().measures.is_empty() {
         out.push_str("<div id=\"measure-curves\" hidden></div>\n");
     } else {

@@ -36,8 +36,9 @@ impl Selection {
     }
 }
 
-/// `t`, then for each joint and drive `<name>.Fx, .Fy, .T` and the named component of its
-/// definition, if it has one: `.N` of a knife edge, `.drive` of a drive (s, N, N·m).
+/// `t`, then for each joint and drive `<name>.Fx, .Fy, .T`, in space `.Fx, .Fy, .Fz, .Tx, .Ty,
+/// .Tz`, and the named component of its definition, if it has one: `.N` of a knife edge, `.drive`
+/// of a drive (s, N, N·m).
 ///
 /// Numbers of non-unique reactions depend on the choice that `summary.json` states.
 pub struct ReactionTable<W: Write> {

@@ -7,8 +7,10 @@ use model::{Marker, Mechanism, Scratch, System};
 use super::{Table, TableError};
 
 /// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` of the origin of its frame (s,
-/// m, rad, m/s, rad/s); then for each marker that can move `<marker>.x, .y, .vx, .vy`, if it has an
-/// angle with `.angle` and `.omega` as a body; then each measure; then
+/// m, rad, m/s, rad/s), in space `.x, .y, .z, .qw, .qx, .qy, .qz, .vx, .vy, .vz, .wx, .wy, .wz`
+/// (ground axes; the quaternion changes continuously, from one with w ≥ 0); then for each marker
+/// that can move its place and velocity, in the plane with `.angle` and `.omega` as a body if it
+/// has an angle; then each measure; then
 /// for each drive by a law `<drive>.force` (N) or `<drive>.torque` (N·m), on the second body of its
 /// joint.
 pub struct TrajectoryTable<'m, W: Write> {
@@ -106,5 +108,5 @@ fn is_written(marker: &Marker) -> bool {
 
 /// Whether a marker has this one of [`model::SpaceKind::columns`]; without an angle it is a point.
 fn has_column(marker: &Marker, column: &str) -> bool {
-    marker.angle.is_some() || !matches!(column, "angle" | "omega")
+    marker.angle.is_some() || matches!(column, "x" | "y" | "z" | "vx" | "vy" | "vz")
 }

@@ -80,9 +80,10 @@ class Chart {
     if (this.band) curves.push(this.band.low, this.band.high);
     let [low, high] = rangeOf(curves) ?? [0, 1];
     if (this.options.logarithmic) return [Math.floor(low), Math.max(Math.ceil(high), Math.floor(low) + 1)];
-    const least = Math.max(this.floor, 1e-9 * Math.max(Math.abs(low), Math.abs(high)), 1e-300);
+    // What is zero everywhere is shown between −1 and 1.
+    const least = Math.max(this.floor, 1e-9 * Math.max(Math.abs(low), Math.abs(high))) || 1;
     if (high - low < least) {
-      const half = Math.max(least, 0.05 * Math.abs(high)) || 0.5;
+      const half = Math.max(least, 0.05 * Math.abs(high));
       [low, high] = [(low + high) / 2 - half, (low + high) / 2 + half];
     }
     const pad = 0.06 * (high - low);

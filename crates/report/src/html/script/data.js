@@ -63,69 +63,143 @@ function cubic(values, rates, instant) {
     + s * s * (3 - 2 * s) * values[k + 1] - s * s * r * h * rates[k + 1];
 }
 
+/** How space is seen: the directions to the right and upwards in the picture; `null` in the plane, which is the picture. */
+const view = data.drawing.view ?? null;
+const CURVES = view
+  ? ["x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"]
+  : ["x", "y", "angle", "vx", "vy", "omega"];
+
 /** Bodies with decoded curves. */
 const bodies = data.drawing.bodies.map((body, index) => ({
   index,
   name: body.name,
   outline: body.outline,
-  x: decode(body.x),
-  y: decode(body.y),
-  angle: decode(body.angle),
-  vx: decode(body.vx),
-  vy: decode(body.vy),
-  omega: decode(body.omega),
+  ...Object.fromEntries(CURVES.map((name) => [name, decode(body[name])])),
 }));
+
+/** Rows of the rotation matrix of a quaternion of any length. */
+function rotation([w, x, y, z]) {
+  const s = 2 / (w * w + x * x + y * y + z * z);
+  return [
+    [1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+    [s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)],
+    [s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)],
+  ];
+}
+
+const dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
+
+/** Where a point of the ground is in the picture. */
+function flat(point) {
+  return view ? view.map((row) => dot(row, point)) : point;
+}
+
+/** The curves of a point of a body: its place and velocity, and the rotation of the body. */
+function carried(body, p, a) {
+  const arms = Array.from({ length: frameCount }, (_, k) => {
+    if (view) return rotation([body.qw[k], body.qx[k], body.qy[k], body.qz[k]]).map((row) => dot(row, p));
+    const [c, s] = [Math.cos(body.angle[k]), Math.sin(body.angle[k])];
+    return [c * p[0] - s * p[1], s * p[0] + c * p[1]];
+  });
+  const plus = (values, of) => values.map((v, k) => v + of(k, arms[k]));
+  const curves = { x: plus(body.x, (_, arm) => arm[0]), y: plus(body.y, (_, arm) => arm[1]) };
+  if (!view) {
+    const { omega } = body;
+    return {
+      ...curves,
+      angle: body.angle.map((v) => v + a),
+      vx: plus(body.vx, (k, arm) => -omega[k] * arm[1]),
+      vy: plus(body.vy, (k, arm) => omega[k] * arm[0]),
+    };
+  }
+  const { wx, wy, wz } = body;
+  return {
+    ...curves,
+    z: plus(body.z, (_, arm) => arm[2]),
+    vx: plus(body.vx, (k, arm) => wy[k] * arm[2] - wz[k] * arm[1]),
+    vy: plus(body.vy, (k, arm) => wz[k] * arm[0] - wx[k] * arm[2]),
+    vz: plus(body.vz, (k, arm) => wx[k] * arm[1] - wy[k] * arm[0]),
+  };
+}
 
 /**
  * What is traced and plotted: the origins of the frames of bodies, then markers that can move. `b` is the body, `p` the place relative to its
  * centre of mass.
  */
 const tracks = [
-  ...bodies.map((body) => ({ name: body.name, b: body.index, p: data.drawing.bodies[body.index].frame ?? [0, 0], a: 0 })),
+  ...bodies.map((body) => ({ name: body.name, b: body.index, p: data.drawing.bodies[body.index].frame ?? (view ? [0, 0, 0] : [0, 0]), a: 0 })),
   ...data.drawing.markers.filter((marker) => marker.b >= 0),
-].map(({ name, b, p: [px, py], a }, index) => {
-  const body = bodies[b];
-  const { x, y, angle, vx, vy, omega } = body;
-  if (!px && !py && !a) return { index, name, b, p: [px, py], x, y, angle, vx, vy, omega };
-  const arm = (k) => [Math.cos(angle[k]) * px - Math.sin(angle[k]) * py, Math.sin(angle[k]) * px + Math.cos(angle[k]) * py];
-  return {
-    index, name, b, p: [px, py], omega,
-    x: x.map((v, k) => v + arm(k)[0]),
-    y: y.map((v, k) => v + arm(k)[1]),
-    angle: angle.map((v) => v + a),
-    vx: vx.map((v, k) => v - omega[k] * arm(k)[1]),
-    vy: vy.map((v, k) => v + omega[k] * arm(k)[0]),
-  };
+].map(({ name, b, p, a }, index) => {
+  const own = Object.fromEntries(CURVES.map((curve) => [curve, bodies[b][curve]]));
+  return { index, name, b, p, ...own, ...(p.some((x) => x) || a ? carried(own, p, a) : {}) };
 });
 
-/** Pose of a body at an instant; body −1 is the ground. */
+/** Pose of a body in the picture at an instant: its centre, and what its axes look like there. Body −1 is the ground. */
 function poseOf(index, instant) {
-  if (index < 0) return { x: 0, y: 0, angle: 0 };
+  if (view) return spatialPose(index, instant);
+  if (index < 0) return { x: 0, y: 0, angle: 0, rows: [[1, 0], [0, 1]] };
   const b = bodies[index];
+  const angle = cubic(b.angle, b.omega, instant);
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
   return {
     x: cubic(b.x, b.vx, instant),
     y: cubic(b.y, b.vy, instant),
-    angle: cubic(b.angle, b.omega, instant),
+    angle,
+    rows: [[c, -s], [s, c]],
   };
 }
 
-/** A point of a body in the plane. */
-function pointOn(pose, [x, y]) {
-  const c = Math.cos(pose.angle);
-  const s = Math.sin(pose.angle);
-  return [pose.x + c * x - s * y, pose.y + s * x + c * y];
+function spatialPose(index, instant) {
+  if (index < 0) return { x: 0, y: 0, angle: 0, rows: view };
+  const b = bodies[index];
+  const [x, y] = flat(["x", "y", "z"].map((axis) => cubic(b[axis], b[`v${axis}`], instant)));
+  const turned = rotation(quaternionAt(b, instant));
+  const rows = view.map((row) => [0, 1, 2].map((k) => dot(row, turned.map((r) => r[k]))));
+  return { x, y, angle: 0, rows };
+}
+
+/** The orientation of a body between frames: ė = ½·(0, ω)∘e, with ω in ground axes. */
+function quaternionAt({ qw, qx, qy, qz, wx, wy, wz }, { k, s, h, t }) {
+  const ends = s > 0 ? [k, k + 1] : [k];
+  const e = ends.map((f) => [qw[f], qx[f], qy[f], qz[f]]);
+  if (!(s > 0)) return e[0];
+  const rates = ends.map((f, end) => {
+    const [w, x, y, z] = e[end];
+    const [a, b, c] = [wx[f], wy[f], wz[f]];
+    return [-a * x - b * y - c * z, a * w + b * z - c * y, b * w + c * x - a * z, c * w + a * y - b * x].map((rate) => rate / 2);
+  });
+  return [0, 1, 2, 3].map((part) => cubic(e.map((x) => x[part]), rates.map((x) => x[part]), { k: 0, s, h, t }));
+}
+
+/** A point of a body in the picture. */
+function pointOn(pose, p) {
+  return [pose.x + dot(p, pose.rows[0]), pose.y + dot(p, pose.rows[1])];
 }
 
 /** A function that tells where a place is, given the poses of all bodies. */
 function placeFinder(place) {
   if ("b" in place) return (poses, _) => pointOn(poses.of(place.b), place.p);
-  const [x, y] = [decode(place.x), decode(place.y)];
-  return (_, instant) => [linear(x, instant), linear(y, instant)];
+  const curves = (view ? ["x", "y", "z"] : ["x", "y"]).map((name) => decode(place[name]));
+  return (_, instant) => flat(curves.map((curve) => linear(curve, instant)));
+}
+
+/** A function that tells what an axis in space looks like: shorter than one where it is seen from the side. */
+function axisFinder(axis) {
+  if (!view || !axis) return null;
+  if ("b" in axis) return (poses, _) => poses.of(axis.b).rows.map((row) => dot(row, axis.p));
+  return placeFinder(axis);
 }
 
 /** A function that tells the angle of an axis. */
 function headingFinder(axis) {
   if (!axis) return () => 0;
+  if (view) {
+    const find = axisFinder(axis);
+    return (poses, instant) => {
+      const [x, y] = find(poses, instant);
+      return Math.atan2(y, x);
+    };
+  }
   if ("b" in axis) return (poses, _) => poses.of(axis.b).angle + axis.a;
   const a = decode(axis.a);
   return (_, instant) => linear(a, instant);
@@ -142,7 +216,9 @@ function posesAt(instant) {
   };
 }
 
-const COMPONENTS = ["Fx", "Fy", "T"];
+/** Names of the components of a reaction; those of the force come first. */
+const COMPONENTS = data.components.map(([name]) => name);
+const FORCES = data.components.filter(([, unit]) => unit === "N").length;
 
 /** Joints and drives with decoded reactions, and what choices say of them. */
 const joints = data.joints.map((joint, index) => ({

@@ -143,20 +143,26 @@ const OF = tracks.some(({ p }) => p[0] || p[1]) ? "" : " of the centre of mass";
 const QUANTITIES = {
   x: [`Position x${OF}`, "m"],
   y: [`Position y${OF}`, "m"],
-  angle: ["Angle", "rad"],
+  ...(view ? { z: [`Position z${OF}`, "m"] } : { angle: ["Angle", "rad"] }),
   vx: [`Velocity x${OF}`, "m/s"],
   vy: [`Velocity y${OF}`, "m/s"],
-  omega: ["Angular velocity", "rad/s"],
+  ...(view ? {
+    vz: [`Velocity z${OF}`, "m/s"],
+    wx: ["Angular velocity x", "rad/s"],
+    wy: ["Angular velocity y", "rad/s"],
+    wz: ["Angular velocity z", "rad/s"],
+  } : { omega: ["Angular velocity", "rad/s"] }),
 };
 
-/** Two charts of the motion of the bodies and markers that are chosen. */
+/** Charts of the motion of the bodies and markers that are chosen: two in the plane, three in space. */
 function setUpMotion(picture) {
-  const panels = [["quantity-a", "x"], ["quantity-b", "angle"]].map(([id, first], k) => {
-    const select = byId(id);
+  const panels = (view ? ["x", "y", "z"] : ["x", "angle"]).map((first, k) => {
+    const letter = "abc"[k];
+    const select = byId(`quantity-${letter}`);
     for (const [key, [words]] of Object.entries(QUANTITIES)) {
       make(select, "option", { value: key, textContent: words, selected: key === first });
     }
-    const chart = new Chart(byId(`motion-${"ab"[k]}`), { title: "", unit: "", onSeek: seek });
+    const chart = new Chart(byId(`motion-${letter}`), { title: "", unit: "", onSeek: seek });
     const refresh = () => {
       const [title, unit] = QUANTITIES[select.value];
       const series = [...picture.traced].sort((a, b) => a - b).map((index, place) => ({
@@ -232,9 +238,17 @@ function reactionInWords(joint) {
   return `${on}${why}${compared}`;
 }
 
-/** A wrench with its force along the axes of a body. */
+/** A wrench along the axes of a body. */
 function turned(wrench, body) {
   if (body < 0) return wrench;
+  if (view) {
+    const { qw, qx, qy, qz } = bodies[body];
+    const axes = Array.from(times, (_, f) => rotation([qw[f], qx[f], qy[f], qz[f]]));
+    return wrench.map((values, c) => {
+      const first = c - (c % 3);
+      return values.map((_, f) => [0, 1, 2].reduce((sum, j) => sum + axes[f][j][c % 3] * wrench[first + j][f], 0));
+    });
+  }
   const [x, y, torque] = wrench;
   const { angle } = bodies[body];
   const along = (a, b, sign) => x.map((_, k) => a[k] * Math.cos(angle[k]) + sign * b[k] * Math.sin(angle[k]));
@@ -243,19 +257,19 @@ function turned(wrench, body) {
 
 /** One component of a reaction in its chart: global, or along the first body. */
 function showComponent(chart, joint, name, k, { large, frame }) {
-  const inBody = frame === "body" && k < 2;
+  const inBody = frame === "body" && (view || k < FORCES);
   const wrenchOf = (wrench) => (inBody ? turned(wrench, joint.site.bodies[0]) : wrench)[k];
-  const pushes = joint.components.some((c) => c.name !== "T");
-  const known = inBody ? pushes : joint.components.some((c) => c.name === name);
+  const [, unit] = data.components[k];
+  const loads = joint.components.some((c) => c.unit === unit);
+  const known = inBody ? loads : joint.components.some((c) => c.name === name);
   const verdict = verdictOf(joint, name, inBody);
   const determined = verdict === "unique";
   const present = known && (determined || joint.choices.length > 0);
   chart.figure.hidden = !present;
   if (!present) return;
-  const unit = name === "T" ? "N·m" : "N";
   // The curves of the page are rounded: turned, what is zero shows that rounding, which no axis should fill.
   const floor = (inBody ? 0.02 : 1e-9) * large;
-  const options = { title: inBody ? `${joint.name}, force along ${"xy"[k]} of ${joint.bodies[0]}` : `${joint.name}.${name}`, unit, badge: verdict, floor, legend: false };
+  const options = { title: inBody ? `${joint.name}, ${unit === "N" ? "force along" : "torque about"} ${"xyz"[k % FORCES]} of ${joint.bodies[0]}` : `${joint.name}.${name}`, unit, badge: verdict, floor, legend: false };
   if (determined) {
     chart.show([{ label: `${name}, unique`, values: wrenchOf(joint.wrench), colour: 0 }], options);
     return;

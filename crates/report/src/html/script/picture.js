@@ -4,6 +4,7 @@ const FLESH = 20;
 const RIM = 22.4;
 const ARROW_LONG = 95;
 const MOVED_FAR = 2.2;
+const AXIS = 36;
 const TRACE_POINTS = 600;
 const SMALLEST = 2e-3;
 
@@ -21,6 +22,7 @@ class Picture {
       place: placeFinder(joint.site.place),
       end: joint.site.end ? placeFinder(joint.site.end) : null,
       heading: headingFinder(joint.site.axis),
+      axis: isGuided(joint.site.symbol) ? null : axisFinder(joint.site.axis),
     }));
     this.forces = data.drawing.forces.map((force) => ({ force }));
     this.measure();
@@ -80,7 +82,7 @@ class Picture {
       }
     }
     for (const { b, p } of data.drawing.markers) take(pointOn(poses.of(b), p));
-    for (const { points } of data.drawing.forces) points.forEach(([b, ...p]) => take(pointOn(poses.of(b), p)));
+    for (const { points } of data.drawing.forces) points.forEach(([b, p]) => take(pointOn(poses.of(b), p)));
     return box;
   }
 
@@ -104,6 +106,7 @@ class Picture {
       site.foot = grounded && !guided ? draw(layers.feet, "g") : null;
       if (site.foot) drawSymbol(site.foot, "foot");
       site.wheels = joint.site.wheels.map(([body, radius]) => ({ body, radius, circle: draw(layers.rails, "circle", { class: "wheel" }) }));
+      site.line = site.axis ? draw(layers.rails, "path", { class: "rail" }) : null;
       site.rod = symbol === "rod" ? draw(layers.symbols, "path", { class: `rod ${joint.verdict}` }) : null;
       site.group = draw(layers.symbols, "g", { class: `site ${joint.verdict}` });
       draw(site.group, "title", {}, `${joint.name} (${joint.type}): reaction ${joint.verdict.replace("_", " ")}`);
@@ -142,8 +145,9 @@ class Picture {
     for (const { wrench } of joints) {
       if (!wrench) continue;
       for (let k = 0; k < frameCount; k += Math.max(frameCount >> 7, 1)) {
-        forces.push(Math.hypot(wrench[0][k], wrench[1][k]));
-        torques.push(Math.abs(wrench[2][k]));
+        const at = wrench.map((values) => values[k]);
+        forces.push(Math.hypot(...at.slice(0, FORCES)));
+        torques.push(Math.hypot(...at.slice(FORCES)));
       }
     }
     const large = (values) => {
@@ -187,17 +191,21 @@ class Picture {
   shape() {
     bodies.forEach((body, k) => {
       const { rim, flesh, centre } = this.bodyGroups[k];
-      const corners = body.outline.map(([x, y]) => `${(x * this.scale).toFixed(2)} ${(-y * this.scale).toFixed(2)}`);
-      for (const [path, width] of [[rim, RIM], [flesh, FLESH]]) {
-        path.setAttribute("d", `M${corners.join("L")}L${corners[0]}Z`);
-        path.style.strokeWidth = width * this.symbolScale;
-      }
+      for (const [path, width] of [[rim, RIM], [flesh, FLESH]]) path.style.strokeWidth = width * this.symbolScale;
+      if (!view) this.outline(k, body.outline);
       centre.setAttribute("transform", `scale(${this.symbolScale})`);
     });
     this.layers.bodies.append(...data.drawing.order.map((k) => this.bodyGroups[k].group));
     for (const { radius, circle } of this.sites.flatMap((site) => site.wheels)) circle.setAttribute("r", radius * this.scale);
     for (const site of this.sites) if (site.rail) site.rail.setAttribute("d", this.railOf(site));
     this.traces = [...this.traced].map((k) => this.traces?.find((t) => t.index === k) ?? this.newTrace(k));
+  }
+
+  /** Draws a body with these corners (m) about its centre. */
+  outline(k, points) {
+    const corners = points.map(([x, y]) => `${(x * this.scale).toFixed(2)} ${(-y * this.scale).toFixed(2)}`);
+    const { rim, flesh } = this.bodyGroups[k];
+    for (const path of [rim, flesh]) path.setAttribute("d", `M${corners.join("L")}L${corners[0]}Z`);
   }
 
   /** A guide, as long as its block travels. */
@@ -243,6 +251,7 @@ class Picture {
       const pose = poses.of(k);
       const [x, y] = toPage([pose.x, pose.y]);
       const turn = (-pose.angle * 180) / Math.PI;
+      if (view) this.outline(k, hull(body.outline.map((p) => pose.rows.map((row) => dot(row, p)))));
       this.bodyGroups[k].group.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(3)})`);
       this.bodyNames[k].setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
     });
@@ -258,7 +267,7 @@ class Picture {
   moveSite(site, poses, instant, toPage) {
     const place = toPage(site.place(poses, instant));
     const end = site.end ? toPage(site.end(poses, instant)) : place;
-    const at = isGuided(site.joint.site.symbol) ? end : place;
+    const at = site.joint.site.symbol === "rod" ? place : end;
     const angle = (-site.heading(poses, instant) * 180) / Math.PI;
     const put = (element, [x, y], turn = 0, size = 1) => element?.setAttribute(
       "transform",
@@ -266,17 +275,21 @@ class Picture {
     );
     put(site.group, at, angle, this.symbolScale);
     put(site.rail, place, angle);
-    put(site.foot, place, 0, this.symbolScale);
+    put(site.foot, at, 0, this.symbolScale);
     put(site.twin, end, 0, this.symbolScale);
     site.rod?.setAttribute("d", `M${place}L${end}`);
     put(site.name, at);
-    for (const { body, circle } of site.wheels) put(circle, toPage(pointOn(poses.of(body), [0, 0])));
+    if (site.line) {
+      const [dx, dy] = site.axis(poses, instant).map((x) => AXIS * this.symbolScale * x);
+      site.line.setAttribute("d", `M${at[0] - dx} ${at[1] + dy}L${at[0] + dx} ${at[1] - dy}`);
+    }
+    for (const { body, circle } of site.wheels) put(circle, toPage(centreOf(poses, body)));
     this.moveLoads(site, place, instant, put);
   }
 
   /** What tells where the symbol of a joint stands: blocks are where they slide to. */
   shownAt(site) {
-    return isGuided(site.joint.site.symbol) ? site.end : site.place;
+    return site.joint.site.symbol === "rod" ? site.place : site.end ?? site.place;
   }
 
   /** Arrows of what is determined, hatched ones of what is free. */
@@ -285,7 +298,7 @@ class Picture {
     let d = "";
     let torque = "";
     if (joint.wrench && this.show.forces) {
-      const [fx, fy, m] = this.determined(joint, instant);
+      const [fx, fy, m] = this.shown(joint, instant);
       const size = Math.hypot(fx, fy);
       const share = Math.min(size / (this.large.force || 1), 1.6);
       const length = this.arrowScale * ARROW_LONG * share;
@@ -304,7 +317,15 @@ class Picture {
     this.moveFreedom(site, place, instant, put);
   }
 
-  /** The part of a reaction that no choice changes; NaN where nothing is known. */
+  /** The determined force in the picture, and the torque in the plane: one in space has no picture. */
+  shown(joint, instant) {
+    if (!view) return this.determined(joint, instant);
+    const known = (name) => verdictOf(joint, name) === "unique";
+    const force = joint.wrench.slice(0, FORCES).map((values, k) => (known(COMPONENTS[k]) ? linear(values, instant) : 0));
+    return [...flat(force), 0];
+  }
+
+  /** The part of a reaction in the plane that no choice changes; NaN where nothing is known. */
   determined(joint, instant) {
     const [fx, fy, m] = joint.wrench.map((w) => linear(w, instant));
     if (joint.verdict === "unique") return [fx, fy, m];
@@ -319,7 +340,7 @@ class Picture {
   }
 
   moveFreedom(site, place, instant, put) {
-    const freedom = this.show.freedom ? site.joint.freedom : null;
+    const freedom = this.show.freedom && !view ? site.joint.freedom : null;
     const angle = freedom ? linear(freedom.angle, instant) : NaN;
     const turn = (-angle * 180) / Math.PI;
     const isFree = Number.isFinite(angle);
@@ -331,7 +352,7 @@ class Picture {
   }
 
   moveForce(f, poses, toPage) {
-    const points = f.force.points.map(([b, x, y]) => toPage(pointOn(poses.of(b), [x, y])));
+    const points = f.force.points.map(([b, p]) => toPage(pointOn(poses.of(b), p)));
     f.feet.forEach((foot, k) => foot?.setAttribute("transform", `translate(${points[k]})`));
     if (f.kind === "spring") {
       const [a, b] = points;
@@ -342,7 +363,7 @@ class Picture {
       return;
     }
     const body = f.force.bodies.findLast((b) => b >= 0) ?? -1;
-    const at = points[0] ?? toPage(pointOn(poses.of(body), [0, 0]));
+    const at = points[0] ?? toPage(centreOf(poses, body));
     f.group.setAttribute("transform", `translate(${at}) scale(${this.symbolScale})`);
   }
 
@@ -350,10 +371,10 @@ class Picture {
   drawGrid(origin) {
     const [w, h] = this.page;
     const { grid, scale } = this.layers;
-    const step = roundStep(64 / this.scale);
+    const step = roundStep((view ? 20 : 64) / this.scale);
     const pitch = step * this.scale;
     let d = "";
-    if (this.show.grid && pitch > 8) {
+    if (this.show.grid && pitch > 8 && !view) {
       for (let x = ((origin[0] % pitch) + pitch) % pitch; x < w; x += pitch) d += `M${x.toFixed(1)} 0V${h}`;
       for (let y = ((origin[1] % pitch) + pitch) % pitch; y < h; y += pitch) d += `M0 ${y.toFixed(1)}H${w}`;
     }
@@ -362,8 +383,27 @@ class Picture {
     if (this.barPitch === pitch && this.barPage === h) return;
     [this.barPitch, this.barPage] = [pitch, h];
     scale.replaceChildren();
+    if (view) {
+      this.drawAxes(step);
+      return;
+    }
     draw(scale, "path", { d: `M18 ${h - 22}v8h${pitch.toFixed(1)}v-8` });
     draw(scale, "text", { x: 18 + pitch / 2, y: h - 20, "text-anchor": "middle" }, this.lengthInWords(step));
+  }
+
+  /** The axes of the ground in a corner, each of a round length. */
+  drawAxes(step) {
+    const { scale } = this.layers;
+    const [x0, y0] = [46, this.page[1] - 60];
+    ["x", "y", "z"].forEach((name, k) => {
+      const [right, up] = view.map((row) => row[k]);
+      const to = (pixels) => [x0 + pixels * right, y0 - pixels * up];
+      const arm = step * this.scale;
+      draw(scale, "path", { d: `M${x0} ${y0}L${to(arm)}` });
+      const [x, y] = to(arm + 12);
+      draw(scale, "text", { x, y: y + 4, "text-anchor": "middle" }, name);
+    });
+    draw(scale, "text", { x: 18, y: this.page[1] - 14 }, `axes ${this.lengthInWords(step)}`);
   }
 
   lengthInWords(x) {
@@ -469,6 +509,31 @@ class Picture {
     this.zoom = factor === 0 ? 1 : Math.min(Math.max(this.zoom * factor, 0.1), 200);
     this.resize();
   }
+}
+
+/** The centre of mass of a body in the picture. */
+function centreOf(poses, body) {
+  const { x, y } = poses.of(body);
+  return [x, y];
+}
+
+/** Convex hull of points in the picture, counter-clockwise (Andrew 1979). */
+function hull(points) {
+  const sorted = [...points].sort(([a, b], [c, d]) => a - c || b - d);
+  const half = (all) => {
+    const chain = [];
+    for (const p of all) {
+      while (chain.length > 1) {
+        const [a, b] = chain.slice(-2);
+        if ((b[0] - a[0]) * (p[1] - a[1]) > (b[1] - a[1]) * (p[0] - a[0])) break;
+        chain.pop();
+      }
+      chain.push(p);
+    }
+    return chain;
+  };
+  if (sorted.length < 3) return sorted;
+  return [...half(sorted).slice(0, -1), ...half(sorted.reverse()).slice(0, -1)];
 }
 
 /** Whether a symbol slides on a rail. */

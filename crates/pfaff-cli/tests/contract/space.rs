@@ -1,0 +1,130 @@
+//! A run in space: its files and its page.
+
+use serde_json::Value;
+
+use super::{Folder, stderr, with_scene};
+
+/// A top that starts at a quaternion with w < 0 and turns about nine times.
+const TOP: &str = r#"
+[scene]
+name = "top"
+space = "spatial"
+gravity = [0, 0, -9.81]
+
+[[body]]
+name = "top"
+mass = 15
+inertia = [0.234375, 0.46875, 0.234375]
+position = [0, 0, 0]
+centre = [0, 1, 0]
+orientation = { quaternion = [-0.5, 0.5, 0.5, 0.5] }
+velocity = [0, 0, 0]
+angular_velocity = [3, 10, -4.6]
+
+[[joint]]
+name = "S"
+type = "spherical"
+bodies = ["ground", "top"]
+at = [0, 0, 0]
+
+[simulate]
+t_end = 5.0
+"#;
+
+/// The columns of a table by their names.
+fn columns(csv: &str) -> Vec<(String, Vec<f64>)> {
+    let mut lines = csv.lines();
+    let header = lines.next().expect("a header").split(',');
+    let mut columns: Vec<(String, Vec<f64>)> =
+        header.map(|name| (name.to_owned(), Vec::new())).collect();
+    for line in lines {
+        for (column, x) in columns.iter_mut().zip(line.split(',')) {
+            column.1.push(x.parse().expect("a number"));
+        }
+    }
+    columns
+}
+
+#[test]
+fn a_run_has_the_files_of_space() {
+    for method in ["dop853", "radau5"] {
+        let folder = Folder::new(&format!("space-{method}"));
+        let arguments = ["simulate", "-", "--method", method, "--out", folder.text()];
+        let output = with_scene(&arguments, TOP);
+        assert_eq!((output.status.code(), &*stderr(&output)), (Some(0), ""));
+
+        let table = columns(&folder.read("trajectory.csv"));
+        let names: Vec<&str> = table.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(
+            names.join(","),
+            "t,top.x,top.y,top.z,top.qw,top.qx,top.qy,top.qz,top.vx,top.vy,top.vz,top.wx,top.wy,top.wz"
+        );
+        // The orientation that is given, with the sign that makes w ≥ 0, and no jump to its
+        // negative later: at 11 rad/s and 0.025 s between rows the angle of the quaternion changes
+        // by 0.14 rad.
+        let quaternion = |row: usize| [4, 5, 6, 7].map(|k| table[k].1[row]);
+        assert_eq!(quaternion(0), [0.5, -0.5, -0.5, -0.5]);
+        let mut least = 1.0_f64;
+        for row in 1..table[0].1.len() {
+            let (a, b) = (quaternion(row - 1), quaternion(row));
+            let dot: f64 = (0..4).map(|k| a[k] * b[k]).sum();
+            assert!(dot > 0.98, "{method}: row {row}: {a:?} {b:?}");
+            let length: f64 = b.iter().map(|e| e * e).sum();
+            assert!((length - 1.0).abs() < 1e-6, "{method}: row {row}: {b:?}");
+            least = least.min(b[0]);
+        }
+        assert!(
+            least < -0.5,
+            "{method}: the quaternion goes over its far side: {least}"
+        );
+
+        let header = folder.read("reactions.csv");
+        let header = header.lines().next().expect("a header");
+        assert_eq!(header, "t,S.Fx,S.Fy,S.Fz,S.Tx,S.Ty,S.Tz");
+        let summary: Value = serde_json::from_str(&folder.read("summary.json")).expect("JSON");
+        assert_eq!(summary["mobility"], 3);
+        assert_eq!(summary["reactions"]["S"]["verdict"], "unique");
+        assert!(summary["energy_balance"].as_f64().expect("a number") < 1e-6);
+    }
+}
+
+#[test]
+fn the_page_of_a_run_draws_space() {
+    let folder = Folder::new("space-page");
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], TOP);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = folder.read("report.html");
+    let (_, data) = page.split_once("type=\"application/json\">").expect("data");
+    let (data, _) = data.split_once("</script>").expect("its end");
+    let data: Value = serde_json::from_str(data).expect("JSON");
+    // Gravity along −z: z is straight up in the picture.
+    let view = data["drawing"]["view"].as_array().expect("two directions");
+    assert_eq!(view[0][2], 0);
+    let up = view[1][2].as_f64().expect("a number");
+    assert!((up - 0.75_f64.sqrt()).abs() < 1e-6, "{up}");
+    let components: Vec<&str> = data["components"]
+        .as_array()
+        .expect("components")
+        .iter()
+        .map(|c| c[0].as_str().expect("a name"))
+        .collect();
+    assert_eq!(components, ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"]);
+    assert_eq!(data["components"][2][1], "N");
+    assert_eq!(data["components"][5][1], "N·m");
+    let wrench = data["joints"][0]["reaction"]["wrench"]
+        .as_array()
+        .expect("a reaction");
+    assert_eq!(wrench.len(), 6);
+    let body = &data["drawing"]["bodies"][0];
+    for curve in [
+        "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz",
+    ] {
+        assert!(
+            body[curve].is_object() || body[curve].is_number(),
+            "{curve}"
+        );
+    }
+    for (id, wanted) in [("quantity-c", true), ("quantity-d", false)] {
+        assert_eq!(page.contains(&format!("id=\"{id}\"")), wanted, "{id}");
+    }
+}

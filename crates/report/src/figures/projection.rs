@@ -1,0 +1,135 @@
+//! The one view of a mechanism: from points of its space to the plane of the picture.
+//!
+//! The plane is seen along z. Space is seen from a fixed direction far away, from the right of its
+//! front and from above, with gravity downwards; where there is none, z is upwards.
+
+use model::{Mechanism, SpaceKind};
+use serde::Serialize;
+
+use crate::channel::Rounded;
+
+/// How far the view is turned to the right of the front, and raised (rad): sixty degrees from the
+/// horizontal axis across it, and thirty. The line of sight is then along no direction with
+/// rational components, so that corners of rational geometry do not hide each other.
+const TURNED: f64 = -std::f64::consts::FRAC_PI_3;
+const RAISED: f64 = std::f64::consts::FRAC_PI_6;
+
+/// A view along parallel lines: the directions of space that point to the right and upwards in the
+/// picture, as orthogonal unit vectors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Projection {
+    right: [f64; 3],
+    up: [f64; 3],
+}
+
+impl Projection {
+    /// The plane, seen along z.
+    const PLANE: Self = Self {
+        right: [1.0, 0.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+    };
+
+    /// The view of a mechanism.
+    pub(crate) fn of(mechanism: &Mechanism) -> Self {
+        if mechanism.space() != SpaceKind::Space3 {
+            return Self::PLANE;
+        }
+        let mut weight = [0.0; 3];
+        for force in mechanism.weight().chunks_exact(mechanism.space().n_v()) {
+            for (sum, w) in weight.iter_mut().zip(force) {
+                *sum += w;
+            }
+        }
+        Self::with_above(unit(weight.map(|w| -w)).unwrap_or([0.0, 0.0, 1.0]))
+    }
+
+    /// The view of space with this unit vector upwards.
+    fn with_above(above: [f64; 3]) -> Self {
+        // The first axis of the ground that is not upright runs from left to right in front.
+        let first = if above[0].abs() < 0.9 { 0 } else { 1 };
+        let level: [f64; 3] = std::array::from_fn(|k| {
+            let axis = if k == first { 1.0 } else { 0.0 };
+            axis - above[first] * above[k]
+        });
+        let across = unit(level).unwrap_or([1.0, 0.0, 0.0]);
+        let back = model::space::cross(above, across);
+        let ((st, ct), (sr, cr)) = (TURNED.sin_cos(), RAISED.sin_cos());
+        Self {
+            right: std::array::from_fn(|k| ct * back[k] - st * across[k]),
+            up: std::array::from_fn(|k| cr * above[k] - sr * (ct * across[k] + st * back[k])),
+        }
+    }
+
+    /// A point or a direction in the picture.
+    pub(crate) fn flat(&self, [x, y, z]: [f64; 3]) -> [f64; 2] {
+        if self.is_plane() {
+            return [x, y];
+        }
+        [self.right, self.up].map(|[a, b, c]| a * x + b * y + c * z)
+    }
+
+    /// Whether the picture is the plane itself.
+    pub(crate) fn is_plane(&self) -> bool {
+        *self == Self::PLANE
+    }
+}
+
+/// The rows of the map, for scripts.
+impl Serialize for Projection {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        [self.right, self.up]
+            .map(|row| row.map(Rounded))
+            .serialize(serializer)
+    }
+}
+
+/// A vector scaled to length one; `None` if it has no direction.
+pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let length = model::space::norm(&v);
+    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn near(a: [f64; 2], b: [f64; 2]) -> bool {
+        (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-15
+    }
+
+    #[test]
+    fn the_plane_is_seen_along_z() {
+        assert_eq!(Projection::PLANE.flat([1.5, -2.0, 7.0]), [1.5, -2.0]);
+    }
+
+    /// Azimuth −60° and elevation 30°: sines and cosines are ½ and ½√3.
+    #[test]
+    fn axes_of_the_ground_are_where_the_view_puts_them() {
+        let (half, root) = (0.5, 0.75_f64.sqrt());
+        let view = Projection::with_above([0.0, 0.0, 1.0]);
+        let [x, y, z] = [[root, -half * half], [half, half * root], [0.0, root]];
+        assert!(near(view.flat([1.0, 0.0, 0.0]), x));
+        assert!(near(view.flat([0.0, 1.0, 0.0]), y));
+        assert!(near(view.flat([0.0, 0.0, 1.0]), z));
+        // With y upwards, −z runs backwards.
+        let view = Projection::with_above([0.0, 1.0, 0.0]);
+        assert!(near(view.flat([1.0, 0.0, 0.0]), x));
+        assert!(near(view.flat([0.0, 1.0, 0.0]), z));
+        assert!(near(view.flat([0.0, 0.0, -1.0]), y));
+    }
+
+    /// Whatever is upwards, the picture keeps lengths across the line of sight and shows `above`
+    /// straight up.
+    #[test]
+    fn every_view_is_orthogonal_and_upright() {
+        for above in [[1.0, 2.0, 2.0], [-9.0, 1.0, 0.5], [0.0, -1.0, 0.0]] {
+            let above = unit(above).expect("a direction");
+            let view = Projection::with_above(above);
+            let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+            assert!((dot(view.right, view.right) - 1.0).abs() < 1e-15);
+            assert!((dot(view.up, view.up) - 1.0).abs() < 1e-15);
+            assert!(dot(view.right, view.up).abs() < 1e-15);
+            assert!(near(view.flat(above), [0.0, 0.75_f64.sqrt()]));
+        }
+    }
+}

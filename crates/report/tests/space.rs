@@ -1,0 +1,174 @@
+//! Pictures and tables of mechanisms in space.
+
+use joints::space3::{Axes, Revolute};
+use model::{BodyRef, Marker, Mechanism, Reaction, SpaceKind, SpatialBody, SpatialDescription};
+use report::figures::{Marking, mechanism};
+use report::{ReactionTable, Selection, TrajectoryTable};
+
+/// A four-bar in a vertical plane that is turned by `turn` about the vertical axis y.
+fn four_bar(turn: f64) -> SpatialDescription {
+    let mut d = SpatialDescription {
+        gravity: [0.0, -9.81, 0.0],
+        ..SpatialDescription::new("four-bar")
+    };
+    let (sin, cos) = turn.sin_cos();
+    let turned = |[x, y]: [f64; 2]| [cos * x, y, -sin * x];
+    let inertia = [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]];
+    let centres = [
+        ("crank", [0.15, 0.4]),
+        ("coupler", [0.9, 0.95]),
+        ("rocker", [1.45, 0.55]),
+    ];
+    let [crank, coupler, rocker] = centres.map(|(name, at)| {
+        d.body(SpatialBody {
+            position: turned(at),
+            ..SpatialBody::new(name, 1.0, inertia)
+        })
+    });
+    let axis = Axes::new([sin, 0.0, cos], None).expect("an axis");
+    for (name, bodies, at) in [
+        ("A", [BodyRef::Ground, crank], PLACES[0]),
+        ("B", [crank, coupler], PLACES[1]),
+        ("C", [coupler, rocker], PLACES[2]),
+        ("D", [BodyRef::Ground, rocker], PLACES[3]),
+    ] {
+        let [s_i, s_j] = bodies.map(|body| d.local(body, turned(at)));
+        d.joint(
+            name,
+            &bodies,
+            Revolute {
+                s_i,
+                s_j,
+                axis,
+                axis_j: axis,
+            },
+        );
+    }
+    d
+}
+
+const PLACES: [[f64; 2]; 4] = [[0.0, 0.0], [0.3, 0.8], [1.5, 1.1], [1.4, 0.0]];
+
+/// Where the symbols of joints are on the page (px), in the order of their names.
+fn symbols(svg: &str) -> Vec<[f64; 2]> {
+    let mut found: Vec<(String, [f64; 2])> = Vec::new();
+    for group in svg
+        .split("<g class=\"site plain\" transform=\"translate(")
+        .skip(1)
+    {
+        let (at, rest) = group.split_once(')').expect("a place");
+        let (x, y) = at.split_once(' ').expect("two numbers");
+        let Some((_, title)) = rest.split_once("<title>").filter(|(tag, _)| tag.len() < 40) else {
+            continue;
+        };
+        let number = |text: &str| text.parse().expect("a number");
+        found.push((title[..1].to_owned(), [number(x), number(y)]));
+    }
+    found.sort_by(|(a, _), (b, _)| a.cmp(b));
+    found.into_iter().map(|(_, at)| at).collect()
+}
+
+/// Seen from 60° right of the front and 30° above, with y upwards and z towards the front: the
+/// axes x, y and z are at (√3/2, −1/4), (0, √3/2) and (−1/2, −√3/4).
+#[test]
+fn a_four_bar_has_its_joints_where_they_are_seen() {
+    let root = 0.75_f64.sqrt();
+    for turn in [0.0, 0.4, 1.3] {
+        let built = Mechanism::build(&four_bar(turn)).expect("builds");
+        let q = built.described_state().0;
+        let svg = mechanism(&built, 0.0, &q, Marking::Plain).expect("drawn");
+        let (sin, cos) = f64::sin_cos(turn);
+        let seen = PLACES.map(|[along, y]| {
+            let (x, z) = (cos * along, -sin * along);
+            [root * x - 0.5 * z, root * y - 0.25 * x - 0.5 * root * z]
+        });
+        let drawn = symbols(&svg);
+        assert_eq!(drawn.len(), 4, "{svg}");
+        // The page is larger than the picture by one factor, and its y points down.
+        let scale = (drawn[2][0] - drawn[0][0]) / (seen[2][0] - seen[0][0]);
+        assert!(scale > 100.0, "{scale}");
+        for k in 1..4 {
+            let [dx, dy] = [0, 1].map(|c| drawn[k][c] - drawn[0][c]);
+            let [x, y] = [0, 1].map(|c| scale * (seen[k][c] - seen[0][c]));
+            // Two digits after the point are written.
+            assert!(
+                (dx - x).abs() < 0.05 && (dy + y).abs() < 0.05,
+                "{turn} {k} {drawn:?}"
+            );
+        }
+        // Each hinge has a line along its axis, and the corner the axes of the ground.
+        assert_eq!(svg.matches("class=\"rail\"").count(), 4);
+        for name in ["x", "y", "z"] {
+            assert!(svg.contains(&format!(">{name}</text>")), "{name}");
+        }
+    }
+}
+
+#[test]
+fn tables_have_the_columns_of_space() {
+    let mut d = four_bar(0.0);
+    d.bodies.truncate(1);
+    d.joints.truncate(1);
+    d.observed.markers.push(Marker {
+        name: "tip".into(),
+        body: BodyRef::Body(0),
+        point: [0.0, 2.0, 0.0],
+        angle: None,
+        tolerance: None,
+    });
+    let built = Mechanism::build(&d).expect("builds");
+    let mut table = TrajectoryTable::new(Vec::new(), &built).expect("writes");
+    // A quarter of a turn about x, with ω = (0, 0, 3) in its axes, so (0, −3, 0) in those of the
+    // ground: the tip is at 2 m along z, and moves along −x.
+    let half = 0.5_f64.sqrt();
+    let q = [1.0, 2.0, 3.0, half, half, 0.0, 0.0];
+    table
+        .row(0.5, &q, &[4.0, 5.0, 6.0, 0.0, 0.0, 3.0])
+        .expect("writes");
+    let text = String::from_utf8(table.finish().expect("writes")).expect("UTF-8");
+    let (header, row) = text.trim_end().split_once('\n').expect("a row");
+    assert_eq!(
+        header,
+        "t,crank.x,crank.y,crank.z,crank.qw,crank.qx,crank.qy,crank.qz,crank.vx,crank.vy,crank.vz,\
+         crank.wx,crank.wy,crank.wz,tip.x,tip.y,tip.z,tip.vx,tip.vy,tip.vz"
+    );
+    let numbers: Vec<f64> = row
+        .split(',')
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    let expected = [
+        0.5,
+        1.0,
+        2.0,
+        3.0,
+        half,
+        half,
+        0.0,
+        0.0,
+        4.0,
+        5.0,
+        6.0,
+        0.0,
+        -3.0,
+        0.0,
+        1.0,
+        2.0,
+        5.0,
+        4.0 - 6.0,
+        5.0,
+        6.0,
+    ];
+    assert_eq!(numbers.len(), expected.len());
+    for (k, (a, b)) in numbers.iter().zip(expected).enumerate() {
+        assert!((a - b).abs() < 1e-14, "{k}: {a} {b}");
+    }
+
+    let mut table = ReactionTable::new(Vec::new(), &built, &Selection::All).expect("writes");
+    let reaction = Reaction::new(SpaceKind::Space3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], None);
+    table.row(0.0, &[reaction]).expect("writes");
+    let text = String::from_utf8(table.finish().expect("writes")).expect("UTF-8");
+    assert_eq!(
+        text,
+        "t,A.Fx,A.Fy,A.Fz,A.Tx,A.Ty,A.Tz\n0.0,1.0,2.0,3.0,4.0,5.0,6.0\n"
+    );
+}
