@@ -23,7 +23,7 @@ pub(crate) use space3::{normalised, quaternion};
 pub use traits::{PlanarSpace, Space};
 pub use vector::{difference, norm, unit_cross};
 
-pub use joints::space3::cross;
+pub use joints::space3::{cross, dot};
 
 use std::ops::Range;
 

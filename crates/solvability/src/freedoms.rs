@@ -14,10 +14,11 @@ mod basis;
 mod component;
 mod connected;
 mod motions;
+mod movement;
 mod ranks;
 mod words;
 
-use model::{Mechanism, SpaceKind, System};
+use model::{Mechanism, System};
 
 use crate::analysis::Analysis;
 use crate::state::{StateError, check_configuration};
@@ -89,14 +90,6 @@ impl Freedoms {
             let mobility = layout.n_v - rank;
             let motions = match (mobility, is_decided) {
                 (0, _) => FreeMotions::default(),
-                // The search for motions of few joints compares angles of the plane.
-                (freedoms, true) if mechanism.space() == SpaceKind::Space3 => FreeMotions {
-                    motions: Vec::new(),
-                    left_out: Some(LeftOut {
-                        freedoms,
-                        reason: "motions in space have no words yet".to_owned(),
-                    }),
-                },
                 (_, true) => Connected::new(mechanism, drives).motions(t, q, decided),
                 (freedoms, false) => FreeMotions {
                     motions: Vec::new(),

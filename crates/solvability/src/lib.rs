@@ -57,6 +57,8 @@ mod row_decision;
 pub mod rows;
 pub mod second_order;
 pub mod sensitivity;
+#[cfg(test)]
+mod sketch;
 mod sparse;
 pub mod state;
 pub mod structure;

@@ -532,6 +532,11 @@ pub(crate) const VISIBLE: f64 = 1e-9;
 /// `a_four_bar_moves_without_its_motor_only`.
 pub(crate) const SAME_PLACE: f64 = 1e-6;
 
+/// Other bodies in so many sets that move as one are told with the axes about which they turn.
+/// Unit: sets of bodies. Less: it is said only that they turn. More: sentences nobody reads. Test:
+/// `few_other_bodies_are_told_with_their_axes`.
+pub(crate) const TOLD_MOVEMENTS: usize = 3;
+
 /// Bodies that a sentence names.
 /// Unit: bodies. Less: bodies are counted only. More: sentences nobody reads. Test:
 /// `links_of_a_chain_turn_about_their_own_joints`.

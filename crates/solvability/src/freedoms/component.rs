@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use linalg::{PivotedQr, equilibrate};
-use model::space::{difference, norm, unit_cross};
+use model::space::{cross, difference, norm};
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
@@ -24,7 +24,8 @@ pub(super) struct Component<'a> {
     units: Vec<f64>,
 }
 
-/// Velocities of all bodies of a component: translations (m/s), then rotations (rad/s).
+/// Velocities of all bodies of a component: of their centres of mass (m/s), then angular velocities
+/// (rad/s), both in ground axes.
 pub(super) type Velocities = Vec<Vec<f64>>;
 
 /// Number of joints and bodies that move, and their mass.
@@ -182,7 +183,8 @@ impl<'a> Component<'a> {
     }
 
     /// Conditions that make a motion easy to describe, the most useful first: bodies that do not
-    /// rotate, joints and centres of mass that stay at rest, motions along one axis.
+    /// rotate, joints that stay at rest, rotations about one axis, centres of mass that stay at
+    /// rest, translations along one axis.
     fn wishes(&self) -> Vec<Vec<Form>> {
         let bodies = || 0..self.mechanism.bodies().len();
         let pinned = self.mechanism.layout().constraint_ids().flat_map(|id| {
@@ -193,10 +195,32 @@ impl<'a> Component<'a> {
         });
         let one = |column: usize| vec![vec![(column, 1.0)]];
         let space = self.mechanism.space();
-        let turns = bodies().flat_map(|b| space.rotations_of(b).map(one));
+        let turns = bodies().map(|b| self.turns(b).collect());
         let centres = bodies().map(|b| space.translations_of(b).flat_map(one).collect());
         let axes = bodies().flat_map(|b| space.translations_of(b).rev().map(one));
-        turns.chain(pinned).chain(centres).chain(axes).collect()
+        // In the plane there is one axis to turn about.
+        let turned = bodies().filter(|_| space.n_rotations() > 1);
+        let turned = turned.flat_map(|b| self.turns(b).rev().map(|form| vec![form]));
+        let wishes = turns.chain(pinned).chain(turned);
+        wishes.chain(centres).chain(axes).collect()
+    }
+
+    /// The components of the angular velocity of a body in ground axes.
+    fn turns(&self, body: usize) -> impl DoubleEndedIterator<Item = Form> + '_ {
+        let space = self.mechanism.space();
+        space.torques().map(move |k| {
+            let parts = space
+                .rotations_of(body)
+                .map(|j| (j, self.axis(j)[space.axis_of(k)]));
+            parts.collect()
+        })
+    }
+
+    /// The axis, in ground axes, about which a column of a rotation turns its body.
+    fn axis(&self, column: usize) -> [f64; 3] {
+        let space = self.mechanism.space();
+        let axes = self.s.bodies.axes(space.body_of(column));
+        axes[space.axis_of(space.dof_of(column))]
     }
 
     /// Forms that vanish if the bodies of a joint move as one; if one of them is the ground, if
@@ -225,14 +249,9 @@ impl<'a> Component<'a> {
         let arm = difference(point, self.origin(body));
         // The coefficients are below 1: the point is within the size of the mechanism, and
         // rotations are scaled by it.
-        let turn = |axis: usize, j: usize| {
-            let moved = unit_cross(space.axis_of(space.dof_of(j)), arm);
-            (j, self.units[j] * moved[axis])
-        };
+        let turn = |axis: usize, j: usize| (j, self.units[j] * cross(self.axis(j), arm)[axis]);
         let form = |(axis, j): (usize, usize)| {
             let turns = space.rotations_of(body).map(|j| turn(axis, j));
-            // A rotation about this axis does not move the point along it.
-            let turns = turns.filter(|(j, _)| space.axis_of(space.dof_of(*j)) != axis);
             std::iter::once((j, 1.0)).chain(turns).collect()
         };
         space.translations_of(body).enumerate().map(form).collect()
@@ -247,8 +266,7 @@ impl<'a> Component<'a> {
         let points = [a, b].map(|body| self.point_at_rest(body, place));
         let [one, other] = points;
         let mut forms: Vec<Form> = one.into_iter().zip(other).map(difference).collect();
-        let [a, b] = [a, b].map(|body| self.mechanism.space().rotations_of(body));
-        forms.extend(a.zip(b).map(|(a, b)| vec![(a, 1.0), (b, -1.0)]));
+        forms.extend(self.turns(a).zip(self.turns(b)).map(difference));
         forms
     }
 
@@ -293,14 +311,21 @@ impl<'a> Component<'a> {
         self.rigid().iter().map(|v| self.velocities(v)).collect()
     }
 
-    /// Velocities with dimensions, scaled so that the largest rotation is 1, or the fastest
-    /// translation if nothing rotates. Rounding is set to zero.
+    /// Velocities with dimensions in ground axes, scaled so that the largest rotation is 1, or the
+    /// fastest translation if nothing rotates. Rounding is set to zero.
     fn velocities(&self, v: &[f64]) -> Velocities {
+        let space = self.mechanism.space();
+        let mut v = v.to_vec();
+        // All rotations have the same unit.
+        for body in 0..self.mechanism.bodies().len() {
+            let sum = |form: Form| form.iter().map(|(j, axis)| axis * v[*j]).sum();
+            let turned: Vec<f64> = self.turns(body).map(sum).collect();
+            v[space.rotations_of(body)].copy_from_slice(&turned);
+        }
         let fastest = v.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let known = |x: f64| if x.abs() > AT_REST * fastest { x } else { 0.0 };
         let scaled = v.iter().zip(&self.units).map(|(x, unit)| known(*x) * unit);
         let scaled: Vec<f64> = scaled.collect();
-        let space = self.mechanism.space();
         let bodies = || scaled.chunks_exact(space.n_v());
         let largest = |part: Range<usize>| {
             let sizes = bodies().map(|v| norm(&v[part.clone()]));

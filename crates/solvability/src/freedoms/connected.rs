@@ -1,9 +1,10 @@
 //! Sets of bodies connected by joints: each has its own rank and is described separately.
 
 use crate::limits::{MOTIONS_REPORTED, ROWS_MAX};
-use model::{Mechanism, Part, System};
+use model::{Bodies, Mechanism, Part, System};
 
 use super::component::{Component, Velocities, shared_rank};
+use super::movement::Twist;
 use super::{Decided, FreeMotion, FreeMotions, LeftOut, words};
 
 /// The motions described so far.
@@ -163,10 +164,16 @@ impl<'a> Connected<'a> {
             return;
         }
         if self.is_alone(set) {
-            // Rotations about the axes of the body itself.
-            let own = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            let unit = |k: usize| self.whole.space().rigid_motion(k, [0.0; 3], own);
-            let velocities = (0..columns).map(|k| set.iter().map(|&b| (b, unit(k))).collect());
+            // About the centre of mass, in ground axes.
+            let ground = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            let poses = Bodies::at(self.whole.space(), &self.own(set, q));
+            let unit = |k: usize, own: usize| {
+                let motion = self.whole.space().rigid_motion(k, [0.0; 3], ground);
+                self.of_frame(set[own], poses.turned(own, self.to_frame(set[own])), motion)
+            };
+            let bodies = || set.iter().copied().enumerate();
+            let velocities =
+                (0..columns).map(|k| bodies().map(|(own, b)| (b, unit(k, own))).collect());
             described.freedoms += columns;
             described.motions.push(FreeMotion {
                 text: words::free(self.whole, set),
@@ -178,9 +185,13 @@ impl<'a> Connected<'a> {
         let component = Component::new(&part.mechanism, t, &self.own(set, q));
         let found = component.motions(rank, most);
         let numbered = |velocities: Velocities| -> Vec<(usize, Vec<f64>)> {
-            let bodies = set.iter().copied().zip(velocities);
-            bodies
-                .filter(|(_, v)| v.iter().any(|v| *v != 0.0))
+            let bodies = set.iter().copied().zip(velocities).enumerate();
+            let moving = bodies.filter(|(_, (_, v))| v.iter().any(|v| *v != 0.0));
+            moving
+                .map(|(own, (body, v))| {
+                    let arm = component.s.bodies.turned(own, self.to_frame(body));
+                    (body, self.of_frame(body, arm, v))
+                })
                 .collect()
         };
         if found.is_free {
@@ -203,6 +214,21 @@ impl<'a> Connected<'a> {
                 velocities: vec![numbered(velocities)],
             });
         }
+    }
+
+    /// From the centre of mass of a body to the origin of its frame, in its axes (m).
+    fn to_frame(&self, body: usize) -> [f64; 3] {
+        self.whole.bodies()[body].from_centre([0.0; 3])
+    }
+
+    /// The velocities of the frame of a body at an arm from its centre of mass, whose velocities
+    /// these are.
+    fn of_frame(&self, body: usize, arm: [f64; 3], v: Vec<f64>) -> Vec<f64> {
+        if self.whole.bodies()[body].is_centred() {
+            return v;
+        }
+        let space = self.whole.space();
+        Twist::new(space, &v).carried(arm).components(space)
     }
 
     /// Bodies of a set on which a drive acts, as indices into the set.

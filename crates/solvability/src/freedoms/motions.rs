@@ -28,8 +28,9 @@ pub struct LeftOut {
 pub struct FreeMotion {
     /// Description, for example "`crank` turns about `A`; with it `coupler` and `rocker` turn".
     pub text: String,
-    /// One list for each degree of freedom, with the bodies that move: index of the body, and its
-    /// velocities in the order of the columns of C (m/s, rad/s). The largest rotation is 1, or the
+    /// One list for each degree of freedom, with the bodies that move: index of the body, and the
+    /// velocities of its frame in the order of [`SpaceKind::velocities`](model::SpaceKind): of the
+    /// origin (m/s), and angular ones (rad/s), in ground axes. The largest rotation is 1, or the
     /// fastest translation if nothing rotates.
     pub velocities: Vec<Vec<(usize, Vec<f64>)>>,
 }

@@ -2,6 +2,8 @@
 //! ω × (p − r).
 
 use crate::limits::MOTIONS_REPORTED;
+mod space;
+
 use joints::{
     Direction, Gear, KnifeEdge, Revolute, RevoluteAngleDrive, Translational,
     TranslationalDisplacementDrive,

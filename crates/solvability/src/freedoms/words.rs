@@ -1,19 +1,13 @@
-//! Free motions as sentences: which body turns about which point, which body slides, and which
-//! bodies move with it.
+//! Free motions as sentences: which body turns about which point or axis, which body slides, and
+//! which bodies move with it.
 
-use crate::limits::{NAMED_BODIES, SAME_PLACE, VISIBLE};
+use crate::limits::{NAMED_BODIES, SAME_PLACE, TOLD_MOVEMENTS, VISIBLE};
+use model::space::{cross, difference, dot, norm};
 use model::{BodyRef, ConstraintId, Mechanism, System};
 
 use super::component::{Component, Velocities};
+use super::movement::{Line, Movement, Twist};
 use crate::words::{list, short};
-
-/// Movement of a body at an instant.
-enum Movement {
-    /// Rotation about a point (m).
-    Turn([f64; 2]),
-    /// Translation along a unit vector.
-    Slide([f64; 2]),
-}
 
 /// Describes a motion of a component and returns its velocities with the sign that the text
 /// implies: positive rotation, or translation along the first axis.
@@ -28,8 +22,8 @@ pub(super) fn tell(
     let Some(leader) = leader(of, driven, &velocities, &moving) else {
         return ("nothing moves".to_owned(), velocities);
     };
-    let [x, y, turn] = planar(&velocities[leader]);
-    let first = [turn, x, y].into_iter().find(|v| *v != 0.0);
+    let Twist { velocity, omega } = twist(of, &velocities, leader);
+    let first = omega.into_iter().chain(velocity).find(|v| *v != 0.0);
     if first.is_some_and(|v| v < 0.0) {
         let bodies = velocities.iter_mut().flatten();
         bodies.filter(|v| **v != 0.0).for_each(|v| *v = -*v);
@@ -37,37 +31,10 @@ pub(super) fn tell(
     let (together, others): (Vec<usize>, Vec<usize>) = moving
         .into_iter()
         .partition(|&b| moves_as(of, &velocities, leader, b));
-    let names = named(of.mechanism, &together);
-    let is_one = together.len() == 1;
-    let mut text = match (movement(of, &velocities, leader), is_one) {
-        (Movement::Turn(centre), true) => {
-            format!("{names} turns about {}", about(of, &together, centre))
-        }
-        (Movement::Turn(centre), false) => {
-            format!(
-                "{names} turn together about {}",
-                about(of, &together, centre)
-            )
-        }
-        (Movement::Slide(along), true) => format!("{names} slides along {}", point(along, 1.0)),
-        (Movement::Slide(along), false) => {
-            format!("{names} slide together along {}", point(along, 1.0))
-        }
-    };
-    let (turning, sliding): (Vec<usize>, Vec<usize>) = others
-        .into_iter()
-        .partition(|&b| matches!(movement(of, &velocities, b), Movement::Turn(_)));
-    let said = [(turning, "turn"), (sliding, "slide")];
-    let said: Vec<String> = said
-        .iter()
-        .filter(|(bodies, _)| !bodies.is_empty())
-        .map(|(bodies, verb)| {
-            let s = if bodies.len() == 1 { "s" } else { "" };
-            format!("{} {verb}{s}", named(of.mechanism, bodies))
-        })
-        .collect();
+    let mut text = sentence(of, &velocities, leader, &together);
+    let said = with_it(of, &velocities, others);
     if !said.is_empty() {
-        let it = if is_one { "it" } else { "them" };
+        let it = if together.len() == 1 { "it" } else { "them" };
         text += &format!("; with {it} {}", list(&said));
     }
     (text, velocities)
@@ -80,6 +47,62 @@ pub(super) fn free(mechanism: &Mechanism, bodies: &[usize]) -> String {
         1 => format!("{names} is free"),
         _ => format!("{names} together are free"),
     }
+}
+
+/// How the other bodies move. In space, a few sets of bodies that move as one are told like the
+/// first; of more, and in the plane, it is told which turn and which slide.
+fn with_it(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String> {
+    if of.mechanism.space().n_rotations() == 1 {
+        return verbs(of, v, bodies);
+    }
+    let mut said = Vec::new();
+    let mut left = bodies.clone();
+    while let Some(&first) = left.first() {
+        if said.len() == TOLD_MOVEMENTS {
+            return verbs(of, v, bodies);
+        }
+        let (alike, others): (Vec<usize>, Vec<usize>) =
+            left.into_iter().partition(|&b| moves_as(of, v, first, b));
+        said.push(sentence(of, v, first, &alike));
+        left = others;
+    }
+    said
+}
+
+/// How bodies that move as one move, with the numbers of one of them: "`nut` turns about `A`".
+fn sentence(of: &Component<'_>, v: &Velocities, one: usize, bodies: &[usize]) -> String {
+    let names = named(of.mechanism, bodies);
+    let (s, together) = match bodies.len() {
+        1 => ("s", ""),
+        _ => ("", " together"),
+    };
+    match movement(of, v, one) {
+        Movement::Turn(line) => format!(
+            "{names} turn{s}{together} about {}",
+            about(of, bodies, line)
+        ),
+        Movement::Screw(line, pitch) => format!(
+            "{names} turn{s}{together} about {} with a pitch of {} m per turn",
+            about(of, bodies, line),
+            short(pitch)
+        ),
+        Movement::Slide(along) => {
+            format!("{names} slide{s}{together} along {}", point(of, along, 1.0))
+        }
+    }
+}
+
+/// Which bodies turn and which slide, without saying about what and where.
+fn verbs(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String> {
+    let slides = |b: &usize| matches!(movement(of, v, *b), Movement::Slide(_));
+    let (sliding, turning): (Vec<usize>, Vec<usize>) = bodies.into_iter().partition(slides);
+    let said = [(turning, "turn"), (sliding, "slide")];
+    let said = said.iter().filter(|(bodies, _)| !bodies.is_empty());
+    said.map(|(bodies, verb)| {
+        let s = if bodies.len() == 1 { "s" } else { "" };
+        format!("{} {verb}{s}", named(of.mechanism, bodies))
+    })
+    .collect()
 }
 
 /// The body that is named first: preferably one that slides or turns about a joint, then one on
@@ -99,7 +122,7 @@ fn leader(
     };
     let is_plain = |b: usize| match movement(of, velocities, b) {
         Movement::Slide(_) => true,
-        Movement::Turn(centre) => joint_at(of, &[b], centre).is_some(),
+        Movement::Turn(line) | Movement::Screw(line, _) => !joints_on(of, &[b], line).is_empty(),
     };
     let rank = |b: usize| (!is_plain(b), !driven.contains(&b), !is_grounded(b));
     moving.iter().copied().min_by_key(|&b| rank(b))
@@ -107,76 +130,71 @@ fn leader(
 
 /// Whether a body moves as if it were rigidly attached to another.
 fn moves_as(of: &Component<'_>, v: &Velocities, leader: usize, body: usize) -> bool {
-    let [p, o] = [body, leader].map(|b| of.origin(b));
-    let [vx, vy, turn] = planar(&v[leader]);
-    let carried = [vx - turn * (p[1] - o[1]), vy + turn * (p[0] - o[0])];
-    let fastest = v.iter().fold(0.0_f64, |a, v| {
-        let [x, y, turn] = planar(v);
-        a.max(x.hypot(y)).max(turn.abs() * of.size)
-    });
-    let [x, y, own_turn] = planar(&v[body]);
-    let apart = (x - carried[0]).hypot(y - carried[1]);
-    apart.max((own_turn - turn).abs() * of.size) <= SAME_PLACE * fastest
+    let [own, leads] = [body, leader].map(|b| twist(of, v, b));
+    let carried = leads.carried(difference(of.origin(body), of.origin(leader)));
+    let twists = (0..v.len()).map(|b| twist(of, v, b));
+    let fastest = twists.fold(0.0_f64, |a, twist| a.max(twist.speed(of.size)));
+    own.less(carried).speed(of.size) <= SAME_PLACE * fastest
 }
 
-/// Velocities of a planar body, of which alone these sentences tell: vx, vy and ω.
-fn planar(v: &[f64]) -> [f64; 3] {
-    [v[0], v[1], v[2]]
+fn twist(of: &Component<'_>, v: &Velocities, body: usize) -> Twist {
+    Twist::new(of.mechanism.space(), &v[body])
 }
 
 fn movement(of: &Component<'_>, v: &Velocities, body: usize) -> Movement {
-    let ([x, y, turn], centre) = (planar(&v[body]), of.origin(body));
-    let speed = x.hypot(y);
-    if turn.abs() * of.size <= VISIBLE * speed {
-        return Movement::Slide([x / speed, y / speed]);
-    }
-    Movement::Turn([centre[0] - y / turn, centre[1] + x / turn])
+    twist(of, v, body).movement(of.origin(body), of.size)
 }
 
-/// The joint of these bodies located at a point, or "its centre of mass", or the coordinates of the
-/// point.
-fn about(of: &Component<'_>, bodies: &[usize], centre: [f64; 2]) -> String {
-    if let Some(joint) = joint_at(of, bodies, centre) {
-        return format!("`{joint}`");
-    }
-    match bodies {
-        [only] if is_at(of, of.origin(*only), centre) => "its centre of mass".to_owned(),
-        _ => point(centre, of.size),
+/// A line about which bodies turn. In the plane, its point: a joint of the bodies, "its centre of
+/// mass", or coordinates. In space, the line through such points and its direction.
+fn about(of: &Component<'_>, bodies: &[usize], line: Line) -> String {
+    let through = match (joints_on(of, bodies, line).as_slice(), bodies) {
+        ([], [only]) if is_on(of, of.origin(*only), line) => "its centre of mass".to_owned(),
+        ([], _) => point(of, line.nearest_to_origin(), of.size),
+        (joints, _) => list(joints),
+    };
+    match of.mechanism.space().n_rotations() {
+        1 => through,
+        _ => format!(
+            "the axis through {through} along {}",
+            point(of, line.along, 1.0)
+        ),
     }
 }
 
-/// The joint of these bodies located at a point; if there are several, the one that constrains
-/// most.
-fn joint_at<'m>(of: &Component<'m>, bodies: &[usize], centre: [f64; 2]) -> Option<&'m str> {
-    let mechanism = of.mechanism;
-    let groups = mechanism.layout().groups.iter().enumerate();
-    let mut named: Option<(usize, &str)> = None;
-    for (k, group) in groups {
-        let is_theirs = |b: &usize| group.bodies.contains(&BodyRef::Body(*b));
-        if !bodies.iter().any(is_theirs) || !is_at(of, of.place(ConstraintId(k)), centre) {
-            continue;
-        }
-        let holds = group
-            .rows
-            .clone()
-            .filter(|&row| !mechanism.layout().is_angular(row));
-        let holds = holds.count();
-        if holds > named.map_or(0, |(most, _)| most) {
-            named = Some((holds, &group.name));
-        }
-    }
-    named.map(|(_, name)| name)
+/// The joint of these bodies that is located on a line; if there are several, the one that
+/// constrains most, and another one that constrains as much at another point of the line.
+fn joints_on(of: &Component<'_>, bodies: &[usize], line: Line) -> Vec<String> {
+    let layout = of.mechanism.layout();
+    let holds = |k: usize| {
+        let rows = layout.groups[k].rows.clone();
+        rows.filter(|&row| !layout.is_angular(row)).count()
+    };
+    let is_theirs = |b: &usize, k: usize| layout.groups[k].bodies.contains(&BodyRef::Body(*b));
+    let place = |k: usize| of.place(ConstraintId(k));
+    let on_it: Vec<usize> = (0..layout.groups.len())
+        .filter(|&k| holds(k) > 0 && bodies.iter().any(|b| is_theirs(b, k)))
+        .filter(|&k| is_on(of, place(k), line))
+        .collect();
+    let most = on_it.iter().map(|&k| holds(k)).max();
+    let mut best = on_it.into_iter().filter(|&k| Some(holds(k)) == most);
+    let first = best.next();
+    let along = |k: usize| dot(place(k), line.along);
+    let apart = |k: usize, other: usize| (along(k) - along(other)).abs() > SAME_PLACE * of.size;
+    let other = best.find(|&k| first.is_some_and(|first| apart(k, first)));
+    let name = |k: usize| format!("`{}`", layout.groups[k].name);
+    first.into_iter().chain(other).map(name).collect()
 }
 
-/// Whether two points coincide at the scale of the mechanism.
-fn is_at(of: &Component<'_>, [x, y, _]: [f64; 3], other: [f64; 2]) -> bool {
-    (x - other[0]).hypot(y - other[1]) <= SAME_PLACE * of.size
+/// Whether a point lies on a line at the scale of the mechanism.
+fn is_on(of: &Component<'_>, point: [f64; 3], line: Line) -> bool {
+    norm(&cross(difference(point, line.point), line.along)) <= SAME_PLACE * of.size
 }
 
 /// "(0.25, −1)" without the quotes, in m.
-fn point(p: [f64; 2], size: f64) -> String {
-    let [x, y] = p.map(|x| short(if x.abs() > VISIBLE * size { x } else { 0.0 }));
-    format!("({x}, {y})")
+fn point(of: &Component<'_>, p: [f64; 3], size: f64) -> String {
+    let shown = p.map(|x| short(if x.abs() > VISIBLE * size { x } else { 0.0 }));
+    format!("({})", shown[of.mechanism.space().forces()].join(", "))
 }
 
 /// Names of bodies, with a count instead of a long list.
