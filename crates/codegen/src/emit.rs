@@ -179,6 +179,7 @@ fn constraint_type(
     let initialise = parts::initialise(model, measure);
     let requirement = parts::requirement(model);
     let points = parts::points(d);
+    let axes = parts::axes(d);
     let data = data::methods(model, &t.data);
     let drives = parts::drives(d, model, name, &t.drives);
     let visit = t
@@ -255,6 +256,7 @@ fn constraint_type(
             #initialise
             #requirement
             #points
+            #axes
             #data
         }
 

@@ -16,6 +16,12 @@ pub trait Definition<S: Space = Plane>: Send + Sync {
         Vec::new()
     }
 
+    /// Axes u, v and w of a joint in space, fixed in its first body and in the frame of it: w along
+    /// its first axis or direction there. `None` if it has none.
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        None
+    }
+
     /// Writes the numbers stored by a constraint, in the order of [`crate::ConstraintSpec::data`];
     /// nothing for forces.
     fn data(&self, _out: &mut [f64]) {}

@@ -250,6 +250,11 @@ impl AnyConstraint {
         })
     }
 
+    /// Axes fixed in the first body, in its frame.
+    pub(crate) fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        with!(AnyConstraint, self, element, _S => element.axes())
+    }
+
     pub(crate) fn data(&self, out: &mut [f64]) {
         with!(AnyConstraint, self, element, _S => element.data(out));
     }

@@ -233,6 +233,13 @@ impl<'a> Reactions<'a> {
                 let [x, y] = self.push(id)?;
                 [[x, y, 0.0], [-y, x, 0.0], ground[2]]
             }
+            (Frame::Joint, first) => {
+                let own = self.constraint(id).kernels().axes()?;
+                match first {
+                    Some(BodyRef::Body(k)) => own.map(|axis| self.s.bodies.turned(*k, axis)),
+                    _ => own,
+                }
+            }
             (Frame::FirstBody, Some(BodyRef::Body(k))) => self.s.bodies.axes(*k),
             _ => ground,
         };

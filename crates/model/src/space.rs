@@ -34,6 +34,9 @@ pub enum Frame {
     Global,
     /// The axes of the first body of the joint; global for the ground.
     FirstBody,
+    /// The axes u, v and w of a joint in space, fixed in its first body: w along its axis, or across
+    /// its plane. Joints without an axis, and joints in the plane, do not have this frame.
+    Joint,
     /// The only direction in which the joint can transmit a force, followed by the direction
     /// rotated by +90°: normal and along for a knife edge, across and along the axis for a slot.
     /// Joints with no row, or several rows, that have a force do not have this frame.
@@ -42,7 +45,7 @@ pub enum Frame {
 
 impl Frame {
     /// All frames.
-    pub const ALL: [Self; 3] = [Self::Global, Self::FirstBody, Self::Edge];
+    pub const ALL: [Self; 4] = [Self::Global, Self::FirstBody, Self::Joint, Self::Edge];
 }
 
 /// The space of a mechanism.
@@ -210,6 +213,7 @@ impl SpaceKind {
         in_space!(self, S => match frame {
             Frame::Global => S::COMPONENTS,
             Frame::FirstBody => S::BODY_COMPONENTS,
+            Frame::Joint => S::JOINT_COMPONENTS,
             Frame::Edge => S::EDGE_COMPONENTS,
         })
     }

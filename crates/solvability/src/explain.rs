@@ -11,6 +11,8 @@ use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, SpaceKind, System};
 use rank::{Circuit, Settled};
 
+use crate::directions::readable;
+use crate::loads::{self, Told};
 use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
@@ -171,11 +173,9 @@ pub fn explain(
         return Err(ExplanationError::Undecided(doubt));
     }
     let structure = crate::structure::structure(mechanism, s, q)?;
-    let mut mixing = mixing(mechanism, solvability);
-    // Rows left open by the tolerance are not reported as decided.
+    let mixing = mixing(mechanism, s, q, solvability);
     let open = rank::open_rows(solvability.decision());
     let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
-    mixing.retain(|m| is_known(&m.rows));
     let ids = mechanism.layout().constraint_ids();
     let reactions = ids
         .filter_map(|id| reaction(mechanism, s, solvability, (&mixing, &open), id).transpose())
@@ -205,21 +205,34 @@ pub fn explain(
     })
 }
 
-/// Components of coupled rows, merged if one joint has rows in several of them.
-fn mixing(mechanism: &Mechanism, solvability: &Solvability) -> Vec<Mixing> {
+/// Components of coupled rows. In space, those of the same joints are one: rows that are separate
+/// there are parts of the same loads.
+fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvability) -> Vec<Mixing> {
     let layout = mechanism.layout();
     let decision = solvability.decision();
-    let coupled = rank::components(decision).coupled;
-    let of = |rows: Vec<usize>| {
+    let open = rank::open_rows(decision);
+    let touching = |rows: &[usize]| -> Vec<ConstraintId> {
         let touched = |id: &ConstraintId| {
             rows.iter()
                 .any(|row| layout.groups[id.0].rows.contains(row))
         };
-        let reactions: Vec<ConstraintId> = mechanism
-            .layout()
-            .constraint_ids()
-            .filter(touched)
-            .collect();
+        layout.constraint_ids().filter(touched).collect()
+    };
+    let mut coupled: Vec<(Vec<ConstraintId>, Vec<usize>)> = Vec::new();
+    // Rows left open by the tolerance are not reported as decided.
+    let all = rank::components(decision).coupled.into_iter();
+    for rows in all.filter(|rows| !rows.iter().any(|row| open.binary_search(row).is_ok())) {
+        let reactions = touching(&rows);
+        let same = coupled.iter_mut().find(|(ids, _)| *ids == reactions);
+        match same.filter(|_| layout.space.n_rotations() > 1) {
+            Some((_, known)) => {
+                known.extend(rows);
+                known.sort_unstable();
+            }
+            None => coupled.push((reactions, rows)),
+        }
+    }
+    let of = |(reactions, rows): (Vec<ConstraintId>, Vec<usize>)| {
         let redundancy = decision
             .dropped
             .iter()
@@ -232,10 +245,32 @@ fn mixing(mechanism: &Mechanism, solvability: &Solvability) -> Vec<Mixing> {
         let names = names(layout, &reactions);
         let text = match names.as_slice() {
             [one] => format!("inside {one} {missing} missing to determine its multipliers"),
-            several => format!(
-                "{} share loads: {missing} missing to determine all of them",
-                list(several)
-            ),
+            several => {
+                let spanning = spanning(solvability, &rows);
+                let told = loads::tell(
+                    mechanism,
+                    s,
+                    scene_size(mechanism, q),
+                    &reactions,
+                    &spanning,
+                );
+                let share = match told {
+                    None => "share loads".to_owned(),
+                    Some(Told::Common(load)) => {
+                        format!("can carry {load} that the bodies cannot tell apart")
+                    }
+                    Some(Told::Each(load)) => {
+                        format!("can each carry {load} that the bodies cannot tell apart")
+                    }
+                    Some(Told::Various(loads)) => {
+                        format!("share loads that the bodies cannot tell apart ({loads})")
+                    }
+                };
+                format!(
+                    "{} {share}: {missing} missing to determine all of them",
+                    list(several)
+                )
+            }
         };
         Mixing {
             reactions,
@@ -245,6 +280,19 @@ fn mixing(mechanism: &Mechanism, solvability: &Solvability) -> Vec<Mixing> {
         }
     };
     coupled.into_iter().map(of).collect()
+}
+
+/// Multipliers of these rows that leave every body without a load, one solution in each column; all
+/// other rows are zero.
+fn spanning(solvability: &Solvability, rows: &[usize]) -> linalg::Matrix {
+    let (z, scaling) = (solvability.null_space(), &solvability.decision().scaling);
+    let mut own = linalg::Matrix::zeros(z.nrows(), z.ncols());
+    for &row in rows {
+        let factor = scaling.row_factor(row);
+        let entries = own.row_mut(row).iter_mut().zip(z.row(row));
+        entries.for_each(|(own, z)| *own = factor * z);
+    }
+    own
 }
 
 fn reaction(
@@ -280,7 +328,13 @@ fn reaction(
     let mapped = mapped.with_forces(forces);
     let directions = match mapped.unique_directions() {
         Err(QueryError::Directions { .. }) => None,
-        known => Some(mapped.live_directions(&known?)),
+        known => {
+            let live = mapped.live_directions(&known?);
+            Some(match layout.space.n_rotations() {
+                1 => live,
+                _ => readable(live),
+            })
+        }
     };
     let combination = |direction: &Vec<f64>| {
         let terms = direction
@@ -352,9 +406,13 @@ fn stress(
         .constraint_ids()
         .filter_map(carries)
         .collect();
-    normalise(&mut directions, scene_size(mechanism, q));
+    let size = scene_size(mechanism, q);
+    normalise(&mut directions, size);
+    let ids: Vec<ConstraintId> = directions.iter().map(|d| d.joint).collect();
+    let multipliers = linalg::Matrix::from_fn(lambda.len(), 1, |i, _| lambda[i]);
+    let told = loads::tell(mechanism, s, size, &ids, &multipliers);
     SelfStress {
-        text: words::of_stress(mechanism, solvability, &circuit, &directions),
+        text: words::of_stress(mechanism, solvability, &circuit, &directions, told),
         left_out: circuit.left_out,
         rows: circuit.rows,
         coefficients: circuit.coefficients,
@@ -395,3 +453,6 @@ fn normalise(directions: &mut [FreeDirection], size: f64) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

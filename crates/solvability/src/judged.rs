@@ -1,6 +1,6 @@
 //! Results for a part: verdicts on its joints and drives, and its dependencies.
 
-use model::{ConstraintId, Mechanism, System};
+use model::{ConstraintId, Mechanism, SpaceKind, System};
 use rank::RankStatus;
 
 use crate::error::AnalysisError;
@@ -16,6 +16,8 @@ pub struct ReactionVerdict {
     pub id: ConstraintId,
     /// Its name.
     pub name: String,
+    /// The space of the mechanism.
+    pub space: SpaceKind,
     /// Its type in scene files.
     pub kind: &'static str,
     /// Verdict on the wrench: unique iff `B_X = 0` and no component is free because a row moves no

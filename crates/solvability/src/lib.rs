@@ -18,6 +18,7 @@
 //! | [`mod@analysis`] | ranks and verdicts of a mechanism of any size |
 //! | [`mod@parts`] | the parts of a mechanism on common cycles, each analysed separately |
 //! | `mechanism` | one part: joints, wrenches, directions |
+//! | `directions` | bases of directions for readers |
 //! | `pose` | C at one configuration, without dimensions |
 //! | `judged` | results for a part |
 //! | `certificate` | the rank in double-double at a polished point |
@@ -30,11 +31,13 @@
 //! | [`mod@second_order`] | whether the motion is unique at a drop of rank |
 //! | [`along`] | verdicts along a motion: the generic verdict, and the times of others |
 //! | `words` | dependencies as sentences |
+//! | `loads` | forces and moments in space that joints share, as sentences |
 
 pub mod along;
 pub mod analysis;
 mod certificate;
 pub mod choices;
+mod directions;
 mod error;
 pub mod existence;
 pub mod explain;
@@ -45,6 +48,7 @@ pub mod groups;
 mod judged;
 mod large;
 mod limits;
+mod loads;
 pub mod make_unique;
 pub mod matrices;
 mod mechanism;

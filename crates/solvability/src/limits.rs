@@ -537,6 +537,11 @@ pub(crate) const SAME_PLACE: f64 = 1e-6;
 /// `few_other_bodies_are_told_with_their_axes`.
 pub(crate) const TOLD_MOVEMENTS: usize = 3;
 
+/// Joints in so many sets that carry different loads are told one by one.
+/// Unit: sets of joints. Less: loads are not described. More: sentences nobody reads. Test:
+/// `few_different_loads_are_told_joint_by_joint`.
+pub(crate) const TOLD_LOADS: usize = 3;
+
 /// Bodies that a sentence names.
 /// Unit: bodies. Less: bodies are counted only. More: sentences nobody reads. Test:
 /// `links_of_a_chain_turn_about_their_own_joints`.

@@ -8,6 +8,7 @@ use model::{ConstraintId, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
 
 use crate::certificate::Rows;
+use crate::directions::readable;
 use crate::error::AnalysisError;
 use crate::freedoms::PartialRanks;
 use crate::judged::{ComponentVerdict, Dependency, Judged, ReactionVerdict, RowVerdict};
@@ -122,18 +123,23 @@ pub(crate) fn reaction(
         (Some(free), true) => free.judgement.clone(),
         _ => on_bodies,
     };
+    // In the plane the directions of three components are readable as they are.
+    let told = |directions| match group.space.n_rotations() {
+        1 => directions,
+        _ => readable(directions),
+    };
     // If the number of directions is undecided, none are given; the verdicts above say that it is
     // undecided.
     let unique_directions = match detail {
         Detail::Verdicts => None,
         Detail::Directions => match mapped.unique_directions() {
             Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
-            known => Some(known?),
+            known => Some(told(known?)),
         },
     };
     let live_directions = unique_directions
         .as_deref()
-        .map(|unique| mapped.live_directions(unique));
+        .map(|unique| told(mapped.live_directions(unique)));
     let row_verdict = |(row, own)| {
         Ok(RowVerdict {
             row,
@@ -143,6 +149,7 @@ pub(crate) fn reaction(
     Ok(ReactionVerdict {
         id,
         name: group.name.clone(),
+        space: group.space,
         kind: group.spec.common.scene_type,
         wrench,
         multipliers: basis.multipliers(rows.clone())?,

@@ -2,7 +2,7 @@
 //! which the whole mechanism is moved. Frames of bodies are turned and off the centre of mass.
 
 use joints::space3::{Axes, Cylindrical, Direction, Planar, Pose, Revolute, Spherical};
-use joints::space3::{GroundPlane, Translational, WheelContact, WheelSlip};
+use joints::space3::{GroundPlane, PointOnPlane, Translational, WheelContact, WheelSlip};
 use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription};
 
 use crate::{Analysis, analyse};
@@ -23,6 +23,8 @@ pub(crate) enum Kind {
     Translational,
     Spherical,
     Planar,
+    /// The second point stays in the plane.
+    OnPlane,
 }
 
 /// A mechanism under construction.
@@ -112,6 +114,10 @@ impl Sketch {
                     axis_j,
                 },
             ),
+            Kind::OnPlane => {
+                let normal = Direction::new(axis.uvw()[2]).expect("a direction");
+                d.joint(name, bodies, PointOnPlane { s_i, s_j, normal })
+            }
             Kind::Spherical => d.joint(name, bodies, Spherical { s_i, s_j }),
             Kind::Planar => {
                 let (normal, normal_j) = (axis, axis_j);

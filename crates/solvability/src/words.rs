@@ -1,6 +1,7 @@
 //! Dependencies as sentences.
 
-use crate::limits::TELLABLE;
+use crate::limits::{TELLABLE, VISIBLE};
+use crate::loads::Told;
 use model::{BodyRef, ConstraintId, Layout, Mechanism, System};
 use rank::Circuit;
 
@@ -15,6 +16,19 @@ pub(crate) fn list(words: &[String]) -> String {
         [one] => one.clone(),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
+}
+
+/// "(0.25, −1, 0)" without the quotes. Numbers below a share of `size` are zero.
+pub(crate) fn vector(p: [f64; 3], size: f64) -> String {
+    components(&p, size)
+}
+
+/// The same for any number of components.
+pub(crate) fn components(p: &[f64], size: f64) -> String {
+    let shown = p
+        .iter()
+        .map(|x| short(if x.abs() > VISIBLE * size { *x } else { 0.0 }));
+    format!("({})", shown.collect::<Vec<_>>().join(", "))
 }
 
 /// Names of joints and drives, in quotes.
@@ -42,12 +56,13 @@ pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
 }
 
 /// Describes a self-stress in terms of joints and bodies if its geometry allows it, otherwise in
-/// terms of rows.
+/// terms of rows. In space, `told` are the loads on the joints.
 pub(crate) fn of_stress(
     mechanism: &Mechanism,
     solvability: &Solvability,
     circuit: &Circuit,
     directions: &[FreeDirection],
+    told: Option<Told>,
 ) -> String {
     let layout = mechanism.layout();
     let ids: Vec<ConstraintId> = directions.iter().map(|d| d.joint).collect();
@@ -56,6 +71,15 @@ pub(crate) fn of_stress(
         .iter()
         .map(|d| moving(mechanism, &d.bodies))
         .collect();
+    if let (Some(told), false, [_, _, ..]) = (told, drives, ids.as_slice()) {
+        let names = list(&names(layout, &ids));
+        let shared = "without any load; how a load is shared among them is not determined";
+        return match told {
+            Told::Common(load) => format!("{names} can put {load} on each other {shared}"),
+            Told::Each(load) => format!("{names} can each put {load} on the others {shared}"),
+            Told::Various(loads) => format!("{names} can load each other ({loads}) {shared}"),
+        };
+    }
     match (ids.as_slice(), bodies.as_slice()) {
         ([_, _], [a, b]) if a == b => {
             let [i, j] = [0, 1].map(|k| format!("`{}`", layout.groups[ids[k].0].name));

@@ -435,6 +435,24 @@ pub(super) fn points(d: &Definition) -> TokenStream {
     }
 }
 
+/// The method that returns the axes of a joint in space; none if its first body has none.
+pub(super) fn axes(d: &Definition) -> Option<TokenStream> {
+    let first = d.slots.first().filter(|_| d.space == Space::Space3)?;
+    let axes = d
+        .params
+        .iter()
+        .find_map(|Param { name, kind, .. }| match kind {
+            ParamKind::Axes { slot, .. } if slot == first => Some(quote!(Some(self.#name.uvw()))),
+            ParamKind::Direction(slot) if slot == first => {
+                Some(quote!(Axes::new(self.#name.xyz(), None).map(Axes::uvw)))
+            }
+            _ => None,
+        })?;
+    Some(quote! {
+        fn axes(&self) -> Option<[[f64; 3]; 3]> { #axes }
+    })
+}
+
 fn collect(c: &Condition, out: &mut Vec<Expr>) {
     match c {
         Condition::Compare(_, a, b) => out.extend([*a, *b]),

@@ -23,6 +23,7 @@ impl Space for Plane {
     const DIRECTIONS: &'static [&'static str] = PLANE_DIRECTIONS;
     const COMPONENTS: &'static [&'static str] = PLANE_COMPONENTS;
     const BODY_COMPONENTS: &'static [&'static str] = PLANE_BODY_COMPONENTS;
+    const JOINT_COMPONENTS: &'static [&'static str] = PLANE_COMPONENTS;
     const EDGE_COMPONENTS: &'static [&'static str] = PLANE_EDGE_COMPONENTS;
 
     fn position(q: &[f64], dof: usize) -> f64 {
@@ -85,6 +86,7 @@ impl Space for UnitCircle {
     const DIRECTIONS: &'static [&'static str] = PLANE_DIRECTIONS;
     const COMPONENTS: &'static [&'static str] = PLANE_COMPONENTS;
     const BODY_COMPONENTS: &'static [&'static str] = PLANE_BODY_COMPONENTS;
+    const JOINT_COMPONENTS: &'static [&'static str] = PLANE_COMPONENTS;
     const EDGE_COMPONENTS: &'static [&'static str] = PLANE_EDGE_COMPONENTS;
 
     fn position(q: &[f64], dof: usize) -> f64 {

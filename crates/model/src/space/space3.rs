@@ -32,6 +32,7 @@ impl Space for Space3 {
     ];
     const COMPONENTS: &'static [&'static str] = &["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
     const BODY_COMPONENTS: &'static [&'static str] = &["Fx'", "Fy'", "Fz'", "Tx'", "Ty'", "Tz'"];
+    const JOINT_COMPONENTS: &'static [&'static str] = &["Fu", "Fv", "Fw", "Tu", "Tv", "Tw"];
     const EDGE_COMPONENTS: &'static [&'static str] = &["Fn", "Ft", "Fb", "Tn", "Tt", "Tb"];
 
     /// A rotation has no angle that goes on over full turns: it counts as none.

@@ -34,6 +34,9 @@ pub trait Space {
     /// Their names in the axes of a body.
     const BODY_COMPONENTS: &'static [&'static str];
 
+    /// Their names in the axes of a joint.
+    const JOINT_COMPONENTS: &'static [&'static str];
+
     /// Their names in axes of which the first is the direction of the only force of a joint.
     const EDGE_COMPONENTS: &'static [&'static str];
 

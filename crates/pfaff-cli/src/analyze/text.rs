@@ -180,14 +180,15 @@ fn each(components: &[ComponentDocument]) -> String {
 /// Unique directions that are not parallel to an axis: the components do not show them.
 fn oblique(r: &ReactionDocument) -> String {
     let is_oblique = |d: &&Vec<f64>| d.iter().filter(|x| **x != 0.0).count() > 1;
+    let names = r.direction_components();
     let told = r
         .unique_directions
         .iter()
         .flatten()
         .filter(is_oblique)
         .map(|d| {
-            let terms = d.iter().zip(&r.components).filter(|(x, _)| **x != 0.0);
-            let terms: Vec<String> = terms.map(|(x, c)| format!("{x:.3}·{}", c.name)).collect();
+            let terms = d.iter().zip(&names).filter(|(x, _)| **x != 0.0);
+            let terms: Vec<String> = terms.map(|(x, name)| format!("{x:.3}·{name}")).collect();
             format!("; {} unique", terms.join(" + ").replace("+ -", "− "))
         });
     told.collect()
@@ -228,7 +229,10 @@ fn numbers_of(g: &GroupDocument) -> String {
     let about = about.map(|at| at.iter().map(rounded).collect::<Vec<_>>().join(", "));
     match (components.as_slice(), about) {
         ([], _) => String::new(),
-        (all, Some(about)) => format!(": {}; T about ({about})", all.join(", ")),
+        (all, Some(about)) => {
+            let torque = if all.len() > 3 { "moments" } else { "T" };
+            format!(": {}; {torque} about ({about})", all.join(", "))
+        }
         (all, None) => format!(": {}", all.join(", ")),
     }
 }

@@ -1,13 +1,13 @@
 //! Free motions as sentences: which body turns about which point or axis, which body slides, and
 //! which bodies move with it.
 
-use crate::limits::{NAMED_BODIES, SAME_PLACE, TOLD_MOVEMENTS, VISIBLE};
+use crate::limits::{NAMED_BODIES, SAME_PLACE, TOLD_MOVEMENTS};
 use model::space::{cross, difference, dot, norm};
 use model::{BodyRef, ConstraintId, Mechanism, System};
 
 use super::component::{Component, Velocities};
 use super::movement::{Line, Movement, Twist};
-use crate::words::{list, short};
+use crate::words::{components, list, short};
 
 /// Describes a motion of a component and returns its velocities with the sign that the text
 /// implies: positive rotation, or translation along the first axis.
@@ -193,8 +193,7 @@ fn is_on(of: &Component<'_>, point: [f64; 3], line: Line) -> bool {
 
 /// "(0.25, −1)" without the quotes, in m.
 fn point(of: &Component<'_>, p: [f64; 3], size: f64) -> String {
-    let shown = p.map(|x| short(if x.abs() > VISIBLE * size { x } else { 0.0 }));
-    format!("({})", shown[of.mechanism.space().forces()].join(", "))
+    components(&p[of.mechanism.space().forces()], size)
 }
 
 /// Names of bodies, with a count instead of a long list.

@@ -383,6 +383,9 @@ impl Definition<Space3> for Cylindrical {
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s_i, self.s_j]
     }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Some(self.axis.uvw())
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s_i[0];
         out[1] = self.s_i[1];
@@ -2855,6 +2858,9 @@ impl Definition<Space3> for CylindricalDisplacementDrive {
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s_i, self.s_j]
     }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Some(self.axis.uvw())
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s_i[0];
         out[1] = self.s_i[1];
@@ -4325,6 +4331,9 @@ impl Definition<Space3> for CylindricalAngleDrive {
     }
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s_i, self.s_j]
+    }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Some(self.axis.uvw())
     }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s_i[0];

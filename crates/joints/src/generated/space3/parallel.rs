@@ -178,6 +178,9 @@ impl Definition<Space3> for Parallel {
     fn points(&self) -> Vec<[f64; 3]> {
         vec![]
     }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Some(self.axis.uvw())
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = 0.0;
         out[1] = 0.0;

@@ -130,6 +130,9 @@ impl Definition<Space3> for Perpendicular {
     fn points(&self) -> Vec<[f64; 3]> {
         vec![]
     }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Axes::new(self.axis.xyz(), None).map(Axes::uvw)
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.axis.xyz()[0];
         out[1] = self.axis.xyz()[1];

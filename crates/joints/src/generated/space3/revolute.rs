@@ -305,6 +305,9 @@ impl Definition<Space3> for Revolute {
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s_i, self.s_j]
     }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Some(self.axis.uvw())
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s_i[0];
         out[1] = self.s_i[1];
@@ -2061,6 +2064,9 @@ impl Definition<Space3> for RevoluteAngleDrive {
     }
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s_i, self.s_j]
+    }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Some(self.axis.uvw())
     }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s_i[0];

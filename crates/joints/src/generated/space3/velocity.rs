@@ -109,6 +109,9 @@ impl Definition<Space3> for Velocity {
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s]
     }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Axes::new(self.direction.xyz(), None).map(Axes::uvw)
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s[0];
         out[1] = self.s[1];

@@ -35,8 +35,9 @@ pub struct ReactionDocument {
     pub row_verdicts: Vec<RowDocument>,
     /// Verdicts of the components that are not identically zero.
     pub components: Vec<ComponentDocument>,
-    /// Basis of the unique directions in these components, without those along which the reaction
-    /// is zero under any load; `null` if their number is undecided.
+    /// Basis of the unique directions, without those along which the reaction is zero under any
+    /// load: in the plane in these components, in space of six numbers, a force and a moment about
+    /// the place. `null` if their number is undecided.
     pub unique_directions: Option<Vec<Vec<f64>>>,
     /// The largest part, in the unit of margins, that had to count as zero within the stated
     /// tolerance for these directions; absent if there is none.
@@ -68,7 +69,7 @@ pub struct RowDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ComponentDocument {
-    /// `Fx`, `Fy` or `T`.
+    /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`.
     pub name: &'static str,
     /// Its verdict.
     #[serde(flatten)]
@@ -109,7 +110,7 @@ fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FrameDocument {
-    /// `global`, `first_body` or `edge`.
+    /// `global`, `first_body`, `joint` or `edge`.
     pub frame: &'static str,
     /// Unit vectors of the axes, global components.
     pub axes: Vec<Vec<f64>>,
@@ -138,6 +139,17 @@ pub struct GroupDocument {
 }
 
 impl ReactionDocument {
+    /// The components to which the numbers of its unique directions belong.
+    #[must_use]
+    pub fn direction_components(&self) -> Vec<&'static str> {
+        let own: Vec<&'static str> = self.components.iter().map(|c| c.name).collect();
+        let numbers = self.unique_directions.iter().flatten().map(Vec::len).next();
+        match numbers {
+            Some(n) if n != own.len() => SpaceKind::Space3.components().to_vec(),
+            _ => own,
+        }
+    }
+
     /// The verdict as one line of text, including whether it depends on the last digits or on the
     /// tolerance that the scene states.
     #[must_use]
@@ -202,7 +214,10 @@ impl From<&ReactionVerdict> for ReactionDocument {
             multipliers: r.multipliers.verdict.word(),
             row_verdicts: rows.collect(),
             components: r.components.iter().map(Into::into).collect(),
-            unique_directions: r.live_directions.clone(),
+            unique_directions: r.live_directions.as_ref().map(|directions| {
+                let written = directions.iter().map(|direction| written(r, direction));
+                written.collect()
+            }),
             unique_directions_within_tolerance: (r.directions_left_out > 0.0)
                 .then_some(r.directions_left_out),
             settled: None,
@@ -211,6 +226,20 @@ impl From<&ReactionVerdict> for ReactionDocument {
             frames: Vec::new(),
         }
     }
+}
+
+/// A direction of a reaction as it is written: in space in all components.
+fn written(r: &ReactionVerdict, direction: &[f64]) -> Vec<f64> {
+    if r.space.n_rotations() == 1 {
+        return direction.to_vec();
+    }
+    let mut all = vec![0.0; r.space.n_v()];
+    for (component, x) in r.components.iter().zip(direction) {
+        if let Some(k) = r.space.component(component.name) {
+            all[k] = *x;
+        }
+    }
+    all
 }
 
 impl From<&ComponentVerdict> for ComponentDocument {
@@ -227,6 +256,7 @@ impl From<&FrameVerdict> for FrameDocument {
         let frame = match found.frame {
             Frame::Global => "global",
             Frame::FirstBody => "first_body",
+            Frame::Joint => "joint",
             Frame::Edge => "edge",
         };
         Self {

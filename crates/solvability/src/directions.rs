@@ -1,0 +1,74 @@
+//! Bases of directions for readers: as many directions as possible along one component.
+
+use crate::limits::{LARGEST_ROUNDING, VISIBLE};
+use model::space::norm;
+
+/// The same space with a basis in which every component that lies in it alone is a direction of its
+/// own: reduced rows, as unit vectors whose largest entry is positive. Entries that may be rounding
+/// do not serve to eliminate others.
+pub(crate) fn readable(mut directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let components = directions.first().map_or(0, Vec::len);
+    let mut done = 0;
+    for c in 0..components {
+        let left = done..directions.len();
+        let size = |i: usize| directions[i][c].abs();
+        let Some(best) = left.max_by(|&a, &b| size(a).total_cmp(&size(b))) else {
+            break;
+        };
+        if size(best) <= LARGEST_ROUNDING {
+            continue;
+        }
+        directions.swap(done, best);
+        let pivot = directions[done].clone();
+        for (i, row) in directions.iter_mut().enumerate() {
+            if i != done {
+                let factor = row[c] / pivot[c];
+                let pairs = row.iter_mut().zip(&pivot);
+                pairs.for_each(|(x, p)| *x -= factor * p);
+                row[c] = 0.0;
+                normalise(row);
+            }
+        }
+        done += 1;
+    }
+    directions.iter_mut().for_each(|row| normalise(row));
+    directions
+}
+
+fn normalise(row: &mut [f64]) {
+    let larger = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
+    let largest = row.iter().fold(0.0, larger);
+    let size = norm(row);
+    if size > 0.0 {
+        for x in row {
+            let shown = *x * largest.signum() / size;
+            *x = if shown.abs() > VISIBLE { shown } else { 0.0 };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::readable;
+
+    /// The plane of (1, 0, 0, 0), (0, 1, 0, 0) and (0, 0, 3, 4), given by other vectors.
+    #[test]
+    fn components_that_are_unique_alone_stand_alone() {
+        let given = vec![
+            vec![0.6, 0.8, 0.0, 0.0],
+            vec![-0.8, 0.6, 0.0, 0.0],
+            vec![0.48, -0.36, -0.48, -0.64],
+        ];
+        let found = readable(given);
+        let expected = [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 0.6, 0.8],
+        ];
+        for (found, expected) in found.iter().zip(expected) {
+            let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-15, "{found:?}");
+        }
+        assert!(readable(Vec::new()).is_empty());
+    }
+}
