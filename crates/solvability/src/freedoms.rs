@@ -21,6 +21,7 @@ mod words;
 use model::{Mechanism, System};
 
 use crate::analysis::Analysis;
+use crate::second_order::blocked_velocities;
 use crate::state::{StateError, check_configuration};
 use connected::Connected;
 use motions::Decided;
@@ -37,6 +38,9 @@ pub struct Freedoms {
     pub mobility: usize,
     /// Motions that are possible while the drives are locked.
     pub motions: FreeMotions,
+    /// A basis of those that second order excludes, as far as it decides: free at first order, they
+    /// lead nowhere.
+    pub blocked: Vec<FreeMotion>,
     /// The freedoms without the drives. `None` if there are no drives.
     pub without_drives: Option<FreedomsWithoutDrives>,
     /// Whether nothing can move, whatever the drives do: no velocity is free without them, and no
@@ -70,7 +74,14 @@ impl Analysis {
             without_drives: part.without_drives,
         });
         let is_decided = self.decision.is_decided();
-        Freedoms::of(mechanism, self.time, q, is_decided, decided.collect())
+        let mut found = Freedoms::of(mechanism, self.time, q, is_decided, decided.collect())?;
+        if found.mobility > 0
+            && let Some(decision) = self.whole()
+        {
+            let blocked = blocked_velocities(mechanism, self.time, q, &decision)?;
+            found.blocked = Connected::new(mechanism, true).among(self.time, q, &blocked);
+        }
+        Ok(found)
     }
 }
 
@@ -133,6 +144,7 @@ impl Freedoms {
         Ok(Self {
             mobility,
             motions,
+            blocked: Vec::new(),
             without_drives,
             cannot_move: is_decided && least == 0 && !moves_joints,
         })

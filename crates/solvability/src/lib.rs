@@ -111,7 +111,7 @@ pub use row_decision::RowDecision;
 pub use rows::{
     Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows, rows_of_rank,
 };
-pub use second_order::{Continuation, Undetermined, is_locked, second_order};
+pub use second_order::{Continuation, Undetermined, blocked_velocities, is_locked, second_order};
 pub use sensitivity::{Datum, Sensitivities, Sensitivity};
 pub use state::{State, StateError};
 pub use structure::structure;

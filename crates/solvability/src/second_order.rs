@@ -111,15 +111,10 @@ pub fn is_locked(
     q: &[f64],
     decision: &RankDecision,
 ) -> Result<bool, StateError> {
-    let layout = mechanism.layout();
-    let has_freedom = decision.is_decided() && decision.rank < layout.n_v;
-    // Rows that are redundant within a tolerance only block nothing within it.
-    let certificate = decision.evidence.certificate.as_ref();
-    let is_within = certificate.is_some_and(|c| c.grounds == Grounds::WithinTolerance);
-    if !has_freedom || decision.redundancy == 0 || layout.rheonomic || is_within {
+    if !may_block(mechanism, decision) {
         return Ok(false);
     }
-    let n = layout.n_v;
+    let n = mechanism.layout().n_v;
     let found = second_order(
         mechanism,
         t,
@@ -129,4 +124,44 @@ pub fn is_locked(
         &Matrix::zeros(n, 0),
     )?;
     Ok(found == Continuation::Unique)
+}
+
+/// Velocities with `C·v = 0` that second order excludes, n_v each: a combination of the forms
+/// `z·Γ(v)` is definite in them. They are orthogonal, without dimensions, to the velocities that no
+/// form contains. Empty if second order does not decide, and for mechanisms with functions of time.
+///
+/// # Errors
+/// As [`is_locked`].
+pub fn blocked_velocities(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    decision: &RankDecision,
+) -> Result<Vec<Vec<f64>>, StateError> {
+    if !may_block(mechanism, decision) {
+        return Ok(Vec::new());
+    }
+    let n = mechanism.layout().n_v;
+    let rest = vec![0.0; n];
+    state::check(mechanism, t, q, &rest)?;
+    let forms = Forms::new(mechanism, t, q, &rest, decision, &Matrix::zeros(n, 0));
+    let blocked = forms.ok().and_then(|forms| {
+        let basis = blocked::blocked(&forms)?.transpose();
+        Some(
+            (0..basis.nrows())
+                .map(|k| forms.velocity(basis.row(k)))
+                .collect(),
+        )
+    });
+    Ok(blocked.unwrap_or_default())
+}
+
+/// Whether second order can exclude velocities at all.
+fn may_block(mechanism: &Mechanism, decision: &RankDecision) -> bool {
+    let layout = mechanism.layout();
+    let has_freedom = decision.is_decided() && decision.rank < layout.n_v;
+    // Rows that are redundant within a tolerance only block nothing within it.
+    let certificate = decision.evidence.certificate.as_ref();
+    let is_within = certificate.is_some_and(|c| c.grounds == Grounds::WithinTolerance);
+    has_freedom && decision.redundancy > 0 && !layout.rheonomic && !is_within
 }

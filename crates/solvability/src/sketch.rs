@@ -2,7 +2,7 @@
 //! which the whole mechanism is moved. Frames of bodies are turned and off the centre of mass.
 
 use joints::space3::{Axes, Cylindrical, Direction, Planar, Pose, Revolute, Spherical};
-use joints::space3::{GroundPlane, PointOnPlane, Translational, WheelContact, WheelSlip};
+use joints::space3::{Distance, GroundPlane, PointOnPlane, Translational, WheelContact, WheelSlip};
 use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription};
 
 use crate::{Analysis, analyse};
@@ -133,6 +133,20 @@ impl Sketch {
                 )
             }
         };
+    }
+
+    /// A bar of fixed length between a point of each body.
+    pub(crate) fn bar(&mut self, name: &str, bodies: [BodyRef; 2], ends: [[f64; 3]; 2]) {
+        let end = |k: usize| self.d.local(bodies[k], self.moved.to_global(ends[k]));
+        let [s_i, s_j] = [end(0), end(1)];
+        let (length, half_inverse) = (0.0, 0.0);
+        let bar = Distance {
+            s_i,
+            s_j,
+            length,
+            half_inverse,
+        };
+        self.d.joint(name, &bodies, bar);
     }
 
     /// A wheel of this radius on the plane z = 0 of the home pose, which the mechanism must be at.

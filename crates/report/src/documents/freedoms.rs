@@ -2,7 +2,7 @@
 
 use model::Mechanism;
 use serde::Serialize;
-use solvability::{FreeMotion, FreeMotions, Freedoms, LeftOut};
+use solvability::{FreeMotion, Freedoms, LeftOut};
 
 use super::Named;
 
@@ -17,6 +17,9 @@ pub struct FreedomsDocument {
     /// Freedoms without a described motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_motions_left_out: Option<LeftOutDocument>,
+    /// Those of the free motions that second order excludes: they lead nowhere.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub freedoms_blocked: Vec<FreeMotionDocument>,
     /// Whether nothing can move, whatever the drives do.
     pub cannot_move: bool,
 }
@@ -74,11 +77,12 @@ impl FreedomsDocument {
                 rank: without.ranks.rank,
                 redundancy: without.ranks.redundancy,
                 mobility: without.mobility,
-                free_motions: told(&without.motions, mechanism),
+                free_motions: told(&without.motions.motions, mechanism),
                 free_motions_left_out: without.motions.left_out.as_ref().map(Into::into),
             }),
-            free_motions: told(&freedoms.motions, mechanism),
+            free_motions: told(&freedoms.motions.motions, mechanism),
             free_motions_left_out: freedoms.motions.left_out.as_ref().map(Into::into),
+            freedoms_blocked: told(&freedoms.blocked, mechanism),
             cannot_move: freedoms.cannot_move,
         }
     }
@@ -167,7 +171,7 @@ fn shown_all(v: &[f64]) -> Vec<f64> {
     v.iter().copied().map(shown).collect()
 }
 
-fn told(motions: &FreeMotions, mechanism: &Mechanism) -> Vec<FreeMotionDocument> {
+fn told(motions: &[FreeMotion], mechanism: &Mechanism) -> Vec<FreeMotionDocument> {
     let told = |motion: &FreeMotion| FreeMotionDocument {
         text: motion.text.clone(),
         velocities: motion
@@ -181,7 +185,7 @@ fn told(motions: &FreeMotions, mechanism: &Mechanism) -> Vec<FreeMotionDocument>
             })
             .collect(),
     };
-    motions.motions.iter().map(told).collect()
+    motions.iter().map(told).collect()
 }
 
 /// Rounded to the digits that are accurate for a null space: 13.

@@ -1,5 +1,7 @@
 //! Whole documents of small runs, byte for byte.
 
+mod space;
+
 use dynamics::{
     DropError, Event, EventKind, Method, MotionError, MotionOptions, Plan, Prepared, RowChoice,
     Summary, Wanted, prepare,
@@ -7,8 +9,8 @@ use dynamics::{
 use joints::{Revolute, RevoluteAngleDrive};
 use linalg::Matrix;
 use model::{
-    Body, BodyRef, ConstraintId, DataUnit, Description, Function, Joint, Mechanism, StartOptions,
-    Tolerance,
+    Body, BodyRef, ConstraintId, DataUnit, Description, Function, Joint, Mechanism, SpaceKind,
+    StartOptions, Tolerance,
 };
 use rank::{Certificate, Doubt, Evidence, Grounds, NearlyRedundant, RankDecision, RankStatus};
 use serde_json::Value;
@@ -105,6 +107,7 @@ fn reaction(name: &str, row: usize) -> ReactionVerdict {
     ReactionVerdict {
         id: ConstraintId(row / 2),
         name: name.into(),
+        space: SpaceKind::Plane,
         kind: "revolute",
         wrench: both[1].clone(),
         multipliers: both[1].clone(),

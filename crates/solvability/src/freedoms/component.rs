@@ -1,13 +1,13 @@
 //! Bodies connected by joints: the velocities that their rows leave free, as motions of few bodies
 //! each.
 
-use crate::limits::{AT_REST, TRIALS};
+use crate::limits::{AT_REST, NEW_MOTION, TRIALS};
 use crate::pose::{dimensionless, evaluated, velocity_units};
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use linalg::{PivotedQr, equilibrate};
+use linalg::{Matrix, PivotedQr, equilibrate};
 use model::space::{cross, difference, norm};
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
@@ -82,14 +82,34 @@ impl<'a> Component<'a> {
         let all = PivotedQr::of_columns(&free).q_columns(0..free.ncols());
         let mut space = Space::new(&all);
         let is_free = space.left() >= self.mechanism.space().n_v() && space.take_out(&self.rigid());
+        let motions = self.chosen(&mut space, most);
+        Motions { is_free, motions }
+    }
+
+    /// At most `most` motions that span what is left of a space.
+    fn chosen(&self, space: &mut Space<'_>, most: usize) -> Vec<Velocities> {
         let mut motions = Vec::new();
         while motions.len() < most && space.left() > 0 {
-            let Some(v) = self.next(&mut space) else {
+            let Some(v) = self.next(space) else {
                 break;
             };
             motions.push(self.velocities(&v));
         }
-        Motions { is_free, motions }
+        motions
+    }
+
+    /// At most `most` motions that span these velocities (columns of C in the rows).
+    pub(super) fn among(&self, velocities: &Matrix, most: usize) -> Vec<Velocities> {
+        let unit = |j: usize, i: usize| velocities[(i, j)] / self.units[j];
+        let scaled = Matrix::from_fn(velocities.ncols(), velocities.nrows(), unit);
+        let qr = PivotedQr::of_columns(&scaled);
+        let largest = scaled.max_abs();
+        let rank = qr
+            .r_diagonal()
+            .filter(|r| r.abs() > NEW_MOTION * largest)
+            .count();
+        let all = qr.q_columns(0..rank);
+        self.chosen(&mut Space::new(&all), most)
     }
 
     /// A motion of as few joints and bodies as the search finds.

@@ -1,6 +1,9 @@
 //! Sets of bodies connected by joints: each has its own rank and is described separately.
 
-use crate::limits::{MOTIONS_REPORTED, ROWS_MAX};
+use crate::limits::{AT_REST, MOTIONS_REPORTED, ROWS_MAX, SATISFIED};
+use crate::pose::velocity_units;
+use linalg::Matrix;
+use model::start::scene_size;
 use model::{Bodies, Mechanism, Part, System};
 
 use super::component::{Component, Velocities, shared_rank};
@@ -184,16 +187,7 @@ impl<'a> Connected<'a> {
         let part = self.part(set);
         let component = Component::new(&part.mechanism, t, &self.own(set, q));
         let found = component.motions(rank, most);
-        let numbered = |velocities: Velocities| -> Vec<(usize, Vec<f64>)> {
-            let bodies = set.iter().copied().zip(velocities).enumerate();
-            let moving = bodies.filter(|(_, (_, v))| v.iter().any(|v| *v != 0.0));
-            moving
-                .map(|(own, (body, v))| {
-                    let arm = component.s.bodies.turned(own, self.to_frame(body));
-                    (body, self.of_frame(body, arm, v))
-                })
-                .collect()
-        };
+        let numbered = |velocities| self.numbered(set, &component, velocities);
         if found.is_free {
             described.freedoms += columns;
             let velocities = component.rigid_velocities().into_iter();
@@ -216,6 +210,57 @@ impl<'a> Connected<'a> {
         }
     }
 
+    /// The moving bodies of a set with the velocities of their frames.
+    fn numbered(
+        &self,
+        set: &[usize],
+        component: &Component<'_>,
+        velocities: Velocities,
+    ) -> Vec<(usize, Vec<f64>)> {
+        let bodies = set.iter().copied().zip(velocities).enumerate();
+        let moving = bodies.filter(|(_, (_, v))| v.iter().any(|v| *v != 0.0));
+        moving
+            .map(|(own, (body, v))| {
+                let arm = component.s.bodies.turned(own, self.to_frame(body));
+                (body, self.of_frame(body, arm, v))
+            })
+            .collect()
+    }
+
+    /// Describes velocities (n_v each) as motions of connected bodies that span them.
+    pub(super) fn among(&self, t: f64, q: &[f64], velocities: &[Vec<f64>]) -> Vec<FreeMotion> {
+        let units = velocity_units(self.whole, scene_size(self.whole, q));
+        let scaled = |k: usize, j: usize| (velocities[k][j] / units[j]).abs();
+        let largest = |columns: &[usize]| {
+            let all = (0..velocities.len()).flat_map(|k| columns.iter().map(move |&j| (k, j)));
+            all.fold(0.0, |largest: f64, (k, j)| largest.max(scaled(k, j)))
+        };
+        let fastest = largest(&(0..units.len()).collect::<Vec<_>>());
+        let mut described = Vec::new();
+        for set in &self.sets {
+            let columns = set.iter().flat_map(|&b| self.whole.space().columns_of(b));
+            let columns: Vec<usize> = columns.collect();
+            let own = |k: usize, j: usize| velocities[k][columns[j]];
+            let own = Matrix::from_fn(velocities.len(), columns.len(), own);
+            let is_at_rest = largest(&columns) <= SATISFIED * fastest;
+            if is_at_rest || self.is_alone(set) || columns.len() > ROWS_MAX {
+                continue;
+            }
+            let part = self.part(set);
+            let component = Component::new(&part.mechanism, t, &self.own(set, q));
+            let driven = self.driven(set);
+            let most = MOTIONS_REPORTED.saturating_sub(described.len());
+            for motion in component.among(&own, most) {
+                let (text, velocities) = words::tell(&component, &driven, motion);
+                described.push(FreeMotion {
+                    text,
+                    velocities: vec![self.numbered(set, &component, velocities)],
+                });
+            }
+        }
+        described
+    }
+
     /// From the centre of mass of a body to the origin of its frame, in its axes (m).
     fn to_frame(&self, body: usize) -> [f64; 3] {
         self.whole.bodies()[body].from_centre([0.0; 3])
@@ -228,7 +273,17 @@ impl<'a> Connected<'a> {
             return v;
         }
         let space = self.whole.space();
-        Twist::new(space, &v).carried(arm).components(space)
+        let centre = Twist::new(space, &v);
+        let origin = centre.carried(arm);
+        // The velocity of a point at rest is a sum that is rounded.
+        let largest = centre.speed(0.0).max(origin.less(centre).speed(0.0));
+        let mut shown = origin.components(space);
+        for k in space.forces() {
+            if shown[k].abs() <= AT_REST * largest {
+                shown[k] = 0.0;
+            }
+        }
+        shown
     }
 
     /// Bodies of a set on which a drive acts, as indices into the set.

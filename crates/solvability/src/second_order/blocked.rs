@@ -3,7 +3,7 @@
 //! Then y = 0. For one new motion the proof exists whenever the statement is true.
 
 use crate::limits::{BLOCKED_CORRECTIONS, FORM_NOISE, MARGIN};
-use linalg::Matrix;
+use linalg::{Matrix, PivotedQr};
 
 use super::forms::Forms;
 
@@ -30,6 +30,20 @@ pub(super) fn is_blocked(forms: &Forms) -> bool {
         })
         .collect::<Vec<_>>();
     has_definite_combination(&definite, y)
+}
+
+/// Of forms without a motion of their own: an orthonormal basis, in columns, of the new motions in
+/// which a combination of the forms is definite, across those that no form contains. Returns `None`
+/// if no combination was found.
+pub(super) fn blocked(forms: &Forms) -> Option<Matrix> {
+    let (n, count) = (forms.len(), forms.matrices.len());
+    let stacked = Matrix::from_fn(n * count, n, |k, j| forms.matrices[k / n][(k % n, j)]);
+    let qr = PivotedQr::of_rows(stacked);
+    let rank = qr.r_diagonal().filter(|r| r.abs() > FORM_NOISE).count();
+    let basis = qr.q_columns(0..rank);
+    let own = |m: &Matrix| basis.transpose().product(&m.product(&basis));
+    let own: Vec<Matrix> = forms.matrices.iter().map(own).collect();
+    (rank > 0 && has_definite_combination(&own, rank)).then_some(basis)
 }
 
 /// Orthonormal vectors w with `wᵀ·mixed = 0`.

@@ -286,3 +286,39 @@ fn far_axes_and_translations_are_told_apart() {
     // Left-handed: half a metre in 1/2π·2 turns a second, against the rotation.
     assert!((pitch + std::f64::consts::PI / 2.0).abs() < ROUNDING);
 }
+
+/// V24: six bars between corners at 120°·k + 150° above and feet at 120°·k below. A bar from foot f
+/// to corner a keeps its length if `(a − f)·(ω × a + v) = 0`, that is `v_z = f·(ω × a) = −ω·sin α`
+/// with the angle α from f to a: 150° or 30°, so v_z = −ω/2 and the pitch is −π m. Second order
+/// blocks this, and not the pendulum beside it.
+#[test]
+fn a_screw_that_second_order_blocks_is_told() {
+    let mut s = Sketch::new();
+    let top = s.body("triangle", [0.0, 0.0, 1.0]);
+    let corner = |degrees: f64, z: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        [cos, sin, z]
+    };
+    for k in 0..3 {
+        for foot in [k, k + 1] {
+            let ends = [
+                corner(120.0 * f64::from(foot), 0.0),
+                corner(120.0 * f64::from(k) + 150.0, 1.0),
+            ];
+            s.bar(&format!("bar {k} {foot}"), [GROUND, top], ends);
+        }
+    }
+    let screw = "`triangle` turns about the axis through its centre of mass along (0, 0, 1) with a pitch of \
+        −3.142 m per turn";
+    let blocked = |s: &Sketch| {
+        let found = freedoms(s);
+        let texts: Vec<String> = found.blocked.iter().map(|m| m.text.clone()).collect();
+        (found.mobility, texts)
+    };
+    assert_eq!(blocked(&s), (1, vec![screw.to_owned()]));
+    let bob = s.body("bob", [3.0, 0.0, 0.0]);
+    s.joint("pivot", Revolute, [GROUND, bob], [3.0, 0.0, 1.0], Y);
+    assert_eq!(blocked(&s), (2, vec![screw.to_owned()]));
+    // A linkage that moves has no freedom that is blocked.
+    assert_eq!(blocked(&bennett(Pose::GROUND)), (1, Vec::new()));
+}
