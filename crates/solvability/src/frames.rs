@@ -130,3 +130,6 @@ impl ReactionForms<'_> {
         Ok(Some(FrameForms { axes, components }))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -53,6 +53,10 @@ pub(crate) fn tell(
     let mut sets: Vec<(Wrenches, Vec<ConstraintId>)> = Vec::new();
     for (&id, image) in joints.iter().zip(&images) {
         let own = Wrenches::spanned(image, VISIBLE * largest);
+        if own.0.ncols() == 0 {
+            // Its rows move no body.
+            continue;
+        }
         match sets.iter_mut().find(|(other, _)| other.is_same(&own)) {
             Some((_, ids)) => ids.push(id),
             None => sets.push((own, vec![id])),

@@ -217,16 +217,24 @@ pub(crate) fn loop_of_four(
     s
 }
 
+const FOUR_BAR: [[f64; 3]; 4] = [
+    [0.0, 0.0, 0.0],
+    [0.3, 0.8, 0.0],
+    [1.5, 1.1, 0.0],
+    [1.4, 0.0, 0.0],
+];
+
 /// The planar four-bar A(0, 0), B(.3, .8), C(1.5, 1.1), D(1.4, 0), all axes along z.
 pub(crate) fn four_bar(kinds: [Kind; 4], moved: Pose) -> Sketch {
     let names = ["crank", "coupler", "rocker", "A", "B", "C", "D"];
-    let points = [
-        [0.0, 0.0, 0.0],
-        [0.3, 0.8, 0.0],
-        [1.5, 1.1, 0.0],
-        [1.4, 0.0, 0.0],
-    ];
-    loop_of_four(names, kinds, points, [Z; 4], moved)
+    loop_of_four(names, kinds, FOUR_BAR, [Z; 4], moved)
+}
+
+/// The four-bar of revolutes, all lengths times `size`.
+pub(crate) fn scaled_four_bar(size: f64, moved: Pose) -> Sketch {
+    let names = ["crank", "coupler", "rocker", "A", "B", "C", "D"];
+    let points = FOUR_BAR.map(|p| p.map(|x| size * x));
+    loop_of_four(names, [Kind::Revolute; 4], points, [Z; 4], moved)
 }
 
 /// Bennett's linkage in rational numbers.

@@ -3,7 +3,9 @@
 
 use super::*;
 use crate::pose::{dimensionless, evaluated};
-use crate::sketch::{GROUND, Kind, Sketch, X, Z, bennett, door, four_bar, loop_of_four, places};
+use crate::sketch::{
+    GROUND, Kind, Sketch, X, Z, bennett, door, four_bar, loop_of_four, places, scaled_four_bar,
+};
 use joints::space3::Pose;
 
 use Kind::{Cylindrical, OnPlane, Revolute, Spherical, Translational};
@@ -63,6 +65,11 @@ fn a_planar_linkage_carries_loads_across_its_plane() {
     let [home, beside, turned] = places();
     share(&four_bar([Revolute; 4], home), words);
     share(&four_bar([Revolute; 4], beside), words);
+    // Neither the unit of length counts, nor the distance from the origin.
+    for (size, x) in [(1e-3, 0.0), (1e3, 0.0), (1.0, 1e6)] {
+        let far = Pose::new([x, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]);
+        share(&scaled_four_bar(size, far), words);
+    }
     // (−6, −74, 93)/119 is the third axis of the rotation.
     share(
         &four_bar([Revolute; 4], turned),

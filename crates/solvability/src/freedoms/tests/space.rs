@@ -322,3 +322,17 @@ fn a_screw_that_second_order_blocks_is_told() {
     // A linkage that moves has no freedom that is blocked.
     assert_eq!(blocked(&bennett(Pose::GROUND)), (1, Vec::new()));
 }
+
+/// What is told does not depend on the unit of length, nor on the distance from the origin.
+#[test]
+fn small_large_and_far_linkages_are_told_alike() {
+    use crate::sketch::scaled_four_bar;
+    for (size, centre, far) in [
+        (1e-3, "(0.001848, 0.004928, 0)", [0.0; 3]),
+        (1e3, "(1848, 4928, 0)", [0.0; 3]),
+        (1.0, "(1.000e6, 4.928, 0)", [1e6, 0.0, 0.0]),
+    ] {
+        let s = scaled_four_bar(size, Pose::new(far, [1.0, 0.0, 0.0, 0.0]));
+        tells(&s, &[&FOUR_BAR.replace("(1.848, 4.928, 0)", centre)]);
+    }
+}
