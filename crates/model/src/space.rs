@@ -34,8 +34,8 @@ pub enum Frame {
     Global,
     /// The axes of the first body of the joint; global for the ground.
     FirstBody,
-    /// The axes u, v and w of a joint in space, fixed in its first body: w along its axis, or across
-    /// its plane. Joints without an axis, and joints in the plane, do not have this frame.
+    /// The axes u, v and w of a joint in space, fixed in its first body: w along its axis, or
+    /// across its plane. Joints without an axis, and joints in the plane, do not have this frame.
     Joint,
     /// The only direction in which the joint can transmit a force, followed by the direction
     /// rotated by +90°: normal and along for a knife edge, across and along the axis for a slot.

@@ -138,7 +138,7 @@ pub(crate) struct Analyze {
     /// List at most N sets of rows that can be eliminated without a change of the motion
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "100")]
     pub(crate) eliminations: Option<usize>,
-    /// Also judge the components in the frames of the first body, of the edge and, in space, of the joint
+    /// Also judge the components in the frames of the first body, of the edge and of the joint
     #[arg(long)]
     pub(crate) frames: bool,
     /// Run the motion, for the duration that the scene states or to T_END (s): the verdict that

@@ -49,9 +49,9 @@ pub struct WithoutDrivesDocument {
 pub struct FreeMotionDocument {
     /// Description.
     pub text: String,
-    /// `[vx, vy, omega]` of the frames of the moving bodies (m/s, rad/s), in space `[vx, vy, vz, wx,
-    /// wy, wz]` in ground axes, for each degree of freedom in the description: three or six for a
-    /// body that is free as a whole, otherwise one. The largest rotation is 1, or the fastest
+    /// `[vx, vy, omega]` of the moving bodies (m/s, rad/s), in space `[vx, vy, vz, wx, wy, wz]` of
+    /// their frames in ground axes, for each degree of freedom in the description: three or six for
+    /// a body that is free as a whole, otherwise one. The largest rotation is 1, or the fastest
     /// translation if nothing rotates.
     pub velocities: Vec<Named<Vec<f64>>>,
 }

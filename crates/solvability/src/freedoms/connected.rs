@@ -269,10 +269,11 @@ impl<'a> Connected<'a> {
     /// The velocities of the frame of a body at an arm from its centre of mass, whose velocities
     /// these are.
     fn of_frame(&self, body: usize, arm: [f64; 3], v: Vec<f64>) -> Vec<f64> {
-        if self.whole.bodies()[body].is_centred() {
+        let space = self.whole.space();
+        // In the plane they are written of the centre of mass.
+        if space.n_rotations() == 1 || self.whole.bodies()[body].is_centred() {
             return v;
         }
-        let space = self.whole.space();
         let centre = Twist::new(space, &v);
         let origin = centre.carried(arm);
         // The velocity of a point at rest is a sum that is rounded.

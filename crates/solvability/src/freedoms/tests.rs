@@ -432,20 +432,3 @@ fn a_mechanism_without_rows_is_free_bodies() {
     assert_eq!(free.mobility, 6);
     assert_eq!(texts(&free.motions), ["`one` is free", "`two` is free"]);
 }
-
-/// The frame of a leaf is at its hinge, half a metre from its centre of mass: it stays at rest.
-#[test]
-fn velocities_are_those_of_the_frame() {
-    let mut d = Description::new("leaf");
-    let leaf = d.body(Body {
-        centre: [0.5, 0.0],
-        ..at("leaf", [1.0, 2.0])
-    });
-    pin(&mut d, "hinge", [GROUND, leaf], [1.0, 2.0]);
-    let free = freedoms(&d);
-    assert_eq!(texts(&free.motions), ["`leaf` turns about `hinge`"]);
-    moves(&free.motions, 0, &[(0, [0.0, 0.0, 1.0])]);
-    d.joints.clear();
-    let found = &freedoms(&d).motions.motions[0].velocities[2];
-    assert_eq!(found, &[(0, vec![0.0, -0.5, 1.0])]);
-}
