@@ -30,8 +30,8 @@ pub struct FreeMotion {
     pub text: String,
     /// One list for each degree of freedom, with the bodies that move: index of the body, and its
     /// velocities in the order of [`SpaceKind::velocities`](model::SpaceKind) (m/s, rad/s), ground
-    /// axes. In the plane they are those of the centre of mass, in the order of the columns of C; in
-    /// space those of the origin of its frame. The largest rotation is 1, or the fastest
+    /// axes. In the plane they are those of the centre of mass, in the order of the columns of C;
+    /// in space those of the origin of its frame. The largest rotation is 1, or the fastest
     /// translation if nothing rotates.
     pub velocities: Vec<Vec<(usize, Vec<f64>)>>,
 }
