@@ -2,7 +2,8 @@
 //! the constraints by differences of Φ, and their texts were derived by hand.
 
 use linalg::{Matrix, PivotedQr};
-use model::{Mechanism, Registry, SpaceKind, System};
+use model::space::{cross, difference};
+use model::{Mechanism, Registry, System};
 use pfaff::solvability::{FreeMotions, Freedoms};
 use pfaff::{Overrides, Study};
 
@@ -36,17 +37,35 @@ fn texts(motions: &FreeMotions) -> Vec<&str> {
     motions.motions.iter().map(|m| m.text.as_str()).collect()
 }
 
-/// All velocities of all motions, n_v each.
-fn velocities(mechanism: &Mechanism, motions: &FreeMotions) -> Vec<Vec<f64>> {
+/// All velocities of all motions, n_v each. In space they are told of frames in ground axes, while
+/// columns of C belong to centres of mass and to rotations about the axes of the bodies.
+fn velocities(mechanism: &Mechanism, q: &[f64], motions: &FreeMotions) -> Vec<Vec<f64>> {
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    let of_columns = |body: usize, own: &[f64]| -> Vec<f64> {
+        let [vx, vy, vz, wx, wy, wz] = *own else {
+            return own.to_vec();
+        };
+        let omega = [wx, wy, wz];
+        let to_origin = mechanism.bodies()[body].from_centre([0.0; 3]);
+        let moved = cross(omega, s.bodies.turned(body, to_origin));
+        let centre = difference([vx, vy, vz], moved);
+        let turned = s.bodies.axes(body).map(|axis| dot(axis, omega));
+        [centre, turned].concat()
+    };
     let all = motions.motions.iter().flat_map(|m| &m.velocities);
     all.map(|bodies| {
         let mut v = vec![0.0; mechanism.layout().n_v];
         for (body, own) in bodies {
-            v[mechanism.layout().columns(*body)].copy_from_slice(own);
+            v[mechanism.layout().columns(*body)].copy_from_slice(&of_columns(*body, own));
         }
         v
     })
     .collect()
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Asserts that the rows of Φ do not change along a motion, and those of Ψ vanish on it. Drives are
@@ -61,7 +80,9 @@ fn stays_on(mechanism: &Mechanism, q: &[f64], v: &[f64], drives: bool, name: &st
     let rows = (0..layout.rows()).filter(|row| !left_out.contains(row));
     let phi = |along: f64| {
         let mut s = mechanism.scratch();
-        let moved: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + along * v).collect();
+        let mut moved = q.to_vec();
+        let by: Vec<f64> = v.iter().map(|v| along * v).collect();
+        mechanism.displace(&mut moved, &by);
         mechanism.pose(0.0, &moved, &mut s);
         mechanism.phi(&mut s);
         s.phi
@@ -91,17 +112,13 @@ fn motions_of_the_gallery_are_a_basis_of_what_the_rows_allow() {
     {
         let study = study(name);
         let (mechanism, q) = (&study.prepared.mechanism, &study.prepared.q);
-        // FIXME: motions in space have no words yet.
-        if mechanism.space() != SpaceKind::Plane {
-            continue;
-        }
         let found = freedoms(&study);
         let without = found.without_drives.as_ref();
         let with = Some((true, found.mobility, &found.motions));
         let without = without.map(|d| (false, d.mobility, &d.motions));
         for (drives, mobility, motions) in [with, without].into_iter().flatten() {
             assert_eq!(motions.left_out, None, "{name}");
-            let all = velocities(mechanism, motions);
+            let all = velocities(mechanism, q, motions);
             assert_eq!(all.len(), mobility, "{name}: {motions:?}");
             let n = mechanism.layout().n_v;
             let units = Matrix::from_fn(all.len(), n, |i, j| {
@@ -163,7 +180,7 @@ fn the_planetary_gear_turns_as_one() {
     let found = freedoms(&study);
     let words = "`sun` turns about `sun-bearing`; with it `carrier`, `planet-1`, `planet-2` and `planet-3` turn";
     assert_eq!(texts(&found.motions), [words]);
-    let v = &velocities(&study.prepared.mechanism, &found.motions)[0];
+    let v = &velocities(&study.prepared.mechanism, &study.prepared.q, &found.motions)[0];
     let q = &study.prepared.q;
     let carrier = 1.0 / 3.0;
     for (body, omega) in [1.0, carrier, -1.0, -1.0, -1.0].into_iter().enumerate() {
