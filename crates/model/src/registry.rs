@@ -71,8 +71,9 @@ impl<S: BodySpace> Definitions<S> {
         &'a self,
         scene_type: &'a str,
     ) -> impl Iterator<Item = &'a ConstraintDefinition<S>> {
-        let mut all = self.constraints.iter();
-        std::iter::from_fn(move || all.find(|d| d.spec.common.scene_type == scene_type))
+        self.constraints
+            .iter()
+            .filter(move |d| d.spec.common.scene_type == scene_type)
     }
 
     /// Forces of a scene type.
@@ -80,8 +81,9 @@ impl<S: BodySpace> Definitions<S> {
         &'a self,
         scene_type: &'a str,
     ) -> impl Iterator<Item = &'a ForceDefinition<S>> {
-        let mut all = self.forces.iter();
-        std::iter::from_fn(move || all.find(|d| d.spec.common.scene_type == scene_type))
+        self.forces
+            .iter()
+            .filter(move |d| d.spec.common.scene_type == scene_type)
     }
 
     /// Descriptions of all constraints.

@@ -109,7 +109,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
 
     /// `axes`: one direction for each body, in its own frame.
     fn both(&self, field: &Field, findings: &mut Findings) -> Option<[S::Vector<f64>; 2]> {
-        let mut table = field.table(S::BY_BODY, findings)?;
+        let table = field.table(S::BY_BODY, findings)?;
         let [Some(first), Some(second)] = self.slots.first_chunk()? else {
             return None;
         };
@@ -140,7 +140,6 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
                 "not a body of this joint",
             );
         }
-        table.subject = field.subject.clone();
         match read {
             [Some(a), Some(b)] => Some([a, b]),
             _ => None,
