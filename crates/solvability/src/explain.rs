@@ -4,6 +4,10 @@
 //!
 //! A statement about a sum or a component is made only after a test against all dependencies.
 
+mod sentence;
+
+pub(crate) use sentence::describe;
+
 use crate::limits::VISIBLE;
 use model::codes::Code;
 use model::space::norm;
@@ -412,7 +416,7 @@ fn stress(
     let multipliers = linalg::Matrix::from_fn(lambda.len(), 1, |i, _| lambda[i]);
     let told = loads::tell(mechanism, s, size, &ids, &multipliers);
     SelfStress {
-        text: words::of_stress(mechanism, solvability, &circuit, &directions, told),
+        text: sentence::of_stress(mechanism, solvability, &circuit, &directions, told),
         left_out: circuit.left_out,
         rows: circuit.rows,
         coefficients: circuit.coefficients,

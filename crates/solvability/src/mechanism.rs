@@ -15,7 +15,7 @@ use crate::judged::{ComponentVerdict, Dependency, Judged, ReactionVerdict, RowVe
 use crate::matrices::{Basis, QueryError, Solvability};
 use crate::parts::PartDecision;
 use crate::verdict::Verdict;
-use crate::words;
+use crate::{explain, words};
 
 /// Verdicts of a mechanism that is one part, at the pose of the scratch, in which Φ and C have been
 /// evaluated and for which the rank has been decided.
@@ -36,7 +36,7 @@ pub(crate) fn part_verdicts(
         let dependencies = circuits
             .filter(|circuit| is_known(&circuit.rows))
             .map(|circuit| Dependency {
-                text: words::describe(mechanism, &circuit),
+                text: explain::describe(mechanism, &circuit),
                 left_out: circuit.left_out,
                 rows: circuit.rows,
                 coefficients: circuit.coefficients,
