@@ -30,7 +30,7 @@
 //! | [`sensitivity`] | how much a unique reaction depends on the data |
 //! | [`mod@second_order`] | whether the motion is unique at a drop of rank |
 //! | [`along`] | verdicts along a motion: the generic verdict, and the times of others |
-//! | `words` | dependencies as sentences |
+//! | `words` | lists, numbers and vectors in sentences |
 //! | `loads` | forces and moments in space that joints share, as sentences |
 
 pub mod along;
