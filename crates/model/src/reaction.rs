@@ -199,12 +199,26 @@ impl<'a> Reactions<'a> {
         for i in 0..layout.rows() {
             for (column, c) in layout.row(self.s, i) {
                 if space.body_of(column) == body {
-                    map[(space.dof_of(column), i)] -= c;
+                    self.visit_ground(column, |component, share| map[(component, i)] -= share * c);
                 }
             }
             add_moment(space, &mut map, i, arm);
         }
         Some(map)
+    }
+
+    /// The components of a force and a torque in ground axes to which a column of C belongs, with
+    /// its share in each: the rotations of a spatial body are about its own axes.
+    fn visit_ground(self, column: usize, mut visit: impl FnMut(usize, f64)) {
+        let space = self.layout().space;
+        let dof = space.dof_of(column);
+        if space.n_rotations() == 1 || space.forces().contains(&dof) {
+            return visit(dof, 1.0);
+        }
+        let axis = self.s.bodies.axes(space.body_of(column))[space.axis_of(dof)];
+        for component in space.torques() {
+            visit(component, axis[space.axis_of(component)]);
+        }
     }
 
     /// The axes in which a reaction is expressed. The first axis of [`Frame::Edge`] has the sign
@@ -304,10 +318,15 @@ impl<'a> Reactions<'a> {
             let dof = space.dof_of(column);
             if space.torques().contains(&motion) && space.forces().contains(&dof) {
                 let arm = difference(self.s.bodies.origin(space.body_of(column)), place);
-                unit_cross(space.axis_of(motion), arm)[dof]
-            } else {
-                f64::from(u8::from(dof == motion))
+                return unit_cross(space.axis_of(motion), arm)[dof];
             }
+            let mut along = 0.0;
+            self.visit_ground(column, |component, share| {
+                if component == motion {
+                    along += share;
+                }
+            });
+            along
         };
         self.group(id).rows.clone().any(|row| {
             (0..space.n_v()).any(|motion| {
@@ -334,3 +353,6 @@ fn add_moment(space: SpaceKind, map: &mut Matrix, column: usize, arm: [f64; 3]) 
         map[(k, column)] += moment[space.axis_of(k)];
     }
 }
+
+#[cfg(test)]
+mod tests;
