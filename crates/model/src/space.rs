@@ -373,6 +373,21 @@ impl SpaceKind {
         })
     }
 
+    /// Numbers that are equal where poses are: the coordinates in the plane; in space the position
+    /// and the axes of each body, because a quaternion and its negative are one pose.
+    #[must_use]
+    pub fn pose_numbers(self, q: &[f64]) -> Vec<f64> {
+        if self != Self::Space3 {
+            return q.to_vec();
+        }
+        let of = |own: &[f64]| {
+            let place = [own[0], own[1], own[2]];
+            let pose = joints::space3::Pose::new(place, quaternion(own));
+            [place.to_vec(), pose.rot.concat()].concat()
+        };
+        q.chunks_exact(self.n_q()).flat_map(of).collect()
+    }
+
     /// Position of a body at coordinates q in the direction of a column of C: a coordinate (m) or
     /// an angle (rad).
     #[must_use]

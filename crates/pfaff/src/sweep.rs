@@ -141,6 +141,13 @@ impl<'r> Sweep<'r> {
                 .iter()
                 .map(|b| b.name.clone())
                 .collect(),
+            state: assembled
+                .mechanism
+                .space()
+                .columns()
+                .iter()
+                .map(|name| (*name).to_owned())
+                .collect(),
             reactions: reactions.iter().map(|k| groups[*k].name.clone()).collect(),
         };
         Ok(Self {

@@ -21,6 +21,7 @@ mod tests;
 
 use std::collections::BTreeMap;
 
+use model::SpaceKind;
 use serde::{Deserialize, Serialize};
 
 pub use cell::{Cell, Column, Kind};
@@ -48,8 +49,17 @@ pub struct SweepPlan {
     pub keys: Vec<String>,
     /// Bodies, in their order.
     pub bodies: Vec<String>,
+    /// Names of the numbers of the state of a body ([`model::SpaceKind::columns`]).
+    #[serde(default = "planar")]
+    pub state: Vec<String>,
     /// Joints and drives whose reactions are requested, in the order of their rows.
     pub reactions: Vec<String>,
+}
+
+/// Those of the plane, which journals did not name at first.
+fn planar() -> Vec<String> {
+    let columns = SpaceKind::Plane.columns().iter();
+    columns.map(|name| (*name).to_owned()).collect()
 }
 
 /// Cells of finished runs, by the number of the run (from 1).

@@ -104,6 +104,9 @@ impl Functions {
     /// In the frame of the ground, or of the body in whose frame accelerations need the fewest
     /// operations, if the equations may be solved in the frames of bodies.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
+        if subject.prepared.mechanism.space() != SpaceKind::Plane {
+            return Err(CodeError::NotPlanar);
+        }
         let from_ground = Self::seen_from(subject, None);
         let angles: Vec<usize> = (2..subject.prepared.mechanism.layout().n_q)
             .step_by(3)
@@ -136,9 +139,6 @@ impl Functions {
     /// All functions, with the equations solved in the frame of the ground or of the body whose
     /// angle has this index in q.
     fn seen_from(subject: &Subject<'_>, angle: Option<usize>) -> Result<Self, CodeError> {
-        if subject.prepared.mechanism.space() != SpaceKind::Plane {
-            return Err(CodeError::NotPlanar);
-        }
         let forces = subject.prepared.mechanism.applied_forces();
         if let Some((drive, _)) = forces.law_drives().next() {
             let drive = drive.to_owned();

@@ -302,3 +302,24 @@ fn it_does_not_matter_which_way_a_vehicle_points() {
     let bead = self::study("bead", BEAD);
     assert!(!may_be_seen_from(&Subject::at_start(&bead.prepared), 2));
 }
+
+/// A scene of more than one body, so that frames of bodies would be tried.
+#[test]
+fn bodies_in_space_are_refused_by_name() {
+    let scene = r#"
+scene = { name = "two stones", space = "spatial" }
+body = [
+    { name = "a", mass = 1.0, inertia = [1.0, 1.0, 1.0] },
+    { name = "b", mass = 1.0, inertia = [1.0, 1.0, 1.0], position = [1.0, 0.0, 0.0] },
+]
+joint = [{ name = "S", type = "spherical", bodies = ["a", "b"], at = [0.5, 0.0, 0.0] }]
+simulate = { t_end = 1.0 }
+"#;
+    let choices = crate::Choices {
+        dynamics: None,
+        libm: false,
+    };
+    let registry = model::Registry::standard();
+    let code = crate::scene_text("stones.toml", scene, &registry, None, &choices);
+    assert!(matches!(code, Err(crate::CodeError::NotPlanar)));
+}

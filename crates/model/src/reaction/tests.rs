@@ -52,7 +52,10 @@ fn the_total_on_a_body_is_the_opposite_of_the_reaction_of_its_only_other_joint()
     for k in 0..6 {
         let on_body: f64 = (0..10).map(|j| total[(k, j)] * lambda[j]).sum();
         let on_first: f64 = (0..5).map(|j| own[(k, j)] * lambda[5 + j]).sum();
-        assert!((on_body + on_first).abs() < 1e-12, "{k}: {on_body} {on_first}");
+        assert!(
+            (on_body + on_first).abs() < 1e-12,
+            "{k}: {on_body} {on_first}"
+        );
     }
 }
 

@@ -21,7 +21,7 @@ impl Kind {
     /// Number of kinds.
     pub const COUNT: usize = 4;
 
-    /// Index of the quantity `name` of `of` in an [`Observation`]: for a body `x`, `y` or `angle`,
+    /// Index of the quantity `name` of `of` in an [`Observation`] of planar bodies: `x`, `y` or `angle`,
     /// for a joint or drive `Fx`, `Fy`, `T`, or the name of its one component. Returns `None` if
     /// the mechanism has nothing of that name.
     #[must_use]
@@ -66,8 +66,8 @@ impl Observation {
         let reactions = numbers.collect();
         Self {
             t,
-            q: q.clone(),
-            values: [q, v, a, reactions],
+            values: [space.pose_numbers(&q), v, a, reactions],
+            q,
         }
     }
 }
@@ -94,5 +94,11 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
     let mut of_reaction = vec![1.0; space.n_v() + 1];
     of_reaction[space.torques()].fill(size);
     let reactions = of_reaction.repeat(groups);
-    [columns.clone(), columns.clone(), columns, reactions]
+    // Those of poses: a length each of the translations, and directions.
+    let of_pose = |body: &[f64]| match space {
+        SpaceKind::Space3 => [&body[..3], &[1.0; 9]].concat(),
+        _ => body.to_vec(),
+    };
+    let poses = columns.chunks_exact(space.n_v()).flat_map(of_pose);
+    [poses.collect(), columns.clone(), columns, reactions]
 }

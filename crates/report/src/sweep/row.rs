@@ -100,7 +100,7 @@ pub struct SweepMotion {
     pub fragile: u64,
     /// Time of the last written state (s); the end of a run that is done.
     pub t_state: f64,
-    /// The last written state, body by body x, y, angle, vx, vy, omega; NaN if no row was written.
+    /// The last written state, body by body in the order of [`SweepPlan::state`]; NaN if no row was written.
     pub state: Vec<f64>,
     /// Extremes of the joints and drives of [`SweepPlan::reactions`].
     pub extremes: Vec<Extreme>,
@@ -144,7 +144,6 @@ const NUMBERS: Columns<f64, 7> = [
     ("start_velocity_correction", |m| m.start_velocity_correction),
     ("t_state", |m| m.t_state),
 ];
-const STATE: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
 const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
 
 impl SweepPlan {
@@ -159,7 +158,8 @@ impl SweepPlan {
                 .map(|name| (*name).to_owned())
                 .map(column(kind))
         };
-        let of = |things: &[String], parts: &'static [&'static str]| {
+        let extremes = EXTREME.map(str::to_owned);
+        let of = |things: &[String], parts: &[String]| {
             let names = things
                 .iter()
                 .flat_map(|thing| parts.iter().map(move |part| format!("{thing}.{part}")));
@@ -171,8 +171,8 @@ impl SweepPlan {
             .chain(own(&["t"], Kind::Number))
             .chain(COUNTS.map(|(name, _)| column(Kind::Count)(name.to_owned())))
             .chain(NUMBERS.map(|(name, _)| column(Kind::Number)(name.to_owned())))
-            .chain(of(&self.bodies, &STATE))
-            .chain(of(&self.reactions, &EXTREME))
+            .chain(of(&self.bodies, &self.state))
+            .chain(of(&self.reactions, &extremes))
             .collect()
     }
 
@@ -195,7 +195,8 @@ impl SweepPlan {
                 cells.extend(m.extremes.iter().flat_map(values).map(Cell::Number));
             }
             None => {
-                let n = STATE.len() * self.bodies.len() + EXTREME.len() * self.reactions.len();
+                let states = self.state.len() * self.bodies.len();
+                let n = states + EXTREME.len() * self.reactions.len();
                 cells.extend(std::iter::repeat_n(Cell::Number(f64::NAN), n));
             }
         }

@@ -41,6 +41,7 @@ fn plan() -> SweepPlan {
         keep_rows: false,
         keys: vec!["body.bob.mass".to_owned()],
         bodies: vec!["bob".to_owned()],
+        state: super::planar(),
         reactions: vec!["pivot".to_owned()],
     }
 }
