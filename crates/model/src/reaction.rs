@@ -233,7 +233,11 @@ impl<'a> Reactions<'a> {
                 let [x, y] = self.push(id)?;
                 [[x, y, 0.0], [-y, x, 0.0], ground[2]]
             }
-            (Frame::FirstBody, Some(BodyRef::Body(k))) => self.s.bodies.axes(*k),
+            (Frame::FirstBody, Some(BodyRef::Body(k))) => {
+                let own = self.s.bodies.axes(*k);
+                let principal = self.mechanism.bodies()[*k].principal.as_ref();
+                principal.map_or(own, |of| of.framed(own))
+            }
             _ => ground,
         };
         let count = self.layout().space.n_translations();

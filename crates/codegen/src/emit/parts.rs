@@ -435,6 +435,27 @@ pub(super) fn points(d: &Definition) -> TokenStream {
     }
 }
 
+/// The method that writes the points of a force in other axes of its bodies.
+pub(super) fn turn(d: &Definition, model: &Model) -> TokenStream {
+    let turns = d.slots.iter().enumerate().map(|(k, slot)| {
+        let own = d.params.iter().filter_map(|p| match &p.kind {
+            ParamKind::Point(at) if at == slot => Some(&p.name),
+            _ => None,
+        });
+        let k = index(k);
+        quote!(#k => { #(self.#own = turned(self.#own);)* })
+    });
+    let can_turn = !model.uses_axes;
+    let body = if can_turn {
+        quote!(match slot { #(#turns)* _ => {} } true)
+    } else {
+        quote!(false)
+    };
+    quote! {
+        fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool { #body }
+    }
+}
+
 fn collect(c: &Condition, out: &mut Vec<Expr>) {
     match c {
         Condition::Compare(_, a, b) => out.extend([*a, *b]),

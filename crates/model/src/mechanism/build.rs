@@ -3,6 +3,7 @@
 use joints::spec::Level;
 
 use super::check;
+use super::turn;
 use super::work::held_bodies;
 use super::{BuildError, Elements, FunctionForm, Mechanism, TimeFunction, initialise};
 use crate::body::{BodyRecord, BodyRef, DescribedBody};
@@ -54,22 +55,28 @@ impl Mechanism {
             return Err(errors);
         }
         let mut b = Builder::new(S::KIND);
-        b.joints(d, Level::Holonomic);
+        b.joints(d, &bodies, Level::Holonomic);
         for drive in &d.drives {
+            let mut element = S::any_constraint(drive.element.clone());
+            turn::constraint(&mut element, &bodies, &drive.bodies);
             b.constraint(
                 &drive.name,
                 ConstraintKind::Drive,
                 &drive.bodies,
-                S::any_constraint(drive.element.clone()),
+                element,
                 std::slice::from_ref(&drive.motion),
                 drive.tolerance,
             );
         }
         b.layout.m = b.layout.labels.len();
-        b.joints(d, Level::Nonholonomic);
+        b.joints(d, &bodies, Level::Nonholonomic);
         b.layout.h = b.layout.labels.len() - b.layout.m;
         for f in &d.forces {
-            let kernels = S::any_force(f.element.clone());
+            let mut kernels = S::any_force(f.element.clone());
+            if !turn::force(&mut kernels, &bodies, &f.bodies) {
+                let name = f.name.clone();
+                return Err(vec![BuildError::NotPrincipal { name }]);
+            }
             b.force(&f.name, &f.bodies, kernels, &f.functions);
         }
         let (space, gravity) = (S::KIND, S::point(d.gravity));
@@ -121,9 +128,10 @@ impl Builder {
     }
 
     /// Adds the joints of one level.
-    fn joints<S: BodySpace>(&mut self, d: &Described<S>, level: Level) {
+    fn joints<S: BodySpace>(&mut self, d: &Described<S>, bodies: &[BodyRecord], level: Level) {
         for j in d.joints.iter().filter(|j| j.element.spec().level == level) {
-            let (name, element) = (&j.name, S::any_constraint(j.element.clone()));
+            let (name, mut element) = (&j.name, S::any_constraint(j.element.clone()));
+            turn::constraint(&mut element, bodies, &j.bodies);
             let kind = ConstraintKind::Joint;
             self.constraint(name, kind, &j.bodies, element, &j.functions, j.tolerance);
         }
@@ -283,7 +291,10 @@ fn inertia(body: &BodyRecord) -> Vec<f64> {
     match &body.described {
         DescribedBody::Plane(b) => vec![m, m, b.inertia],
         DescribedBody::Space3(b) => {
-            vec![m, m, m, b.inertia[0][0], b.inertia[1][1], b.inertia[2][2]]
+            let diagonal = [0, 1, 2].map(|k| b.inertia[k][k]);
+            let own = body.principal.as_ref();
+            let [x, y, z] = own.map_or(diagonal, |own| own.moments.map(|j| j.max(0.0)));
+            vec![m, m, m, x, y, z]
         }
     }
 }
