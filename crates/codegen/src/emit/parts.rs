@@ -437,19 +437,17 @@ pub(super) fn points(d: &Definition) -> TokenStream {
 
 /// The method that writes the points of a force in other axes of its bodies.
 pub(super) fn turn(d: &Definition, model: &Model) -> TokenStream {
-    let turns = d.slots.iter().enumerate().map(|(k, slot)| {
-        let own = d.params.iter().filter_map(|p| match &p.kind {
-            ParamKind::Point(at) if at == slot => Some(&p.name),
-            _ => None,
-        });
-        let k = index(k);
-        quote!(#k => { #(self.#own = turned(self.#own);)* })
+    let points = d.params.iter().filter_map(|p| match &p.kind {
+        ParamKind::Point(at) => {
+            let (slot, name) = (index(d.slots.iter().position(|slot| slot == at)?), &p.name);
+            Some(quote!(if slot == #slot { self.#name = turned(self.#name); }))
+        }
+        _ => None,
     });
-    let can_turn = !model.uses_axes;
-    let body = if can_turn {
-        quote!(match slot { #(#turns)* _ => {} } true)
-    } else {
+    let body = if model.uses_axes {
         quote!(false)
+    } else {
+        quote!(#(#points)* true)
     };
     quote! {
         fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool { #body }

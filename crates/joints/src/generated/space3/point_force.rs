@@ -68,11 +68,8 @@ impl Definition<Space3> for PointForce {
         vec![self.s]
     }
     fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool {
-        match slot {
-            0 => {
-                self.s = turned(self.s);
-            }
-            _ => {}
+        if slot == 0 {
+            self.s = turned(self.s);
         }
         true
     }

@@ -472,14 +472,11 @@ impl Definition<Space3> for SpringDamper {
         vec![self.s_i, self.s_j]
     }
     fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool {
-        match slot {
-            0 => {
-                self.s_i = turned(self.s_i);
-            }
-            1 => {
-                self.s_j = turned(self.s_j);
-            }
-            _ => {}
+        if slot == 0 {
+            self.s_i = turned(self.s_i);
+        }
+        if slot == 1 {
+            self.s_j = turned(self.s_j);
         }
         true
     }

@@ -55,10 +55,6 @@ impl Definition<Space3> for Torque {
         vec![]
     }
     fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool {
-        match slot {
-            0 => {}
-            _ => {}
-        }
         true
     }
 }

@@ -68,11 +68,6 @@ impl Definition<Space3> for TorqueBetween {
         vec![]
     }
     fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool {
-        match slot {
-            0 => {}
-            1 => {}
-            _ => {}
-        }
         true
     }
 }
