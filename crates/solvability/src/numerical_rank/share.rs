@@ -3,7 +3,7 @@
 
 use crate::limits::{ENTRY_ROUNDINGS, PAIRS};
 use crate::pose::dimensionless;
-use linalg::{Matrix, Scaling, small_svd};
+use linalg::{Matrix, PivotedQr, Scaling};
 use model::space::norm;
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
 use rank::RankDecision;
@@ -125,21 +125,24 @@ impl Question<'_> {
         let (rank, scaling) = (decision.rank, &decision.scaling);
         let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, rank);
+        let kept = candidate.kept.clone();
+        let factored = PivotedQr::of_rows(scaled.select_rows(&kept));
         let matrices = (scaled, &dimensions, scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data().blocks(self.s);
-        let svd = small_svd(scaled);
         let bases = [rank::orthonormal(decision), single(decision)].map(|z| z.transpose());
+        let [z, _] = &bases;
         let mut known = vec![0.0; scaled.nrows()];
         for &i in asked {
-            // C⁺·e_i
+            // C⁺·e_i, as the smallest solution of the kept rows of C·y = e_i − Z·Zᵀ·e_i.
             let mut y = vec![0.0; scaled.ncols()];
-            for k in 0..rank.min(svd.sigma.len()) {
-                let weight = svd.u[(i, k)] / svd.sigma[k];
-                for (j, y) in y.iter_mut().enumerate() {
-                    *y += weight * svd.v[(j, k)];
-                }
+            for (y, &k) in y.iter_mut().zip(factored.permutation()) {
+                let own = if kept[k] == i { 1.0 } else { 0.0 };
+                let beyond: f64 = (0..z.nrows()).map(|j| z[(j, i)] * z[(j, kept[k])]).sum();
+                *y = own - beyond;
             }
+            factored.solve_r_transpose(&mut y[..kept.len()]);
+            factored.q_mul(&mut y);
             let of_vector = |z: &[f64]| {
                 let gradient = pose.gradient_between(z, &y);
                 let changes = blocks
