@@ -31,8 +31,10 @@
 //! | [`relatives`] | the same with a weaker joint or a turned axis |
 //! | [`pose`] | how a drawing is written: moved, other frames, another order |
 //! | [`text`] | the scene as text |
+//! | [`mod@described`] | the mechanism without text |
 
 pub mod catalogue;
+pub mod described;
 pub mod drawing;
 pub mod expected;
 pub mod families;
@@ -49,6 +51,7 @@ pub mod vector;
 
 use crate::numbers::Numbers;
 
+pub use described::{DescribeError, described};
 pub use drawing::Drawing;
 pub use expected::Expected;
 
