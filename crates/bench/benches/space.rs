@@ -9,7 +9,7 @@ use joints::space3::{Axes, Pose, Revolute, Twist};
 use joints::{Element, Space3};
 use lab::fuzz::space::catalogue::{Flat, delta, four_bar};
 use lab::fuzz::space::{Drawing, described};
-use model::{Mechanism, System};
+use model::Mechanism;
 use solvability::analyse;
 
 fn main() {
