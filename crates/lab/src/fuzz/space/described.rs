@@ -1,323 +1,390 @@
-//! A drawing as a description for the `model`, without a file. Every number is a fraction rounded
-//! once; only the row basis of a joint is carried to its second body in `f64`.
+//! A drawing as the description of a mechanism, with the numbers of its text: every number is a
+//! fraction rounded once, and what the text leaves out follows from them as in a scene.
 
 use joints::space3::{
-    Axes, Cylindrical, Direction, Distance, Fixed, GroundPlane, KnifeEdge, Orientation, Parallel,
-    Perpendicular, Planar, PointOnLine, PointOnPlane, Pose, Revolute, Spherical, Translational,
-    Universal, WheelContact, WheelSlip,
+    Axes, Cylindrical, CylindricalAngleDrive, CylindricalDisplacementDrive, Direction, Distance,
+    DistanceLengthDrive, Fixed, GroundPlane, KnifeEdge, Orientation, Parallel, Perpendicular,
+    Planar, PointOnLine, PointOnPlane, Pose, Revolute, RevoluteAngleDrive, Spherical,
+    Translational, TranslationalDisplacementDrive, Universal, WheelContact, WheelSlip,
 };
-use model::{BodyRef, Function, FunctionError, SpatialBody, SpatialDescription};
+use model::{BodyRef, Function, SpatialBody, SpatialDescription};
 
-use super::drawing::{Body, Drawing, Drive, Joint, Kind, Measure, Side};
+use super::drawing::{Drawing, Joint, Kind, Measure, Side};
 use super::ratio::Ratio;
+use super::text::{Precision, direction_in};
 use super::vector::Vector;
 
-/// Why a drawing is not a mechanism.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum DescribeError {
-    /// A direction is zero.
-    #[error("`{joint}` has a direction that is zero")]
-    Direction {
-        /// The joint.
-        joint: String,
-    },
-    /// The joint has no such measure.
-    #[error("`{joint}` does not have the measure of `{drive}`")]
-    Measure {
-        /// The joint.
-        joint: String,
-        /// The drive.
-        drive: String,
-    },
-    /// The function of a drive is not finite.
-    #[error(transparent)]
-    Function(#[from] FunctionError),
-}
-
-/// What a wheel that does not slip adds to its name: its contact is a joint of its own.
+/// What follows the name of a wheel in the name of its rows against slip, which are a joint of
+/// their own.
 pub const SLIP: &str = " slip";
 
-/// The mechanism of a drawing, with the diagonals of its tensors. The slip rows of a wheel are a
-/// second joint, named with [`SLIP`]. Drives have a rate of one.
+/// The description of a drawing.
 ///
 /// # Errors
-/// - [`DescribeError::Direction`]: a joint has a direction that is zero.
-/// - [`DescribeError::Measure`]: a drive prescribes what its joint does not measure.
-pub fn described(drawing: &Drawing) -> Result<SpatialDescription, DescribeError> {
-    let mut d = SpatialDescription::new("drawing");
-    for body in &drawing.bodies {
-        d.body(SpatialBody {
-            centre: rounded(&body.centre),
-            position: rounded(&body.position),
-            orientation: body.orientation.rounded(),
-            ..SpatialBody::new(&body.name, body.mass.rounded(), inertia(body))
-        });
-    }
+/// The name of a joint with a direction that rounding left without a length, or of a drive whose
+/// joint has no such measure.
+pub fn description(drawing: &Drawing, precision: &Precision) -> Result<SpatialDescription, String> {
+    let mut pen = Pen {
+        drawing,
+        precision,
+        d: SpatialDescription {
+            gravity: precision.gravity,
+            ..SpatialDescription::new("exact")
+        },
+    };
+    pen.d.tolerance.length = precision.tolerance;
+    pen.bodies();
     for joint in &drawing.joints {
-        let on = Place { drawing, joint };
-        add_joint(&mut d, &on).ok_or_else(|| DescribeError::Direction {
-            joint: joint.name.clone(),
-        })?;
+        let placed = pen.joint(joint);
+        placed.ok_or_else(|| format!("`{}` has no direction", joint.name))?;
     }
     for drive in &drawing.drives {
-        let joint = &drawing.joints[drive.joint];
-        let motion = Function::constant_rate(1.0)?;
-        let on = Place { drawing, joint };
-        add_drive(&mut d, &on, drive, motion).ok_or_else(|| DescribeError::Measure {
-            joint: joint.name.clone(),
-            drive: drive.name.clone(),
-        })?;
+        let driven = pen.drive(&drive.name, &drawing.joints[drive.joint], drive.measure);
+        driven.ok_or_else(|| format!("`{}` has no measure", drive.name))?;
     }
-    Ok(d)
+    Ok(pen.d)
 }
 
-fn rounded(v: &Vector) -> [f64; 3] {
-    v.0.each_ref().map(Ratio::rounded)
-}
-
-/// The diagonal of the tensor, which is that of a body, too.
-// FIXME: the model takes tensors without products only (P0154); then the whole tensor.
-fn inertia(body: &Body) -> [[f64; 3]; 3] {
-    let entry = |i: usize, j: usize| {
-        if i == j {
-            body.inertia[i][j].rounded()
-        } else {
-            0.0
-        }
-    };
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
-}
-
-/// A joint and the bodies on which it is placed.
-struct Place<'a> {
+struct Pen<'a> {
     drawing: &'a Drawing,
-    joint: &'a Joint,
+    precision: &'a Precision,
+    d: SpatialDescription,
 }
 
-impl Place<'_> {
-    fn bodies(&self) -> [BodyRef; 2] {
-        let side = |side: Side| side.map_or(BodyRef::Ground, BodyRef::Body);
-        self.joint.bodies.map(side)
+impl Pen<'_> {
+    fn number(&self, x: &Ratio) -> f64 {
+        self.precision.rounded(x.rounded())
     }
 
-    /// A point relative to the mass centre of a body.
-    fn point(&self, slot: usize, p: &Vector) -> [f64; 3] {
-        let side = self.joint.bodies[slot];
+    fn vector(&self, v: &Vector) -> [f64; 3] {
+        v.0.each_ref().map(|x| self.number(x))
+    }
+
+    fn bodies(&mut self) {
+        for body in &self.drawing.bodies {
+            // Mechanisms refuse products of inertia so far; no verdict depends on them.
+            let moment = |i: usize, j: usize| match i == j {
+                true => self.number(&body.inertia[i][i]),
+                false => 0.0,
+            };
+            let inertia = [0, 1, 2].map(|i| [0, 1, 2].map(|j| moment(i, j)));
+            let orientation = body.orientation.rounded();
+            let described = SpatialBody {
+                position: self.vector(&body.position),
+                centre: self.vector(&body.centre),
+                orientation: orientation.map(|x| self.precision.rounded(x)),
+                ..SpatialBody::new(&body.name, self.number(&body.mass), inertia)
+            };
+            self.d.body(described);
+        }
+    }
+
+    /// A point relative to the centre of mass of a body.
+    fn point(&self, joint: &Joint, side: Side, p: &Vector) -> [f64; 3] {
+        if joint.is_placed_in_ground() {
+            return self.d.local(reference(side), self.vector(p));
+        }
         let local = self.drawing.frame(side).inverse().point(p);
-        rounded(&match side {
-            Some(k) => &local - &self.drawing.bodies[k].centre,
-            None => local,
+        let (local, centre) = (self.vector(&local), self.centre(side));
+        std::array::from_fn(|k| local[k] - centre[k])
+    }
+
+    fn centre(&self, side: Side) -> [f64; 3] {
+        side.map_or([0.0; 3], |k| self.d.bodies[k].centre)
+    }
+
+    fn pose(&self, side: Side) -> Pose {
+        side.map_or(Pose::GROUND, |k| {
+            Pose::new([0.0; 3], self.d.bodies[k].orientation)
         })
     }
 
-    fn vector(&self, slot: usize, v: &Vector) -> [f64; 3] {
-        rounded(
-            &self
-                .drawing
-                .frame(self.joint.bodies[slot])
-                .turn
-                .inverse()
-                .of(v),
-        )
+    /// A direction as it is written, in the frame in which it is written.
+    fn written(&self, joint: &Joint, side: Side, d: &Vector) -> [f64; 3] {
+        direction_in(self.drawing, joint, side, d).map(|x| self.precision.rounded(x))
     }
 
-    fn direction(&self, slot: usize, v: &Vector) -> Option<Direction> {
-        Direction::new(self.vector(slot, v))
+    /// A direction that is written in the frame of the directions of a joint, in a body.
+    fn direction(&self, joint: &Joint, side: Side, d: &Vector) -> [f64; 3] {
+        let frame = joint.frame_of_directions();
+        let written = self.written(joint, frame, d);
+        self.carried([frame, side], written)
     }
 
-    /// Axes on both bodies.
-    fn axes(&self, w: &Vector) -> Option<[Axes; 2]> {
-        let cross = self.joint.cross.as_ref().map(|cross| self.vector(0, cross));
-        Axes::new(self.vector(0, w), cross).map(|axes| self.both(axes))
+    /// A direction of one frame in another, at the described start.
+    fn carried(&self, [from, to]: [Side; 2], d: [f64; 3]) -> [f64; 3] {
+        if from == to {
+            return d;
+        }
+        let ground = self.pose(from).direction_to_global(d);
+        self.pose(to).direction_to_local(ground)
     }
 
-    /// Axes of the first body, and the same on the second one.
-    fn both(&self, axes: Axes) -> [Axes; 2] {
-        let [one, other] = self.joint.bodies.map(|side| {
-            let turn = self.drawing.frame(side).turn.rounded();
-            Pose::new([0.0; 3], turn)
-        });
-        let carried = axes.map(|v| other.direction_to_local(one.direction_to_global(v)));
-        [axes, carried]
+    fn ends(&self, joint: &Joint, from: &Vector, at: &Vector) -> [[f64; 3]; 2] {
+        let [first, second] = joint.bodies;
+        [(first, from), (second, at)].map(|(side, p)| self.point(joint, side, p))
     }
-}
 
-fn add_joint(d: &mut SpatialDescription, on: &Place<'_>) -> Option<()> {
-    let (name, bodies) = (on.joint.name.as_str(), &on.bodies());
-    let points = |from, at| [on.point(0, from), on.point(1, at)];
-    match &on.joint.kind {
-        Kind::Spherical { at } => {
-            let [s_i, s_j] = points(at, at);
-            d.joint(name, bodies, Spherical { s_i, s_j });
+    /// The axes about w in both bodies.
+    fn axes(&self, joint: &Joint, w: &Vector) -> Option<[Axes; 2]> {
+        let [first, second] = joint.bodies;
+        let across = joint.cross.as_ref();
+        let across = across.map(|d| self.direction(joint, first, d));
+        let own = Axes::new(self.direction(joint, first, w), across)?;
+        let carried = own.map(|d| self.carried([first, second], d));
+        let other = if joint.gives_both_axes() {
+            Axes::new(self.written(joint, second, w), Some(carried.uvw()[0]))?
+        } else {
+            carried
+        };
+        Some([own, other])
+    }
+
+    fn axial(&self, joint: &Joint, from: &Vector, at: &Vector, w: &Vector) -> Option<Axial> {
+        let [s_i, s_j] = self.ends(joint, from, at);
+        let [own, other] = self.axes(joint, w)?;
+        Some((s_i, s_j, own, other))
+    }
+
+    /// A direction of the first body and one of the second.
+    fn two(&self, joint: &Joint, a: &Vector, b: &Vector) -> Option<[Direction; 2]> {
+        let [first, second] = joint.bodies;
+        let a = Direction::new(self.direction(joint, first, a))?;
+        Some([a, Direction::new(self.direction(joint, second, b))?])
+    }
+
+    fn joint(&mut self, joint: &Joint) -> Option<()> {
+        let bodies = joint.bodies.map(reference);
+        let first = joint.bodies[0];
+        let name = joint.name.as_str();
+        match &joint.kind {
+            Kind::Spherical { at } => {
+                let [s_i, s_j] = self.ends(joint, at, at);
+                self.d.joint(name, &bodies, Spherical { s_i, s_j });
+            }
+            Kind::Fixed { at } => {
+                let [s_i, s_j] = self.ends(joint, at, at);
+                let [axes, axes_j] = self.frames(joint);
+                let element = Fixed {
+                    s_i,
+                    s_j,
+                    axes,
+                    axes_j,
+                };
+                self.d.joint(name, &bodies, element);
+            }
+            Kind::Orientation => {
+                let [axes, axes_j] = self.frames(joint);
+                self.d.joint(name, &bodies, Orientation { axes, axes_j });
+            }
+            Kind::Revolute { at, axis } => {
+                let (s_i, s_j, axis, axis_j) = self.axial(joint, at, at, axis)?;
+                let element = Revolute {
+                    s_i,
+                    s_j,
+                    axis,
+                    axis_j,
+                };
+                self.d.joint(name, &bodies, element);
+            }
+            Kind::Universal {
+                at,
+                first: a,
+                second: b,
+            } => {
+                let [s_i, s_j] = self.ends(joint, at, at);
+                let [axis, cross] = self.two(joint, a, b)?;
+                let element = Universal {
+                    s_i,
+                    s_j,
+                    axis,
+                    cross,
+                };
+                self.d.joint(name, &bodies, element);
+            }
+            Kind::Perpendicular {
+                first: a,
+                second: b,
+            } => {
+                let [axis, cross] = self.two(joint, a, b)?;
+                self.d.joint(name, &bodies, Perpendicular { axis, cross });
+            }
+            Kind::Translational { from, at, axis } => {
+                let (s_i, s_j, axis, axis_j) = self.axial(joint, from, at, axis)?;
+                let element = Translational {
+                    s_i,
+                    s_j,
+                    axis,
+                    axis_j,
+                };
+                self.d.joint(name, &bodies, element);
+            }
+            Kind::Cylindrical { from, at, axis } => {
+                let (s_i, s_j, axis, axis_j) = self.axial(joint, from, at, axis)?;
+                let element = Cylindrical {
+                    s_i,
+                    s_j,
+                    axis,
+                    axis_j,
+                };
+                self.d.joint(name, &bodies, element);
+            }
+            Kind::Planar { from, at, normal } => {
+                let (s_i, s_j, normal, normal_j) = self.axial(joint, from, at, normal)?;
+                let element = Planar {
+                    s_i,
+                    s_j,
+                    normal,
+                    normal_j,
+                };
+                self.d.joint(name, &bodies, element);
+            }
+            Kind::PointOnLine { from, at, axis } => {
+                let (s_i, s_j, axis, _) = self.axial(joint, from, at, axis)?;
+                self.d.joint(name, &bodies, PointOnLine { s_i, s_j, axis });
+            }
+            Kind::PointOnPlane { from, at, normal } => {
+                let [s_i, s_j] = self.ends(joint, from, at);
+                let normal = Direction::new(self.direction(joint, first, normal))?;
+                let element = PointOnPlane { s_i, s_j, normal };
+                self.d.joint(name, &bodies, element);
+            }
+            Kind::Parallel { axis } => {
+                let [axis, axis_j] = self.axes(joint, axis)?;
+                self.d.joint(name, &bodies, Parallel { axis, axis_j });
+            }
+            Kind::Distance { from, at } => {
+                let [s_i, s_j] = self.ends(joint, from, at);
+                let element = Distance {
+                    s_i,
+                    s_j,
+                    length: 0.0,
+                    half_inverse: 0.0,
+                };
+                self.d.joint(name, &bodies, element);
+            }
+            Kind::KnifeEdge { at, normal } => {
+                let s = self.point(joint, first, at);
+                let normal = Direction::new(self.direction(joint, first, normal))?;
+                self.d.joint(name, &bodies[..1], KnifeEdge { s, normal });
+            }
+            Kind::Wheel { .. } => self.wheel(joint)?,
         }
-        Kind::Revolute { at, axis } => {
-            d.joint(name, bodies, revolute(on, at, axis)?);
-        }
-        Kind::Universal { at, first, second } => {
-            let [s_i, s_j] = points(at, at);
-            let universal = Universal {
-                s_i,
-                s_j,
-                axis: on.direction(0, first)?,
-                cross: on.direction(1, second)?,
-            };
-            d.joint(name, bodies, universal);
-        }
-        Kind::Translational { from, at, axis } => {
-            d.joint(name, bodies, translational(on, [from, at], axis)?);
-        }
-        Kind::Cylindrical { from, at, axis } => {
-            d.joint(name, bodies, cylindrical(on, [from, at], axis)?);
-        }
-        Kind::Planar { from, at, normal } => {
-            let ([s_i, s_j], [normal, normal_j]) = (points(from, at), on.axes(normal)?);
-            let planar = Planar {
-                s_i,
-                s_j,
-                normal,
-                normal_j,
-            };
-            d.joint(name, bodies, planar);
-        }
-        Kind::Fixed { at } => {
-            let ([s_i, s_j], [axes, axes_j]) = (points(at, at), on.both(Axes::FRAME));
-            let fixed = Fixed {
-                s_i,
-                s_j,
-                axes,
-                axes_j,
-            };
-            d.joint(name, bodies, fixed);
-        }
-        Kind::PointOnLine { from, at, axis } => {
-            let ([s_i, s_j], [axis, _]) = (points(from, at), on.axes(axis)?);
-            d.joint(name, bodies, PointOnLine { s_i, s_j, axis });
-        }
-        Kind::PointOnPlane { from, at, normal } => {
-            let ([s_i, s_j], normal) = (points(from, at), on.direction(0, normal)?);
-            d.joint(name, bodies, PointOnPlane { s_i, s_j, normal });
-        }
-        Kind::Parallel { axis } => {
-            let [axis, axis_j] = on.axes(axis)?;
-            d.joint(name, bodies, Parallel { axis, axis_j });
-        }
-        Kind::Perpendicular { first, second } => {
-            let (axis, cross) = (on.direction(0, first)?, on.direction(1, second)?);
-            d.joint(name, bodies, Perpendicular { axis, cross });
-        }
-        Kind::Orientation => {
-            let [axes, axes_j] = on.both(Axes::FRAME);
-            d.joint(name, bodies, Orientation { axes, axes_j });
-        }
-        Kind::Distance { from, at } => {
-            d.joint(name, bodies, distance(on, [from, at]));
-        }
-        Kind::KnifeEdge { at, normal } => {
-            let (s, normal) = (on.point(0, at), on.direction(0, normal)?);
-            d.joint(name, &bodies[..1], KnifeEdge { s, normal });
-        }
-        Kind::Wheel {
+        Some(())
+    }
+
+    /// The axes of the first body, also as they lie in the second.
+    fn frames(&self, joint: &Joint) -> [Axes; 2] {
+        let carried = |d| self.carried(joint.bodies, d);
+        [Axes::FRAME, Axes::FRAME.map(carried)]
+    }
+
+    fn wheel(&mut self, joint: &Joint) -> Option<()> {
+        let Kind::Wheel {
             centre,
             axis,
             contact,
             normal,
-        } => {
-            let (s, axis) = (on.point(0, centre), on.direction(0, axis)?);
-            let radius = (contact - centre).square().root();
-            let plane = GroundPlane::new(rounded(contact), rounded(normal))?;
-            let touching = WheelContact {
-                s,
-                axis,
-                radius,
-                plane,
-                half_inverse: 0.0,
-            };
-            let rolling = WheelSlip {
-                s,
-                axis,
-                radius,
-                plane,
-                inverse: 0.0,
-            };
-            d.joint(name, &bodies[..1], touching);
-            d.joint(&format!("{name}{SLIP}"), &bodies[..1], rolling);
-        }
+        } = &joint.kind
+        else {
+            return None;
+        };
+        let body = joint.bodies[0];
+        let local = self.drawing.frame(body).inverse().point(centre);
+        let (local, own) = (self.vector(&local), self.centre(body));
+        let s = std::array::from_fn(|k| local[k] - own[k]);
+        let axis = Direction::new(self.written(joint, body, axis))?;
+        let radius = (contact - centre).square().root();
+        let radius = self.precision.rounded(radius);
+        let plane = GroundPlane::new(self.vector(contact), self.written(joint, None, normal))?;
+        let contact = WheelContact {
+            s,
+            axis,
+            radius,
+            plane,
+            half_inverse: 0.0,
+        };
+        let slip = WheelSlip {
+            s,
+            axis,
+            radius,
+            plane,
+            inverse: 0.0,
+        };
+        let bodies = [reference(body)];
+        self.d.joint(&joint.name, &bodies, contact);
+        let name = format!("{}{SLIP}", joint.name);
+        self.d.joint(&name, &bodies, slip);
+        Some(())
     }
-    Some(())
-}
 
-fn add_drive(
-    d: &mut SpatialDescription,
-    on: &Place<'_>,
-    drive: &Drive,
-    motion: Function,
-) -> Option<()> {
-    let (name, bodies) = (drive.name.as_str(), &on.bodies());
-    match (&on.joint.kind, drive.measure) {
-        (Kind::Revolute { at, axis }, Measure::Angle) => {
-            d.drive(name, bodies, revolute(on, at, axis)?.angle_drive(), motion);
+    fn drive(&mut self, name: &str, joint: &Joint, measure: Measure) -> Option<()> {
+        let bodies = joint.bodies.map(reference);
+        let motion = Function::constant(0.0).ok()?;
+        match (measure, &joint.kind) {
+            (Measure::Angle, Kind::Revolute { at, axis }) => {
+                let (s_i, s_j, axis, axis_j) = self.axial(joint, at, at, axis)?;
+                let element = RevoluteAngleDrive {
+                    s_i,
+                    s_j,
+                    axis,
+                    axis_j,
+                    measure_0: [1.0, 0.0],
+                };
+                self.d.drive(name, &bodies, element, motion);
+            }
+            (Measure::Angle, Kind::Cylindrical { from, at, axis }) => {
+                let (s_i, s_j, axis, axis_j) = self.axial(joint, from, at, axis)?;
+                let element = CylindricalAngleDrive {
+                    s_i,
+                    s_j,
+                    axis,
+                    axis_j,
+                    measure_0: [1.0, 0.0],
+                };
+                self.d.drive(name, &bodies, element, motion);
+            }
+            (Measure::Displacement, Kind::Cylindrical { from, at, axis }) => {
+                let (s_i, s_j, axis, axis_j) = self.axial(joint, from, at, axis)?;
+                let element = CylindricalDisplacementDrive {
+                    s_i,
+                    s_j,
+                    axis,
+                    axis_j,
+                    measure_0: 0.0,
+                };
+                self.d.drive(name, &bodies, element, motion);
+            }
+            (Measure::Displacement, Kind::Translational { from, at, axis }) => {
+                let (s_i, s_j, axis, axis_j) = self.axial(joint, from, at, axis)?;
+                let element = TranslationalDisplacementDrive {
+                    s_i,
+                    s_j,
+                    axis,
+                    axis_j,
+                    measure_0: 0.0,
+                };
+                self.d.drive(name, &bodies, element, motion);
+            }
+            (Measure::Length, Kind::Distance { from, at }) => {
+                let [s_i, s_j] = self.ends(joint, from, at);
+                let element = DistanceLengthDrive {
+                    s_i,
+                    s_j,
+                    length: 0.0,
+                    half_inverse: 0.0,
+                };
+                self.d.drive(name, &bodies, element, motion);
+            }
+            _ => return None,
         }
-        (Kind::Translational { from, at, axis }, Measure::Displacement) => {
-            let joint = translational(on, [from, at], axis)?;
-            d.drive(name, bodies, joint.displacement_drive(), motion);
-        }
-        (Kind::Cylindrical { from, at, axis }, Measure::Displacement) => {
-            let joint = cylindrical(on, [from, at], axis)?;
-            d.drive(name, bodies, joint.displacement_drive(), motion);
-        }
-        (Kind::Cylindrical { from, at, axis }, Measure::Angle) => {
-            let joint = cylindrical(on, [from, at], axis)?;
-            d.drive(name, bodies, joint.angle_drive(), motion);
-        }
-        (Kind::Distance { from, at }, Measure::Length) => {
-            d.drive(
-                name,
-                bodies,
-                distance(on, [from, at]).length_drive(),
-                motion,
-            );
-        }
-        _ => return None,
+        Some(())
     }
-    Some(())
 }
 
-fn revolute(on: &Place<'_>, at: &Vector, axis: &Vector) -> Option<Revolute> {
-    let [axis, axis_j] = on.axes(axis)?;
-    Some(Revolute {
-        s_i: on.point(0, at),
-        s_j: on.point(1, at),
-        axis,
-        axis_j,
-    })
-}
+/// Points and axes of a joint with one axis, in its first and its second body.
+type Axial = ([f64; 3], [f64; 3], Axes, Axes);
 
-fn translational(on: &Place<'_>, [from, at]: [&Vector; 2], axis: &Vector) -> Option<Translational> {
-    let [axis, axis_j] = on.axes(axis)?;
-    Some(Translational {
-        s_i: on.point(0, from),
-        s_j: on.point(1, at),
-        axis,
-        axis_j,
-    })
-}
-
-fn cylindrical(on: &Place<'_>, [from, at]: [&Vector; 2], axis: &Vector) -> Option<Cylindrical> {
-    let [axis, axis_j] = on.axes(axis)?;
-    Some(Cylindrical {
-        s_i: on.point(0, from),
-        s_j: on.point(1, at),
-        axis,
-        axis_j,
-    })
-}
-
-fn distance(on: &Place<'_>, [from, at]: [&Vector; 2]) -> Distance {
-    Distance {
-        s_i: on.point(0, from),
-        s_j: on.point(1, at),
-        length: 0.0,
-        half_inverse: 0.0,
-    }
+fn reference(side: Side) -> BodyRef {
+    side.map_or(BodyRef::Ground, BodyRef::Body)
 }
