@@ -63,9 +63,12 @@ impl Pen<'_> {
     fn bodies(&mut self) {
         for body in &self.drawing.bodies {
             // Mechanisms refuse products of inertia so far; no verdict depends on them.
-            let moment = |i: usize, j: usize| match i == j {
-                true => self.number(&body.inertia[i][i]),
-                false => 0.0,
+            let moment = |i: usize, j: usize| {
+                if i == j {
+                    self.number(&body.inertia[i][i])
+                } else {
+                    0.0
+                }
             };
             let inertia = [0, 1, 2].map(|i| [0, 1, 2].map(|j| moment(i, j)));
             let orientation = body.orientation.rounded();
