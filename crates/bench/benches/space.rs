@@ -8,7 +8,8 @@ use divan::Bencher;
 use joints::space3::{Axes, Pose, Revolute, Twist};
 use joints::{Element, Space3};
 use lab::fuzz::space::catalogue::{Flat, delta, four_bar};
-use lab::fuzz::space::{Drawing, described};
+use lab::fuzz::space::text::Precision;
+use lab::fuzz::space::{Drawing, description};
 use model::Mechanism;
 use solvability::analyse;
 
@@ -54,7 +55,7 @@ fn kernel_revolute(bencher: Bencher<'_, '_>) {
 
 /// All verdicts of a drawing with this rank.
 fn verdicts(bencher: Bencher<'_, '_>, drawing: &Drawing, rank: usize) {
-    let description = described(drawing).expect("a mechanism");
+    let description = description(drawing, &Precision::default()).expect("a mechanism");
     let mechanism = Mechanism::build(&description).expect("builds");
     let (q, _) = mechanism.described_state();
     let analysed = || analyse(&mechanism, 0.0, black_box(&q));

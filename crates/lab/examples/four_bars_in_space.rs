@@ -7,7 +7,8 @@
 use std::error::Error;
 use std::time::Instant;
 
-use lab::fuzz::space::{catalogue, described};
+use lab::fuzz::space::text::Precision;
+use lab::fuzz::space::{catalogue, description};
 use model::{Mechanism, System};
 use solvability::{Analysis, analyse};
 
@@ -22,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut before: Option<(f64, f64)> = None;
     for n in std::env::args().skip(1) {
         let n: usize = n.parse()?;
-        let description = described(&catalogue::four_bars_in_a_row(n))?;
+        let description = description(&catalogue::four_bars_in_a_row(n), &Precision::default())?;
         let clock = Instant::now();
         let mechanism = Mechanism::build(&description).map_err(|faults| format!("{faults:?}"))?;
         let built = clock.elapsed().as_secs_f64();

@@ -5,7 +5,8 @@
 use lab::fuzz::space::described::SLIP;
 use lab::fuzz::space::expected::AXES;
 use lab::fuzz::space::pose::{Writing, posed};
-use lab::fuzz::space::{Drawing, Expected, catalogue, described, scenes};
+use lab::fuzz::space::text::Precision;
+use lab::fuzz::space::{Drawing, Expected, catalogue, description, scenes};
 use lab::numbers::Numbers;
 use model::{Mechanism, System};
 use solvability::{ReactionVerdict, Verdict, analyse};
@@ -34,7 +35,8 @@ const COUNTS: [(&str, [usize; 4]); 17] = [
 /// Rows, rank, redundancy and mobility, after all verdicts have been compared.
 fn judged(what: &str, drawing: &Drawing) -> [usize; 4] {
     let expected = Expected::of(drawing);
-    let description = described(drawing).unwrap_or_else(|e| panic!("{what}: {e}"));
+    let description =
+        description(drawing, &Precision::default()).unwrap_or_else(|e| panic!("{what}: {e}"));
     let mechanism = Mechanism::build(&description).unwrap_or_else(|e| panic!("{what}: {e:?}"));
     let (q, _) = mechanism.described_state();
     let found = analyse(&mechanism, 0.0, &q).unwrap_or_else(|e| panic!("{what}: {e}"));

@@ -1,7 +1,8 @@
 //! What second order says in space.
 
 use joints::space3::{Distance, Pose};
-use lab::fuzz::space::{catalogue, described};
+use lab::fuzz::space::text::Precision;
+use lab::fuzz::space::{catalogue, description};
 use linalg::Matrix;
 use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription, System};
 use solvability::{Continuation, analyse, decide, is_locked, second_order};
@@ -146,6 +147,8 @@ fn linkages_that_move_are_not_blocked() {
         catalogue::parallelograms(1, [3, 4]),
         catalogue::parallelograms(1, [5, 0]),
     ] {
-        assert!(!locked(&described(&drawing).expect("a mechanism")));
+        assert!(!locked(
+            &description(&drawing, &Precision::default()).expect("a mechanism")
+        ));
     }
 }

@@ -7,7 +7,8 @@ use joints::space3::{
 use model::{BodyRef, SpatialBody, SpatialDescription};
 
 use crate::fuzz::space::pose::{Writing, posed};
-use crate::fuzz::space::{DescribeError, catalogue, described};
+use crate::fuzz::space::text::Precision;
+use crate::fuzz::space::{catalogue, description};
 use crate::numbers::Numbers;
 
 /// A tensor with these moments along the axes of the body.
@@ -94,7 +95,7 @@ pub fn bricard() -> SpatialDescription {
 ///
 /// # Errors
 /// None: the drawing is a mechanism.
-pub fn bennett() -> Result<SpatialDescription, DescribeError> {
+pub fn bennett() -> Result<SpatialDescription, String> {
     let drawing = posed(
         &catalogue::bennett(),
         Writing::Moved,
