@@ -184,6 +184,23 @@ fn what_is_not_decided_is_said() {
     );
 }
 
+/// A triangle of rods stands still: rest is the only velocity.
+#[test]
+fn what_has_no_freedom_stands_still() {
+    let d = chain(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]);
+    let mechanism = Mechanism::build(&d).expect("builds");
+    let (q, _) = mechanism.described_state();
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    let decision = decide(&mechanism, &s, &q).expect("finite");
+    assert_eq!((decision.rank, decision.redundancy), (6, 0));
+    let (rest, none) = (vec![0.0; 6], Matrix::zeros(6, 0));
+    let found = second_order(&mechanism, 0.0, &q, &rest, &decision, &none);
+    assert_eq!(found.expect("a state"), Continuation::Unique);
+}
+
 /// Rods from pivot to pivot, end to end, with joints at these positions.
 fn chain(places: &[[f64; 2]]) -> Description {
     let links = places.len() - 1;

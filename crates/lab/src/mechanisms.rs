@@ -3,6 +3,7 @@
 pub mod cranks;
 pub mod robot;
 pub mod sketch;
+pub mod space;
 
 use joints::{Pose, Revolute};
 use model::{Body, BodyRef, Joint};

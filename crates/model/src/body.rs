@@ -1,5 +1,7 @@
 //! Bodies as described, in the plane and in space, and how joints refer to them.
 
+use crate::principal::Principal;
+
 /// A rigid body with its state at the start. The origin of its frame is its centre of mass, unless
 /// `centre` says otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -98,6 +100,8 @@ pub struct BodyRecord {
     pub tolerance: Option<f64>,
     /// The rest, in its space.
     pub described: DescribedBody,
+    /// Its principal axes, if they are not those of its frame.
+    pub principal: Option<Principal>,
 }
 
 /// What describes a body in its space.
@@ -123,15 +127,21 @@ impl From<SpatialBody> for DescribedBody {
 
 impl From<DescribedBody> for BodyRecord {
     fn from(described: DescribedBody) -> Self {
-        let (name, mass, tolerance) = match &described {
-            DescribedBody::Plane(b) => (b.name.clone(), b.mass, b.tolerance),
-            DescribedBody::Space3(b) => (b.name.clone(), b.mass, b.tolerance),
+        let (name, mass, tolerance, principal) = match &described {
+            DescribedBody::Plane(b) => (b.name.clone(), b.mass, b.tolerance, None),
+            DescribedBody::Space3(b) => (
+                b.name.clone(),
+                b.mass,
+                b.tolerance,
+                Principal::of(&b.inertia),
+            ),
         };
         Self {
             name,
             mass,
             tolerance,
             described,
+            principal,
         }
     }
 }
@@ -152,11 +162,13 @@ impl BodyRecord {
         }
     }
 
-    /// A point of its frame relative to its centre of mass (m), as joints and forces take it.
+    /// A point of its frame relative to its centre of mass (m), in the axes of its coordinates:
+    /// those of its frame, or its principal axes.
     #[must_use]
     pub fn from_centre(&self, point: [f64; 3]) -> [f64; 3] {
         let centre = self.centre();
-        std::array::from_fn(|k| point[k] - centre[k])
+        let arm = std::array::from_fn(|k| point[k] - centre[k]);
+        self.principal.as_ref().map_or(arm, |own| own.own(arm))
     }
 
     /// The numbers of a field, by its name in messages.

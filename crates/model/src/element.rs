@@ -13,7 +13,7 @@ mod slots;
 
 pub use bodies::Bodies;
 pub(crate) use bodies::{angle_at, axes_at, turned_at};
-pub(crate) use constraint::PlacedConstraint;
+pub(crate) use constraint::{Framed, PlacedConstraint};
 pub(crate) use force::PlacedForce;
 pub use recorded::Input;
 pub(crate) use recorded::RecordedSlots;
@@ -248,11 +248,6 @@ impl AnyConstraint {
         with!(AnyConstraint, self, element, S => {
             element.points().into_iter().map(S::point).collect()
         })
-    }
-
-    /// Axes fixed in the first body, in its frame.
-    pub(crate) fn axes(&self) -> Option<[[f64; 3]; 3]> {
-        with!(AnyConstraint, self, element, _S => element.axes())
     }
 
     pub(crate) fn data(&self, out: &mut [f64]) {

@@ -130,7 +130,9 @@ impl<'m> Frames<'m> {
         }
         if space == SpaceKind::Space3 {
             state.omega = turned_at(space, own, state.omega);
-            state.quaternion = [own[3], own[4], own[5], own[6]];
+            let axes = [own[3], own[4], own[5], own[6]];
+            let principal = self.0.bodies()[body].principal.as_ref();
+            state.quaternion = principal.map_or(axes, |own| own.turned_back(axes));
         }
         if arm != [0.0; 3] {
             let arm = turned_at(space, own, arm);
@@ -163,7 +165,8 @@ impl<'m> Frames<'m> {
             DescribedBody::Plane(b) => of_plane(k, b),
             DescribedBody::Space3(b) => {
                 let own = &q[space.coordinates(k)];
-                let arm = turned_at(space, own, b.centre);
+                // The origin is at the arm −c from the centre of mass.
+                let arm = turned_at(space, own, record.from_centre([0.0; 3])).map(|x| 0.0 - x);
                 let carried = |v: [f64; 3], omega: [f64; 3]| -> [f64; 3] {
                     let turned = cross(omega, arm);
                     std::array::from_fn(|k| v[k] + turned[k])

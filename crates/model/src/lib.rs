@@ -36,6 +36,7 @@
 //! | `uncertainty` | the uncertainty of the entries of C |
 //! | [`space`] | coordinates of bodies, and how a configuration moves along velocities |
 //! | [`start`] | a consistent start |
+//! | `principal` | principal axes of bodies with products of inertia |
 //! | `observed` | markers, and measures between them |
 //! | [`reaction`] | multipliers to forces and torques |
 
@@ -51,6 +52,7 @@ mod group;
 pub mod law;
 pub mod mechanism;
 mod observed;
+mod principal;
 pub mod reaction;
 pub mod record;
 pub mod registry;
@@ -78,6 +80,7 @@ pub use mechanism::{
     Sparse, Work,
 };
 pub use observed::{Marker, Measure, MeasureKind, Observed};
+pub use principal::Principal;
 pub use reaction::{Axes, ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
 pub use record::RecordedEquations;
 pub use registry::{ConstraintDefinition, Definitions, ForceDefinition, Registry};

@@ -10,6 +10,7 @@ mod holds;
 mod initial;
 mod kernels;
 mod part;
+mod turn;
 mod work;
 
 use joints::Ring;

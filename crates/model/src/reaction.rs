@@ -22,6 +22,9 @@ pub use crate::group::{ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind
 /// ground, which is the cautious choice.
 const ROUNDING: f64 = 1e-10;
 
+/// The axes of the ground. The second is that of a body turned by zero, with the sign of its zero.
+const GROUND_AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [-0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// A reaction: force and torque about the place, ground axes, on the first body. In the plane the
 /// force has no z component, and the torque no other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -226,25 +229,34 @@ impl<'a> Reactions<'a> {
     /// Returns `None` if the reaction has no such frame.
     #[must_use]
     pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<Axes> {
-        // The second axis is that of a body turned by zero, with the sign of its zero.
-        let ground = [[1.0, 0.0, 0.0], [-0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let axes = match (frame, self.group(id).bodies.first()) {
             (Frame::Edge, _) => {
                 let [x, y] = self.push(id)?;
-                [[x, y, 0.0], [-y, x, 0.0], ground[2]]
+                [[x, y, 0.0], [-y, x, 0.0], GROUND_AXES[2]]
             }
             (Frame::Joint, first) => {
-                let own = self.constraint(id).kernels().axes()?;
-                match first {
-                    Some(BodyRef::Body(k)) => own.map(|axis| self.s.bodies.turned(*k, axis)),
-                    _ => own,
-                }
+                let own = self.constraint(id).axes()?;
+                let frame = first.map_or(GROUND_AXES, |body| self.frame_axes(*body));
+                let turned = |[u, v, w]: [f64; 3]| {
+                    std::array::from_fn(|k| u * frame[0][k] + v * frame[1][k] + w * frame[2][k])
+                };
+                own.map(turned)
             }
-            (Frame::FirstBody, Some(BodyRef::Body(k))) => self.s.bodies.axes(*k),
-            _ => ground,
+            (Frame::FirstBody, Some(body)) => self.frame_axes(*body),
+            _ => GROUND_AXES,
         };
         let count = self.layout().space.n_translations();
         Some(Axes { axes, count })
+    }
+
+    /// The axes of the frame of a body, in ground axes.
+    fn frame_axes(self, body: BodyRef) -> [[f64; 3]; 3] {
+        let Some(k) = body.moving() else {
+            return GROUND_AXES;
+        };
+        let own = self.s.bodies.axes(k);
+        let principal = self.mechanism.bodies()[k].principal.as_ref();
+        principal.map_or(own, |of| of.framed(own))
     }
 
     /// The direction in the plane of the only row of a joint or drive that has a force. Across a

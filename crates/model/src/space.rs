@@ -19,7 +19,7 @@ pub use plane::Plane;
 #[cfg(feature = "unit-circle")]
 pub use plane::UnitCircle;
 pub use space3::Space3;
-pub(crate) use space3::{normalised, quaternion};
+pub(crate) use space3::{normalised, quaternion, quaternion_product};
 pub use traits::{PlanarSpace, Space};
 pub use vector::{difference, norm, unit_cross};
 

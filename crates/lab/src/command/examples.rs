@@ -31,7 +31,9 @@ Build with --release, and keep the machine idle: seconds are compared.";
 pub(super) const FUZZ: &str = "Examples:
   lab fuzz run --inputs 100000 --seed 1              what fails is made short and kept in found/
   lab fuzz exact                                     20 000 degenerate scenes, judged by exact arithmetic
-  lab fuzz rounded --drawings 1000                   data with 3 to 16 digits
+  lab fuzz exact --suite space                       mechanisms in space, judged in the same way
+  lab fuzz exact --suite lifted                      scenes of the plane, lifted into space
+  lab fuzz rounded --drawings 1000                   data with 3 to 16 digits; in space with --suite space
   lab fuzz full-rank --drawings 2000                 full rank near a lower one
 
 Exit code 1 if one of them fails.";

@@ -12,8 +12,8 @@ use pfaff_cli::input::unreadable;
 use pfaff_cli::output::{Failure, Outcome};
 
 use crate::fuzz::campaign::{Campaign, Tally};
-use crate::fuzz::exact;
 use crate::fuzz::exact::rounded::{self, Suite};
+use crate::fuzz::exact::tally;
 use crate::fuzz::watch::Limits;
 use crate::fuzz::{input, passages, trial};
 
@@ -57,24 +57,20 @@ pub(super) enum Fuzz {
     },
     /// Tests degenerate scenes by exact arithmetic; exit code 1 if an answer is wrong
     Exact {
-        /// Number of scenes
-        #[arg(long, default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
-        scenes: u64,
-        /// Seed of all scenes
-        #[arg(long, default_value_t = 1)]
-        seed: u64,
-        /// The first scene
-        #[arg(long, default_value_t = 0)]
-        from: u64,
-        /// Writes one scene with the correct answer and that of the program, then ends
-        #[arg(long, value_name = "NUMBER")]
-        show: Option<u64>,
-        /// Directory for scenes with a wrong answer, the shortest of each kind
-        #[arg(long, value_name = "DIR")]
-        keep: Option<PathBuf>,
+        /// Which scenes
+        #[arg(long, value_enum, default_value_t)]
+        suite: tally::Suite,
+        #[command(flatten)]
+        scenes: Scenes,
     },
     /// Tests scenes with 3 … 16 significant digits; exit code 1 if an answer is wrong
-    Rounded(Drawings),
+    Rounded {
+        /// Which scenes
+        #[arg(long, value_enum, default_value_t)]
+        suite: Suite,
+        #[command(flatten)]
+        drawings: Drawings,
+    },
     /// Tests scenes of full rank near a lower rank, with tolerances below a third of their distance
     /// from it; exit code 1 if one is called redundant
     FullRank(Drawings),
@@ -101,6 +97,46 @@ pub(super) enum Fuzz {
         /// The input after the last one
         to: u64,
     },
+}
+
+/// A range of scenes.
+#[derive(Args)]
+pub(super) struct Scenes {
+    /// Number of scenes
+    #[arg(long, default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
+    scenes: u64,
+    /// Seed of all scenes
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// The first scene
+    #[arg(long, default_value_t = 0)]
+    from: u64,
+    /// Writes one scene with the correct answer and that of the program, then ends
+    #[arg(long, value_name = "NUMBER")]
+    show: Option<u64>,
+    /// Directory for scenes with a wrong answer, the shortest of each kind
+    #[arg(long, value_name = "DIR")]
+    keep: Option<PathBuf>,
+}
+
+impl Scenes {
+    fn examine(&self, suite: tally::Suite, console: &Console<'_>) -> Outcome {
+        let Self { scenes, seed, .. } = *self;
+        if let Some(number) = self.show {
+            return console.print(&suite.outcome(seed, number).page());
+        }
+        let clock = Instant::now();
+        let bar = progress(scenes);
+        let tally = tally::Tally::of(suite, seed, self.from, scenes, || bar.inc(1));
+        bar.finish_and_clear();
+        let seconds = clock.elapsed().as_secs_f64();
+        let head = format!("seed {seed}: {scenes} scenes in {seconds:.1} s\n");
+        console.print(&(head + &tally.describe()))?;
+        if let Some(folder) = &self.keep {
+            tally.keep(seed, folder).map_err(stopped)?;
+        }
+        passed(tally.passes())
+    }
 }
 
 /// A range of drawings, each of which is written in several ways.
@@ -208,31 +244,8 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
             let text = String::from_utf8_lossy(&bytes);
             console.write(|mut out| answer(&mut out, &text))
         }
-        Fuzz::Exact {
-            seed,
-            show: Some(number),
-            ..
-        } => console.print(&exact::tally::outcome(*seed, *number).page()),
-        Fuzz::Exact {
-            scenes,
-            seed,
-            from,
-            show: None,
-            keep,
-        } => {
-            let clock = Instant::now();
-            let bar = progress(*scenes);
-            let tally = exact::tally::Tally::of(*seed, *from, *scenes, || bar.inc(1));
-            bar.finish_and_clear();
-            let seconds = clock.elapsed().as_secs_f64();
-            let head = format!("seed {seed}: {scenes} scenes in {seconds:.1} s\n");
-            console.print(&(head + &tally.describe()))?;
-            if let Some(folder) = keep {
-                tally.keep(*seed, folder).map_err(stopped)?;
-            }
-            passed(tally.passes())
-        }
-        Fuzz::Rounded(drawings) => drawings.examine(Suite::Rounded, console),
+        Fuzz::Exact { suite, scenes } => scenes.examine(*suite, console),
+        Fuzz::Rounded { suite, drawings } => drawings.examine(*suite, console),
         Fuzz::FullRank(drawings) => drawings.examine(Suite::FullRank, console),
         Fuzz::Passages { runs, seed, from } => {
             let clock = Instant::now();

@@ -17,6 +17,7 @@
 //! | [`rows`] | its constraint rows as lines of force |
 //! | [`truth`] | the results of exact arithmetic |
 //! | [`answer`] | the answer of the program |
+//! | [`mod@reference`] | what is compared, in the plane and in space |
 //! | [`examine`] | comparison of the two |
 //! | [`findings`] | the errors in an answer |
 //! | [`words`] | comparison of the sentences |
@@ -41,6 +42,7 @@ pub mod minimax;
 pub mod near;
 pub mod pose;
 pub mod ratio;
+pub mod reference;
 pub mod rounded;
 pub mod rows;
 pub mod tally;

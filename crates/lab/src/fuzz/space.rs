@@ -31,12 +31,21 @@
 //! | [`relatives`] | the same with a weaker joint or a turned axis |
 //! | [`pose`] | how a drawing is written: moved, other frames, another order |
 //! | [`text`] | the scene as text |
+//! | [`mod@examine`] | comparison of the answer of the program with exact arithmetic |
+//! | [`lifted`] | scenes of the plane in space |
+//! | [`graph`] | cycles of the joints that keep bodies in the plane |
+//! | [`permanence`] | whether a redundancy belongs to the mechanism or to its pose |
+//! | [`within`] | comparison of the answers for few digits |
 
 pub mod catalogue;
 pub mod drawing;
+pub mod examine;
 pub mod expected;
 pub mod families;
+pub mod graph;
 pub mod kind;
+pub mod lifted;
+pub mod permanence;
 pub mod pose;
 pub mod ratio;
 pub mod relatives;
@@ -46,11 +55,13 @@ mod tests;
 pub mod text;
 pub mod truth;
 pub mod vector;
+pub mod within;
 
 use crate::numbers::Numbers;
 
 pub use drawing::Drawing;
 pub use expected::Expected;
+pub use text::description;
 
 use families::Family;
 use pose::Writing;

@@ -10,6 +10,7 @@ use lab::fuzz::exact::findings::{Kind, list};
 use lab::fuzz::exact::pose::{Posed, Writing};
 use lab::fuzz::exact::ratio::Ratio;
 use lab::fuzz::exact::rounded::{self, Suite};
+use lab::fuzz::exact::tally;
 use lab::fuzz::exact::tally::Tally;
 use lab::fuzz::exact::text::Precision;
 use lab::fuzz::exact::truth::Truth;
@@ -25,7 +26,7 @@ const SCENES: u64 = 384;
 
 #[test]
 fn no_answer_contradicts_exact_arithmetic() {
-    let tally = Tally::of(SEED, 0, SCENES, || ());
+    let tally = Tally::of(tally::Suite::Plane, SEED, 0, SCENES, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
     assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
 }

@@ -12,6 +12,7 @@ mod large_files;
 mod methods;
 mod quick;
 mod solvers;
+mod space;
 mod stress;
 mod work_precision;
 

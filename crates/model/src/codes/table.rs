@@ -548,11 +548,13 @@ pub const TABLE: &[Entry] = &[
     ),
     entry(
         154,
-        "A tensor of inertia has products",
-        "Turn the frame of the body into its principal axes, where the tensor is diagonal.",
+        "A force has components in the axes of a body with products of inertia",
+        "Give global components, or turn the frame of the body into its principal axes, where the tensor is diagonal.",
         Example::Scene(
             "check -",
-            block!("inertia = [[2, 0.1, 0], [0.1, 2, 0], [0, 0, 2]]\n"),
+            block!(
+                "inertia = [[2, 0.1, 0], [0.1, 2, 0], [0, 0, 2]]\n\n[[force]]\nname = \"F\"\ntype = \"point-force\"\nframe = \"body\"\nbody = \"block\"\nat = [0, 0, 0]\nforce = [1, 0, 0]\n"
+            ),
         ),
     ),
     entry(

@@ -291,7 +291,12 @@ impl BodyRecord {
                 let [w, ..] = body.orientation;
                 // Of a quaternion and its negative, the one with w ≥ 0.
                 let sign = if w < 0.0 { -1.0 } else { 1.0 };
-                q[3..].copy_from_slice(&normalised(body.orientation.map(|e| sign * e)));
+                let frame = normalised(body.orientation.map(|e| sign * e));
+                let own = self
+                    .principal
+                    .as_ref()
+                    .map_or(frame, |own| own.turned(frame));
+                q[3..].copy_from_slice(&own);
             }
         }
     }

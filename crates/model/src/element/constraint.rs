@@ -10,11 +10,32 @@ use super::recorded::RecordedSlots;
 use super::slots::{Kinematics, OwnRates, Rates, Site, Slots};
 use super::{AnyConstraint, Bodies, BodySpace, with};
 
+/// A constraint in the axes in which its bodies move.
+#[derive(Clone)]
+pub(crate) struct Framed {
+    element: AnyConstraint,
+    /// Axes u, v and w of its joint, fixed in the first body, in the axes of its frame.
+    axes: Option<[[f64; 3]; 3]>,
+}
+
+impl Framed {
+    /// A constraint as it is described; `turn` writes it in the axes in which its bodies move.
+    pub(crate) fn new(mut element: AnyConstraint, turn: impl FnOnce(&mut AnyConstraint)) -> Self {
+        let axes = with!(AnyConstraint, &element, element, _S => element.axes());
+        turn(&mut element);
+        Self { element, axes }
+    }
+
+    pub(crate) fn kernels(&self) -> &AnyConstraint {
+        &self.element
+    }
+}
+
 /// A constraint with its indices in the mechanism. Kernels need the poses of their slots and, where
 /// they depend on them, the velocities; `out` is overwritten.
 #[derive(Clone)]
 pub(crate) struct PlacedConstraint {
-    element: AnyConstraint,
+    framed: Framed,
     pub(crate) site: Site,
     /// Its entries of C in the scratch.
     pub(crate) entries: Range<usize>,
@@ -27,16 +48,16 @@ pub(crate) struct PlacedConstraint {
 
 impl PlacedConstraint {
     pub(crate) fn new(
-        element: AnyConstraint,
+        framed: Framed,
         site: Site,
         [entries, rows]: [Range<usize>; 2],
         tolerance: Option<f64>,
     ) -> Self {
-        let all = element.spec().c.iter().enumerate();
+        let all = framed.element.spec().c.iter().enumerate();
         let varying = all.filter(|(_, e)| !e.constant).map(|(at, _)| at);
         Self {
             varying: varying.collect(),
-            element,
+            framed,
             site,
             entries,
             rows,
@@ -45,11 +66,20 @@ impl PlacedConstraint {
     }
 
     pub(crate) fn kernels(&self) -> &AnyConstraint {
-        &self.element
+        &self.framed.element
+    }
+
+    pub(crate) fn framed(&self) -> &Framed {
+        &self.framed
+    }
+
+    /// Axes u, v and w of its joint, fixed in the first body, in the axes of its frame.
+    pub(crate) fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        self.framed.axes
     }
 
     pub(crate) fn spec(&self) -> &'static ConstraintSpec {
-        self.element.spec()
+        self.framed.element.spec()
     }
 
     /// Whether its block of C depends on the configuration.
@@ -68,7 +98,7 @@ impl PlacedConstraint {
     }
 
     pub(crate) fn initialise(&mut self, bodies: &Bodies) {
-        with!(AnyConstraint, &mut self.element, element, S => {
+        with!(AnyConstraint, &mut self.framed.element, element, S => {
             element.initialise(&self.site.poses::<S, f64>(bodies));
         });
     }
@@ -76,7 +106,7 @@ impl PlacedConstraint {
     /// The first requirement of its definition that is not met at these poses.
     pub(crate) fn unmet_requirement(&self, bodies: &Bodies) -> Option<&'static str> {
         let words = self.spec().common.requirements;
-        let unmet = with!(AnyConstraint, &self.element, element, S => {
+        let unmet = with!(AnyConstraint, &self.framed.element, element, S => {
             let x = self.site.poses::<S, f64>(bodies);
             (0..words.len()).find(|&k| !element.requirement(k, &x))
         })?;
@@ -85,28 +115,28 @@ impl PlacedConstraint {
 
     #[inline]
     pub(crate) fn phi(&self, s: &Slots, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             element.phi(self.site.x::<S>(s), self.site.f(s), out);
         });
     }
 
     #[inline]
     pub(crate) fn c(&self, s: &Slots, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             element.c(self.site.x::<S>(s), self.site.f(s), out);
         });
     }
 
     #[inline]
     pub(crate) fn b(&self, s: &Slots, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             element.b(self.site.x::<S>(s), self.site.f(s), out);
         });
     }
 
     #[inline]
     pub(crate) fn gamma(&self, s: &Slots, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.gamma(x, v, f, out);
         });
@@ -114,54 +144,54 @@ impl PlacedConstraint {
 
     #[inline]
     pub(crate) fn wrench(&self, s: &Slots, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             element.wrench(self.site.x::<S>(s), self.site.f(s), out);
         });
     }
 
     #[inline]
     pub(crate) fn component(&self, s: &Slots, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             element.component(self.site.x::<S>(s), self.site.f(s), out);
         });
     }
 
     /// The place of its reaction (m), ground axes.
     pub(crate) fn place(&self, s: &Slots) -> [f64; 3] {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             S::point(element.place(self.site.x::<S>(s)))
         })
     }
 
     /// The origin of its first body (m), ground axes.
     pub(crate) fn first_origin(&self, s: &Slots) -> [f64; 3] {
-        with!(AnyConstraint, &self.element, _element, S => {
+        with!(AnyConstraint, &self.framed.element, _element, S => {
             S::first_origin(self.site.x::<S>(s))
         })
     }
 
     pub(crate) fn d_force_dx(&self, s: &Slots, lambda: &[f64], out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             element.d_force_dx(self.site.x::<S>(s), self.site.f(s), lambda, out);
         });
     }
 
     pub(crate) fn d_residual_dx(&self, s: &Slots, a: &Rates, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.d_residual_dx(x, v, self.site.v::<S>(a), f, out);
         });
     }
 
     pub(crate) fn d_gamma_dv(&self, s: &Slots, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.d_gamma_dv(x, v, f, out);
         });
     }
 
     pub(crate) fn d_velocity_dx(&self, s: &Slots, out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.d_velocity_dx(x, v, f, out);
         });
@@ -169,14 +199,14 @@ impl PlacedConstraint {
 
     /// Gradient of `λᵀ·Φ` with respect to its numbers.
     pub(crate) fn d_phi_dp(&self, s: &Slots, lambda: &[f64], out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             element.d_phi_dp(self.site.x::<S>(s), self.site.f(s), lambda, out);
         });
     }
 
     /// Gradient of `λᵀ·(C·a − Γ)` with respect to its numbers.
     pub(crate) fn d_residual_dp(&self, s: &Slots, a: &OwnRates, lambda: &[f64], out: &mut [f64]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.d_residual_dp(x, v, S::twists(&a.own.twists), f, lambda, out);
         });
@@ -188,7 +218,7 @@ impl PlacedConstraint {
         v.still_f.clear();
         let still = self.site.f(s).iter().map(|[f, ..]| [*f, 0.0, 0.0]);
         v.still_f.extend(still);
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (own, still) = (S::twists(&v.own.twists), S::twists(&v.still.twists));
             element.d_residual_dp(self.site.x::<S>(s), still, own, &v.still_f, lambda, out);
         });
@@ -196,7 +226,7 @@ impl PlacedConstraint {
 
     /// Φ in double-double, with all functions of time of the mechanism.
     pub(crate) fn extended_phi(&self, bodies: &Bodies<Dd>, jets: &[[Dd; 3]], out: &mut [Dd]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let x = self.site.poses::<S, Dd>(bodies);
             element.extended().phi(&x, &jets[self.site.functions.clone()], out);
         });
@@ -204,7 +234,7 @@ impl PlacedConstraint {
 
     /// C in double-double.
     pub(crate) fn extended_c(&self, bodies: &Bodies<Dd>, jets: &[[Dd; 3]], out: &mut [Dd]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let x = self.site.poses::<S, Dd>(bodies);
             element.extended().c(&x, &jets[self.site.functions.clone()], out);
         });
@@ -214,35 +244,35 @@ impl PlacedConstraint {
     pub(crate) fn magnitude_c(&self, s: &Slots, out: &mut [Magnitude]) {
         let jets = self.site.f(s).iter();
         let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let x: Vec<_> = self.site.x::<S>(s).iter().map(S::magnitude).collect();
             element.magnitude().c(&x, &f, out);
         });
     }
 
     pub(crate) fn recorded_phi(&self, at: &RecordedSlots, out: &mut [Recorded]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, _, f) = at.of::<S>(&self.site);
             element.recorded().phi(&x, f, out);
         });
     }
 
     pub(crate) fn recorded_c(&self, at: &RecordedSlots, out: &mut [Recorded]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, _, f) = at.of::<S>(&self.site);
             element.recorded().c(&x, f, out);
         });
     }
 
     pub(crate) fn recorded_b(&self, at: &RecordedSlots, out: &mut [Recorded]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, _, f) = at.of::<S>(&self.site);
             element.recorded().b(&x, f, out);
         });
     }
 
     pub(crate) fn recorded_gamma(&self, at: &RecordedSlots, out: &mut [Recorded]) {
-        with!(AnyConstraint, &self.element, element, S => {
+        with!(AnyConstraint, &self.framed.element, element, S => {
             let (x, v, f) = at.of::<S>(&self.site);
             element.recorded().gamma(&x, &v, f, out);
         });

@@ -3,11 +3,12 @@
 use joints::spec::Level;
 
 use super::check;
+use super::turn;
 use super::work::held_bodies;
 use super::{BuildError, Elements, FunctionForm, Mechanism, TimeFunction, initialise};
 use crate::body::{BodyRecord, BodyRef, DescribedBody};
 use crate::description::{AnyDescription, Described};
-use crate::element::{AnyConstraint, AnyForce, BodySpace, PlacedConstraint, PlacedForce, Site};
+use crate::element::{AnyForce, BodySpace, Framed, PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
 use crate::observed::Observed;
@@ -54,22 +55,28 @@ impl Mechanism {
             return Err(errors);
         }
         let mut b = Builder::new(S::KIND);
-        b.joints(d, Level::Holonomic);
+        b.joints(d, &bodies, Level::Holonomic);
         for drive in &d.drives {
+            let element = S::any_constraint(drive.element.clone());
+            let element = turn::constraint(element, &bodies, &drive.bodies);
             b.constraint(
                 &drive.name,
                 ConstraintKind::Drive,
                 &drive.bodies,
-                S::any_constraint(drive.element.clone()),
+                element,
                 std::slice::from_ref(&drive.motion),
                 drive.tolerance,
             );
         }
         b.layout.m = b.layout.labels.len();
-        b.joints(d, Level::Nonholonomic);
+        b.joints(d, &bodies, Level::Nonholonomic);
         b.layout.h = b.layout.labels.len() - b.layout.m;
         for f in &d.forces {
-            let kernels = S::any_force(f.element.clone());
+            let mut kernels = S::any_force(f.element.clone());
+            if !turn::force(&mut kernels, &bodies, &f.bodies) {
+                let name = f.name.clone();
+                return Err(vec![BuildError::NotPrincipal { name }]);
+            }
             b.force(&f.name, &f.bodies, kernels, &f.functions);
         }
         let (space, gravity) = (S::KIND, S::point(d.gravity));
@@ -121,11 +128,11 @@ impl Builder {
     }
 
     /// Adds the joints of one level.
-    fn joints<S: BodySpace>(&mut self, d: &Described<S>, level: Level) {
+    fn joints<S: BodySpace>(&mut self, d: &Described<S>, bodies: &[BodyRecord], level: Level) {
         for j in d.joints.iter().filter(|j| j.element.spec().level == level) {
-            let (name, element) = (&j.name, S::any_constraint(j.element.clone()));
-            let kind = ConstraintKind::Joint;
-            self.constraint(name, kind, &j.bodies, element, &j.functions, j.tolerance);
+            let (kind, element) = (ConstraintKind::Joint, S::any_constraint(j.element.clone()));
+            let element = turn::constraint(element, bodies, &j.bodies);
+            self.constraint(&j.name, kind, &j.bodies, element, &j.functions, j.tolerance);
         }
     }
 
@@ -134,10 +141,11 @@ impl Builder {
         name: &str,
         kind: ConstraintKind,
         bodies: &[BodyRef],
-        element: AnyConstraint,
+        framed: Framed,
         functions: &[Function],
         tolerance: Option<f64>,
     ) {
+        let element = framed.kernels();
         let spec = element.spec();
         let first_row = self.layout.labels.len();
         let rows = first_row..first_row + spec.rows.len();
@@ -166,7 +174,7 @@ impl Builder {
         };
         let site = self.site(bodies, functions, offset, spec.turning);
         let places = [entries, rows.clone()];
-        let placed = PlacedConstraint::new(element, site, places, tolerance);
+        let placed = PlacedConstraint::new(framed, site, places, tolerance);
         self.layout.rheonomic |= spec.rheonomic;
         self.layout.groups.push(ConstraintGroup {
             space: self.layout.space,
@@ -283,7 +291,10 @@ fn inertia(body: &BodyRecord) -> Vec<f64> {
     match &body.described {
         DescribedBody::Plane(b) => vec![m, m, b.inertia],
         DescribedBody::Space3(b) => {
-            vec![m, m, m, b.inertia[0][0], b.inertia[1][1], b.inertia[2][2]]
+            let diagonal = [0, 1, 2].map(|k| b.inertia[k][k]);
+            let own = body.principal.as_ref();
+            let [x, y, z] = own.map_or(diagonal, |own| own.moments.map(|j| j.max(0.0)));
+            vec![m, m, m, x, y, z]
         }
     }
 }

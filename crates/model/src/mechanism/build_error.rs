@@ -69,13 +69,13 @@ pub enum BuildError {
         /// The body.
         body: String,
     },
-    /// A tensor of inertia has products.
+    /// A force has components in the axes of a body whose tensor of inertia has products.
     #[error(
-        "body `{body}`: products of inertia are not supported yet: turn its frame into the principal axes, where the tensor is diagonal"
+        "force `{name}` has components in the axes of a body with products of inertia, which is not supported yet: give global components, or turn the frame of the body into its principal axes"
     )]
     NotPrincipal {
-        /// The body.
-        body: String,
+        /// The force.
+        name: String,
     },
     /// No body has this tensor of inertia.
     #[error(

@@ -10,6 +10,7 @@ use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
 use crate::description::Described;
 use crate::element::{BodySpace, ConstraintKernels};
 use crate::observed::Observed;
+use crate::principal::Principal;
 use crate::tolerance::{Stated, Tolerance};
 
 /// All faults of a description; `records` are its bodies.
@@ -162,13 +163,13 @@ fn check_spatial(b: &SpatialBody) -> Vec<BuildError> {
         .any(|&[i, j]| b.inertia[i][j] != b.inertia[j][i])
     {
         errors.push(BuildError::NotSymmetric { body: body() });
-    } else if pairs.iter().any(|&[i, j]| b.inertia[i][j] != 0.0) {
-        errors.push(BuildError::NotPrincipal { body: body() });
     } else {
-        let moments = [0, 1, 2].map(|k| b.inertia[k][k]);
+        let diagonal = [0, 1, 2].map(|k| b.inertia[k][k]);
+        let moments = Principal::of(&b.inertia).map_or(diagonal, |own| own.moments);
         let trace: f64 = moments.iter().sum();
         let largest = moments.into_iter().fold(0.0, f64::max);
-        if 2.0 * largest - trace > TRIANGLE * trace {
+        let least = moments.into_iter().fold(0.0, f64::min);
+        if 2.0 * largest - trace > TRIANGLE * trace || least < -TRIANGLE * trace {
             let body = body();
             errors.push(BuildError::NoSuchTensor { body, moments });
         }

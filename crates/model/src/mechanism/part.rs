@@ -164,7 +164,7 @@ fn assembled<'a>(
             &group.name,
             group.kind,
             &translated(&group.name, &c.site.bodies),
-            c.kernels().clone(),
+            c.framed().clone(),
             &laws(whole, &c.site),
             c.tolerance,
         );

@@ -13,7 +13,7 @@ use crate::verdict::{Judgement, Verdict};
 /// Reason why a component is undecided: within the data it cannot be distinguished from zero.
 const TURNED: &str = "the tolerance leaves open whether the force has this component";
 
-/// Whether a component of a force is zero, given the uncertainty of the direction of the force.
+/// Whether a component of a force or torque is zero, given the uncertainty of its direction.
 #[derive(Clone, Copy, Debug)]
 enum ForceComponent {
     /// The component is not zero.
@@ -77,9 +77,9 @@ impl<'a> Mapped<'a> {
     }
 
     /// Applies a stated tolerance to the components. The first `forces` components belong to a
-    /// force, the others are torques. The uncertainty of the direction of a force (an angle) and of
-    /// its line of action (a length) makes the components uncertain; a component that is much
-    /// smaller than the others within this uncertainty counts as zero.
+    /// force, the others to a torque. The uncertainty of the direction of a force or couple (an
+    /// angle) and of its line of action (a length) makes the components uncertain; a component that
+    /// is much smaller than the others of its vector within this uncertainty counts as zero.
     #[must_use]
     pub(crate) fn with_forces(mut self, forces: usize) -> Self {
         let (Some(turns), None) = (&self.basis.known.row_turn, &self.basis.exact) else {
@@ -88,32 +88,40 @@ impl<'a> Mapped<'a> {
         let known: Vec<[f64; 2]> = self.rows.iter().map(|&i| turns[i]).collect();
         let turn = known.iter().map(|[turn, _]| turn.min(LARGEST_TURN));
         let turn = turn.fold(0.0, f64::max);
-        let force = |j: usize| {
-            let parts = (0..forces).map(|k| self.map[(k, j)]);
+        let (vectors, k) = ([0..forces, forces..self.sizes.len()], self.sizes.len());
+        let size = |vector: usize, j: usize| {
+            let parts = vectors[vector].clone().map(|k| self.map[(k, j)]);
             parts.fold(0.0, f64::hypot)
         };
         let wobble = |k: usize, j: usize| {
             let [turn, shift] = known[j];
             if k < forces {
-                turn * force(j)
+                turn * size(0, j)
             } else {
-                turn * self.map[(k, j)].abs() + shift * force(j)
+                turn * size(1, j) + shift * size(0, j)
             }
         };
-        self.wobble = Some(Matrix::from_fn(self.sizes.len(), self.rows.len(), wobble));
-        let whole = self.sizes[..forces].iter().copied().fold(0.0, f64::hypot);
-        for i in 0..forces {
-            let share = self.sizes[i] / whole;
-            // The first order is not valid for larger rotations.
-            let is_near = turn >= LARGEST_TURN || share <= rank::BEYOND_DOUBT * turn;
-            if share > rank::STATED_ZERO && is_near {
-                self.within_tolerance[i] = ForceComponent::Undecided;
-            } else if share > 0.0 && share <= (1.0 / rank::BEYOND_DOUBT) * turn {
-                self.within_tolerance[i] = ForceComponent::Zero {
-                    margin: self.margin(i),
-                };
-                self.images.row_mut(i).fill(0.0);
-                self.sizes[i] = 0.0;
+        self.wobble = Some(Matrix::from_fn(k, self.rows.len(), wobble));
+        for vector in vectors {
+            // The torque of the plane has no direction.
+            if vector.start == forces && vector.len() < 2 {
+                continue;
+            }
+            let whole = self.sizes[vector.clone()].iter().copied();
+            let whole = whole.fold(0.0, f64::hypot);
+            for i in vector {
+                let share = self.sizes[i] / whole;
+                // The first order is not valid for larger rotations.
+                let is_near = turn >= LARGEST_TURN || share <= rank::BEYOND_DOUBT * turn;
+                if share > rank::STATED_ZERO && is_near {
+                    self.within_tolerance[i] = ForceComponent::Undecided;
+                } else if share > 0.0 && share <= (1.0 / rank::BEYOND_DOUBT) * turn {
+                    self.within_tolerance[i] = ForceComponent::Zero {
+                        margin: self.margin(i),
+                    };
+                    self.images.row_mut(i).fill(0.0);
+                    self.sizes[i] = 0.0;
+                }
             }
         }
         self

@@ -1,9 +1,11 @@
 //! The error of the data, as a fraction of their uncertainty, that is necessary for a lower rank,
 //! and the change of dependencies within the uncertainty.
 
+use std::ops::Range;
+
 use crate::limits::{ENTRY_ROUNDINGS, PAIRS};
 use crate::pose::dimensionless;
-use linalg::{Matrix, Scaling, small_svd};
+use linalg::{Matrix, PivotedQr, Scaling};
 use model::space::norm;
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
 use rank::RankDecision;
@@ -125,21 +127,24 @@ impl Question<'_> {
         let (rank, scaling) = (decision.rank, &decision.scaling);
         let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, rank);
+        let kept = candidate.kept.clone();
+        let factored = PivotedQr::of_rows(scaled.select_rows(&kept));
         let matrices = (scaled, &dimensions, scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data().blocks(self.s);
-        let svd = small_svd(scaled);
         let bases = [rank::orthonormal(decision), single(decision)].map(|z| z.transpose());
+        let [z, _] = &bases;
         let mut known = vec![0.0; scaled.nrows()];
         for &i in asked {
-            // C⁺·e_i
+            // C⁺·e_i, as the smallest solution of the kept rows of C·y = e_i − Z·Zᵀ·e_i.
             let mut y = vec![0.0; scaled.ncols()];
-            for k in 0..rank.min(svd.sigma.len()) {
-                let weight = svd.u[(i, k)] / svd.sigma[k];
-                for (j, y) in y.iter_mut().enumerate() {
-                    *y += weight * svd.v[(j, k)];
-                }
+            for (y, &k) in y.iter_mut().zip(factored.permutation()) {
+                let own = if kept[k] == i { 1.0 } else { 0.0 };
+                let beyond: f64 = (0..z.nrows()).map(|j| z[(j, i)] * z[(j, kept[k])]).sum();
+                *y = own - beyond;
             }
+            factored.solve_r_transpose(&mut y[..kept.len()]);
+            factored.q_mul(&mut y);
             let of_vector = |z: &[f64]| {
                 let gradient = pose.gradient_between(z, &y);
                 let changes = blocks
@@ -159,34 +164,52 @@ impl Question<'_> {
 
     /// The angle by which the force of each row rotates within the uncertainty of the data,
     /// including the change of pose that follows from it, and the length by which its line of
-    /// action shifts, which is determined by two points.
+    /// action shifts, which is determined by two points. A row without a force has a couple; in
+    /// space it rotates, too, in its body and with it.
     pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<[f64; 2]> {
         let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, decision.rank);
         let matrices = (scaled, &dimensions, &decision.scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data().blocks(self.s);
-        let of_row = |i: usize| {
-            let space = self.mechanism.space();
-            let bodies = scaled.row(i).chunks_exact(space.n_v()).enumerate();
-            let size = |force: &[f64]| force[0].hypot(force[1]);
-            let Some((body, force)) = bodies.max_by(|a, b| size(a.1).total_cmp(&size(b.1))) else {
-                return 0.0;
-            };
-            let size = size(force);
+        let space = self.mechanism.space();
+        let stated = self.tolerance();
+        let of_columns = |i: usize, columns: &dyn Fn(usize) -> Range<usize>| {
+            let row = scaled.row(i);
+            let bodies = (0..row.len() / space.n_v()).map(columns);
+            let size = |columns: &Range<usize>| norm(&row[columns.clone()]);
+            let columns = bodies.max_by(|a, b| size(a).total_cmp(&size(b)))?;
+            let size = size(&columns);
             if size == 0.0 {
-                return 0.0;
+                return None;
             }
-            let (mut own, mut across) = (vec![0.0; scaled.nrows()], vec![0.0; scaled.ncols()]);
+            let mut own = vec![0.0; scaled.nrows()];
             own[i] = 1.0;
-            let [x, y] = [0, 1].map(|axis| space.translations_of(body).start + axis);
-            across[x] = -force[1] / size;
-            across[y] = force[0] / size;
-            let gradient = pose.gradient_between(&own, &across).data;
-            let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
-            changes.sum::<f64>() / size
+            // Unit vectors across the force: one in the plane, two in space.
+            let n = columns.len();
+            let vector = Matrix::from_fn(n, 1, |k, _| row[columns.start + k]);
+            let directions = PivotedQr::of_columns(&vector).q_columns(1..n);
+            let turns = (0..n - 1).map(|j| {
+                let mut across = vec![0.0; scaled.ncols()];
+                for (k, x) in across[columns.clone()].iter_mut().enumerate() {
+                    *x = directions[(k, j)];
+                }
+                let gradient = pose.gradient_between(&own, &across).data;
+                let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
+                changes.sum::<f64>() / size
+            });
+            Some(turns.fold(0.0, f64::hypot))
         };
-        let lengths = self.tolerance().filter(|stated| !stated.by_angles);
+        let with_body = match space.n_rotations() {
+            1 => 0.0,
+            _ => stated.map_or(0.0, |stated| stated.metres / self.size),
+        };
+        let of_row = |i: usize| {
+            let force = of_columns(i, &|body| space.translations_of(body));
+            let couple = || Some(of_columns(i, &|body| space.rotations_of(body))? + with_body);
+            force.or_else(couple).unwrap_or(0.0)
+        };
+        let lengths = stated.filter(|stated| !stated.by_angles);
         let shift = 2.0 * lengths.map_or(0.0, |stated| stated.metres);
         (0..scaled.nrows()).map(|i| [of_row(i), shift]).collect()
     }

@@ -123,11 +123,11 @@ impl Forms {
         stresses: &[Vec<f64>],
         size: f64,
     ) -> f64 {
-        let n = self.basis[0].len();
+        // Without a drive and without freedom there is no velocity at all.
         let origin = if self.driven {
             self.basis[0].clone()
         } else {
-            vec![0.0; n]
+            vec![0.0; mechanism.layout().n_v]
         };
         let first = usize::from(self.driven);
         let mut terms = 0.0_f64;

@@ -23,11 +23,20 @@ const LIMITS: Limits = Limits {
 /// # Errors
 /// The error message if the scene is refused.
 pub fn answer(text: &str) -> Result<Value, String> {
-    let read = || AssembledScene::read("scene.toml", text, &Registry::standard());
-    match read().and_then(|assembled| assembled.prepare(&Overrides::default())) {
+    answer_of(|| AssembledScene::read("scene.toml", text, &Registry::standard()))
+}
+
+/// The same of a scene that `assembled` makes.
+///
+/// # Errors
+/// The error message if the scene is refused.
+pub fn answer_of(
+    assembled: impl Fn() -> Result<AssembledScene, StudyError>,
+) -> Result<Value, String> {
+    match assembled().and_then(|scene| scene.prepare(&Overrides::default())) {
         Ok(study) => document(study.analyse(0.0, None)),
-        Err(e) if e.only_motion().is_some() => match read() {
-            Ok(mut assembled) => document(assembled.analyse(None)),
+        Err(e) if e.only_motion().is_some() => match assembled() {
+            Ok(mut scene) => document(scene.analyse(None)),
             Err(e) => Err(e.to_string()),
         },
         Err(e) => Err(e.to_string()),

@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::findings::{Findings, Kind, along_free, list, rows};
+use super::findings::{Findings, Kind, list, rows, share_of_free};
+use super::reference::{Reference, RightReaction, RightWrench, Verdict};
 use super::truth::Truth;
 use super::{deletions, words};
 
@@ -10,9 +11,22 @@ use super::{deletions, words};
 #[must_use]
 pub fn examine(truth: &Truth, answer: &Value) -> Findings {
     let mut findings = Findings::default();
+    if ranks_and_reactions(truth, answer, &mut findings) {
+        words::examine(truth, answer, &mut findings);
+        deletions::examine(truth, answer, &mut findings);
+    }
+    findings
+}
+
+/// Compares ranks and verdicts, in the plane or in space; returns whether the rank is decided.
+pub fn ranks_and_reactions(
+    right: &impl Reference,
+    answer: &Value,
+    findings: &mut Findings,
+) -> bool {
     let is_decided = answer["evidence"]["status"] == "decided";
     if is_decided {
-        ranks(truth, answer, &mut findings);
+        ranks(right, answer, findings);
     } else {
         let reason = &answer["evidence"]["reason"];
         findings.note(
@@ -20,140 +34,139 @@ pub fn examine(truth: &Truth, answer: &Value) -> Findings {
             format!("rank {}: {reason}", answer["rank"]),
         );
     }
-    reactions(truth, answer, &mut findings);
-    if is_decided {
-        words::examine(truth, answer, &mut findings);
-        deletions::examine(truth, answer, &mut findings);
-    }
-    findings
+    reactions(right, answer, findings);
+    is_decided
 }
 
 /// Compares the verdicts of all joints and drives.
-pub(super) fn reactions(truth: &Truth, answer: &Value, findings: &mut Findings) {
-    for (link, placed) in truth.posed.links.iter().enumerate() {
-        let name = &placed.link.name;
+pub fn reactions(right: &impl Reference, answer: &Value, findings: &mut Findings) {
+    for reaction in right.reactions() {
         let mut reactions = list(&answer["reactions"]).iter();
-        match reactions.find(|r| r["name"] == name.as_str()) {
-            Some(reaction) => of_reaction(truth, link, reaction, findings),
-            None => findings.note(Kind::Verdict, format!("{name} has no verdict")),
+        match reactions.find(|r| r["name"] == reaction.name.as_str()) {
+            Some(told) => of_reaction(&reaction, told, right.rounding(), findings),
+            None => findings.note(Kind::Verdict, format!("{} has no verdict", reaction.name)),
         }
     }
 }
 
-fn ranks(truth: &Truth, answer: &Value, findings: &mut Findings) {
-    let (rows_in_all, rank) = (truth.rows.len(), truth.rank());
-    let freedom = 3 * truth.posed.frames.len() - rank;
-    findings.number(Kind::Rank, "rows", &answer["rows"], rows_in_all);
-    findings.number(Kind::Rank, "rank", &answer["rank"], rank);
-    findings.number(
-        Kind::Rank,
-        "redundancy",
-        &answer["redundancy"],
-        rows_in_all - rank,
-    );
+fn ranks(right: &impl Reference, answer: &Value, findings: &mut Findings) {
+    let ranks = right.ranks();
+    let redundancy = ranks.rows - ranks.all;
+    let freedom = ranks.velocities - ranks.all;
+    findings.number(Kind::Rank, "rows", &answer["rows"], ranks.rows);
+    findings.number(Kind::Rank, "rank", &answer["rank"], ranks.all);
+    findings.number(Kind::Rank, "redundancy", &answer["redundancy"], redundancy);
     findings.number(Kind::Rank, "mobility", &answer["mobility"], freedom);
-    for (key, what, nonholonomic) in [
-        ("rank_holonomic", "Φq", false),
-        ("rank_nonholonomic", "Ψ", true),
+    for (key, what, rank) in [
+        ("rank_holonomic", "Φq", ranks.holonomic),
+        ("rank_nonholonomic", "Ψ", ranks.nonholonomic),
     ] {
         let doubt = format!("the rank of {what} alone is undecided");
         let mut warnings = list(&answer["warnings"]).iter();
         if warnings.any(|w| w.as_str().is_some_and(|w| w.contains(&doubt))) {
             findings.note(Kind::Undecided, doubt);
         } else {
-            findings.number(
-                Kind::Rank,
-                key,
-                &answer[key],
-                truth.rank_where(nonholonomic),
-            );
+            findings.number(Kind::Rank, key, &answer[key], rank);
         }
     }
-    if truth.posed.has_constant_rank {
+    if let Some([rank, drives]) = ranks.without_drives {
+        let without = &answer["without_drives"];
+        let what = "rank without drives";
+        findings.number(Kind::Rank, what, &without["rank"], rank);
+        let what = "redundancy without drives";
+        let left = ranks.rows - drives - rank;
+        findings.number(Kind::Rank, what, &without["redundancy"], left);
+    }
+    if right.has_constant_rank() {
         let elsewhere = &answer["generic"]["redundancy"];
         if !elsewhere.is_null() {
             let what = "redundancy elsewhere";
-            findings.number(Kind::Sentence, what, elsewhere, truth.redundancy());
+            findings.number(Kind::Sentence, what, elsewhere, redundancy);
         }
         if answer["evidence"]["permanent"] == false {
             findings.note(Kind::Sentence, "the rank is the same everywhere".to_owned());
         }
     }
-    kept_rows(truth, answer, findings);
+    kept_rows(right, answer, findings);
 }
 
 /// The kept rows must be independent, and their number must be the rank.
-pub(super) fn kept_rows(truth: &Truth, answer: &Value, findings: &mut Findings) {
-    let (kept, rank) = (rows(&answer["kept_rows"]), truth.rank());
-    if kept.len() != rank || truth.rank_of(&kept) != rank {
+pub(super) fn kept_rows(right: &impl Reference, answer: &Value, findings: &mut Findings) {
+    let (kept, rank) = (rows(&answer["kept_rows"]), right.ranks().all);
+    if kept.len() != rank || right.rank_of(&kept) != rank {
         let text = format!(
             "the kept rows {} have rank {}",
             answer["kept_rows"],
-            truth.rank_of(&kept)
+            right.rank_of(&kept)
         );
         findings.note(Kind::Rank, text);
     }
 }
 
-fn of_reaction(truth: &Truth, link: usize, answer: &Value, findings: &mut Findings) {
-    let name = &truth.posed.links[link].link.name;
-    let own = truth.rows_of(link);
-    if rows(&answer["rows"]) != own {
+fn of_reaction(right: &RightReaction, answer: &Value, rounding: f64, findings: &mut Findings) {
+    let name = &right.name;
+    if rows(&answer["rows"]) != right.own_rows() {
         findings.note(
             Kind::Rank,
             format!("{name}: answer rows {}", answer["rows"]),
         );
         return;
     }
-    let is_unique = truth.is_unique(&own);
-    findings.verdict(name, &answer["verdict"], is_unique);
-    if answer["settled"].is_string() && !is_unique {
+    findings.verdict(name, &answer["verdict"], right.is_unique);
+    if answer["settled"].is_string() && right.is_unique != Verdict::Unique {
         findings.note(
             Kind::Sentence,
             format!("{name}: settled as {}, is not unique", answer["settled"]),
         );
     }
-    let all_rows = own.iter().all(|&i| truth.row_is_unique(i));
     findings.verdict(
         &format!("{name}, multipliers"),
         &answer["multipliers"],
-        all_rows,
+        right.multipliers(),
     );
     for row in list(&answer["row_verdicts"]) {
         let what = format!("{name}, row {}", row["row"]);
-        match rows(&json!([row["row"]])).first().copied() {
-            Some(i) if own.contains(&i) => {
-                findings.verdict(&what, &row["verdict"], truth.row_is_unique(i));
-            }
-            _ => findings.note(Kind::Rank, what),
+        let told = rows(&json!([row["row"]])).first().copied();
+        match right.rows.iter().find(|(i, _)| Some(*i) == told) {
+            Some((_, is_unique)) => findings.verdict(&what, &row["verdict"], *is_unique),
+            None => findings.note(Kind::Rank, what),
         }
     }
-    let Some(free) = truth.free_wrenches(link) else {
+    let Some(wrench) = &right.wrench else {
         return;
     };
     for component in list(&answer["components"]) {
         let axis = component["name"].as_str().unwrap_or_default();
-        let is_unique = free.iter().all(|w| w.is_zero(axis, truth.posed));
-        findings.verdict(&format!("{name}.{axis}"), &component["verdict"], is_unique);
+        let what = format!("{name}.{axis}");
+        match wrench.components.iter().find(|(name, _)| *name == axis) {
+            Some((_, is_unique)) => findings.verdict(&what, &component["verdict"], *is_unique),
+            None => findings.note(Kind::Verdict, format!("{what} is no component")),
+        }
     }
-    directions(truth, link, answer, findings);
+    directions(name, wrench, answer, rounding, findings);
 }
 
 /// The number of unique directions must be correct, and no solution without loads may have a
 /// component along them.
-fn directions(truth: &Truth, link: usize, answer: &Value, findings: &mut Findings) {
-    let name = &truth.posed.links[link].link.name;
+fn directions(
+    name: &str,
+    right: &RightWrench,
+    answer: &Value,
+    rounding: f64,
+    findings: &mut Findings,
+) {
     let directions = list(&answer["unique_directions"]);
     let verdicts = list(&answer["components"]).iter().map(|c| &c["verdict"]);
     if verdicts
         .chain([&answer["verdict"]])
         .any(|v| v == "undecided")
         || answer["unique_directions"].is_null()
+        || right.is_open
     {
         return;
     }
-    let right = truth.live_directions(link);
-    if directions.len() != right {
+    let live = right.live;
+    if directions.len() != live {
         // No directions are given if their number is uncertain.
         let kind = if directions.is_empty() {
             Kind::Undecided
@@ -161,22 +174,21 @@ fn directions(truth: &Truth, link: usize, answer: &Value, findings: &mut Finding
             Kind::Verdict
         };
         let text = format!(
-            "{name}: answer {} unique directions, right {right}",
+            "{name}: answer {} unique directions, right {live}",
             directions.len()
         );
         findings.note(kind, text);
         return;
     }
-    let axes = list(&answer["components"]).iter().map(|c| &c["name"]);
-    let axes: Vec<usize> = axes
-        .filter_map(|name| ["Fx", "Fy", "T"].iter().position(|axis| name == axis))
-        .collect();
+    let told = list(&answer["components"]).iter().map(|c| &c["name"]);
+    let place = |name: &Value| right.components.iter().position(|(axis, _)| name == axis);
+    let axes: Vec<usize> = told.filter_map(place).collect();
     let vectors = directions
         .iter()
         .map(|d| list(d).iter().map(|x| x.as_f64().unwrap_or(f64::NAN)));
     let vectors: Vec<Vec<f64>> = vectors.map(Iterator::collect).collect();
     for direction in &vectors {
-        if let Some(share) = along_free(truth, link, &axes, direction) {
+        if let Some(share) = share_of_free(&right.free, &axes, direction, rounding) {
             let text = format!(
                 "{name}: direction {direction:?} is not unique: {share:.1e} of a free wrench"
             );

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::pose::Posed;
+use super::reference::Verdict;
 use super::truth::Truth;
 
 /// The severity of a finding, in ascending order.
@@ -66,15 +67,24 @@ impl Findings {
     }
 
     /// Compares a number and adds a finding if it is wrong.
-    pub(super) fn number(&mut self, kind: Kind, what: &str, answer: &Value, right: usize) {
+    pub(in crate::fuzz) fn number(&mut self, kind: Kind, what: &str, answer: &Value, right: usize) {
         if answer.as_u64() != Some(right as u64) {
             self.note(kind, format!("{what}: answer {answer}, right {right}"));
         }
     }
 
     /// Compares a verdict and adds a finding if it is wrong.
-    pub(super) fn verdict(&mut self, what: &str, answer: &Value, is_unique: bool) {
-        let right = if is_unique { "unique" } else { "not_unique" };
+    pub(in crate::fuzz) fn verdict(
+        &mut self,
+        what: &str,
+        answer: &Value,
+        right: impl Into<Verdict>,
+    ) {
+        let right = match right.into() {
+            Verdict::Open => return,
+            Verdict::Unique => "unique",
+            Verdict::NotUnique => "not_unique",
+        };
         match answer.as_str() {
             Some("undecided") => self.note(Kind::Undecided, format!("{what}: undecided")),
             Some(answer) if answer == right => {}
@@ -97,9 +107,13 @@ const ROUNDING_PER_METRE: f64 = 1e-12;
 /// The tolerance for numbers of dependencies.
 #[must_use]
 pub fn rounding(posed: &Posed) -> f64 {
-    ROUNDING
-        .max(ROUNDING_PER_METRE * posed.distance())
-        .max(posed.known_to)
+    rounding_at(posed.distance()).max(posed.known_to)
+}
+
+/// The same for a scene at a distance (m) from the origin.
+#[must_use]
+pub fn rounding_at(distance: f64) -> f64 {
+    ROUNDING.max(ROUNDING_PER_METRE * distance)
 }
 
 /// The entries of an array.
@@ -126,9 +140,20 @@ pub(super) fn along_free(
     axes: &[usize],
     direction: &[f64],
 ) -> Option<f64> {
+    let free = truth.free_wrenches(link)?.into_iter();
+    let free: Vec<Vec<f64>> = free.map(|w| w.rounded(truth.posed).to_vec()).collect();
+    share_of_free(&free, axes, direction, rounding(truth.posed))
+}
+
+/// The same for free wrenches as numbers.
+pub(super) fn share_of_free(
+    free: &[Vec<f64>],
+    axes: &[usize],
+    direction: &[f64],
+    rounding: f64,
+) -> Option<f64> {
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let shares = truth.free_wrenches(link)?.into_iter().map(|w| {
-        let w = w.rounded(truth.posed);
+    let shares = free.iter().map(|w| {
         let w: Vec<f64> = axes.iter().map(|&axis| w[axis]).collect();
         let product: f64 = w.iter().zip(direction).map(|(a, b)| a * b).sum();
         match norm(&w) * norm(direction) {
@@ -138,7 +163,7 @@ pub(super) fn along_free(
     });
     // Directions are printed with all digits, sentences with four.
     shares.fold(None, |worst: Option<f64>, share| {
-        if share <= rounding(truth.posed) {
+        if share <= rounding {
             worst
         } else {
             Some(worst.map_or(share, |worst| worst.max(share)))

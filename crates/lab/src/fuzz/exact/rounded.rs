@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::panic::{self, AssertUnwindSafe};
 
+use crate::fuzz::space;
 use crate::numbers::Numbers;
 use rayon::prelude::*;
 
@@ -38,11 +39,16 @@ const UNDECIDED: usize = 100;
 const UNDECIDED_WITHOUT: usize = 1000;
 
 /// A set of scenes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
 pub enum Suite {
     /// Degenerate drawings with few digits.
+    #[default]
+    #[value(name = "plane")]
     Rounded,
+    /// Mechanisms in space with few digits.
+    Space,
     /// Drawings of full rank near a lower one.
+    #[value(skip)]
     FullRank,
 }
 
@@ -51,31 +57,9 @@ impl Suite {
     #[must_use]
     pub fn ways(self) -> u64 {
         match self {
-            Self::Rounded => DIGITS.len() as u64,
+            Self::Rounded | Self::Space => DIGITS.len() as u64,
             Self::FullRank => PARTS.len() as u64,
         }
-    }
-
-    /// A drawing, moved by up to its size and turned.
-    #[must_use]
-    pub fn posed(self, seed: u64, drawn: u64) -> (&'static str, Posed) {
-        let mut numbers = Numbers::new(seed ^ Numbers::new(drawn).bits());
-        let (name, drawing) = match self {
-            Self::Rounded => {
-                let family = Family::ALL[(drawn % Family::ALL.len() as u64) as usize];
-                (family.name(), family.draw(&mut numbers))
-            }
-            Self::FullRank => {
-                let kind = Slender::ALL[(drawn % Slender::ALL.len() as u64) as usize];
-                (kind.name(), kind.draw(&mut numbers))
-            }
-        };
-        let mut posed = Posed::new(&drawing, Writing::Moved, &mut numbers);
-        posed.shift = [Ratio::ZERO; 2];
-        let size = extent(&posed);
-        let tenths = (7.0 * size).floor() as i32;
-        posed.shift = [0; 2].map(|_| Ratio::new(numbers.between(-tenths, tenths).into(), 10));
-        (name, posed)
     }
 }
 
@@ -124,24 +108,48 @@ impl Outcome {
     }
 }
 
+/// A drawing in the plane, moved by up to its size and turned.
+fn posed(suite: Suite, seed: u64, drawn: u64) -> (&'static str, Posed) {
+    let mut numbers = Numbers::new(seed ^ Numbers::new(drawn).bits());
+    let (name, drawing) = match suite {
+        Suite::Rounded | Suite::Space => {
+            let family = Family::ALL[(drawn % Family::ALL.len() as u64) as usize];
+            (family.name(), family.draw(&mut numbers))
+        }
+        Suite::FullRank => {
+            let kind = Slender::ALL[(drawn % Slender::ALL.len() as u64) as usize];
+            (kind.name(), kind.draw(&mut numbers))
+        }
+    };
+    let mut posed = Posed::new(&drawing, Writing::Moved, &mut numbers);
+    posed.shift = [Ratio::ZERO; 2];
+    let size = extent(&posed);
+    let tenths = (7.0 * size).floor() as i32;
+    posed.shift = [0; 2].map(|_| Ratio::new(numbers.between(-tenths, tenths).into(), 10));
+    (name, posed)
+}
+
 /// Returns the results for all scenes of one drawing, or `None` if a near drawing happens to be
 /// redundant.
 #[must_use]
 pub fn outcomes(suite: Suite, seed: u64, drawn: u64) -> Vec<Outcome> {
-    let (family, posed) = suite.posed(seed, drawn);
+    if suite == Suite::Space {
+        return space::within::outcomes(seed, drawn);
+    }
+    let (family, posed) = posed(suite, seed, drawn);
     let truth = Truth::of(&posed);
     if suite == Suite::FullRank && truth.redundancy() > 0 {
         return Vec::new();
     }
     let gravity = match suite {
-        Suite::Rounded => GRAVITY,
+        Suite::Rounded | Suite::Space => GRAVITY,
         Suite::FullRank => [0.0; 2],
     };
     let meant = Meant::of(&truth, seed, gravity);
     let largest = largest_coordinate(&posed);
     let one = |way: usize| {
         let precision = match suite {
-            Suite::Rounded => {
+            Suite::Rounded | Suite::Space => {
                 let digits = DIGITS[way];
                 let tolerance = 2.0 * 10_f64.powi(1 - digits as i32) * largest;
                 Precision {
@@ -348,7 +356,7 @@ impl Tally {
     pub fn passes(&self) -> bool {
         let is_open = |kind: Kind, far: bool| far && !kind.is_wrong();
         let last = DIGITS.len() - 1;
-        let is_last = |way: usize| self.suite == Suite::Rounded && way == last;
+        let is_last = |way: usize| self.suite != Suite::FullRank && way == last;
         let (mut far, mut open) = (0, 0);
         for (&way, count) in &self.by_way {
             if is_last(way) {
@@ -371,7 +379,7 @@ impl Tally {
         for (&way, count) in &self.by_way {
             total.add(count.clone());
             let name = match self.suite {
-                Suite::Rounded => format!("{} digits", DIGITS[way]),
+                Suite::Rounded | Suite::Space => format!("{} digits", DIGITS[way]),
                 Suite::FullRank => format!("{} τ*/3", PARTS[way]),
             };
             text.push_str(&line(&name, count));

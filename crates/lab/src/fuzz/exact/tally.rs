@@ -8,12 +8,14 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use serde_json::Value;
+
 use super::examine::examine;
-use super::families::Family;
 use super::findings::{Findings, Kind};
 use super::pose::Writing;
 use super::truth::Truth;
-use super::{Scene, answer, scene, text};
+use super::{answer, scene, text};
+use crate::fuzz::space;
 
 /// Number of scenes that are listed for each kind of finding.
 const LISTED: usize = 6;
@@ -24,10 +26,43 @@ const KEPT: usize = 2;
 /// Near the origin fewer than one scene out of this number may be undecided.
 const UNDECIDED: usize = 1000;
 
+/// The scenes of a campaign.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Suite {
+    /// Degenerate scenes in the plane.
+    #[default]
+    Plane,
+    /// Mechanisms in space with planted redundancy.
+    Space,
+    /// Scenes of the plane, lifted into space.
+    Lifted,
+}
+
+impl Suite {
+    /// Number of ways in which a drawing is written: scenes `n·k` to `n·k + n − 1` are one drawing.
+    #[must_use]
+    pub fn ways(self) -> u64 {
+        Writing::ALL.len() as u64
+    }
+
+    /// Tests one scene of a seed.
+    #[must_use]
+    pub fn outcome(self, seed: u64, number: u64) -> Outcome {
+        match self {
+            Self::Plane => in_plane(seed, number),
+            Self::Space => space::examine::outcome(seed, number),
+            Self::Lifted => space::lifted::outcome(seed, number),
+        }
+    }
+}
+
 /// The result for one scene.
+#[derive(Debug)]
 pub struct Outcome {
-    /// The scene.
-    pub scene: Scene,
+    /// Its family.
+    pub family: &'static str,
+    /// How it is written.
+    pub writing: Writing,
     /// Its text.
     pub text: String,
     /// The findings.
@@ -50,7 +85,7 @@ impl Outcome {
     /// The scene with the correct answer and that of the program in comments at its beginning.
     #[must_use]
     pub fn page(&self) -> String {
-        let (family, writing) = (self.scene.family.name(), self.scene.writing.name());
+        let (family, writing) = (self.family, self.writing.name());
         let mut page = format!("# {family}, {writing}\n# Exact arithmetic:\n");
         for line in self.truth.lines() {
             page.push_str(&format!("#   {line}\n"));
@@ -67,31 +102,41 @@ impl Outcome {
     }
 }
 
-/// Tests one scene.
-#[must_use]
-pub fn outcome(seed: u64, number: u64) -> Outcome {
+fn in_plane(seed: u64, number: u64) -> Outcome {
     let scene = scene(seed, number);
     let truth = Truth::of(&scene.posed);
     let text = text::text(&scene.posed);
-    let (mut findings, mut rank) = (Findings::default(), None);
-    match panic::catch_unwind(AssertUnwindSafe(|| answer::answer(&text))) {
-        Ok(Ok(document)) => {
-            if document["evidence"]["status"] == "decided" {
-                rank = document["rank"].as_u64();
-            }
-            findings = examine(&truth, &document);
-        }
-        Ok(Err(refusal)) => findings.note(Kind::Refused, refusal),
-        Err(_) => findings.note(Kind::Panic, "the analysis panicked".to_owned()),
-    }
+    let (findings, rank) = judged(
+        || answer::answer(&text),
+        |document| examine(&truth, document),
+    );
     Outcome {
+        family: scene.family.name(),
+        writing: scene.writing,
         text,
         findings,
         rank,
         truth: truth.describe(),
         redundancy: truth.redundancy(),
-        scene,
     }
+}
+
+/// The findings for an answer, also if there is none, and its rank if it is decided.
+pub fn judged(
+    answer: impl FnOnce() -> Result<Value, String>,
+    examine: impl FnOnce(&Value) -> Findings,
+) -> (Findings, Option<u64>) {
+    let mut findings = Findings::default();
+    match panic::catch_unwind(AssertUnwindSafe(answer)) {
+        Ok(Ok(document)) => {
+            let is_decided = document["evidence"]["status"] == "decided";
+            let rank = document["rank"].as_u64().filter(|_| is_decided);
+            return (examine(&document), rank);
+        }
+        Ok(Err(refusal)) => findings.note(Kind::Refused, refusal),
+        Err(_) => findings.note(Kind::Panic, "the analysis panicked".to_owned()),
+    }
+    (findings, None)
 }
 
 /// Counts for one family, written in one way.
@@ -130,8 +175,10 @@ impl Count {
 /// The results for many scenes.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
+    /// The scenes.
+    pub suite: Suite,
     /// By family and way of writing.
-    pub counts: BTreeMap<(Family, Writing), Count>,
+    pub counts: BTreeMap<(&'static str, Writing), Count>,
     /// Drawings with different ranks for two ways of writing.
     pub contradicting: Vec<u64>,
 }
@@ -139,16 +186,20 @@ pub struct Tally {
 impl Tally {
     /// Tests scenes `from..from + scenes` of a seed; `done` is called after each of them.
     #[must_use]
-    pub fn of(seed: u64, from: u64, scenes: u64, done: impl Fn() + Sync) -> Self {
-        let ways = Writing::ALL.len() as u64;
+    pub fn of(suite: Suite, seed: u64, from: u64, scenes: u64, done: impl Fn() + Sync) -> Self {
+        let ways = suite.ways();
+        let empty = || Self {
+            suite,
+            ..Self::default()
+        };
         let drawings: Vec<u64> = (from / ways..(from + scenes).div_ceil(ways)).collect();
         let of_drawing = |&drawing: &u64| {
             let numbers = (ways * drawing..ways * (drawing + 1))
                 .filter(|n| (from..from + scenes).contains(n));
-            let mut tally = Self::default();
+            let mut tally = empty();
             let mut ranks = Vec::new();
             for number in numbers {
-                let outcome = outcome(seed, number);
+                let outcome = suite.outcome(seed, number);
                 ranks.extend(outcome.rank);
                 tally.note(number, &outcome);
                 done();
@@ -162,11 +213,11 @@ impl Tally {
         drawings
             .par_iter()
             .map(of_drawing)
-            .reduce(Self::default, Self::joined)
+            .reduce(empty, Self::joined)
     }
 
     fn note(&mut self, number: u64, outcome: &Outcome) {
-        let key = (outcome.scene.family, outcome.scene.writing);
+        let key = (outcome.family, outcome.writing);
         let count = self.counts.entry(key).or_default();
         count.scenes += 1;
         count.redundant += usize::from(outcome.redundancy > 0);
@@ -234,13 +285,14 @@ impl Tally {
         fs::create_dir_all(folder)?;
         for ((family, writing), count) in &self.counts {
             for (kind, (_, first)) in &count.not {
-                let pages = first.iter().map(|&n| (n, outcome(seed, n).page()));
+                let pages = first
+                    .iter()
+                    .map(|&n| (n, self.suite.outcome(seed, n).page()));
                 let mut pages: Vec<(u64, String)> = pages.collect();
                 pages.sort_by_key(|(_, page)| page.len());
                 for (number, page) in pages.into_iter().take(KEPT) {
                     let name = format!(
-                        "{}--{}--{}--{seed}-{number}.toml",
-                        family.name(),
+                        "{family}--{}--{}--{seed}-{number}.toml",
                         kind.name(),
                         writing.name()
                     );
@@ -258,7 +310,7 @@ impl Tally {
         for ((family, writing), count) in &self.counts {
             text.push_str(&format!(
                 "{:26}{:10} {:5} scenes, {:5} redundant, {:5} right",
-                family.name(),
+                family,
                 writing.name(),
                 count.scenes,
                 count.redundant,

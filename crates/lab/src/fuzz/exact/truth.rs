@@ -6,8 +6,10 @@ use exact::Exact;
 use num_bigint::BigInt;
 use num_traits::{ToPrimitive, Zero};
 
+use super::findings::rounding;
 use super::pose::Posed;
 use super::ratio::Ratio;
+use super::reference::{Ranks, Reference, RightReaction, RightWrench};
 use super::rows::{self, Row};
 
 /// A wrench on the first body of a joint, with components along the axes of the drawing and about
@@ -348,6 +350,63 @@ impl<'a> Truth<'a> {
             components.push(joined);
         }
         components
+    }
+}
+
+impl Reference for Truth<'_> {
+    fn ranks(&self) -> Ranks {
+        Ranks {
+            rows: self.rows.len(),
+            velocities: 3 * self.posed.frames.len(),
+            all: self.rank(),
+            holonomic: self.rank_where(false),
+            nonholonomic: self.rank_where(true),
+            without_drives: None,
+        }
+    }
+
+    fn rank_of(&self, rows: &[usize]) -> usize {
+        Self::rank_of(self, rows)
+    }
+
+    fn reactions(&self) -> Vec<RightReaction> {
+        let of_link = |link: usize| {
+            let own = self.rows_of(link);
+            let wrench = self.free_wrenches(link).map(|free| RightWrench {
+                components: ["Fx", "Fy", "T"]
+                    .map(|axis| {
+                        (
+                            axis,
+                            free.iter().all(|w| w.is_zero(axis, self.posed)).into(),
+                        )
+                    })
+                    .to_vec(),
+                live: self.live_directions(link),
+                is_open: false,
+                free: free
+                    .iter()
+                    .map(|w| w.rounded(self.posed).to_vec())
+                    .collect(),
+            });
+            RightReaction {
+                name: self.posed.links[link].link.name.clone(),
+                is_unique: self.is_unique(&own).into(),
+                rows: own
+                    .into_iter()
+                    .map(|i| (i, self.row_is_unique(i).into()))
+                    .collect(),
+                wrench,
+            }
+        };
+        (0..self.posed.links.len()).map(of_link).collect()
+    }
+
+    fn has_constant_rank(&self) -> bool {
+        self.posed.has_constant_rank
+    }
+
+    fn rounding(&self) -> f64 {
+        rounding(self.posed)
     }
 }
 

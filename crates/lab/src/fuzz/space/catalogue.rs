@@ -57,6 +57,7 @@ pub fn all() -> Vec<(&'static str, Drawing)> {
         ("V17 four balls in grooves", grooves(&balls)),
         ("V18 6-UPS", hexapod(false)),
         ("V18 6-UPS, driven", hexapod(true)),
+        ("V19 Delta", delta()),
         ("V22 car, straight", car(&Ratio::zero())),
         ("V22 car, front axle turned", car(&Ratio::new(1, 10))),
     ]
@@ -395,6 +396,73 @@ pub fn hexapod(driven: bool) -> Drawing {
     }
     drawing
 }
+
+/// V19: a Delta robot with revolute parallelograms. Each leg has an upper arm, and a parallelogram
+/// of two bars between two short rods; its hinges on base, elbow and platform are parallel.
+#[must_use]
+pub fn delta() -> Drawing {
+    let mut drawing = Drawing::default();
+    let platform = drawing.body();
+    let third = Rotation::about(&Vector::unit(2), &Ratio::new(173, 100));
+    let mut sector = Rotation::none();
+    // The arms have different angles: the platform is not below the middle of the base.
+    for arm in [[3, 0, 4], [4, 0, 3], [5, 0, 0]] {
+        let place = |p: [i64; 3]| sector.of(&parts(p, 10));
+        let (axis, base) = (sector.of(&Vector::unit(1)), place([20, 0, 80]));
+        let (elbow, corner) = (
+            &base + &place(arm),
+            &place([8, 0, 0]) + &parts([1, 2, 0], 10),
+        );
+        // The hinges of the parallelogram are across its plane.
+        let across = axis.cross(&(&corner - &elbow));
+        let [upper, top, bottom] = [0; 3].map(|_| drawing.body());
+        let hinges = [
+            ([GROUND, upper], &base),
+            ([upper, top], &elbow),
+            ([bottom, platform], &corner),
+        ];
+        for (pair, at) in hinges {
+            drawing.joint(pair, revolute(at, &axis));
+        }
+        for side in [-2, 2] {
+            let side = place([0, side, 0]);
+            let joints = [&elbow, &corner].map(|at| revolute(&(at + &side), &across));
+            chain(&mut drawing, top, bottom, &joints);
+        }
+        sector = third.after(&sector);
+    }
+    drawing
+}
+
+/// Four-bars one after another: each stands on the coupler of the one before, the first on the
+/// ground, and their planes have different directions. Each adds 20 rows, three of them redundant,
+/// and one freedom.
+#[must_use]
+pub fn four_bars_in_a_row(count: usize) -> Drawing {
+    let turns = [[1, 0, 0, 0], [3, 1, 0, 0], [3, 0, 1, 0], [2, 1, 1, 1]].map(Rotation::whole);
+    let mut drawing = Drawing::default();
+    let mut base = GROUND;
+    for k in 0..count {
+        // To and fro in a box, so that a long row stays in a small region.
+        let (x, row) = (k % FOLD, k / FOLD);
+        let (y, layer) = (row % FOLD, row / FOLD);
+        let fold = |at: usize, lines: usize| if lines.is_multiple_of(2) { at } else { FOLD - 1 - at };
+        let [x, y, z] = [fold(x, row), fold(y, layer), layer].map(|at| 2 * at as i64);
+        let (turn, origin) = (&turns[k % turns.len()], whole([x, y, z]));
+        let points = four_bar_points().map(|p| &origin + &turn.of(&p));
+        let joints = points.each_ref().map(|p| revolute(p, &turn.axes()[2]));
+        let first = drawing.bodies.len();
+        let bodies = chain(&mut drawing, base, base, &joints);
+        for (body, p) in drawing.bodies[first..].iter_mut().zip(points) {
+            body.position = p;
+        }
+        base = bodies[1];
+    }
+    drawing
+}
+
+/// Four-bars along each edge of the box.
+const FOLD: usize = 32;
 
 /// V22: a chassis on four wheels on the plane z = 0; the tangent of half of the steering angle of
 /// both front wheels.

@@ -57,6 +57,41 @@ pub struct Joint {
     pub style: Style,
 }
 
+impl Joint {
+    /// Whether its axis is written for both bodies.
+    #[must_use]
+    pub fn gives_both_axes(&self) -> bool {
+        self.style.directions == Directions::Both
+            && matches!(
+                self.kind,
+                Kind::Revolute { .. } | Kind::Cylindrical { .. } | Kind::Parallel { .. }
+            )
+    }
+
+    /// Whether its points are written in the axes of the ground.
+    #[must_use]
+    pub fn is_placed_in_ground(&self) -> bool {
+        let is_one_point = match &self.kind {
+            Kind::Translational { from, at, .. }
+            | Kind::Cylindrical { from, at, .. }
+            | Kind::Planar { from, at, .. }
+            | Kind::PointOnLine { from, at, .. }
+            | Kind::PointOnPlane { from, at, .. } => from == at,
+            _ => true,
+        };
+        is_one_point && !self.style.points_in_bodies
+    }
+
+    /// The frame in which its directions are written, if not for both bodies.
+    #[must_use]
+    pub fn frame_of_directions(&self) -> Side {
+        match self.style.directions {
+            Directions::Ground => GROUND,
+            Directions::First | Directions::Both => self.bodies[0],
+        }
+    }
+}
+
 /// How a joint is written. None of this changes the right answer.
 #[derive(Clone, Debug, Default)]
 pub struct Style {

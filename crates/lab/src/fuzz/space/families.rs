@@ -87,16 +87,21 @@ impl Family {
     /// A drawing; one in three has a joint that is weaker or turned.
     #[must_use]
     pub fn draw(self, numbers: &mut Numbers) -> Drawing {
-        let mut drawing = Drawing {
-            redundancy: Some(0),
-            ..Drawing::default()
-        };
-        if self == Self::Several {
-            several(&mut drawing, numbers);
-        } else {
-            piece(&mut drawing, self, GROUND, numbers);
+        loop {
+            let mut drawing = Drawing {
+                redundancy: Some(0),
+                ..Drawing::default()
+            };
+            if self == Self::Several {
+                several(&mut drawing, numbers);
+            } else {
+                piece(&mut drawing, self, GROUND, numbers);
+            }
+            // A coupling whose shafts do not fit is left out.
+            if !drawing.bodies.is_empty() {
+                return drawing;
+            }
         }
-        drawing
     }
 }
 

@@ -4,39 +4,12 @@
 
 use crate::numbers::Numbers;
 
+pub use crate::fuzz::exact::pose::Writing;
+
 use super::drawing::{Body, Directions, Drawing, Kind, Side};
 use super::ratio::Ratio;
 use super::rows;
 use super::vector::{Motion, Rotation, Vector};
-
-/// A way to write a drawing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Writing {
-    /// As drawn.
-    AsDrawn,
-    /// In another order, turned by multiples of 90°, with other frames of the bodies.
-    Reordered,
-    /// As reordered, also turned by any rotation and moved by up to its size.
-    Moved,
-    /// As reordered, also turned and moved by 1e3 m to 1e6 m.
-    Far,
-}
-
-impl Writing {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::AsDrawn, Self::Reordered, Self::Moved, Self::Far];
-
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::AsDrawn => "as drawn",
-            Self::Reordered => "reordered",
-            Self::Moved => "moved",
-            Self::Far => "far",
-        }
-    }
-}
 
 /// Chooses how a drawing is written.
 #[must_use]

@@ -9,7 +9,7 @@
 //! | point | (e; P × e) for e along the axes of the ground |
 //! | offset | (u; P₂ × u): a smooth guide pushes the second body at its own point |
 //! | directions u, v of an axis w | couples along w × u and w × v: those that keep w from leaving u, v |
-//! | orientation | couples along the coordinate axes of the first body |
+//! | orientation of u, v, w | those of the axis w, and a couple along w: no turn of u towards v |
 //! | perpendicular a, b | couple along b × a |
 //! | distance | force along the rod |
 //! | contact, slip, edge | force at the point, along normal, longitudinal, lateral |
@@ -17,9 +17,9 @@
 //!
 //! Verdicts of joints, forces, moments and components do not depend on the basis of the rows.
 //! Verdicts of single rows do; [`Meaning`] says what each row is taken to be. The order inside a
-//! joint is that of the table of joints: points, then offsets, then directions u and v, then
-//! orientation about x, y, z of the first body. Where a program chooses another basis for
-//! orientations, rows of `fixed`, `translational` and `orientation` cannot be compared one by one.
+//! joint is that of the table of joints: points, then offsets, then directions u and v, then the
+//! turn about w. Joints that keep an orientation without an axis use the axes of the frame of the
+//! first body.
 
 #[cfg(test)]
 mod tests;
@@ -82,8 +82,8 @@ pub enum Meaning {
     Offset(usize),
     /// The second axis does not leave the first one towards u (0) or v (1).
     Direction(usize),
-    /// No relative rotation about an axis of the first body.
-    Turn(usize),
+    /// The second u does not turn towards the first v: no relative rotation about w.
+    Turn,
     /// Two axes stay perpendicular.
     Perpendicular,
     /// A length.
@@ -208,16 +208,21 @@ fn offsets(at: &Vector, basis: &[Vector; 2]) -> Vec<(Meaning, Wrench)> {
     [0, 1].map(row).to_vec()
 }
 
-fn orientation(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
-    let axes = drawing.frame(joint.bodies[0]).turn.axes();
-    let rows = axes.into_iter().enumerate();
-    rows.map(|(k, axis)| (Meaning::Turn(k), Wrench::couple(axis)))
-        .collect()
+/// The couples that keep axes u, v, w of both bodies parallel: w leaves neither u nor v, and u does
+/// not turn towards v.
+fn orientation(w: &Vector, basis: &[Vector; 2]) -> Vec<(Meaning, Wrench)> {
+    let mut rows = directions(w, basis);
+    rows.push((Meaning::Turn, Wrench::couple(basis[0].cross(&basis[1]))));
+    rows
 }
 
 /// The rows of a joint.
 fn of(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
     let across = |w: &Vector| basis(drawing, joint, w);
+    let frame = || {
+        let [u, v, w] = drawing.frame(joint.bodies[0]).turn.axes();
+        orientation(&w, &[u, v])
+    };
     match &joint.kind {
         Kind::Spherical { at } => points(at),
         Kind::Revolute { at, axis } => [points(at), directions(axis, &across(axis))].concat(),
@@ -227,7 +232,8 @@ fn of(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
             rows
         }
         Kind::Translational { at, axis, .. } => {
-            [offsets(at, &across(axis)), orientation(drawing, joint)].concat()
+            let across = across(axis);
+            [offsets(at, &across), orientation(axis, &across)].concat()
         }
         Kind::Cylindrical { at, axis, .. } => {
             let across = across(axis);
@@ -238,14 +244,14 @@ fn of(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
             rows.extend(directions(normal, &across(normal)));
             rows
         }
-        Kind::Fixed { at } => [points(at), orientation(drawing, joint)].concat(),
+        Kind::Fixed { at } => [points(at), frame()].concat(),
         Kind::PointOnLine { at, axis, .. } => offsets(at, &across(axis)),
         Kind::PointOnPlane { at, normal, .. } => {
             vec![(Meaning::Offset(2), Wrench::line(at, normal))]
         }
         Kind::Parallel { axis } => directions(axis, &across(axis)),
         Kind::Perpendicular { first, second } => vec![perpendicular(first, second)],
-        Kind::Orientation => orientation(drawing, joint),
+        Kind::Orientation => frame(),
         Kind::Distance { from, at } => vec![(Meaning::Length, Wrench::line(at, &(at - from)))],
         Kind::KnifeEdge { at, normal } => vec![(Meaning::Edge, Wrench::line(at, normal))],
         Kind::Wheel {
@@ -276,7 +282,7 @@ fn perpendicular(a: &Vector, b: &Vector) -> (Meaning, Wrench) {
 ///
 /// # Panics
 /// If the joint has no such measure.
-fn driven(kind: &Kind, measure: Measure) -> Wrench {
+pub(super) fn driven(kind: &Kind, measure: Measure) -> Wrench {
     match (measure, kind) {
         (Measure::Angle, Kind::Revolute { axis, .. } | Kind::Cylindrical { axis, .. }) => {
             Wrench::couple(axis.clone())

@@ -10,6 +10,12 @@ use super::drawing::{Body, Directions, Drawing, Drive, Joint, Kind, Measure, Sid
 use super::ratio::Ratio;
 use super::rows;
 use super::vector::{Rotation, Vector};
+use model::{AnyDescription, Registry, SpatialDescription};
+use pfaff::AssembledScene;
+
+/// What follows the name of a wheel in the name of its rows against slip, which are a joint of
+/// their own.
+pub const SLIP: &str = " slip";
 
 /// The number of digits, and the data that the scene states in addition to the drawing.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,6 +64,19 @@ pub fn text(drawing: &Drawing) -> String {
 #[must_use]
 pub fn text_within(drawing: &Drawing, precision: &Precision) -> String {
     written(drawing, precision).text
+}
+
+/// The description that is read from the text.
+///
+/// # Errors
+/// The message if the scene is refused.
+pub fn description(drawing: &Drawing, precision: &Precision) -> Result<SpatialDescription, String> {
+    let text = text_within(drawing, precision);
+    let read = AssembledScene::read("scene.toml", &text, &Registry::standard());
+    match read.map_err(|e| e.to_string())?.scene.description {
+        AnyDescription::Space3(description) => Ok(description),
+        AnyDescription::Plane(_) => Err("the scene is in the plane".into()),
+    }
 }
 
 /// The largest coordinate in the text (m), at least 1.
@@ -159,9 +178,18 @@ impl Pen<'_> {
     }
 
     fn joint(&mut self, joint: &Joint) {
+        if let Kind::Wheel { .. } = joint.kind {
+            self.joint_of_type(joint, &joint.name, "wheel-contact");
+            let slip = format!("{}{SLIP}", joint.name);
+            return self.joint_of_type(joint, &slip, "wheel-slip");
+        }
+        self.joint_of_type(joint, &joint.name, joint.kind.name());
+    }
+
+    fn joint_of_type(&mut self, joint: &Joint, name: &str, kind: &str) {
         self.text.push_str("\n[[joint]]\n");
-        self.line("name", &format!("\"{}\"", joint.name));
-        self.line("type", &format!("\"{}\"", joint.kind.name()));
+        self.line("name", &format!("\"{name}\""));
+        self.line("type", &format!("\"{kind}\""));
         let [first, second] = joint.bodies.map(|side| self.name(side).to_owned());
         if joint.kind.has_one_body() {
             self.line("body", &format!("\"{first}\""));
@@ -250,7 +278,7 @@ impl Pen<'_> {
 
     /// Writes the place: one point of the ground, or two in the frames of the bodies.
     fn place(&mut self, joint: &Joint, from: &Vector, at: &Vector) {
-        if !joint.style.points_in_bodies && from == at {
+        if joint.is_placed_in_ground() {
             let at = self.length(at);
             return self.line("at", &at);
         }
@@ -272,20 +300,20 @@ impl Pen<'_> {
         self.length(&local)
     }
 
-    /// Writes an axis or normal, and the direction that chooses the basis of rows.
-    fn axis(&mut self, joint: &Joint, key: &str, axis: &Vector) {
-        let carries_both = matches!(
-            joint.kind,
-            Kind::Revolute { .. } | Kind::Cylindrical { .. } | Kind::Parallel { .. }
-        );
-        let [first, second] = joint.bodies;
-        let (mut frame, is_global) = (first, joint.style.directions == Directions::Ground);
-        if is_global {
-            frame = None;
+    /// Writes the frame of directions unless it is that of the first body, and returns it.
+    fn directions_of(&mut self, joint: &Joint) -> Side {
+        if joint.style.directions == Directions::Ground {
             self.line("frame", "\"global\"");
         }
+        joint.frame_of_directions()
+    }
+
+    /// Writes an axis or normal, and the direction that chooses the basis of rows.
+    fn axis(&mut self, joint: &Joint, key: &str, axis: &Vector) {
+        let [first, second] = joint.bodies;
+        let frame = self.directions_of(joint);
         let in_frame = self.direction_in(joint, frame, axis);
-        if joint.style.directions == Directions::Both && carries_both {
+        if joint.gives_both_axes() {
             let other = self.direction_in(joint, second, axis);
             let (first, second) = (self.name(first).to_owned(), self.name(second).to_owned());
             let axes = format!("{{ {first} = {in_frame}, {second} = {other} }}");
@@ -301,11 +329,7 @@ impl Pen<'_> {
     }
 
     fn two_axes(&mut self, joint: &Joint, first: &Vector, second: &Vector) {
-        let mut frame = joint.bodies[0];
-        if joint.style.directions == Directions::Ground {
-            frame = None;
-            self.line("frame", "\"global\"");
-        }
+        let frame = self.directions_of(joint);
         let (first, second) = (
             self.direction_in(joint, frame, first),
             self.direction_in(joint, frame, second),
@@ -314,20 +338,23 @@ impl Pen<'_> {
         self.line("cross", &second);
     }
 
-    /// A direction in the frame of a side, times the factor of the joint or divided by its length.
     fn direction_in(&self, joint: &Joint, side: Side, d: &Vector) -> String {
-        let local = self.drawing.frame(side).turn.inverse().of(d);
-        let numbers = match &joint.style.factor {
-            Some(factor) => local.times(factor).0.each_ref().map(Ratio::rounded),
-            None => {
-                let square = local.square();
-                let part = |x: &Ratio| {
-                    let share = &(x * x) / &square;
-                    share.root().copysign(x.rounded())
-                };
-                local.0.each_ref().map(part)
-            }
-        };
-        self.list(&numbers)
+        self.list(&direction_in(self.drawing, joint, side, d))
+    }
+}
+
+/// A direction in the frame of a side, times the factor of the joint or divided by its length.
+fn direction_in(drawing: &Drawing, joint: &Joint, side: Side, d: &Vector) -> [f64; 3] {
+    let local = drawing.frame(side).turn.inverse().of(d);
+    match &joint.style.factor {
+        Some(factor) => local.times(factor).0.each_ref().map(Ratio::rounded),
+        None => {
+            let square = local.square();
+            let part = |x: &Ratio| {
+                let share = &(x * x) / &square;
+                share.root().copysign(x.rounded())
+            };
+            local.0.each_ref().map(part)
+        }
     }
 }

@@ -163,10 +163,9 @@ impl<'a> Truth<'a> {
         Some(own.into_iter().map(|x| x / most).collect())
     }
 
-    /// The wrenches on the second body without loads, about the origin of the ground, one for each
-    /// independent solution; some may be 0.
-    fn free_at_origin(&self, owner: Owner) -> Vec<[BigInt; 6]> {
-        let rows = self.rows_of(owner);
+    /// The wrenches of some rows of one joint on its second body without loads, about the origin of
+    /// the ground, one for each independent solution; some may be 0.
+    fn free_at_origin(&self, rows: &[usize]) -> Vec<[BigInt; 6]> {
         let sum = |z: &Vec<BigInt>| {
             [0, 1, 2, 3, 4, 5].map(|k| rows.iter().map(|&i| &z[i] * &self.wrenches[i][k]).sum())
         };
@@ -177,6 +176,12 @@ impl<'a> Truth<'a> {
     /// solution; some may be 0.
     #[must_use]
     pub fn free_about(&self, owner: Owner, point: &Vector) -> Vec<Reaction> {
+        self.free_of(&self.rows_of(owner), point)
+    }
+
+    /// The same for some rows of one joint.
+    #[must_use]
+    pub fn free_of(&self, rows: &[usize], point: &Vector) -> Vec<Reaction> {
         let (p, common) = whole_multiples(&point.0);
         // The point is p·(denominator)/(numerator) of the factor.
         let (d, n) = (common.denominator(), common.numerator());
@@ -193,11 +198,18 @@ impl<'a> Truth<'a> {
             let [a, b, c] = moment;
             Reaction([x, y, z, a, b, c].map(|x| -x))
         };
-        self.free_at_origin(owner).into_iter().map(about).collect()
+        self.free_at_origin(rows).into_iter().map(about).collect()
+    }
+
+    /// The bodies that a joint or drive acts on.
+    #[must_use]
+    pub fn sides(&self, owner: Owner) -> [Side; 2] {
+        sides(self.drawing, owner)
     }
 
     /// The place of a joint, or of the joint of a drive; the origin if it carries couples only.
-    fn place(&self, owner: Owner) -> Vector {
+    #[must_use]
+    pub fn place(&self, owner: Owner) -> Vector {
         let joint = match owner {
             Owner::Joint(k) => k,
             Owner::Drive(k) => self.drawing.drives[k].joint,
@@ -233,28 +245,32 @@ impl<'a> Truth<'a> {
     /// Number of independent directions in which the reaction is not unique.
     #[must_use]
     pub fn free_directions(&self, owner: Owner) -> usize {
-        let free = self.free_at_origin(owner).into_iter().map(Vec::from);
-        Exact::of_whole(free.collect()).rank()
+        self.free_directions_of(&self.rows_of(owner))
     }
 
     /// Number of independent wrenches that the joint can carry.
     #[must_use]
     pub fn carried_directions(&self, owner: Owner) -> usize {
-        let own = self.rows_of(owner).into_iter();
-        Exact::of_whole(own.map(|i| self.wrenches[i].clone()).collect()).rank()
+        self.carried_directions_of(&self.rows_of(owner))
     }
-}
 
-/// The bodies that a joint or drive acts on.
-fn sides(drawing: &Drawing, owner: Owner) -> [Side; 2] {
-    match owner {
-        Owner::Joint(k) => drawing.joints[k].bodies,
-        Owner::Drive(k) => drawing.joints[drawing.drives[k].joint].bodies,
+    /// The same for some rows of one joint.
+    #[must_use]
+    pub fn free_directions_of(&self, rows: &[usize]) -> usize {
+        let free = self.free_at_origin(rows).into_iter().map(Vec::from);
+        Exact::of_whole(free.collect()).rank()
+    }
+
+    /// The same for some rows of one joint.
+    #[must_use]
+    pub fn carried_directions_of(&self, rows: &[usize]) -> usize {
+        let own = rows.iter().map(|&i| self.wrenches[i].clone());
+        Exact::of_whole(own.collect()).rank()
     }
 }
 
 /// The row of C: the wrench on the second body, the opposite one on the first.
-fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigInt> {
+pub(super) fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigInt> {
     let mut row = vec![BigInt::zero(); 6 * drawing.bodies.len()];
     for (side, sign) in sides.into_iter().zip([-1, 1]) {
         let Some(body) = side else { continue };
@@ -263,4 +279,12 @@ fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigI
         }
     }
     row
+}
+
+/// The bodies that a joint or drive acts on.
+fn sides(drawing: &Drawing, owner: Owner) -> [Side; 2] {
+    match owner {
+        Owner::Joint(k) => drawing.joints[k].bodies,
+        Owner::Drive(k) => drawing.joints[drawing.drives[k].joint].bodies,
+    }
 }

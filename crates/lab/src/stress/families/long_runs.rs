@@ -1,17 +1,19 @@
-//! Very long runs: a pendulum for a thousand seconds in steps of a millisecond, and the drift of
-//! its values.
+//! Very long runs: a pendulum for a thousand seconds in steps of a millisecond, mechanisms of space
+//! for a hundred seconds, and the drift of their values.
 
 use std::time::Duration;
 
 use dynamics::{Method, MotionOptions, Prepared};
+use model::SpatialDescription;
 
+use crate::mechanisms::space;
 use crate::stress::case::{Case, Expected, Family, Outcome};
-use crate::stress::motion::{last_row, moving, study, worst};
+use crate::stress::motion::{last_row, moving, prepared, study, worst};
 
-/// A pendulum in a million steps.
+/// A pendulum in a million steps, and mechanisms of space.
 pub(super) const FAMILY: Family = Family {
     name: "long-runs",
-    about: "a pendulum for 1000 s in a million steps: drift off the constraints, energy, and its amplitude and period",
+    about: "a pendulum for 1000 s in a million steps: drift off the constraints, energy, and its amplitude and period; a top and overconstrained linkages in space for 100 s",
     cases,
 };
 
@@ -44,7 +46,51 @@ fn cases() -> Vec<Case> {
         });
         cases.push(made.within(TIME_LIMIT));
     }
+    cases.extend(in_space());
     cases
+}
+
+/// A description or the reason why there is none.
+type Made = fn() -> Result<SpatialDescription, Outcome>;
+
+/// A top, and linkages that move although Grübler counts no freedom.
+fn in_space() -> impl Iterator<Item = Case> {
+    let mechanisms: [(&str, Made); 3] = [
+        ("a top", || Ok(space::top())),
+        ("Bricard's linkage", || Ok(space::bricard())),
+        ("Bennett's linkage", || {
+            space::bennett().map_err(Outcome::refused)
+        }),
+    ];
+    mechanisms.into_iter().map(|(name, description)| {
+        let t_end = 100.0;
+        let options = MotionOptions {
+            method: Method::Dop853,
+            rtol: 1e-14,
+            atol: 1e-14,
+            max_steps: 2_000_000,
+            output_step: t_end / 100.0,
+            ..MotionOptions::to(t_end)
+        };
+        let right = Expected::answer(
+            1.0,
+            "in units of what is allowed: 1e-12 for every |Φ| relative to the size, and |C·v − b| relative to the largest velocity at the end; 1e-11 for energy, on which no work is done",
+        );
+        let made = moving(name, options, right, move |options| {
+            let prepared = prepared(&description()?)?;
+            let (row, s) = last_row(&prepared, options)?;
+            let fastest = worst(row.v).max(1.0);
+            let position = s.max_position_residual / prepared.assembly.size.max(1.0);
+            let residual = worst([position, s.max_velocity_residual / fastest]);
+            let detail = format!(
+                "{} steps, residuals {residual:.1e}, energy {:.1e}",
+                s.steps, s.energy_balance
+            );
+            let error = worst([residual / 1e-12, s.energy_balance / 1e-11]);
+            Ok(Outcome::answer(error, detail))
+        });
+        made.within(TIME_LIMIT)
+    })
 }
 
 /// The drift in a run, relative to the allowed one.

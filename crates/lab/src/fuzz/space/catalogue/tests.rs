@@ -205,6 +205,22 @@ fn v18_hexapod() {
     assert_eq!(left, Some([72, 0, 6]));
 }
 
+/// Three redundant rows for each parallelogram, and three for the platform, whose three turns are
+/// excluded by two couples of each leg.
+#[test]
+fn v19_delta() {
+    assert_eq!(counts(&answer(&delta())), [105, 93, 12, 3]);
+}
+
+#[test]
+fn four_bars_in_a_row_add_up() {
+    for n in 1..=3 {
+        let expected = answer(&four_bars_in_a_row(n));
+        assert_eq!(counts(&expected), [20 * n, 17 * n, 3 * n, n]);
+        assert_eq!(all_letters(&expected)[..4], ["uunnnu"; 4]);
+    }
+}
+
 #[test]
 fn v22_cars() {
     let straight = answer(&car(&Ratio::zero()));

@@ -12,7 +12,7 @@ struct Sketch {
     d: SpatialDescription,
 }
 
-const TENSOR: [[f64; 3]; 3] = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
+pub(super) const TENSOR: [[f64; 3]; 3] = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
 
 /// The kinds of joints with an axis.
 #[derive(Clone, Copy)]
@@ -124,10 +124,10 @@ impl Sketch {
 
 /// Moved and turned as a whole: every body and every joint of a sketch is placed through this.
 #[derive(Clone, Copy)]
-struct Motion(Pose);
+pub(super) struct Motion(pub(super) Pose);
 
 impl Motion {
-    fn all() -> [Self; 3] {
+    pub(super) fn all() -> [Self; 3] {
         [
             Pose::GROUND,
             Pose::new([0.3, -0.7, 1.1], [1.0, 0.0, 0.0, 1.0]),
@@ -136,11 +136,11 @@ impl Motion {
         .map(Self)
     }
 
-    fn point(&self, p: [f64; 3]) -> [f64; 3] {
+    pub(super) fn point(&self, p: [f64; 3]) -> [f64; 3] {
         self.0.to_global(p)
     }
 
-    fn vector(&self, v: [f64; 3]) -> [f64; 3] {
+    pub(super) fn vector(&self, v: [f64; 3]) -> [f64; 3] {
         self.0.direction_to_global(v)
     }
 }

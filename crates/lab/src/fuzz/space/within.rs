@@ -1,0 +1,319 @@
+//! Answers for drawings with 3 … 16 significant digits, compared with exact arithmetic: cases of
+//! the campaign of [`crate::fuzz::exact::rounded`].
+//!
+//! How far the drawing is from a lower rank, and from other verdicts, is told by the singular
+//! values of its rows without dimensions: a change of the matrix by δ leaves the rank if δ < σ_r,
+//! and turns its null space by δ/σ_r at most (Wedin 1972, doi 10.1007/BF01932678).
+
+use linalg::{Matrix, small_svd};
+use model::space::norm;
+
+use super::Expected;
+use super::drawing::Drawing;
+use super::examine::Right;
+use super::permanence::is_permanent;
+use super::rows::Row;
+use super::text::{Precision, text_within};
+use super::truth::Truth;
+use super::vector::Vector;
+use crate::fuzz::exact::answer::answer;
+use crate::fuzz::exact::examine::{ranks_and_reactions, reactions};
+use crate::fuzz::exact::findings::Kind;
+use crate::fuzz::exact::reference::{Reference, Verdict};
+use crate::fuzz::exact::rounded::{DIGITS, Outcome};
+use crate::fuzz::exact::tally::judged;
+use crate::fuzz::exact::within::{BEYOND_DOUBT, FAR, Judged};
+
+/// A row changes by at most so many tolerances: of the two ends of an arm or a direction on each of
+/// two bodies.
+const CHANGES: f64 = 4.0;
+
+/// The results for one drawing, moved by up to its size, with each number of digits.
+#[must_use]
+pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
+    // The third way of writing.
+    let scene = super::scene(seed, 4 * drawn + 2);
+    let truth = Truth::of(&scene.drawing);
+    let meant = Meant::of(&truth);
+    let right = Expected::from_truth(&truth);
+    let one = |(way, &digits): (usize, &usize)| {
+        let mut precision = Precision::of_digits(&scene.drawing, digits);
+        if digits == DIGITS[DIGITS.len() - 1] {
+            precision.tolerance = None;
+        }
+        let known = precision.tolerance.map_or(0.0, |t| meant.known(t));
+        let mut other_rank = None;
+        let (findings, _) = judged(
+            || answer(&text_within(&scene.drawing, &precision)),
+            |document| {
+                let Judged {
+                    findings,
+                    other_rank: other,
+                } = meant.judge(document, precision.tolerance, known);
+                other_rank = other;
+                findings
+            },
+        );
+        Outcome {
+            family: scene.family.name(),
+            way,
+            text: text_within(&scene.drawing, &precision),
+            truth: format!(
+                "{}\nσ_r {:.2e}, C known to {known:.1e}, {}",
+                right.describe(),
+                meant.sigma,
+                if meant.is_permanent {
+                    "permanent"
+                } else {
+                    "singular pose"
+                }
+            ),
+            judged: Judged {
+                findings,
+                other_rank,
+            },
+            is_far: meant.sigma >= FAR * known,
+            is_redundant: right.redundancy > 0,
+        }
+    };
+    DIGITS.iter().enumerate().map(one).collect()
+}
+
+/// The right results for a drawing, with their distance from others.
+struct Meant<'a> {
+    truth: &'a Truth<'a>,
+    is_permanent: bool,
+    /// Size of the drawing (m).
+    size: f64,
+    /// The smallest singular value that is not zero, of rows of size one.
+    sigma: f64,
+    margins: Margins,
+}
+
+impl<'a> Meant<'a> {
+    fn of(truth: &'a Truth<'a>) -> Self {
+        let size = size(truth.drawing);
+        let margins = Margins::of(truth, size);
+        Self {
+            truth,
+            is_permanent: truth.redundancy() == 0 || is_permanent(truth.drawing),
+            size,
+            sigma: margins.sigma,
+            margins,
+        }
+    }
+
+    /// What C is known to with this tolerance (m).
+    fn known(&self, tolerance: f64) -> f64 {
+        CHANGES * (self.truth.rows.len() as f64).sqrt() * tolerance / self.size
+    }
+
+    fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>, known: f64) -> Judged {
+        let mut judged = Judged::default();
+        let findings = &mut judged.findings;
+        let right = Right {
+            truth: self.truth,
+            known_to: BEYOND_DOUBT * known / self.sigma,
+        };
+        if tolerance.is_none() {
+            ranks_and_reactions(&right, document, findings);
+            return judged;
+        }
+        let rank = self.truth.rank();
+        if document["evidence"]["status"] != "decided" {
+            let reason = &document["evidence"]["reason"];
+            findings.note(Kind::Undecided, format!("rank: {reason}"));
+            return judged;
+        }
+        let found = document["rank"].as_u64().unwrap_or(0) as usize;
+        let told = format!("rank: answer {found}, is {rank}");
+        if found < rank {
+            if BEYOND_DOUBT * known < self.sigma {
+                findings.note(Kind::Rank, told);
+            }
+            judged.other_rank = Some("lower within the tolerance");
+        } else if found > rank {
+            if self.is_permanent {
+                findings.note(Kind::Rank, format!("{told} in every pose"));
+            }
+            judged.other_rank = Some("singular pose");
+        } else if BEYOND_DOUBT * known >= self.sigma {
+            judged.other_rank = Some("verdicts near a lower rank");
+        } else {
+            let open = Open {
+                right,
+                margins: &self.margins,
+                turned: known / self.sigma,
+            };
+            reactions(&open, document, findings);
+        }
+        judged
+    }
+}
+
+/// The largest distance of the place of a joint from that of the first one (m), at least 0.1.
+fn size(drawing: &Drawing) -> f64 {
+    let mut places = drawing.joints.iter().filter_map(|j| j.kind.place());
+    let Some(first) = places.next() else {
+        return 1.0;
+    };
+    let distances = places.map(|p| (p - first).square().root());
+    distances.fold(0.1, f64::max)
+}
+
+/// How far combinations of multipliers are from being unique.
+struct Margins {
+    sigma: f64,
+    /// Orthonormal combinations of rows that span the range of C, as columns.
+    range: Matrix,
+    /// The factors by which rows have size one.
+    factors: Vec<f64>,
+}
+
+impl Margins {
+    fn of(truth: &Truth<'_>, size: f64) -> Self {
+        let drawing = truth.drawing;
+        let factors: Vec<f64> = truth.rows.iter().map(|row| factor(row, size)).collect();
+        let mut c = Matrix::zeros(truth.rows.len(), 6 * drawing.bodies.len());
+        for (i, row) in truth.rows.iter().enumerate() {
+            for (side, sign) in truth.sides(row.owner).into_iter().zip([-1.0, 1.0]) {
+                let Some(body) = side else { continue };
+                let wrench = about(row, &drawing.bodies[body].position, size);
+                for (k, x) in wrench.into_iter().enumerate() {
+                    c[(i, 6 * body + k)] += sign * factors[i] * x;
+                }
+            }
+        }
+        let rank = truth.rank();
+        let svd = small_svd(&c);
+        Self {
+            sigma: rank.checked_sub(1).map_or(1.0, |k| svd.sigma[k]),
+            range: Matrix::from_fn(c.nrows(), rank, |i, k| svd.u[(i, k)]),
+            factors,
+        }
+    }
+
+    /// The norm of a combination of multipliers, those of rows of size one, on the null space.
+    fn margin(&self, combination: &[(usize, f64)]) -> f64 {
+        norm(&self.free(combination))
+    }
+
+    /// The part of a combination of multipliers in the null space.
+    fn free(&self, combination: &[(usize, f64)]) -> Vec<f64> {
+        let mut left = vec![0.0; self.range.nrows()];
+        for (i, x) in combination {
+            left[*i] = *x;
+        }
+        for k in 0..self.range.ncols() {
+            let share: f64 = combination
+                .iter()
+                .map(|(i, x)| self.range[(*i, k)] * x)
+                .sum();
+            for (i, left) in left.iter_mut().enumerate() {
+                *left -= share * self.range[(i, k)];
+            }
+        }
+        left
+    }
+}
+
+/// The wrench of a row about a point, with moments divided by the size.
+fn about(row: &Row, point: &Vector, size: f64) -> [f64; 6] {
+    let moment = &row.wrench.moment - &point.cross(&row.wrench.force);
+    let [x, y, z] = row
+        .wrench
+        .force
+        .0
+        .each_ref()
+        .map(super::ratio::Ratio::rounded);
+    let [a, b, c] = moment.0.each_ref().map(super::ratio::Ratio::rounded);
+    [x, y, z, a / size, b / size, c / size]
+}
+
+/// The factor by which the force of a row has size one, or its couple divided by the size.
+fn factor(row: &Row, size: f64) -> f64 {
+    let force = row.wrench.force.square().root();
+    if force > 0.0 {
+        return force.recip();
+    }
+    match row.wrench.moment.square().root() {
+        0.0 => 1.0,
+        couple => size / couple,
+    }
+}
+
+/// What exact arithmetic says, where data within a tolerance may not say otherwise.
+struct Open<'a> {
+    right: Right<'a>,
+    margins: &'a Margins,
+    /// The angle by which the null space may turn.
+    turned: f64,
+}
+
+impl Reference for Open<'_> {
+    fn ranks(&self) -> crate::fuzz::exact::reference::Ranks {
+        self.right.ranks()
+    }
+
+    fn rank_of(&self, rows: &[usize]) -> usize {
+        self.right.rank_of(rows)
+    }
+
+    fn reactions(&self) -> Vec<crate::fuzz::exact::reference::RightReaction> {
+        let truth = self.right.truth;
+        let size = size(truth.drawing);
+        let mut reactions = self.right.reactions();
+        let opened = |verdict: &mut Verdict, combination: &[(usize, f64)]| {
+            if *verdict == Verdict::NotUnique && self.margins.margin(combination) <= self.turned {
+                *verdict = Verdict::Open;
+            }
+        };
+        for reaction in &mut reactions {
+            let own = reaction.own_rows();
+            for (i, verdict) in &mut reaction.rows {
+                opened(verdict, &[(*i, 1.0)]);
+            }
+            let is_open = reaction.rows.iter().any(|(_, v)| *v == Verdict::Open);
+            let Some(wrench) = &mut reaction.wrench else {
+                continue;
+            };
+            let Some(&first) = own.first() else { continue };
+            let place = truth.place(truth.rows[first].owner);
+            let parts: Vec<[f64; 6]> = own
+                .iter()
+                .map(|&i| about(&truth.rows[i], &place, size).map(|x| x * self.margins.factors[i]))
+                .collect();
+            let combination = |k: usize| -> Vec<(usize, f64)> {
+                let own = own.iter().zip(&parts);
+                own.map(|(i, part)| (*i, part[k])).collect()
+            };
+            for (k, (_, verdict)) in wrench.components.iter_mut().enumerate() {
+                opened(verdict, &combination(k));
+            }
+            let images: Vec<Vec<f64>> =
+                (0..6).map(|k| self.margins.free(&combination(k))).collect();
+            let images = Matrix::from_fn(6, truth.rows.len(), |k, i| images[k][i]);
+            let free = truth.free_directions_of(&own);
+            let smallest = free.checked_sub(1).map(|k| small_svd(&images).sigma[k]);
+            wrench.is_open = is_open
+                || wrench.components.iter().any(|(_, v)| *v == Verdict::Open)
+                || smallest.is_some_and(|sigma| sigma <= self.turned);
+            let is_firm = wrench
+                .components
+                .iter()
+                .any(|(_, v)| *v == Verdict::NotUnique);
+            if !is_firm && reaction.is_unique == Verdict::NotUnique {
+                reaction.is_unique = Verdict::Open;
+            }
+        }
+        reactions
+    }
+
+    fn has_constant_rank(&self) -> bool {
+        false
+    }
+
+    fn rounding(&self) -> f64 {
+        self.right.rounding()
+    }
+}

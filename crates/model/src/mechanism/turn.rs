@@ -1,0 +1,70 @@
+//! Elements on bodies with products of inertia: their points and directions in principal axes.
+
+use joints::Space3;
+use joints::spec::DatumShape;
+
+use crate::body::{BodyRecord, BodyRef};
+use crate::element::{AnyConstraint, AnyForce, ConstraintKernels, Framed};
+use crate::principal::Principal;
+
+/// The principal axes of the body in each slot of an element, where they are not those of a frame.
+fn turned_slots<'b>(
+    bodies: &'b [BodyRecord],
+    slots: &'b [BodyRef],
+) -> impl Iterator<Item = (usize, &'b Principal)> {
+    let slots = slots.iter().enumerate();
+    slots.filter_map(|(slot, body)| {
+        let record = bodies.get(body.moving()?)?;
+        Some((slot, record.principal.as_ref()?))
+    })
+}
+
+/// A constraint as described, with its data in the principal axes of its bodies.
+pub(super) fn constraint(
+    element: AnyConstraint,
+    bodies: &[BodyRecord],
+    slots: &[BodyRef],
+) -> Framed {
+    Framed::new(element, |element| {
+        let AnyConstraint::Space3(kernels) = element else {
+            return;
+        };
+        for (slot, principal) in turned_slots(bodies, slots) {
+            turn_slot(kernels.as_mut(), slot, principal);
+        }
+    })
+}
+
+fn turn_slot(kernels: &mut dyn ConstraintKernels<Space3>, slot: usize, principal: &Principal) {
+    let spec = kernels.spec();
+    let mut numbers = vec![0.0; spec.n_data()];
+    kernels.data(&mut numbers);
+    for datum in spec.data {
+        let own = &mut numbers[datum.numbers()];
+        let vector = |own: &[f64]| [own[0], own[1], own[2]];
+        match datum.shape {
+            DatumShape::Point { slot: at }
+            | DatumShape::Direction { slot: at }
+            | DatumShape::KeptVector { slot: at }
+                if at == slot =>
+            {
+                own.copy_from_slice(&principal.own(vector(own)));
+            }
+            DatumShape::Axes { slot: at } if at == slot => {
+                own.copy_from_slice(&principal.rotation_vector());
+            }
+            _ => {}
+        }
+    }
+    kernels.set_data(&numbers);
+}
+
+/// Writes the points of a force in the principal axes of its bodies; `false` if it has components
+/// in the axes of a body that has products of inertia.
+pub(super) fn force(kernels: &mut AnyForce, bodies: &[BodyRecord], slots: &[BodyRef]) -> bool {
+    let AnyForce::Space3(kernels) = kernels else {
+        return true;
+    };
+    let mut turned = turned_slots(bodies, slots);
+    turned.all(|(slot, principal)| kernels.turn(slot, &|v| principal.own(v)))
+}

@@ -1,0 +1,81 @@
+//! Principal axes of bodies in space.
+//!
+//! The equations are in principal axes, where M is diagonal and constant: coordinates, velocities,
+//! points and directions of a body with products of inertia are written in them when a description
+//! is built, and what is told of a body is written in the axes of its frame again
+//! ([`crate::frame`]). Where the given tensor is diagonal nothing is turned and nothing is rounded.
+
+use joints::space3::Pose;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+
+use crate::space::quaternion_product;
+
+/// Principal axes of a body that are not those of its frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Principal {
+    /// Principal moments (kg·m²).
+    pub(crate) moments: [f64; 3],
+    /// Columns are the axes, in the frame of the body.
+    axes: [[f64; 3]; 3],
+    /// The same rotation, from these axes to those of the frame (w, x, y, z).
+    quaternion: [f64; 4],
+}
+
+impl Principal {
+    /// Those of a tensor in the axes of a frame; `None` if they are the axes of its frame.
+    pub(crate) fn of(inertia: &[[f64; 3]; 3]) -> Option<Self> {
+        let [[_, xy, xz], [_, _, yz], _] = *inertia;
+        let numbers = inertia.as_flattened();
+        if [xy, xz, yz] == [0.0; 3] || !numbers.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let eigen = Matrix3::from_row_slice(numbers).symmetric_eigen();
+        let mut axes = eigen.eigenvectors;
+        if axes.determinant() < 0.0 {
+            axes.neg_mut();
+        }
+        let rotation = Rotation3::from_matrix_unchecked(axes);
+        let q = UnitQuaternion::from_rotation_matrix(&rotation);
+        // The axes of the quaternion, so that both are one rotation to the last bit that matters.
+        let quaternion = [q.w, q.i, q.j, q.k];
+        Some(Self {
+            moments: eigen.eigenvalues.into(),
+            axes: Pose::new([0.0; 3], quaternion).rot,
+            quaternion,
+        })
+    }
+
+    /// A vector of the frame in the principal axes.
+    pub(crate) fn own(&self, v: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| (0..3).map(|row| self.axes[row][k] * v[row]).sum())
+    }
+
+    /// The axes of the frame, each a vector of something, from those of the principal axes.
+    pub(crate) fn framed(&self, own: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let axis = |row: usize| {
+            std::array::from_fn(|k| (0..3).map(|j| self.axes[row][j] * own[j][k]).sum())
+        };
+        [0, 1, 2].map(axis)
+    }
+
+    /// The orientation of the principal axes of a body whose frame has this one.
+    pub(crate) fn turned(&self, frame: [f64; 4]) -> [f64; 4] {
+        quaternion_product(frame, self.quaternion)
+    }
+
+    /// The orientation of the frame of a body whose principal axes have this one.
+    pub(crate) fn turned_back(&self, own: [f64; 4]) -> [f64; 4] {
+        let [w, x, y, z] = self.quaternion;
+        quaternion_product(own, [w, -x, -y, -z])
+    }
+
+    /// The rotation vector that turns vectors of the frame into [`Self::own`].
+    pub(crate) fn rotation_vector(&self) -> [f64; 3] {
+        let [w, x, y, z] = self.quaternion;
+        let q = nalgebra::Quaternion::new(w, -x, -y, -z);
+        UnitQuaternion::from_quaternion(q).scaled_axis().into()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,118 @@
+//! One body described in two frames: its principal axes, and turned ones with products of inertia.
+
+use joints::space3::{Axes, Pose, Revolute, SpringDamper};
+
+use crate::description::{BodyRef, SpatialBody, SpatialDescription};
+use crate::mechanism::Mechanism;
+use crate::reaction::ConstraintId;
+use crate::system::System;
+
+/// A rotation by a multiple of 3-4-5 angles about two axes, from the second frame to the principal
+/// one.
+const BETWEEN: [f64; 4] = [0.48, 0.36, -0.64, 0.48];
+
+const MOMENTS: [f64; 3] = [0.7, 1.1, 1.6];
+
+/// A body that turns, on a hinge and a spring; its frame is turned against its principal axes.
+fn described(between: [f64; 4]) -> Mechanism {
+    let turn = Pose::new([0.0; 3], between);
+    // A vector of the principal axes in the frame.
+    let framed = |v: [f64; 3]| turn.to_local(v);
+    let inertia = [0, 1, 2].map(|i| {
+        [0, 1, 2].map(|j| {
+            (0..3)
+                .map(|k| turn.rot[k][i] * MOMENTS[k] * turn.rot[k][j])
+                .sum()
+        })
+    });
+    let symmetric: [[f64; 3]; 3] =
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| inertia[i.min(j)][i.max(j)]));
+    let mut d = SpatialDescription::new("turned");
+    d.gravity = [0.0, -3.0, 2.0];
+    let body = d.body(SpatialBody {
+        centre: framed([0.1, 0.2, -0.3]),
+        orientation: between,
+        velocity: Some([0.0; 3]),
+        angular_velocity: Some([0.4, -1.2, 2.0]),
+        ..SpatialBody::new("body", 2.0, symmetric)
+    });
+    let [s_i, s_j] = [BodyRef::Ground, body].map(|of| d.local(of, [0.0; 3]));
+    let axis = Axes::FRAME;
+    let axis_j = Axes::FRAME.map(framed);
+    let hinge = Revolute {
+        s_i,
+        s_j,
+        axis,
+        axis_j,
+    };
+    d.joint("hinge", &[BodyRef::Ground, body], hinge);
+    let [s_i, s_j] = [(BodyRef::Ground, [1.0, 2.0, 0.0]), (body, [0.6, -0.2, 0.4])]
+        .map(|(of, p)| d.local(of, p));
+    let spring = SpringDamper {
+        s_i,
+        s_j,
+        stiffness: 3.0,
+        damping: 0.5,
+        free_length: Some(0.7),
+        free_length_0: 0.7,
+    };
+    d.force("spring", &[BodyRef::Ground, body], spring);
+    Mechanism::build(&d).expect("builds")
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-13 * (1.0 + a.abs())
+}
+
+#[test]
+fn a_body_is_the_same_in_any_frame() {
+    let told = [[1.0, 0.0, 0.0, 0.0], BETWEEN].map(|between| {
+        let m = described(between);
+        let (q, v) = m.described_state();
+        let mut s = m.scratch();
+        m.pose(0.0, &q, &mut s);
+        m.twist(&v, &mut s);
+        m.phi(&mut s);
+        m.c(&mut s);
+        m.gamma(&mut s);
+        m.force(&mut s);
+        // Force and torque, the gyroscopic one included, in ground axes.
+        let axes = s.bodies.axes(0);
+        let torque = [0, 1, 2].map(|k| (0..3).map(|a| axes[a][k] * s.force[3 + a]).sum::<f64>());
+        let frame = m.frames().body(0, &q, &v);
+        let of_hinge = m.reactions(&s);
+        let wrench = of_hinge.wrench_map(ConstraintId(0));
+        let marker = m.frames().point(0, [0.0; 3], &q, &v);
+        let mut numbers: Vec<f64> = s.phi.clone();
+        numbers.extend(&s.gamma);
+        numbers.extend(&s.force[..3]);
+        numbers.extend(torque);
+        numbers.extend(
+            frame
+                .place
+                .iter()
+                .chain(&frame.velocity)
+                .chain(&frame.omega),
+        );
+        numbers.extend(marker.place);
+        numbers.extend((0..6).flat_map(|i| wrench.row(i).to_vec()));
+        // Of the moments only their order may differ.
+        let mut mass = m.mass().to_vec();
+        mass[3..].sort_by(f64::total_cmp);
+        numbers.extend(mass);
+        (numbers, frame.quaternion, m.bodies()[0].principal.is_some())
+    });
+    let [(a, q, diagonal), (b, p, turned)] = &told;
+    assert_eq!((*diagonal, *turned), (false, true));
+    assert_eq!(a.len(), b.len());
+    for (k, (a, b)) in a.iter().zip(b).enumerate() {
+        assert!(close(*a, *b), "{k}: {a} {b}");
+    }
+    // The frame of each is told as it was described.
+    assert!(
+        q.iter()
+            .zip([1.0, 0.0, 0.0, 0.0])
+            .all(|(a, b)| close(*a, b))
+    );
+    assert!(p.iter().zip(BETWEEN).all(|(a, b)| close(*a, b)), "{p:?}");
+}

@@ -1,0 +1,8 @@
+//! Mechanisms of space: verdicts and motions with known answers.
+
+mod adams;
+mod catalogue;
+mod drifts;
+mod motion;
+mod second_order;
+mod verdicts;

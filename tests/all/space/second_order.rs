@@ -1,0 +1,154 @@
+//! What second order says in space.
+
+use joints::space3::{Distance, Pose};
+use lab::fuzz::space::text::Precision;
+use lab::fuzz::space::{catalogue, description};
+use linalg::Matrix;
+use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription, System};
+use solvability::{Continuation, analyse, decide, is_locked, second_order};
+
+use super::verdicts::{Motion, TENSOR};
+
+/// A rigid triangle with corners at 120°·k + `turn`, radius 1, z = 1, on six bars: each corner to
+/// two corners of the base, at 120°·k and 120°·(k + 1), radius 1, z = 0. Long bars and short ones
+/// alternate.
+fn triangle_on_bars(
+    turn: f64,
+    motion: &Motion,
+    frame: [f64; 4],
+    centre: [f64; 3],
+) -> SpatialDescription {
+    let mut d = SpatialDescription::new("triangle on six bars");
+    let top = d.body(SpatialBody {
+        position: motion.point([0.0, 0.0, 1.0]),
+        orientation: frame,
+        centre,
+        ..SpatialBody::new("triangle", 1.0, TENSOR)
+    });
+    let corner = |degrees: f64, z: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        motion.point([cos, sin, z])
+    };
+    for k in 0..3 {
+        for foot in [k, k + 1] {
+            let bar = Distance {
+                s_i: corner(120.0 * f64::from(foot), 0.0),
+                s_j: d.local(top, corner(120.0 * f64::from(k) + turn, 1.0)),
+                length: 0.0,
+                half_inverse: 0.0,
+            };
+            d.joint(&format!("bar {k} {foot}"), &[BodyRef::Ground, top], bar);
+        }
+    }
+    d
+}
+
+fn locked(d: &SpatialDescription) -> bool {
+    let mechanism = Mechanism::build(d).expect("builds");
+    let (q, _) = mechanism.described_state();
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    let decision = decide(&mechanism, &s, &q).expect("finite");
+    assert!(decision.is_decided(), "{decision:?}");
+    let found = is_locked(&mechanism, 0.0, &q, &decision).expect("a configuration");
+    let n = mechanism.layout().n_v;
+    let rest = second_order(
+        &mechanism,
+        0.0,
+        &q,
+        &vec![0.0; n],
+        &decision,
+        &Matrix::zeros(n, 0),
+    );
+    let rest = rest.expect("a state");
+    assert_eq!(
+        found,
+        rest == Continuation::Unique && decision.rank < n,
+        "{rest:?}"
+    );
+    found
+}
+
+/// V24: turned by 150°, the triangle may screw about z at first order: `v_z = −ω/2`. Second order
+/// blocks it.
+#[test]
+fn a_triangle_on_six_bars_is_blocked_at_second_order() {
+    let frames = [
+        ([1.0, 0.0, 0.0, 0.0], [0.0; 3]),
+        ([0.9, 0.3, -0.2, 0.5], [0.2, -0.3, 0.4]),
+    ];
+    for motion in Motion::all() {
+        for (frame, centre) in frames {
+            let d = triangle_on_bars(150.0, &motion, frame, centre);
+            let mechanism = Mechanism::build(&d).expect("builds");
+            let (q, _) = mechanism.described_state();
+            let found = analyse(&mechanism, 0.0, &q).expect("a verdict");
+            let decision = &found.decision;
+            assert!(decision.is_decided(), "{decision:?}");
+            assert_eq!(
+                [decision.rank, decision.redundancy, found.mobility()],
+                [5, 1, 1]
+            );
+            assert!(
+                found
+                    .reactions
+                    .iter()
+                    .all(|r| !r.wrench.verdict.is_unique())
+            );
+            assert!(locked(&d));
+            // In another position the six bars hold it at first order.
+            let d = triangle_on_bars(140.0, &motion, frame, centre);
+            assert!(!locked(&d));
+        }
+    }
+}
+
+/// By hand: with tensions `z_k = ±L_k`, long bars pulled and short ones pushed, forces and moments
+/// vanish. For ω = 1, v_z = −½ each bar has `L·Γ = −(¼ + cos β)`, where β is the angle between its
+/// ends about z, 150° or 30°: `z·Γ = 3·√3`.
+#[test]
+fn its_self_stress_does_work_at_second_order() {
+    let d = triangle_on_bars(150.0, &Motion(Pose::GROUND), [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
+    let mechanism = Mechanism::build(&d).expect("builds");
+    let (q, _) = mechanism.described_state();
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    let v = [0.0, 0.0, -0.5, 0.0, 0.0, 1.0];
+    mechanism.twist(&v, &mut s);
+    mechanism.gamma(&mut s);
+    let c = mechanism.layout().dense(&s);
+    let root = 3.0_f64.sqrt();
+    let z: [f64; 6] = std::array::from_fn(|k| match k % 2 {
+        0 => (3.0 + root).sqrt(),
+        _ => -(3.0 - root).sqrt(),
+    });
+    for j in 0..6 {
+        let carried: f64 = (0..6).map(|i| z[i] * c[(i, j)]).sum();
+        assert!(carried.abs() < 1e-14, "column {j}: {carried:e}");
+        let rate: f64 = (0..6).map(|k| c[(j, k)] * v[k]).sum();
+        assert!(rate.abs() < 1e-14, "row {j}: {rate:e}");
+    }
+    let work: f64 = z.iter().zip(&s.gamma).map(|(z, gamma)| z * gamma).sum();
+    assert!((work - 3.0 * root).abs() < 1e-13, "{work}");
+}
+
+/// What moves along a path is not blocked, although Grübler's count says so, and neither is what
+/// branches.
+#[test]
+fn linkages_that_move_are_not_blocked() {
+    for drawing in [
+        catalogue::bennett(),
+        catalogue::bricard(),
+        catalogue::sarrus(&[0, 1, 2]),
+        catalogue::parallelograms(1, [3, 4]),
+        catalogue::parallelograms(1, [5, 0]),
+    ] {
+        assert!(!locked(
+            &description(&drawing, &Precision::default()).expect("a mechanism")
+        ));
+    }
+}
