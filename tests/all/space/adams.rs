@@ -196,7 +196,7 @@ fn pendulums_on_five_joints() {
         let (name, mut last) = (case.name, None);
         let end = options(5.0, Method::Dop853, 1e-12);
         run(&case.description(), &end, |_, row| {
-            let reaction = row.reactions().expect("unique")[0].clone();
+            let reaction = row.reactions().expect("unique")[0];
             last = Some((row.q.to_vec(), reaction));
         });
         let (q, reaction) = last.expect("a row");

@@ -446,7 +446,13 @@ pub fn four_bars_in_a_row(count: usize) -> Drawing {
         // To and fro in a box, so that a long row stays in a small region.
         let (x, row) = (k % FOLD, k / FOLD);
         let (y, layer) = (row % FOLD, row / FOLD);
-        let fold = |at: usize, lines: usize| if lines.is_multiple_of(2) { at } else { FOLD - 1 - at };
+        let fold = |at: usize, lines: usize| {
+            if lines.is_multiple_of(2) {
+                at
+            } else {
+                FOLD - 1 - at
+            }
+        };
         let [x, y, z] = [fold(x, row), fold(y, layer), layer].map(|at| 2 * at as i64);
         let (turn, origin) = (&turns[k % turns.len()], whole([x, y, z]));
         let points = four_bar_points().map(|p| &origin + &turn.of(&p));
