@@ -105,7 +105,6 @@ pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
         inputs,
         time,
         turns,
-        uses_axes: false,
         names: Vec::new(),
         kept: Vec::new(),
         requirements: Vec::new(),

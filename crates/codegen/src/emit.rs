@@ -367,7 +367,6 @@ pub(crate) fn force(
     let initialise = parts::initialise(&model, None);
     let requirement = parts::requirement(&model);
     let points = parts::points(d);
-    let turn = (d.space == Space::Space3).then(|| parts::turn(d, &model));
     let q: Vec<Expr> = k.q.iter().map(|(_, e)| *e).collect();
     let q = method("q", "Entries of Q", &model, &q, Signature::Velocity);
     let dq_dx = method(
@@ -406,7 +405,6 @@ pub(crate) fn force(
             #initialise
             #requirement
             #points
-            #turn
         }
 
         #[allow(unused_variables)]

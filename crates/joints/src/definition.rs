@@ -22,13 +22,6 @@ pub trait Definition<S: Space = Plane>: Send + Sync {
         None
     }
 
-    /// Writes the points of a force of space on the body in a slot in other axes of this body, into
-    /// which `turned` takes a vector. Returns `false` if the force has components in the axes of a
-    /// body that are no parameters. Constraints are turned by their data.
-    fn turn(&mut self, _slot: usize, _turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool {
-        false
-    }
-
     /// Writes the numbers stored by a constraint, in the order of [`crate::ConstraintSpec::data`];
     /// nothing for forces.
     fn data(&self, _out: &mut [f64]) {}

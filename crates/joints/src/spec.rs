@@ -29,6 +29,14 @@ pub struct Spec {
 }
 
 impl Spec {
+    /// The slots of the bodies in whose frames its points are, in the order of its points.
+    pub fn slots_of_points(&self) -> impl Iterator<Item = usize> + use<> {
+        self.parameters.iter().filter_map(|p| match p.shape {
+            Shape::Point { slot } => Some(slot),
+            _ => None,
+        })
+    }
+
     /// Units of the functions of time that the kernels take, in the order of `f`.
     pub fn functions(&self) -> impl Iterator<Item = (&'static str, Unit)> + use<> {
         self.parameters.iter().flat_map(|p| {

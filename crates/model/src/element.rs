@@ -10,6 +10,7 @@ mod constraint;
 mod force;
 mod recorded;
 mod slots;
+mod turned;
 
 pub use bodies::Bodies;
 pub(crate) use bodies::{angle_at, axes_at, turned_at};
@@ -18,6 +19,7 @@ pub(crate) use force::PlacedForce;
 pub use recorded::Input;
 pub(crate) use recorded::RecordedSlots;
 pub(crate) use slots::{OwnRates, Rates, Site, Slots};
+pub(crate) use turned::TurnedSlots;
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{

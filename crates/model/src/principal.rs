@@ -50,6 +50,11 @@ impl Principal {
         std::array::from_fn(|k| (0..3).map(|row| self.axes[row][k] * v[row]).sum())
     }
 
+    /// A vector of the principal axes in the frame.
+    pub(crate) fn to_frame(&self, own: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|row| (0..3).map(|k| self.axes[row][k] * own[k]).sum())
+    }
+
     /// The axes of the frame, each a vector of something, from those of the principal axes.
     pub(crate) fn framed(&self, own: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let axis = |row: usize| {

@@ -67,9 +67,6 @@ pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> 
             body_key(map, d, body, "inertia", |_| true),
             "not the tensor of a body",
         ),
-        BuildError::NotPrincipal { name } => {
-            (element_key(map, name, &["frame"]), "not in these axes")
-        }
         BuildError::NoOrientation { body } => (
             body_key(map, d, body, "orientation", |_| true),
             "no orientation",

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use joints::spec::{Parameter, Shape, Spec};
+use joints::spec::Spec;
 use joints::{LARGEST, is_usable};
 use model::{BodyRef, Marker};
 
@@ -37,15 +37,6 @@ pub(crate) fn local_key(spec: &Spec) -> &'static str {
     }
 }
 
-/// The slots of the point parameters.
-pub(crate) fn owners(spec: &Spec) -> Vec<usize> {
-    let slot = |parameter: &Parameter| match parameter.shape {
-        Shape::Point { slot } => Some(slot),
-        _ => None,
-    };
-    spec.parameters.iter().filter_map(slot).collect()
-}
-
 /// Reads the place of a definition whose slots contain the bodies `slots`.
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
@@ -54,7 +45,7 @@ pub(crate) fn read<S: SceneSpace>(
     bodies: &Bodies<S>,
     findings: &mut Findings,
 ) -> Place<S> {
-    let of = owners(spec);
+    let of: Vec<usize> = spec.slots_of_points().collect();
     let missing = |span| Place {
         points: vec![None; of.len()],
         span,

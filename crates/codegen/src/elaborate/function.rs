@@ -208,10 +208,7 @@ impl<'a> Scope<'a> {
                 local
             }
             ("vector", value @ Value::Local { .. }) => self.local_in(at, value, what)?,
-            ("vector", value @ Value::List(_)) => {
-                self.model.uses_axes = true;
-                listed(self.definition.space, value, what)?
-            }
+            ("vector", value @ Value::List(_)) => listed(self.definition.space, value, what)?,
             ("point", other) => return Err(wrong(what, "a `Point` parameter", &other)),
             ("direction", other) => {
                 return Err(wrong(what, "a `Direction` parameter", &other));

@@ -17,8 +17,6 @@ pub(crate) struct Model {
     /// Total time derivative without the terms in the accelerations.
     pub(crate) time: Along,
     pub(crate) turns: Vec<Turn>,
-    /// Whether components that are no parameters are written in the axes of a body.
-    pub(crate) uses_axes: bool,
     /// Sub-expressions that have a name.
     pub(crate) names: Vec<(Expr, String)>,
     /// The values kept from the assembled start, in order.

@@ -453,25 +453,6 @@ pub(super) fn axes(d: &Definition) -> Option<TokenStream> {
     })
 }
 
-/// The method that writes the points of a force in other axes of its bodies.
-pub(super) fn turn(d: &Definition, model: &Model) -> TokenStream {
-    let points = d.params.iter().filter_map(|p| match &p.kind {
-        ParamKind::Point(at) => {
-            let (slot, name) = (index(d.slots.iter().position(|slot| slot == at)?), &p.name);
-            Some(quote!(if slot == #slot { self.#name = turned(self.#name); }))
-        }
-        _ => None,
-    });
-    let body = if model.uses_axes {
-        quote!(false)
-    } else {
-        quote!(#(#points)* true)
-    };
-    quote! {
-        fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool { #body }
-    }
-}
-
 fn collect(c: &Condition, out: &mut Vec<Expr>) {
     match c {
         Condition::Compare(_, a, b) => out.extend([*a, *b]),

@@ -547,17 +547,6 @@ pub const TABLE: &[Entry] = &[
         Example::Scene("check -", block!("inertia = [3, 1, 1]\n")),
     ),
     entry(
-        154,
-        "A force has components in the axes of a body with products of inertia",
-        "Give global components, or turn the frame of the body into its principal axes, where the tensor is diagonal.",
-        Example::Scene(
-            "check -",
-            block!(
-                "inertia = [[2, 0.1, 0], [0.1, 2, 0], [0, 0, 2]]\n\n[[force]]\nname = \"F\"\ntype = \"point-force\"\nframe = \"body\"\nbody = \"block\"\nat = [0, 0, 0]\nforce = [1, 0, 0]\n"
-            ),
-        ),
-    ),
-    entry(
         155,
         "A measure does not exist in this space",
         "In the plane there are distance, angle, x, y, speed and angular-velocity; in space there is z, and no angle.",

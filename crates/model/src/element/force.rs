@@ -1,11 +1,14 @@
 //! A force with its indices in the mechanism.
 
-use joints::Recorded;
+use joints::space3::{Pose, Twist};
 use joints::spec::ForceSpec;
+use joints::{Recorded, Space3};
 
 use super::recorded::RecordedSlots;
 use super::slots::{Site, Slots};
-use super::{AnyForce, Bodies, with};
+use super::turned::TurnedSlots;
+use super::{AnyForce, Bodies, ForceKernels, with};
+use crate::body::BodyRef;
 use crate::law::DriveForce;
 
 /// A force with its indices in the mechanism.
@@ -14,18 +17,32 @@ pub(crate) struct PlacedForce {
     pub(crate) name: String,
     element: AnyForce,
     pub(crate) site: Site,
+    /// What is turned between its kernels and the bodies.
+    turned: Option<TurnedSlots>,
     /// Column of Q for each value of the kernel; `None` for the ground.
     pub(crate) columns: Vec<Option<usize>>,
 }
 
 impl PlacedForce {
-    pub(crate) fn new(name: &str, element: AnyForce, site: Site) -> Self {
-        let columns = element.spec().q.iter().map(|&k| site.column(k));
+    pub(crate) fn new(
+        name: &str,
+        element: AnyForce,
+        site: Site,
+        turned: Option<TurnedSlots>,
+    ) -> Self {
+        let columns = match &turned {
+            Some(turned) => turned.columns().map(|k| site.column(k)).collect(),
+            None => {
+                let columns = element.spec().q.iter();
+                columns.map(|&k| site.column(k)).collect()
+            }
+        };
         Self {
             name: name.to_owned(),
-            columns: columns.collect(),
+            columns,
             element,
             site,
+            turned,
         }
     }
 
@@ -37,8 +54,40 @@ impl PlacedForce {
         self.element.spec()
     }
 
-    pub(crate) fn points(&self) -> Vec<[f64; 3]> {
-        self.element.points()
+    pub(crate) fn turned(&self) -> Option<&TurnedSlots> {
+        self.turned.as_ref()
+    }
+
+    /// Pattern (row, column of the block) of `∂Q/∂x`.
+    pub(crate) fn pattern_dx(&self) -> &[[usize; 2]] {
+        let turned = self.turned.as_ref();
+        turned.map_or(self.spec().dq_dx, TurnedSlots::pairs)
+    }
+
+    /// Pattern (row, column of the block) of `∂Q/∂v`.
+    pub(crate) fn pattern_dv(&self) -> &[[usize; 2]] {
+        let turned = self.turned.as_ref();
+        turned.map_or(self.spec().dq_dv, TurnedSlots::pairs)
+    }
+
+    /// Points at which it acts, with their bodies, in the axes in which these move.
+    pub(crate) fn points(&self) -> Vec<(BodyRef, [f64; 3])> {
+        let own = |slot: usize, point: [f64; 3]| {
+            let turned = self.turned.as_ref();
+            turned.map_or(point, |turned| turned.own_point(slot, point))
+        };
+        let slots = self.spec().common.slots_of_points();
+        let points = slots.zip(self.element.points());
+        let placed = points.map(|(slot, p)| (self.site.bodies[slot], own(slot, p)));
+        placed.collect()
+    }
+
+    /// Its kernels in space, if something is turned between them and the bodies.
+    fn between(&self) -> Option<(&TurnedSlots, &dyn ForceKernels<Space3>)> {
+        match (&self.turned, &self.element) {
+            (Some(turned), AnyForce::Space3(kernels)) => Some((turned, kernels.as_ref())),
+            _ => None,
+        }
     }
 
     pub(crate) fn is_law(&self) -> bool {
@@ -46,6 +95,11 @@ impl PlacedForce {
     }
 
     pub(crate) fn initialise(&mut self, bodies: &Bodies) {
+        if let (Some(turned), AnyForce::Space3(element)) = (&self.turned, &mut self.element) {
+            let mut x = self.site.poses::<Space3, f64>(bodies);
+            turned.poses(&mut x);
+            return element.initialise(&x);
+        }
         with!(AnyForce, &mut self.element, element, S => {
             element.initialise(&self.site.poses::<S, f64>(bodies));
         });
@@ -54,15 +108,26 @@ impl PlacedForce {
     /// The first requirement of its definition that is not met at these poses.
     pub(crate) fn unmet_requirement(&self, bodies: &Bodies) -> Option<&'static str> {
         let words = self.spec().common.requirements;
-        let unmet = with!(AnyForce, &self.element, element, S => {
-            let x = self.site.poses::<S, f64>(bodies);
-            (0..words.len()).find(|&k| !element.requirement(k, &x))
-        })?;
+        let unmet = match self.between() {
+            Some((turned, kernels)) => {
+                let mut x = self.site.poses::<Space3, f64>(bodies);
+                turned.poses(&mut x);
+                (0..words.len()).find(|&k| !kernels.requirement(k, &x))
+            }
+            None => with!(AnyForce, &self.element, element, S => {
+                let x = self.site.poses::<S, f64>(bodies);
+                (0..words.len()).find(|&k| !element.requirement(k, &x))
+            }),
+        }?;
         Some(words[unmet])
     }
 
     #[inline]
     pub(crate) fn q(&self, s: &Slots, out: &mut [f64]) {
+        if let Some((turned, kernels)) = self.between() {
+            let out = &mut out[..self.columns.len()];
+            return turned.q(kernels, self.site.in_space(s), self.site.f(s), out);
+        }
         with!(AnyForce, &self.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.q(x, v, f, out);
@@ -70,6 +135,11 @@ impl PlacedForce {
     }
 
     pub(crate) fn dq_dx(&self, s: &Slots, out: &mut [f64]) {
+        if let Some((turned, kernels)) = self.between() {
+            let (pattern, f) = (kernels.spec().dq_dx, self.site.f(s));
+            let kernel = |x: &[Pose], v: &[Twist], out: &mut [f64]| kernels.dq_dx(x, v, f, out);
+            return turned.derivative(pattern, self.site.in_space(s), kernel, out);
+        }
         with!(AnyForce, &self.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.dq_dx(x, v, f, out);
@@ -77,6 +147,11 @@ impl PlacedForce {
     }
 
     pub(crate) fn dq_dv(&self, s: &Slots, out: &mut [f64]) {
+        if let Some((turned, kernels)) = self.between() {
+            let (pattern, f) = (kernels.spec().dq_dv, self.site.f(s));
+            let kernel = |x: &[Pose], v: &[Twist], out: &mut [f64]| kernels.dq_dv(x, v, f, out);
+            return turned.derivative(pattern, self.site.in_space(s), kernel, out);
+        }
         with!(AnyForce, &self.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.dq_dv(x, v, f, out);

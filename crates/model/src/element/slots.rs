@@ -265,6 +265,11 @@ impl Site {
         &S::twists(&all.twists)[self.slots.clone()]
     }
 
+    /// Poses and twists of its bodies in space.
+    pub(super) fn in_space<'s>(&self, all: &'s Slots) -> (&'s [space3::Pose], &'s [space3::Twist]) {
+        (self.x::<Space3>(all), self.v::<Space3>(&all.rates))
+    }
+
     /// Values of its functions of time.
     pub(crate) fn f<'s>(&self, all: &'s Slots) -> &'s [[f64; 3]] {
         &all.jets[self.functions.clone()]

@@ -8,7 +8,9 @@ use super::work::held_bodies;
 use super::{BuildError, Elements, FunctionForm, Mechanism, TimeFunction, initialise};
 use crate::body::{BodyRecord, BodyRef, DescribedBody};
 use crate::description::{AnyDescription, Described};
-use crate::element::{AnyForce, BodySpace, Framed, PlacedConstraint, PlacedForce, Site};
+use crate::element::{
+    AnyForce, BodySpace, Framed, PlacedConstraint, PlacedForce, Site, TurnedSlots,
+};
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintKind};
 use crate::observed::Observed;
@@ -72,12 +74,9 @@ impl Mechanism {
         b.joints(d, &bodies, Level::Nonholonomic);
         b.layout.h = b.layout.labels.len() - b.layout.m;
         for f in &d.forces {
-            let mut kernels = S::any_force(f.element.clone());
-            if !turn::force(&mut kernels, &bodies, &f.bodies) {
-                let name = f.name.clone();
-                return Err(vec![BuildError::NotPrincipal { name }]);
-            }
-            b.force(&f.name, &f.bodies, kernels, &f.functions);
+            let turned = TurnedSlots::new(turn::principal(&bodies, &f.bodies));
+            let kernels = S::any_force(f.element.clone());
+            b.force(&f.name, &f.bodies, (kernels, turned), &f.functions);
         }
         let (space, gravity) = (S::KIND, S::point(d.gravity));
         let weight = bodies.iter().flat_map(|b| {
@@ -191,13 +190,12 @@ impl Builder {
         &mut self,
         name: &str,
         bodies: &[BodyRef],
-        element: AnyForce,
+        (element, turned): (AnyForce, Option<TurnedSlots>),
         functions: &[Function],
     ) {
-        let spec = element.spec();
         let site = self.site(bodies, functions, |_| 0.0, false);
-        let placed = PlacedForce::new(name, element, site);
-        self.elements.block = self.elements.block.max(spec.q.len());
+        let placed = PlacedForce::new(name, element, site, turned);
+        self.elements.block = self.elements.block.max(placed.columns.len());
         self.elements.forces.push(placed);
     }
 

@@ -69,14 +69,6 @@ pub enum BuildError {
         /// The body.
         body: String,
     },
-    /// A force has components in the axes of a body whose tensor of inertia has products.
-    #[error(
-        "force `{name}` has components in the axes of a body with products of inertia, which is not supported yet: give global components, or turn the frame of the body into its principal axes"
-    )]
-    NotPrincipal {
-        /// The force.
-        name: String,
-    },
     /// No body has this tensor of inertia.
     #[error(
         "body `{body}`: no body has the principal moments {moments:?}: the largest is above the sum of the others"
@@ -232,7 +224,6 @@ impl BuildError {
             Self::Measure { .. } => const { Code::new(155) },
             Self::NoOrientation { .. } => const { Code::new(152) },
             Self::NotSymmetric { .. } | Self::NoSuchTensor { .. } => const { Code::new(153) },
-            Self::NotPrincipal { .. } => const { Code::new(154) },
         }
     }
 }

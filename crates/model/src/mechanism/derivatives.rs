@@ -174,10 +174,9 @@ impl Derivatives {
 fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
     let mut patterns = [Sparse::default(), Sparse::default()];
     for f in &mechanism.elements.forces {
-        let spec = f.spec();
         let column = |k: usize| f.site.column(k);
-        patterns[0].push_block(spec.dq_dx, column, column);
-        patterns[1].push_block(spec.dq_dv, column, column);
+        patterns[0].push_block(f.pattern_dx(), column, column);
+        patterns[1].push_block(f.pattern_dv(), column, column);
     }
     for body in gyroscopic(mechanism) {
         let first = mechanism.space().rotations_of(body).start;
@@ -201,9 +200,8 @@ fn gyroscopic(mechanism: &Mechanism) -> std::ops::Range<usize> {
 fn differentiate_forces(mechanism: &Mechanism, s: &Scratch, [by_q, by_v]: [&mut Sparse; 2]) {
     let (mut force_dq, mut force_dv) = (by_q.blocks(), by_v.blocks());
     for force in &mechanism.elements.forces {
-        let spec = force.spec();
-        force.dq_dx(&s.slots, force_dq(spec.dq_dx.len()));
-        force.dq_dv(&s.slots, force_dv(spec.dq_dv.len()));
+        force.dq_dx(&s.slots, force_dq(force.pattern_dx().len()));
+        force.dq_dv(&s.slots, force_dv(force.pattern_dv().len()));
     }
     for body in gyroscopic(mechanism) {
         let first = mechanism.space().rotations_of(body).start;

@@ -4,7 +4,6 @@
 use joints::spec::{ForceSpec, Unit};
 
 use super::Mechanism;
-use super::holds::placed;
 use crate::body::BodyRef;
 use crate::element::PlacedForce;
 use crate::law::DriveForce;
@@ -50,7 +49,7 @@ impl<'m> AppliedForces<'m> {
                 name: &f.name,
                 spec,
                 bodies: &f.site.bodies,
-                points: placed(&spec.common, &f.site.bodies, f.points()),
+                points: f.points(),
             }
         })
     }

@@ -3,8 +3,6 @@
 //!
 //! The point at which a reaction is reported is defined by [`crate::Reactions::place`].
 
-use joints::spec::{Shape, Spec};
-
 use super::Mechanism;
 use crate::body::BodyRef;
 use crate::group::ConstraintId;
@@ -33,7 +31,11 @@ impl Mechanism {
     #[must_use]
     pub fn points(&self, id: ConstraintId) -> Vec<(BodyRef, [f64; 3])> {
         let c = &self.elements.constraints[id.0];
-        placed(&c.spec().common, &c.site.bodies, c.kernels().points())
+        let slots = c.spec().common.slots_of_points();
+        slots
+            .map(|slot| c.site.bodies[slot])
+            .zip(c.kernels().points())
+            .collect()
     }
 
     /// The joint whose measure a drive prescribes, and the name of the measure: a joint with the
@@ -83,17 +85,4 @@ impl Mechanism {
     pub fn prescribed<'s>(&self, id: ConstraintId, s: &'s Scratch) -> &'s [[f64; 3]] {
         self.elements.constraints[id.0].site.f(&s.slots)
     }
-}
-
-/// Points, with the bodies of their slots.
-pub(super) fn placed(
-    spec: &Spec,
-    bodies: &[BodyRef],
-    points: Vec<[f64; 3]>,
-) -> Vec<(BodyRef, [f64; 3])> {
-    let slots = spec.parameters.iter().filter_map(|p| match p.shape {
-        Shape::Point { slot } => Some(slot),
-        _ => None,
-    });
-    slots.map(|slot| bodies[slot]).zip(points).collect()
 }

@@ -180,7 +180,8 @@ fn assembled<'a>(
     for f in forces {
         let functions = laws(whole, &f.site);
         let to = translated(&f.name, &f.site.bodies);
-        b.force(&f.name, &to, f.kernels().clone(), &functions);
+        let turned = f.turned().cloned();
+        b.force(&f.name, &to, (f.kernels().clone(), turned), &functions);
     }
     let places = |n: usize| -> Vec<usize> {
         let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));

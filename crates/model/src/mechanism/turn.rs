@@ -1,22 +1,16 @@
-//! Elements on bodies with products of inertia: their points and directions in principal axes.
+//! Constraints on bodies with products of inertia: their points and directions in principal axes.
 
 use joints::Space3;
 use joints::spec::DatumShape;
 
 use crate::body::{BodyRecord, BodyRef};
-use crate::element::{AnyConstraint, AnyForce, ConstraintKernels, Framed};
+use crate::element::{AnyConstraint, ConstraintKernels, Framed};
 use crate::principal::Principal;
 
 /// The principal axes of the body in each slot of an element, where they are not those of a frame.
-fn turned_slots<'b>(
-    bodies: &'b [BodyRecord],
-    slots: &'b [BodyRef],
-) -> impl Iterator<Item = (usize, &'b Principal)> {
-    let slots = slots.iter().enumerate();
-    slots.filter_map(|(slot, body)| {
-        let record = bodies.get(body.moving()?)?;
-        Some((slot, record.principal.as_ref()?))
-    })
+pub(super) fn principal(bodies: &[BodyRecord], slots: &[BodyRef]) -> Vec<Option<Principal>> {
+    let of = |body: &BodyRef| bodies.get(body.moving()?)?.principal.clone();
+    slots.iter().map(of).collect()
 }
 
 /// A constraint as described, with its data in the principal axes of its bodies.
@@ -29,8 +23,10 @@ pub(super) fn constraint(
         let AnyConstraint::Space3(kernels) = element else {
             return;
         };
-        for (slot, principal) in turned_slots(bodies, slots) {
-            turn_slot(kernels.as_mut(), slot, principal);
+        for (slot, principal) in principal(bodies, slots).iter().enumerate() {
+            if let Some(principal) = principal {
+                turn_slot(kernels.as_mut(), slot, principal);
+            }
         }
     })
 }
@@ -57,14 +53,4 @@ fn turn_slot(kernels: &mut dyn ConstraintKernels<Space3>, slot: usize, principal
         }
     }
     kernels.set_data(&numbers);
-}
-
-/// Writes the points of a force in the principal axes of its bodies; `false` if it has components
-/// in the axes of a body that has products of inertia.
-pub(super) fn force(kernels: &mut AnyForce, bodies: &[BodyRecord], slots: &[BodyRef]) -> bool {
-    let AnyForce::Space3(kernels) = kernels else {
-        return true;
-    };
-    let mut turned = turned_slots(bodies, slots);
-    turned.all(|(slot, principal)| kernels.turn(slot, &|v| principal.own(v)))
 }

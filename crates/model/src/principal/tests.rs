@@ -1,9 +1,10 @@
 //! One body described in two frames: its principal axes, and turned ones with products of inertia.
 
-use joints::space3::{Axes, Pose, Revolute, SpringDamper};
+use joints::space3::{Axes, BodyPointForce, Pose, Revolute, SpringDamper};
 
 use crate::description::{BodyRef, SpatialBody, SpatialDescription};
-use crate::mechanism::Mechanism;
+use crate::function::Function;
+use crate::mechanism::{Derivatives, Mechanism, Sparse};
 use crate::reaction::ConstraintId;
 use crate::system::System;
 
@@ -57,6 +58,12 @@ fn described(between: [f64; 4]) -> Mechanism {
         free_length_0: 0.7,
     };
     d.force("spring", &[BodyRef::Ground, body], spring);
+    // A thrust of 5 N along a direction of the body.
+    let push = BodyPointForce {
+        s: d.local(body, [0.3, 0.1, 0.2]),
+    };
+    let thrust = framed([3.0, 0.0, 4.0]).map(|f| Function::constant(f).expect("a number"));
+    d.force("thrust", &[body], push).functions = thrust.into();
     Mechanism::build(&d).expect("builds")
 }
 
@@ -115,4 +122,52 @@ fn a_body_is_the_same_in_any_frame() {
             .all(|(a, b)| close(*a, b))
     );
     assert!(p.iter().zip(BETWEEN).all(|(a, b)| close(*a, b)), "{p:?}");
+}
+
+/// The derivatives of the force are those of its differences, in either frame.
+#[test]
+fn derivatives_of_forces_are_their_slopes() {
+    for between in [[1.0, 0.0, 0.0, 0.0], BETWEEN] {
+        let m = described(between);
+        let (q, v) = m.described_state();
+        let force = |q: &[f64], v: &[f64]| {
+            let mut s = m.scratch();
+            m.pose(0.0, q, &mut s);
+            m.twist(v, &mut s);
+            m.force(&mut s);
+            s.force
+        };
+        let mut s = m.scratch();
+        m.pose(0.0, &q, &mut s);
+        m.twist(&v, &mut s);
+        let dense = |of: &Sparse| {
+            let mut dense = [[0.0; 6]; 6];
+            of.iter()
+                .for_each(|(row, column, value)| dense[row][column] += value);
+            dense
+        };
+        let told = Derivatives::of_forces(&m, &s).each_ref().map(dense);
+        const STEP: f64 = 1e-6;
+        for column in 0..6 {
+            let moved = |sign: f64| {
+                let mut step = [0.0; 6];
+                step[column] = sign * STEP;
+                let there = m.space().displaced(&q, 1.0, &step);
+                let faster: Vec<f64> = v.iter().zip(step).map(|(v, step)| v + step).collect();
+                [force(&there, &v), force(&q, &faster)]
+            };
+            let ([ahead_q, ahead_v], [back_q, back_v]) = (moved(1.0), moved(-1.0));
+            for row in 0..6 {
+                let slope = |a: &[f64], b: &[f64]| (a[row] - b[row]) / (2.0 * STEP);
+                let found = [slope(&ahead_q, &back_q), slope(&ahead_v, &back_v)];
+                for (told, found) in told.iter().zip(found) {
+                    let told = told[row][column];
+                    assert!(
+                        (told - found).abs() < 1e-8,
+                        "{row} {column}: {told} {found}"
+                    );
+                }
+            }
+        }
+    }
 }

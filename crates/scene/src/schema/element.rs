@@ -11,7 +11,7 @@ use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
 use crate::direction::{self, AXES, CROSS, FRAME, FRAMES};
 use crate::key::{Interval, TYPE};
-use crate::place::{AT, local_key, owners};
+use crate::place::{AT, local_key};
 use crate::section::NAME;
 use crate::space::SceneSpace;
 use crate::tolerance;
@@ -95,7 +95,7 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
         "required": required,
         "additionalProperties": false,
     });
-    let owners = owners(spec);
+    let owners: Vec<usize> = spec.slots_of_points().collect();
     if !owners.is_empty() {
         let local = local_key(spec);
         properties.insert(AT.to_owned(), global::<S>(spec, owners.len()));

@@ -67,12 +67,6 @@ impl Definition<Space3> for PointForce {
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s]
     }
-    fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool {
-        if slot == 0 {
-            self.s = turned(self.s);
-        }
-        true
-    }
 }
 #[allow(unused_variables)]
 impl<T: Real> ForceElement<T, Space3> for PointForce {

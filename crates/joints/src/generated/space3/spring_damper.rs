@@ -471,15 +471,6 @@ impl Definition<Space3> for SpringDamper {
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s_i, self.s_j]
     }
-    fn turn(&mut self, slot: usize, turned: &dyn Fn([f64; 3]) -> [f64; 3]) -> bool {
-        if slot == 0 {
-            self.s_i = turned(self.s_i);
-        }
-        if slot == 1 {
-            self.s_j = turned(self.s_j);
-        }
-        true
-    }
 }
 #[allow(unused_variables)]
 impl<T: Real> ForceElement<T, Space3> for SpringDamper {

@@ -1,0 +1,153 @@
+//! Forces on bodies with products of inertia. Bodies move in principal axes ([`crate::principal`]);
+//! a force sees them in the axes of their frames, in which its components may be given, and its
+//! torques and derivatives are turned.
+
+use joints::Space3;
+use joints::space3::{N_DOF, Pose, Twist};
+
+use super::ForceKernels;
+use crate::principal::Principal;
+
+/// Bodies of a force up to which nothing is allocated; no force of the library has more than two.
+const FEW: usize = 2;
+
+/// The principal axes of the bodies of a force, where they are not those of a frame.
+#[derive(Clone)]
+pub(crate) struct TurnedSlots {
+    principal: Vec<Option<Principal>>,
+    /// All pairs of columns, row by row: the pattern of the derivatives.
+    pairs: Vec<[usize; 2]>,
+}
+
+impl TurnedSlots {
+    /// `None` if the frames of all bodies are along principal axes.
+    pub(crate) fn new(principal: Vec<Option<Principal>>) -> Option<Self> {
+        principal.iter().flatten().next()?;
+        let n = N_DOF * principal.len();
+        let pairs = (0..n).flat_map(|row| (0..n).map(move |column| [row, column]));
+        let pairs = pairs.collect();
+        Some(Self { principal, pairs })
+    }
+
+    /// Columns of Q: all.
+    pub(super) fn columns(&self) -> std::ops::Range<usize> {
+        0..self.n()
+    }
+
+    /// The pattern of the derivatives of Q.
+    pub(super) fn pairs(&self) -> &[[usize; 2]] {
+        &self.pairs
+    }
+
+    fn n(&self) -> usize {
+        N_DOF * self.principal.len()
+    }
+
+    /// The slots that are turned, with their first rotation in the block.
+    fn turned(&self) -> impl Iterator<Item = (usize, &Principal)> {
+        let slots = self.principal.iter().enumerate();
+        slots.filter_map(|(slot, of)| Some((N_DOF * slot + 3, of.as_ref()?)))
+    }
+
+    /// Points of bodies in the axes in which they move, from those of their frames.
+    pub(super) fn own_point(&self, slot: usize, point: [f64; 3]) -> [f64; 3] {
+        let principal = self.principal.get(slot).and_then(Option::as_ref);
+        principal.map_or(point, |of| of.own(point))
+    }
+
+    /// Poses of the frames, from those of the principal axes.
+    pub(super) fn poses(&self, x: &mut [Pose]) {
+        for (pose, of) in x.iter_mut().zip(&self.principal) {
+            if let Some(of) = of {
+                pose.rot = pose.rot.map(|row| of.to_frame(row));
+            }
+        }
+    }
+
+    /// Calls `kernel` with the poses and twists of the frames.
+    fn with_frames<R>(
+        &self,
+        (x, v): (&[Pose], &[Twist]),
+        kernel: impl FnOnce(&[Pose], &[Twist]) -> R,
+    ) -> R {
+        let (mut few, mut many) = ([Pose::GROUND; FEW], Vec::new());
+        let poses = lent(&mut few, &mut many, x.len());
+        poses.copy_from_slice(x);
+        self.poses(poses);
+        let (mut few, mut many) = ([Twist::zero(); FEW], Vec::new());
+        let twists = lent(&mut few, &mut many, v.len());
+        twists.copy_from_slice(v);
+        for (twist, of) in twists.iter_mut().zip(&self.principal) {
+            if let Some(of) = of {
+                twist.omega = of.to_frame(twist.omega);
+            }
+        }
+        kernel(poses, twists)
+    }
+
+    /// Q of a force, all columns.
+    pub(super) fn q(
+        &self,
+        kernels: &dyn ForceKernels<Space3>,
+        at: (&[Pose], &[Twist]),
+        f: &[[f64; 3]],
+        out: &mut [f64],
+    ) {
+        let pattern = kernels.spec().q;
+        let (mut few, mut many) = ([0.0; FEW * N_DOF], Vec::new());
+        let values = lent(&mut few, &mut many, pattern.len());
+        self.with_frames(at, |x, v| kernels.q(x, v, f, values));
+        out.fill(0.0);
+        for (&column, value) in pattern.iter().zip(&*values) {
+            out[column] = *value;
+        }
+        for (first, of) in self.turned() {
+            let torque = &mut out[first..first + 3];
+            let own = of.own([torque[0], torque[1], torque[2]]);
+            torque.copy_from_slice(&own);
+        }
+    }
+
+    /// A derivative of Q, all pairs of columns, from the one of the kernels with this pattern.
+    pub(super) fn derivative(
+        &self,
+        pattern: &[[usize; 2]],
+        at: (&[Pose], &[Twist]),
+        kernel: impl FnOnce(&[Pose], &[Twist], &mut [f64]),
+        out: &mut [f64],
+    ) {
+        let (mut few, mut many) = ([0.0; FEW * FEW * N_DOF * N_DOF], Vec::new());
+        let values = lent(&mut few, &mut many, pattern.len());
+        self.with_frames(at, |x, v| kernel(x, v, values));
+        out.fill(0.0);
+        let n = self.n();
+        for (&[row, column], value) in pattern.iter().zip(&*values) {
+            out[n * row + column] = *value;
+        }
+        for (first, of) in self.turned() {
+            let mut turn = |at: [usize; 3]| {
+                let own = of.own(at.map(|k| out[k]));
+                at.into_iter().zip(own).for_each(|(k, own)| out[k] = own);
+            };
+            for k in 0..n {
+                turn([0, 1, 2].map(|axis| n * (first + axis) + k));
+            }
+            for k in 0..n {
+                turn([0, 1, 2].map(|axis| n * k + first + axis));
+            }
+        }
+    }
+}
+
+/// `n` numbers of an array if it has as many, else of a vector.
+fn lent<'a, T: Copy, const N: usize>(
+    few: &'a mut [T; N],
+    many: &'a mut Vec<T>,
+    n: usize,
+) -> &'a mut [T] {
+    if n > N {
+        many.resize(n, few[0]);
+        return many;
+    }
+    &mut few[..n]
+}
