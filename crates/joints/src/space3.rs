@@ -131,7 +131,8 @@ impl Direction {
 
     /// The direction of `v`; `None` if `v` is zero or not finite.
     #[must_use]
-    pub fn new(v: [f64; 3]) -> Option<Self> {
+    pub fn new(v: impl Into<[f64; 3]>) -> Option<Self> {
+        let v = v.into();
         // Scaled first, so that no square overflows or underflows.
         let size = v.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         if !(size > 0.0 && size.is_finite() && v.iter().all(|x| x.is_finite())) {
@@ -187,7 +188,7 @@ impl Axes {
     /// assert!(Axes::new([0.0, 0.0, 1.0], Some([0.0, 0.0, -1.0])).is_none());
     /// ```
     #[must_use]
-    pub fn new(axis: [f64; 3], across: Option<[f64; 3]>) -> Option<Self> {
+    pub fn new(axis: impl Into<[f64; 3]>, across: Option<[f64; 3]>) -> Option<Self> {
         let w = Direction::new(axis)?.0;
         let across = match across {
             Some(across) => Direction::new(across)?.0,
@@ -256,9 +257,12 @@ impl GroundPlane {
 
     /// The plane through a point across a vector; `None` if the vector is zero or not finite.
     #[must_use]
-    pub fn new(point: [f64; 3], normal: [f64; 3]) -> Option<Self> {
+    pub fn new(point: impl Into<[f64; 3]>, normal: impl Into<[f64; 3]>) -> Option<Self> {
         let normal = Direction::new(normal)?;
-        Some(Self { point, normal })
+        Some(Self {
+            point: point.into(),
+            normal,
+        })
     }
 
     /// Sets point and normal as returned by `Definition::data`, without normalisation; see

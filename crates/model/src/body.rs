@@ -74,11 +74,11 @@ impl SpatialBody {
     /// A body with this mass (kg) and inertia about the centre of mass (kg·m²), at the origin, not
     /// turned, with velocities not given.
     #[must_use]
-    pub fn new(name: &str, mass: f64, inertia: [[f64; 3]; 3]) -> Self {
+    pub fn new(name: &str, mass: f64, inertia: impl Into<[[f64; 3]; 3]>) -> Self {
         Self {
             name: name.to_owned(),
             mass,
-            inertia,
+            inertia: inertia.into(),
             centre: [0.0; 3],
             position: [0.0; 3],
             orientation: [1.0, 0.0, 0.0, 0.0],

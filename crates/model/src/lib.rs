@@ -38,6 +38,7 @@
 //! | [`start`] | a consistent start |
 //! | `principal` | principal axes of bodies with products of inertia |
 //! | `observed` | markers, and measures between them |
+//! | `vectors` | poses, vectors and tensors of `nalgebra` for bodies in space |
 //! | [`reaction`] | multipliers to forces and torques |
 
 mod body;
@@ -63,6 +64,7 @@ pub mod start;
 pub mod system;
 mod tolerance;
 mod uncertainty;
+mod vectors;
 pub mod words;
 
 pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED, explained};
@@ -79,6 +81,8 @@ pub use mechanism::{
     AppliedForce, AppliedForces, BuildError, Buildable, Derivatives, Mechanism, Part, Places,
     Sparse, Work,
 };
+/// The version whose poses, vectors and tensors bodies in space take.
+pub use nalgebra;
 pub use observed::{Marker, Measure, MeasureKind, Observed};
 pub use principal::Principal;
 pub use reaction::{Axes, ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
