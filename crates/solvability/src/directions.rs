@@ -1,25 +1,33 @@
 //! Bases of directions for readers: as many directions as possible along one component.
 
-use crate::limits::{LARGEST_ROUNDING, VISIBLE};
+use crate::limits::{LARGEST_ROUNDING, SHARE_OF_PIVOT, VISIBLE};
 use model::space::norm;
 
 /// The same space with a basis in which every component that lies in it alone is a direction of its
-/// own: reduced rows, as unit vectors whose largest entry is positive. Entries that may be rounding
-/// do not serve to eliminate others.
+/// own: reduced rows, as unit vectors whose largest entry is positive. The first components with
+/// entries of some size serve to eliminate.
 pub(crate) fn readable(mut directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let components = directions.first().map_or(0, Vec::len);
-    let mut done = 0;
-    for c in 0..components {
-        let left = done..directions.len();
-        let size = |i: usize| directions[i][c].abs();
-        let Some(best) = left.max_by(|&a, &b| size(a).total_cmp(&size(b))) else {
+    for done in 0..directions.len() {
+        // The largest entry of a component, with its row.
+        let largest = |c: usize| {
+            let sizes = directions[done..]
+                .iter()
+                .map(|row| row[c].abs())
+                .zip(done..);
+            sizes.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+        };
+        let all = (0..components).map(|c| largest(c).0).fold(0.0, f64::max);
+        let mut pivots = (0..components).map(|c| (c, largest(c)));
+        let Some((c, (_, best))) = pivots.find(|(_, (size, _))| *size >= SHARE_OF_PIVOT * all)
+        else {
             break;
         };
-        if size(best) <= LARGEST_ROUNDING {
-            continue;
-        }
         directions.swap(done, best);
         let pivot = directions[done].clone();
+        if pivot[c].abs() <= LARGEST_ROUNDING {
+            break;
+        }
         for (i, row) in directions.iter_mut().enumerate() {
             if i != done {
                 let factor = row[c] / pivot[c];
@@ -29,7 +37,6 @@ pub(crate) fn readable(mut directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
                 normalise(row);
             }
         }
-        done += 1;
     }
     directions.iter_mut().for_each(|row| normalise(row));
     directions
@@ -70,5 +77,22 @@ mod tests {
             assert!(off.fold(0.0, f64::max) < 1e-15, "{found:?}");
         }
         assert!(readable(Vec::new()).is_empty());
+    }
+
+    /// The plane of the second and the third component, both vectors off by what data are off by:
+    /// nothing is divided by that.
+    #[test]
+    fn what_the_data_miss_is_not_multiplied() {
+        let found = readable(vec![
+            vec![1e-7, 0.6, 0.8, 0.0],
+            vec![-2e-7, 0.8, -0.6, 3e-7],
+        ]);
+        for (found, expected) in found
+            .iter()
+            .zip([[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]])
+        {
+            let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-6, "{found:?}");
+        }
     }
 }

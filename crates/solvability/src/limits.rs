@@ -519,6 +519,13 @@ pub(crate) const OF_VERDICT: usize = 1500;
 /// Unit: matrices. Less: memory runs out. More: runs are refused. Test: none, work only.
 pub(crate) const DENSE_MATRICES: usize = 24;
 
+/// A pivot has this share of the largest entry that is left, where directions are given a basis for
+/// readers: entries are known no better than the data, and a small pivot multiplies what they miss.
+/// Unit: share of the largest entry. Less: directions of inexact data are wrong. More: unique
+/// components are still told alone, but others lead. Test:
+/// `directions::tests::what_the_data_miss_is_not_multiplied`.
+pub(crate) const SHARE_OF_PIVOT: f64 = 0.1;
+
 /// A component of a self-stress is zero below this share of its largest one: rounding of the
 /// dependence, drawn or said.
 /// Unit: share of the largest number. Less: rounding is shown. More: small numbers are not. Test:

@@ -3,8 +3,8 @@
 //!
 //! With L independent cycles in the graph of these joints (the ground is a node), the redundancy
 //! grows by 3·L and the mobility by 3 for each component of the graph without the ground. Verdicts
-//! in the plane stay the same, and those across it (Fz, Tx, Ty) are not unique exactly where a joint
-//! lies on a cycle. This is a law of graphs: nothing is eliminated.
+//! in the plane stay the same, and those across it (Fz, Tx, Ty) are not unique exactly where a
+//! joint lies on a cycle. This is a law of graphs: nothing is eliminated.
 //!
 //! | in the plane | in space |
 //! | --- | --- |

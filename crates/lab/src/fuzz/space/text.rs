@@ -101,6 +101,9 @@ fn written<'a>(drawing: &'a Drawing, precision: &'a Precision) -> Pen<'a> {
     if precision.gravity != [0.0; 3] {
         pen.line("gravity", &format!("{:?}", precision.gravity));
     }
+    if precision.digits.is_some() {
+        pen.text.push_str("\n[start]\nallow_correction = true\n");
+    }
     for body in &drawing.bodies {
         pen.body(body);
     }
