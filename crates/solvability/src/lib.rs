@@ -13,6 +13,7 @@
 //! | [`freedoms`] | what can move, with drives and without |
 //! | [`groups`] | combinations of reactions, resultants |
 //! | [`frames`] | components in global, body and edge frames |
+//! | [`moments`] | moments about other points than the place |
 //! | [`choices`] | one solution among many, labelled |
 //! | [`units`] | distinguishes unique numbers from chosen ones by a change of units |
 //! | [`mod@analysis`] | ranks and verdicts of a mechanism of any size |
@@ -53,6 +54,7 @@ pub mod make_unique;
 pub mod matrices;
 mod mechanism;
 pub mod memory;
+pub mod moments;
 mod numerical_rank;
 pub mod parts;
 mod pose;
@@ -104,6 +106,7 @@ pub use limits::{FRAGILE, KERNEL_MAX, MOTIONS_REPORTED, MOVED, ONE_PART};
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use memory::memory_of_verdicts;
+pub use moments::MomentVerdict;
 pub use parts::{Extent, PartAnalysis, PartDecision};
 pub use pose::{decide, decide_dropping, decide_holonomic};
 pub use questions::{EliminationError, Numbers, Questions};

@@ -120,6 +120,16 @@ impl Solvability {
         &self.basis.z
     }
 
+    /// The values of a linear form of the multipliers along the columns of the null space.
+    pub(crate) fn along_null_space(&self, form: &[f64]) -> Vec<f64> {
+        let (z, factors) = (&self.basis.z, &self.basis.known.row_factor);
+        let value = |k: usize| {
+            let terms = form.iter().zip(factors).enumerate();
+            terms.map(|(i, (w, factor))| w * factor * z[(i, k)]).sum()
+        };
+        (0..z.ncols()).map(value).collect()
+    }
+
     /// The rows and null space from which verdicts are read.
     pub(crate) fn basis(&self) -> &Basis {
         &self.basis

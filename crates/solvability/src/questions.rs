@@ -22,6 +22,7 @@ use crate::choices::{
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
 use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term, worst};
+use crate::moments::MomentVerdict;
 use crate::parts::{ListedRows, PartAnalysis};
 use crate::units::{UnitCheck, UnitError, check_equations};
 use crate::verdict::{Judgement, Verdict};
@@ -315,6 +316,24 @@ impl<'a> Questions<'a> {
     pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, RequestError> {
         let (k, own) = self.place(id)?;
         self.configuration(k)?.frames(own)
+    }
+
+    /// The verdict on the moment of a reaction about a point (m, ground axes).
+    ///
+    /// # Errors
+    /// As [`Configuration::moment`], and [`RequestError::Large`].
+    pub fn moment(&self, id: ConstraintId, about: [f64; 3]) -> Result<MomentVerdict, RequestError> {
+        let (k, own) = self.place(id)?;
+        self.configuration(k)?.moment(own, about)
+    }
+
+    /// The nearest point about which the moment of a reaction is unique, if its place is none.
+    ///
+    /// # Errors
+    /// As [`Configuration::centre_of_moments`], and [`RequestError::Large`].
+    pub fn centre_of_moments(&self, id: ConstraintId) -> Result<Option<[f64; 3]>, RequestError> {
+        let (k, own) = self.place(id)?;
+        self.configuration(k)?.centre_of_moments(own)
     }
 
     /// The distribution that a choice selects for a solution: one choice in each part.

@@ -110,6 +110,11 @@ impl LinearForm {
             .sum()
     }
 
+    /// Its values along the columns of a null space.
+    pub(crate) fn along_null_space(&self, solvability: &Solvability) -> Vec<f64> {
+        solvability.along_null_space(&self.coefficients)
+    }
+
     /// Sum of the sizes of its terms, for multipliers of these sizes.
     pub(crate) fn size(&self, of_row: impl Fn(usize) -> f64) -> f64 {
         let sizes = self.sizes.iter().enumerate();
