@@ -8,6 +8,7 @@ mod counts;
 mod data;
 mod deletions;
 mod numbers;
+mod point;
 mod rank;
 mod text;
 

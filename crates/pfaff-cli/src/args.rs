@@ -141,6 +141,10 @@ pub(crate) struct Analyze {
     /// Also judge the components in the frames of the first body, of the edge and of the joint
     #[arg(long)]
     pub(crate) frames: bool,
+    /// Also judge moments about this point: X,Y in the plane, X,Y,Z in space (m, ground axes), or
+    /// the name of a marker
+    #[arg(long, value_name = "POINT", allow_hyphen_values = true)]
+    pub(crate) about: Option<String>,
     /// Run the motion, for the duration that the scene states or to T_END (s): the verdict that
     /// holds along it, and the intervals with other verdicts
     #[arg(long, value_name = "T_END", num_args = 0..=1, allow_negative_numbers = true)]

@@ -12,10 +12,10 @@ use rank::Limits;
 use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
-    EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, Numbers,
-    Proposals, Questions, ReactionVerdict, Rows, Sensitivities, Solution, State, UnitCheck,
-    analyse_decided, analyse_dropping, analyse_with_progress, generic, is_locked, second_order,
-    solution,
+    EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, MomentVerdict,
+    Numbers, Proposals, Questions, ReactionVerdict, Rows, Sensitivities, Solution, State,
+    UnitCheck, analyse_decided, analyse_dropping, analyse_with_progress, generic, is_locked,
+    second_order, solution,
 };
 
 use crate::error::StudyError;
@@ -306,6 +306,35 @@ impl<'a> ConfigurationAnalysis<'a> {
     /// [`StudyError::Request`]
     pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, StudyError> {
         Ok(self.questions.frames(id)?)
+    }
+
+    /// The verdict on the moment of a reaction about a point (m, ground axes).
+    ///
+    /// # Errors
+    /// [`StudyError::Request`]
+    pub fn moment(&self, id: ConstraintId, about: [f64; 3]) -> Result<MomentVerdict, StudyError> {
+        Ok(self.questions.moment(id, about)?)
+    }
+
+    /// The nearest point about which the moment of a reaction is unique, if its place is none.
+    ///
+    /// # Errors
+    /// [`StudyError::Request`]
+    pub fn centre_of_moments(&self, id: ConstraintId) -> Result<Option<[f64; 3]>, StudyError> {
+        Ok(self.questions.centre_of_moments(id)?)
+    }
+
+    /// Where a marker is (m), ground axes; `None` if there is no marker with this name.
+    #[must_use]
+    pub fn marker(&self, name: &str) -> Option<[f64; 3]> {
+        let frames = self.mechanism.frames();
+        let k = frames
+            .observed()
+            .markers
+            .iter()
+            .position(|m| m.name == name)?;
+        let still = vec![0.0; self.mechanism.layout().n_v];
+        Some(frames.marker(k, &self.state.q, &still).place)
     }
 
     /// The reactions for a given choice at these velocities: unique numbers, and one of many

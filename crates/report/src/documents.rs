@@ -24,9 +24,10 @@ pub use analysis::{
     ContinuationDocument, DataDocument, DependencyDocument, DifferenceDocument,
     DistributionDocument, EliminationsDocument, EvidenceDocument, FrameDocument,
     FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
-    MakeUniqueDocument, MixingDocument, NamedVerdictDocument, NearlyRedundantDocument,
-    NoteDocument, PartsDocument, PassageDocument, PointDocument, RanksDocument, ReactionDocument,
-    ReasonsDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument, WayDocument,
+    MakeUniqueDocument, MixingDocument, MomentAboutDocument, NamedVerdictDocument,
+    NearlyRedundantDocument, NoteDocument, PartsDocument, PassageDocument, PointDocument,
+    RanksDocument, ReactionDocument, ReasonsDocument, RowDocument, StretchDocument, ValueDocument,
+    ValuesDocument, WayDocument,
 };
 pub use answers::{
     CheckDocument, CodeDocument, CodesDocument, DiffBody, DiffChange, DiffDocument, DiffMotion,

@@ -11,6 +11,7 @@ use pfaff::{ConfigurationAnalysis, StudyError};
 
 use super::choice;
 use super::deletions::HINTS;
+use super::point;
 use crate::args::Analyze;
 use crate::input::Source;
 use crate::output::Failure;
@@ -36,6 +37,9 @@ pub(super) fn document(
         .map(|text| choice::choice(text, source, configuration))
         .collect();
     let choices = choices?;
+    let about = arguments.about.as_deref();
+    let about = about.map(|text| point::point(text, configuration));
+    let about = about.transpose()?;
     let mut document = configuration
         .document(&arguments.combine)
         .map_err(failure)?;
@@ -57,6 +61,13 @@ pub(super) fn document(
         let ids = configuration.mechanism.layout().constraint_ids();
         let frames: Result<Vec<_>, _> = ids.map(|id| configuration.frames(id)).collect();
         document.add_frames(&frames.map_err(failure)?);
+    }
+    if let Some(about) = about {
+        let space = layout.space;
+        for id in layout.constraint_ids() {
+            let found = configuration.moment(id, about).map_err(failure)?;
+            document.add_moment(id, space, &found);
+        }
     }
     if !choices.is_empty() {
         let facts = match configuration.facts() {

@@ -32,6 +32,7 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
     out.push_str(&fragile(d));
     out.push_str(&groups(d));
     out.push_str(&frames(d));
+    out.push_str(&moments(d));
     out.push_str(&why(d));
     out.push_str(&deletions::describe(d, hints));
     out.push_str(&numbers::describe(&d.answers.choices));
@@ -224,17 +225,60 @@ fn numbers_of(g: &GroupDocument) -> String {
         None => format!("{} {}", c.name, spoken(c.verdict.verdict)),
     });
     let components: Vec<String> = components.collect();
-    let rounded = |x: &f64| ((1e4 * x).round() / 1e4 + 0.0).to_string();
-    let about = g.about.as_ref();
-    let about = about.map(|at| at.iter().map(rounded).collect::<Vec<_>>().join(", "));
+    let about = g.about.as_deref().map(coordinates);
     match (components.as_slice(), about) {
         ([], _) => String::new(),
         (all, Some(about)) => {
             let torque = if all.len() > 3 { "moments" } else { "T" };
-            format!(": {}; {torque} about ({about})", all.join(", "))
+            format!(": {}; {torque} about {about}", all.join(", "))
         }
         (all, None) => format!(": {}", all.join(", ")),
     }
+}
+
+/// Moments about the point that was asked for, and points about which moments are unique.
+fn moments(d: &AnalysisDocument) -> String {
+    let mut out = String::new();
+    let asked = d
+        .reactions
+        .iter()
+        .filter_map(|r| Some((r, r.moment.as_ref()?)));
+    let asked: Vec<_> = asked.collect();
+    if let Some((_, moment)) = asked.first() {
+        let mut table = Vec::new();
+        for (r, moment) in &asked {
+            table.push(vec![r.name.clone(), each(&moment.components)]);
+        }
+        let about = coordinates(&moment.about);
+        out.push_str(&format!("\nMoments about {about}:\n{}", columns(&table)));
+    }
+    let mut centres: Vec<(String, Vec<&str>)> = Vec::new();
+    for r in &d.reactions {
+        let Some(centre) = r.moment_unique_about.as_ref().map(|p| coordinates(p)) else {
+            continue;
+        };
+        match centres.iter_mut().find(|(known, _)| *known == centre) {
+            Some((_, names)) => names.push(&r.name),
+            None => centres.push((centre, vec![&r.name])),
+        }
+    }
+    for (centre, names) in &centres {
+        let (names, verb) = match names[..] {
+            [name] => (format!("The moment of `{name}`"), "is"),
+            _ => (format!("The moments of `{}`", names.join("`, `")), "are"),
+        };
+        let text = format!("{names} {verb} unique about {centre}, though not about the place.");
+        out.push('\n');
+        out.push_str(&wrapped("", &text));
+    }
+    out
+}
+
+/// A point with four decimals.
+fn coordinates(point: &[f64]) -> String {
+    let rounded = |x: &f64| ((1e4 * x).round() / 1e4 + 0.0).to_string();
+    let numbers: Vec<String> = point.iter().map(rounded).collect();
+    format!("({})", numbers.join(", "))
 }
 
 /// Only for reactions that are not unique; the others are unique in every frame.

@@ -1,8 +1,9 @@
 //! All results for a configuration as one document, which `pfaff analyze --json` writes.
 
-use model::System;
+use model::{SpaceKind, System};
 use report::AnalysisDocument;
 use report::documents::{EliminationsDocument, GroupDocument};
+use solvability::{ReactionVerdict, Verdict};
 
 use super::ConfigurationAnalysis;
 use crate::error::StudyError;
@@ -56,6 +57,7 @@ impl ConfigurationAnalysis<'_> {
         }
         if let Some(explanation) = self.explanation()? {
             document.explain(&explanation, self.mechanism.layout());
+            self.add_centres(&mut document)?;
         }
         if let Some(generic) = &generic {
             document.answers.continuation = self.continuation(generic)?.as_ref().map(Into::into);
@@ -74,6 +76,23 @@ impl ConfigurationAnalysis<'_> {
         }
         document.answers.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
         Ok(document)
+    }
+}
+
+impl ConfigurationAnalysis<'_> {
+    /// Adds the points about which moments of reactions in space are unique that are not about
+    /// their places. In the plane they are all points of a line of action.
+    fn add_centres(&self, document: &mut AnalysisDocument) -> Result<(), StudyError> {
+        let reactions = self.analysis.reactions.iter();
+        let open = |r: &&ReactionVerdict| {
+            r.space == SpaceKind::Space3 && r.wrench.verdict == Verdict::NotUnique
+        };
+        for reaction in reactions.filter(open) {
+            if let Some(centre) = self.centre_of_moments(reaction.id)? {
+                document.add_centre(reaction.id, reaction.space, centre);
+            }
+        }
+        Ok(())
     }
 }
 

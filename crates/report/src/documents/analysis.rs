@@ -11,11 +11,12 @@ mod reaction;
 
 use std::collections::BTreeSet;
 
-use model::{ConstraintId, Layout, Mechanism};
+use model::{ConstraintId, Layout, Mechanism, SpaceKind};
+use reaction::components;
 use serde::Serialize;
 use solvability::{
-    Analysis, Dependency, Explanation, FrameVerdict, Freedoms, Generic, Mixing, PartAnalysis,
-    ReactionVerdict, Sensitivities,
+    Analysis, Dependency, Explanation, FrameVerdict, Freedoms, Generic, Mixing, MomentVerdict,
+    PartAnalysis, ReactionVerdict, Sensitivities,
 };
 
 pub use along::{
@@ -28,8 +29,8 @@ pub use deletions::{EliminationsDocument, MakeUniqueDocument, WayDocument};
 pub use evidence::{EvidenceDocument, GenericDocument, NearlyRedundantDocument, PointDocument};
 pub use notes::NoteDocument;
 pub use reaction::{
-    ComponentDocument, FrameDocument, FreeDirectionDocument, GroupDocument, ReactionDocument,
-    RowDocument,
+    ComponentDocument, FrameDocument, FreeDirectionDocument, GroupDocument, MomentAboutDocument,
+    ReactionDocument, RowDocument,
 };
 
 use super::{FreedomsDocument, SensitivityDocument, VerdictDocument, from_one};
@@ -307,6 +308,19 @@ impl AnalysisDocument {
     /// Adds the notes of the definitions of the joints on their reactions.
     pub fn add_notes(&mut self, layout: &Layout) {
         self.notes = NoteDocument::all(layout);
+    }
+
+    /// Adds the verdict on the moment of a reaction about a point.
+    pub fn add_moment(&mut self, id: ConstraintId, space: SpaceKind, found: &MomentVerdict) {
+        self.reactions[id.0].moment = Some(MomentAboutDocument {
+            about: components(space, found.about),
+            components: found.components.iter().map(Into::into).collect(),
+        });
+    }
+
+    /// Adds the point about which the moment of a reaction is unique.
+    pub fn add_centre(&mut self, id: ConstraintId, space: SpaceKind, centre: [f64; 3]) {
+        self.reactions[id.0].moment_unique_about = Some(components(space, centre));
     }
 
     /// Adds the verdicts in other frames, joint by joint.

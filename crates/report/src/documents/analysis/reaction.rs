@@ -52,6 +52,22 @@ pub struct ReactionDocument {
     /// Its verdicts in other frames, if requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub frames: Vec<FrameDocument>,
+    /// Verdicts on its moment about another point, if requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment: Option<MomentAboutDocument>,
+    /// The nearest point (m) about which its moment is unique, if it is not about the place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment_unique_about: Option<Vec<f64>>,
+}
+
+/// The verdict on a moment about a point.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct MomentAboutDocument {
+    /// The point (m), ground axes.
+    pub about: Vec<f64>,
+    /// Verdicts on its components.
+    pub components: Vec<ComponentDocument>,
 }
 
 /// The verdict of a multiplier.
@@ -102,7 +118,7 @@ pub enum TorqueDocument {
 }
 
 /// The components that a vector has in a space.
-fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
+pub(super) fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
     vector[..space.n_translations()].to_vec()
 }
 
@@ -224,6 +240,8 @@ impl From<&ReactionVerdict> for ReactionDocument {
             explanation: None,
             free_directions: Vec::new(),
             frames: Vec::new(),
+            moment: None,
+            moment_unique_about: None,
         }
     }
 }

@@ -1,0 +1,31 @@
+//! Points in the syntax of the command line.
+
+use pfaff::ConfigurationAnalysis;
+use pfaff::model::System;
+
+use crate::output::Failure;
+
+/// The point of `--about`: coordinates, or the place of a marker.
+pub(super) fn point(
+    text: &str,
+    configuration: &ConfigurationAnalysis<'_>,
+) -> Result<[f64; 3], Failure> {
+    if let Some(place) = configuration.marker(text) {
+        return Ok(place);
+    }
+    let n = configuration.mechanism.layout().space.n_translations();
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|x| x.trim().parse()).collect();
+    let mut point = [0.0; 3];
+    match numbers {
+        Ok(numbers) if numbers.len() == n && numbers.iter().all(|x| x.is_finite()) => {
+            point[..n].copy_from_slice(&numbers);
+            Ok(point)
+        }
+        _ => {
+            let form = ["X", "Y", "Z"][..n].join(",");
+            Err(Failure::input(format!(
+                "--about is `{text}`, need {n} numbers as {form} (m), or the name of a marker"
+            )))
+        }
+    }
+}
