@@ -522,20 +522,20 @@ pub(crate) const DENSE_MATRICES: usize = 24;
 /// Farthest point about which a moment is asked of itself, in sizes of the mechanism: free wrenches
 /// that are couples but for rounding have one at infinity.
 /// Unit: sizes of the mechanism. Less: a centre outside is not told. More: points that nobody looks
-/// for. Test: `moments::tests::a_couple_has_no_centre`.
+/// for. Test: `a_couple_has_no_centre`.
 pub(crate) const FAR_CENTRE: f64 = 100.0;
 
 /// Forces of free wrenches below this share of the largest do not place the point about which their
 /// moment vanishes: they are rounding.
 /// Unit: share of the largest singular value. Less: points at random along a line of action. More:
-/// points that are not those of the wrenches. Test: `moments::tests::points_of_a_line_are_the_nearest`.
+/// points that are not those of the wrenches. Test: `points_of_a_line_are_the_nearest`.
 pub(crate) const FREE_FORCE: f64 = 1e-9;
 
 /// A pivot has this share of the largest entry that is left, where directions are given a basis for
 /// readers: entries are known no better than the data, and a small pivot multiplies what they miss.
 /// Unit: share of the largest entry. Less: directions of inexact data are wrong. More: unique
 /// components are still told alone, but others lead. Test:
-/// `directions::tests::what_the_data_miss_is_not_multiplied`.
+/// `what_the_data_miss_is_not_multiplied`.
 pub(crate) const SHARE_OF_PIVOT: f64 = 0.1;
 
 /// A component of a self-stress is zero below this share of its largest one: rounding of the
