@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Folder, stderr, with_scene};
+use super::{Folder, stderr, stdout, with_scene};
 
 /// A top that starts at a quaternion with w < 0 and turns about nine times.
 const TOP: &str = r#"
@@ -126,5 +126,47 @@ fn the_page_of_a_run_draws_space() {
     }
     for (id, wanted) in [("quantity-c", true), ("quantity-d", false)] {
         assert_eq!(page.contains(&format!("id=\"{id}\"")), wanted, "{id}");
+    }
+}
+
+/// The axes of a universal joint and of its shafts meet in the origin, so that forces through it
+/// are free, and moments about it are not.
+#[test]
+fn moments_are_judged_about_any_point() {
+    let hooke = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/hooke.toml");
+    let scene = std::fs::read_to_string(hooke).expect("the example");
+    let scene = format!(
+        "{scene}\nmarker = [{{ name = \"meeting\", body = \"cross\", point = [0, 0, 0] }}]\n"
+    );
+    let asked = |about: &str| with_scene(&["analyze", "-", "--json", "--about", about], &scene);
+    let verdicts = |about: &str| {
+        let output = asked(about);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+        let left = &document["reactions"][0];
+        let components = left["moment"]["components"].as_array().expect("components");
+        let words: Vec<Value> = components.iter().map(|c| c["verdict"].clone()).collect();
+        let centre = left["moment_unique_about"].as_array().expect("a point");
+        assert!(
+            centre
+                .iter()
+                .all(|x| x.as_f64().expect("a number").abs() < 1e-12)
+        );
+        // The place of an arm is this point.
+        assert_eq!(document["reactions"][1].get("moment_unique_about"), None);
+        words
+    };
+    assert_eq!(verdicts("0,0,0"), ["unique"; 3]);
+    assert_eq!(verdicts("meeting"), ["unique"; 3]);
+    assert_eq!(verdicts("0, 0, 1"), ["not_unique", "not_unique", "unique"]);
+    for wrong in ["0,0", "0,0,x", "0,0,inf", "nowhere"] {
+        let output = asked(wrong);
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+        let told =
+            format!("--about is `{wrong}`, need 3 numbers as X,Y,Z (m), or the name of a marker");
+        assert!(
+            stderr(&output).contains(&told) || stdout(&output).contains(&told),
+            "{wrong}"
+        );
     }
 }
