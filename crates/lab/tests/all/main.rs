@@ -7,6 +7,7 @@ mod exact;
 mod folder;
 mod formulations;
 mod generate;
+mod invariance;
 mod known;
 mod large_files;
 mod methods;
