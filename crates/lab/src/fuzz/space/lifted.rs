@@ -13,8 +13,9 @@
 //! | point-on-line | `point-on-plane` across the line |
 //! | distance, knife-edge, velocity | the same: one row in the plane |
 //! | drives of angles, displacements | the same |
+//! | gravity, velocities of bodies | the same |
 //!
-//! Everything else is left out, by name.
+//! Everything else is left out: joints and drives by name, forces of all kinds.
 
 use joints::space3::{
     Axes, Direction, Distance, Fixed, KnifeEdge, Planar, PointOnPlane, Revolute,
@@ -98,6 +99,8 @@ pub fn lift(description: &Description, start: &StartOptions) -> Result<Lifted, S
         space: SpatialDescription::new(&description.name),
     };
     lift.space.tolerance = description.tolerance;
+    let [gx, gy] = description.gravity;
+    lift.space.gravity = [gx, gy, 0.0];
     for (body, q) in plane.bodies.iter_mut().zip(start.q.chunks_exact(3)) {
         let (sin, cos) = q[2].sin_cos();
         let [x, y] = body.centre;
@@ -110,6 +113,8 @@ pub fn lift(description: &Description, start: &StartOptions) -> Result<Lifted, S
             centre: [x, y, 0.0],
             position: [body.position[0], body.position[1], 0.0],
             orientation: [cos, 0.0, 0.0, sin],
+            velocity: body.velocity.map(|[vx, vy]| [vx, vy, 0.0]),
+            angular_velocity: body.angular_velocity.map(|omega| [0.0, 0.0, omega]),
             tolerance: body.tolerance,
             ..SpatialBody::new(&body.name, body.mass, tensor)
         });
