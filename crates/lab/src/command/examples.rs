@@ -30,6 +30,7 @@ Build with --release, and keep the machine idle: seconds are compared.";
 
 pub(super) const FUZZ: &str = "Examples:
   lab fuzz run --inputs 100000 --seed 1              what fails is made short and kept in found/
+  lab fuzz run --inputs 100000 --suite space         the same in space
   lab fuzz exact                                     20 000 degenerate scenes, judged by exact arithmetic
   lab fuzz exact --suite space                       mechanisms in space, judged in the same way
   lab fuzz exact --suite lifted                      scenes of the plane, lifted into space

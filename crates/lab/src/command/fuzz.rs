@@ -14,6 +14,7 @@ use pfaff_cli::output::{Failure, Outcome};
 use crate::fuzz::campaign::{Campaign, Tally};
 use crate::fuzz::exact::rounded::{self, Suite};
 use crate::fuzz::exact::tally;
+use crate::fuzz::scenes::Space;
 use crate::fuzz::watch::Limits;
 use crate::fuzz::{input, passages, trial};
 
@@ -21,6 +22,9 @@ use crate::fuzz::{input, passages, trial};
 pub(super) enum Fuzz {
     /// Tests many inputs; exit code 1 if one of them fails
     Run {
+        /// The space of all inputs
+        #[arg(long = "suite", value_enum, default_value_t)]
+        space: Space,
         /// Number of inputs
         #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
         inputs: u64,
@@ -50,6 +54,9 @@ pub(super) enum Fuzz {
     },
     /// Writes the text of an input
     Show {
+        /// The space of all inputs
+        #[arg(long = "suite", value_enum, default_value_t)]
+        space: Space,
         /// Seed
         seed: u64,
         /// Number of the input
@@ -90,6 +97,9 @@ pub(super) enum Fuzz {
     /// Tries inputs one after the other and answers each with a letter: what `run` begins
     #[command(hide = true)]
     Work {
+        /// The space of all inputs
+        #[arg(long = "suite", value_enum, default_value_t)]
+        space: Space,
         /// Seed
         seed: u64,
         /// The first input
@@ -202,6 +212,7 @@ fn stopped(e: io::Error) -> Failure {
 pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
     match arguments {
         Fuzz::Run {
+            space,
             inputs,
             seed,
             from,
@@ -216,6 +227,7 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
                 memory: *memory,
             };
             let campaign = Campaign {
+                space: *space,
                 seed: *seed,
                 from: *from,
                 inputs: *inputs,
@@ -257,9 +269,19 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
             console.print(&(head + &tally.describe()))?;
             passed(tally.passes())
         }
-        Fuzz::Show { seed, number } => console.print(&input::text(*seed, *number)),
-        Fuzz::Work { seed, from, to } => console.write(|mut out| {
-            (*from..*to).try_for_each(|number| answer(&mut out, &input::text(*seed, number)))
+        Fuzz::Show {
+            space,
+            seed,
+            number,
+        } => console.print(&input::text(*space, *seed, *number)),
+        Fuzz::Work {
+            space,
+            seed,
+            from,
+            to,
+        } => console.write(|mut out| {
+            (*from..*to)
+                .try_for_each(|number| answer(&mut out, &input::text(*space, *seed, number)))
         }),
     }
 }

@@ -1,5 +1,6 @@
 //! Many inputs, several at the same time. A text that fails is shortened and stored in a file.
 
+use clap::ValueEnum;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -10,6 +11,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::fuzz::scenes::Space;
 use crate::fuzz::trial::Reach;
 use crate::fuzz::watch::{Fault, Limits, Worker, one};
 use crate::fuzz::{input, minimise};
@@ -23,6 +25,8 @@ const SHORTEN: Duration = Duration::from_secs(20);
 /// A set of inputs to test.
 #[derive(Clone, Debug)]
 pub struct Campaign {
+    /// The space of all inputs.
+    pub space: Space,
     /// Seed of all inputs.
     pub seed: u64,
     /// The first input.
@@ -95,10 +99,19 @@ impl Campaign {
     fn stretch(&self, from: u64, to: u64, tally: &Mutex<Tally>) -> io::Result<()> {
         let mut at = from;
         while at < to {
+            let space = self.space.to_possible_value();
+            let space = space.as_ref().map_or("", |value| value.get_name());
             let numbers = [self.seed, at, to].map(|n| n.to_string());
             let mut worker = Worker::begin(
                 &self.limits,
-                &["work", &numbers[0], &numbers[1], &numbers[2]],
+                &[
+                    "work",
+                    "--suite",
+                    space,
+                    &numbers[0],
+                    &numbers[1],
+                    &numbers[2],
+                ],
                 None,
             )?;
             while at < to {
@@ -140,7 +153,7 @@ impl Campaign {
                 },
             );
         }
-        let text = input::text(self.seed, number);
+        let text = input::text(self.space, self.seed, number);
         let clock = Instant::now();
         let fails = |text: &str| {
             clock.elapsed() < SHORTEN

@@ -1,6 +1,7 @@
 //! Random changes of a text: mostly such that it remains valid TOML, so that the reader of scenes
 //! and the later stages are tested.
 
+use crate::fuzz::scenes::Space;
 use crate::numbers::Numbers;
 
 /// Extreme numbers, valid in some places and invalid in most.
@@ -111,6 +112,58 @@ const LINES: [&str; 36] = [
     "allow_correction = true",
 ];
 
+/// More values for a scene in space.
+const SPACE_VALUES: [&str; 16] = [
+    "[0, 0, 0]",
+    "[0.0, 0.0, 1.0]",
+    "[1, 1e-9, 0]",
+    "[1e308, -1e308, 0]",
+    "[[0, 0, 0], [0, 0, 0]]",
+    "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+    "{ ground = [0, 0, 0] }",
+    "{ quaternion = [0, 0, 0, 0] }",
+    "{ quaternion = [1, 1e-160, 0, 0] }",
+    "{ axis = [0, 0, 0], angle = 1 }",
+    "{ rpy = [1e6, 0, -1e6] }",
+    "{ matrix = [[1, 0, 0], [0, 1, 0], [0, 0, -1]] }",
+    "{ matrix = [[1, 0, 0], [1, 0, 0], [0, 0, 1]] }",
+    "{ point = [0, 0, 0], normal = [0, 0, 0] }",
+    "{ point = [0, 0, 1e9], normal = [0, 1, 1] }",
+    "\"global\"",
+];
+
+/// More lines for a scene in space.
+const SPACE_LINES: [&str; 14] = [
+    "type = \"spherical\"",
+    "type = \"universal\"",
+    "type = \"cylindrical\"",
+    "type = \"planar\"",
+    "type = \"wheel\"",
+    "type = \"orientation\"",
+    "type = \"perpendicular\"",
+    "space = \"plane\"",
+    "orientation = { axis = [0, 0, 1], angle = 1 }",
+    "cross = [0, 0, 1]",
+    "axis = [0, 1, 0]",
+    "frame = \"global\"",
+    "at = [0.0, 0.0, 0.0]",
+    "angular_velocity = [0, 0, 30]",
+];
+
+/// What a scene of this space is damaged with in addition.
+fn more(space: Space, words: &'static [&'static str]) -> &'static [&'static str] {
+    match space {
+        Space::Plane => &[],
+        Space::Space => words,
+    }
+}
+
+fn one_of(words: &[&str], more: &[&str], numbers: &mut Numbers) -> String {
+    let k = numbers.below(words.len() + more.len());
+    let word = words.get(k).or_else(|| more.get(k - words.len()));
+    word.map_or_else(String::new, |word| (*word).to_owned())
+}
+
 /// Characters with a meaning in TOML, and some without.
 const SIGNS: [&str; 16] = [
     "[", "]", "{", "}", "=", ",", ".", "\"", "'", "\n", "#", "-", "é", "\u{feff}", "𝛗", "\u{0}",
@@ -118,7 +171,7 @@ const SIGNS: [&str; 16] = [
 
 /// Returns the text with one change.
 #[must_use]
-pub fn damaged(text: &str, numbers: &mut Numbers) -> String {
+pub fn damaged(space: Space, text: &str, numbers: &mut Numbers) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     if lines.is_empty() {
         return SIGNS[numbers.below(SIGNS.len())].to_owned();
@@ -131,7 +184,7 @@ pub fn damaged(text: &str, numbers: &mut Numbers) -> String {
             let other = numbers.below(lines.len());
             lines.swap(at, other);
         }
-        3 => lines.insert(at, LINES[numbers.below(LINES.len())].to_owned()),
+        3 => lines.insert(at, one_of(&LINES, more(space, &SPACE_LINES), numbers)),
         4 => {
             // Repeats a range of lines: elements with the same name, or arrays that are twice as
             // long.
@@ -144,7 +197,7 @@ pub fn damaged(text: &str, numbers: &mut Numbers) -> String {
             lines.drain(at..end);
         }
         6 => lines[at] = with_sign(&lines[at], numbers),
-        7..=9 => lines[at] = with_value(&lines[at], numbers),
+        7..=9 => lines[at] = with_value(space, &lines[at], numbers),
         10..=12 => lines[at] = with_value_of_another(&lines, at, numbers),
         13..=17 => lines[at] = with_other_name(text, &lines[at], numbers),
         _ => lines[at] = with_other_number(&lines[at], numbers),
@@ -165,9 +218,12 @@ fn with_sign(line: &str, numbers: &mut Numbers) -> String {
     signs.concat()
 }
 
-fn with_value(line: &str, numbers: &mut Numbers) -> String {
+fn with_value(space: Space, line: &str, numbers: &mut Numbers) -> String {
     match line.split_once('=') {
-        Some((key, _)) => format!("{key}= {}", VALUES[numbers.below(VALUES.len())]),
+        Some((key, _)) => {
+            let value = one_of(&VALUES, more(space, &SPACE_VALUES), numbers);
+            format!("{key}= {value}")
+        }
         None => line.to_owned(),
     }
 }

@@ -2,16 +2,40 @@
 //! on a coarse grid, so that parallel axes, coinciding points and redundant loops are frequent.
 
 mod functions;
+mod space;
 mod things;
 mod values;
+
+use clap::ValueEnum;
 
 use crate::numbers::Numbers;
 
 pub(crate) use values::Values;
 
+/// The space of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Space {
+    /// Bodies in the plane.
+    #[default]
+    Plane,
+    /// Bodies in space.
+    Space,
+}
+
+impl Space {
+    /// The number of components of a point.
+    fn axes(self) -> usize {
+        match self {
+            Self::Plane => 2,
+            Self::Space => 3,
+        }
+    }
+}
+
 /// The part of a scene that has been written so far.
 #[derive(Default)]
 struct Draft {
+    space: Space,
     text: String,
     /// Names of bodies as in the file, quoted.
     bodies: Vec<String>,
@@ -25,6 +49,44 @@ impl Draft {
     fn line(&mut self, line: &str) {
         self.text.push_str(line);
         self.text.push('\n');
+    }
+
+    fn add_body(&mut self, values: &mut Values<'_>, k: usize) {
+        match self.space {
+            Space::Plane => things::body(self, values, k),
+            Space::Space => space::body(self, values, k),
+        }
+    }
+
+    fn add_joint(&mut self, values: &mut Values<'_>, pair: [String; 2]) {
+        match self.space {
+            Space::Plane => things::joint(self, values, pair),
+            Space::Space => space::joint(self, values, pair),
+        }
+    }
+
+    fn add_nonholonomic(&mut self, values: &mut Values<'_>) {
+        match self.space {
+            Space::Plane => things::nonholonomic(self, values),
+            Space::Space => space::nonholonomic(self, values),
+        }
+    }
+
+    fn add_drive(&mut self, values: &mut Values<'_>, joint: &(String, &'static str)) {
+        let measure = match self.space {
+            Space::Plane => things::measure_of(values, joint.1),
+            Space::Space => space::measure_of(values, joint.1),
+        };
+        if let Some(measure) = measure {
+            things::drive(self, values, joint, measure);
+        }
+    }
+
+    fn add_force(&mut self, values: &mut Values<'_>) {
+        match self.space {
+            Space::Plane => things::force(self, values),
+            Space::Space => space::force(self, values),
+        }
     }
 
     /// A body or, once in `ground` times, the ground.
@@ -49,9 +111,12 @@ impl Draft {
 
 /// The text of a random scene. Most can be read, many can be assembled, some can move.
 #[must_use]
-pub fn random(numbers: &mut Numbers) -> String {
-    let mut draft = Draft::default();
-    let mut values = Values::new(numbers);
+pub fn random(space: Space, numbers: &mut Numbers) -> String {
+    let mut draft = Draft {
+        space,
+        ..Draft::default()
+    };
+    let mut values = Values::new(numbers, space.axes());
     things::head(&mut draft, &mut values);
     let bodies = match values.numbers.below(40) {
         0 => 0,
@@ -59,7 +124,7 @@ pub fn random(numbers: &mut Numbers) -> String {
         n => 1 + n % 5,
     };
     for k in 0..bodies {
-        things::body(&mut draft, &mut values, k);
+        draft.add_body(&mut values, k);
     }
     let markers = values.numbers.below(6).saturating_sub(3);
     for _ in 0..markers {
@@ -77,26 +142,26 @@ pub fn random(numbers: &mut Numbers) -> String {
                 draft.bodies[values.numbers.below(k)].clone()
             };
             let child = draft.bodies[k].clone();
-            things::joint(&mut draft, &mut values, [parent, child]);
+            draft.add_joint(&mut values, [parent, child]);
         }
     }
     let more = values.numbers.below(4);
     for _ in 0..more {
         let pair = draft.pair(values.numbers);
-        things::joint(&mut draft, &mut values, pair);
+        draft.add_joint(&mut values, pair);
     }
     let edges = values.numbers.below(4).saturating_sub(1);
     for _ in 0..edges {
-        things::nonholonomic(&mut draft, &mut values);
+        draft.add_nonholonomic(&mut values);
     }
     for joint in draft.joints.clone() {
         if values.numbers.once_in(5) {
-            things::drive(&mut draft, &mut values, &joint);
+            draft.add_drive(&mut values, &joint);
         }
     }
     let forces = values.numbers.below(4).saturating_sub(1);
     for _ in 0..forces {
-        things::force(&mut draft, &mut values);
+        draft.add_force(&mut values);
     }
     things::wishes(&mut draft, &mut values);
     draft.text

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use lab::fuzz::campaign::Campaign;
+use lab::fuzz::scenes::Space;
 use lab::fuzz::trial::Reach;
 use lab::fuzz::watch::{Limits, one};
 
@@ -18,6 +19,7 @@ fn limits() -> Limits {
 #[test]
 fn a_short_campaign_finds_nothing() {
     let campaign = Campaign {
+        space: Space::Plane,
         seed: 1,
         from: 100,
         inputs: 700,

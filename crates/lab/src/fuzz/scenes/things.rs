@@ -1,18 +1,25 @@
-//! The tables of a random scene.
+//! The tables of a random scene: those of the plane, and what both spaces have.
 
 use super::functions::{function, number_or_function};
-use super::{Draft, Values};
+use super::{Draft, Space, Values, space};
 
 /// `[scene]`.
 pub(super) fn head(draft: &mut Draft, values: &mut Values<'_>) {
     let name = values.name("scene", 0);
     let gravity = match values.numbers.below(4) {
         0 => String::new(),
-        1 => format!("gravity = [{}, {}]", values.number(), values.number()),
-        _ => "gravity = [0.0, -9.81]".to_owned(),
+        1 => format!("gravity = {}", values.velocity()),
+        _ => match draft.space {
+            Space::Plane => "gravity = [0.0, -9.81]".to_owned(),
+            Space::Space => "gravity = [0.0, 0.0, -9.81]".to_owned(),
+        },
+    };
+    let space = match draft.space {
+        Space::Plane => "plane",
+        Space::Space => "spatial",
     };
     draft.line(&format!(
-        "[scene]\nname = {name}\nspace = \"plane\"\n{gravity}"
+        "[scene]\nname = {name}\nspace = \"{space}\"\n{gravity}"
     ));
     if values.numbers.once_in(5) {
         // What the data are known to, from rounded to measured by hand.
@@ -34,7 +41,7 @@ pub(super) fn head(draft: &mut Draft, values: &mut Values<'_>) {
 }
 
 /// `active`, mostly left out.
-fn active(draft: &mut Draft, values: &mut Values<'_>) {
+pub(super) fn active(draft: &mut Draft, values: &mut Values<'_>) {
     if values.numbers.once_in(25) {
         let is_active = values.one(&["false", "true", "false", "0", "1"]);
         draft.line(&format!("active = {is_active}"));
@@ -50,7 +57,11 @@ pub(super) fn marker(draft: &mut Draft, values: &mut Values<'_>) {
         values.point()
     ));
     if values.numbers.once_in(2) {
-        draft.line(&format!("angle = {}", values.angle()));
+        let turned = match draft.space {
+            Space::Plane => format!("angle = {}", values.angle()),
+            Space::Space => format!("orientation = {}", space::orientation(values)),
+        };
+        draft.line(&turned);
     }
     if values.numbers.once_in(8) {
         draft.line("tolerance = 1e-5");
@@ -60,7 +71,10 @@ pub(super) fn marker(draft: &mut Draft, values: &mut Values<'_>) {
 
 /// `[[measure]]` between markers.
 pub(super) fn measure(draft: &mut Draft, values: &mut Values<'_>) {
-    let kinds = ["distance", "x", "y", "speed", "angle", "angular-velocity"];
+    let kinds = match draft.space {
+        Space::Plane => ["distance", "x", "y", "speed", "angle", "angular-velocity"],
+        Space::Space => ["distance", "x", "y", "speed", "z", "angular-velocity"],
+    };
     let kind = values.one(&kinds);
     let k = draft.text.len();
     let name = values.name("q", k);
@@ -115,7 +129,7 @@ pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
 }
 
 /// Begins a joint.
-fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static str) {
+pub(super) fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static str) {
     let k = draft.joints.len();
     let name = values.name("j", k);
     draft.line(&format!("[[joint]]\nname = {name}\ntype = \"{kind}\""));
@@ -124,7 +138,7 @@ fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static str) {
 }
 
 /// A place between two bodies: mostly a global point, which is consistent with any start.
-fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
+pub(super) fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
     let line = if values.numbers.once_in(8) {
         format!(
             "points = {{ {} = {}, {} = {} }}",
@@ -143,7 +157,7 @@ fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
 }
 
 /// A place for one body.
-fn own_place(draft: &mut Draft, values: &mut Values<'_>) {
+pub(super) fn own_place(draft: &mut Draft, values: &mut Values<'_>) {
     let key = values.one(&["at", "point"]);
     draft.line(&format!("{key} = {}", values.point()));
 }
@@ -250,17 +264,25 @@ pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
+/// The measure of a joint that is driven, if it is. Most joints have none; a drive of them is
+/// refused.
+pub(super) fn measure_of(values: &mut Values<'_>, kind: &str) -> Option<&'static str> {
+    match kind {
+        "revolute" => Some("angle"),
+        "translational" => Some("displacement"),
+        "pin-in-slot" => Some(values.one(&["angle", "displacement"])),
+        "distance" => Some("length"),
+        _ => values.numbers.once_in(20).then_some("angle"),
+    }
+}
+
 /// `[[drive]]` of a joint.
-pub(super) fn drive(draft: &mut Draft, values: &mut Values<'_>, joint: &(String, &'static str)) {
-    let measure = match joint.1 {
-        "revolute" => "angle",
-        "translational" => "displacement",
-        "pin-in-slot" => values.one(&["angle", "displacement"]),
-        "distance" => "length",
-        // Most joints have no measure; a drive of them is refused.
-        _ if !values.numbers.once_in(20) => return,
-        _ => "angle",
-    };
+pub(super) fn drive(
+    draft: &mut Draft,
+    values: &mut Values<'_>,
+    joint: &(String, &'static str),
+    measure: &str,
+) {
     let name = values.name("d", draft.drives.len());
     draft.line(&format!(
         "[[drive]]\nname = {name}\njoint = {}\ntype = \"{measure}\"",
@@ -276,7 +298,7 @@ pub(super) fn drive(draft: &mut Draft, values: &mut Values<'_>, joint: &(String,
 }
 
 /// A torque or a force as a law of the measure, its rate and the time.
-fn law(draft: &mut Draft, values: &mut Values<'_>, measure: &str) {
+pub(super) fn law(draft: &mut Draft, values: &mut Values<'_>, measure: &str) {
     let key = if measure == "angle" {
         "torque"
     } else {
@@ -296,6 +318,15 @@ fn law(draft: &mut Draft, values: &mut Values<'_>, measure: &str) {
     ];
     let law = values.one(&laws);
     draft.line(&format!("{key} = \"{law}\""));
+}
+
+/// A stiffness or damping, some of them very large.
+pub(super) fn stiff(values: &mut Values<'_>) -> String {
+    if values.numbers.once_in(6) {
+        format!("1e{}", values.numbers.between(3, 12))
+    } else {
+        values.positive()
+    }
 }
 
 /// `[[force]]`.
@@ -322,13 +353,6 @@ pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
     } else {
         draft.line(&format!("bodies = [{}, {}]", pair[0], pair[1]));
     }
-    let stiff = |values: &mut Values<'_>| {
-        if values.numbers.once_in(6) {
-            format!("1e{}", values.numbers.between(3, 12))
-        } else {
-            values.positive()
-        }
-    };
     match kind {
         "spring-damper" => {
             draft.line(&format!("at = [{}, {}]", values.point(), values.point()));
@@ -390,7 +414,10 @@ pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
 pub(super) fn wishes(draft: &mut Draft, values: &mut Values<'_>) {
     if values.numbers.once_in(4) {
         draft.line("[start]\nallow_correction = true");
-        let component = values.one(&["x", "y", "angle", "vx", "vy", "omega"]);
+        let component = match draft.space {
+            Space::Plane => values.one(&["x", "y", "angle", "vx", "vy", "omega"]),
+            Space::Space => values.one(&["x", "z", "rotation", "vy", "omega", "wx", "wz"]),
+        };
         if values.numbers.once_in(2)
             && let Some(body) = draft.bodies.first()
             && !body.contains('\\')

@@ -23,6 +23,8 @@ const NAMES: [&str; 12] = [
 /// A stream of numbers and names; the parameter `wild` sets how often extreme ones occur.
 pub(crate) struct Values<'n> {
     pub(crate) numbers: &'n mut Numbers,
+    /// The number of components of a point: 2 or 3.
+    axes: usize,
     /// One number out of this many is extreme; none if it is 0.
     wild: usize,
     /// Unit of length (m).
@@ -56,8 +58,9 @@ const EXPRESSIONS: [&str; 16] = [
 ];
 
 impl<'n> Values<'n> {
-    pub(crate) fn new(numbers: &'n mut Numbers) -> Self {
+    pub(crate) fn new(numbers: &'n mut Numbers, axes: usize) -> Self {
         Self {
+            axes,
             wild: match numbers.below(3) {
                 0 => 30,
                 1 => 200,
@@ -181,24 +184,43 @@ impl<'n> Values<'n> {
         .unwrap_or_else(|| self.or_extreme(value))
     }
 
-    /// A velocity (m/s).
+    /// A list with one number for each axis.
+    pub(crate) fn list(&mut self, mut number: impl FnMut(&mut Self) -> String) -> String {
+        let all: Vec<String> = (0..self.axes).map(|_| number(self)).collect();
+        format!("[{}]", all.join(", "))
+    }
+
+    /// A velocity (m/s), or any other vector of numbers.
     pub(crate) fn velocity(&mut self) -> String {
-        format!("[{}, {}]", self.number(), self.number())
+        self.list(Self::number)
     }
 
     pub(crate) fn point(&mut self) -> String {
-        format!("[{}, {}]", self.length(), self.length())
+        self.list(Self::length)
     }
 
     /// A direction, mostly along an axis.
     pub(crate) fn direction(&mut self) -> String {
-        match self.numbers.below(6) {
-            0 => format!("[{}, {}]", self.number(), self.number()),
-            1 => "[1.0, 1e-9]".to_owned(),
-            2 => "[0.6, 0.8]".to_owned(),
-            3 => "[0.0, -2.0]".to_owned(),
-            4 => "[0.0, 1.0]".to_owned(),
-            _ => "[1.0, 0.0]".to_owned(),
+        let plane = [
+            "[1.0, 1e-9]",
+            "[0.6, 0.8]",
+            "[0.0, -2.0]",
+            "[0.0, 1.0]",
+            "[1.0, 0.0]",
+        ];
+        let space = [
+            "[1.0, 1e-9, 0.0]",
+            "[0.6, 0.0, 0.8]",
+            "[0.0, -2.0, 0.0]",
+            "[0.0, 1.0, 0.0]",
+            "[1.0, 0.0, 0.0]",
+            "[0.0, 0.0, 1.0]",
+            "[0.0, 0.0, 1.0]",
+        ];
+        let known: &[&str] = if self.axes == 2 { &plane } else { &space };
+        match self.numbers.below(known.len() + 1) {
+            0 => self.velocity(),
+            k => known[k - 1].to_owned(),
         }
     }
 
