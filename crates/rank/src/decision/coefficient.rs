@@ -1,6 +1,7 @@
 //! Whether a coefficient of the dependencies is zero: the tolerance for T, Z and numbers computed
 //! from them, derived from the evidence of the rank.
 
+use super::Grounds;
 use super::outcome::RankDecision;
 use crate::limits::{
     AS_READ, BEYOND_DOUBT, CERTAIN, COEFFICIENT_CLEARANCE, COMBINATION_SPREAD, NOISE_FACTOR,
@@ -53,13 +54,12 @@ impl RankDecision {
         certificate.is_some_and(|c| c.has_tolerance)
     }
 
-    /// Whether the entries of the matrix are exact, so that zeros of T are exact as well.
+    /// Whether the entries of the matrix are exact, so that zeros of T are exact as well. They are
+    /// not if the rank is that of other data within what these are known to.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        self.evidence
-            .certificate
-            .as_ref()
-            .is_some_and(|c| c.uncertainty == 0.0)
+        let certificate = self.evidence.certificate.as_ref();
+        certificate.is_some_and(|c| c.uncertainty == 0.0 && c.grounds != Grounds::WithinData)
     }
 
     /// Bound on the absolute error of a coefficient of T̃ or Z: `10·τ/σ_r`, or `s/σ_r` for a

@@ -59,6 +59,30 @@ fn what_the_data_hide_is_undecided() {
     assert!(certify_within(&near, 1e-3).unwrap().is_decided());
 }
 
+/// A rank below that of the entries, read from data within their uncertainty, although the entries
+/// themselves are free of rounding: their zeros prove nothing then.
+#[test]
+fn a_lower_rank_within_the_data_is_not_exact() {
+    let rows = Matrix::from_rows(&[[1.0, 0.0]]);
+    let (scaling, _) = Uncertainty::from(0.0).equilibrate(&rows).unwrap();
+    let decision = |rank: usize, grounds: Grounds| {
+        let reading = RankReading {
+            rank,
+            status: RankStatus::Decided,
+            scaling: scaling.clone(),
+            noise: 0.0,
+            separation: 0.0,
+            grounds,
+        };
+        let c = DdMatrix::from(&rows);
+        certify_rank(&c, &Matrix::zeros(1, 2), reading)
+            .unwrap()
+            .unwrap()
+    };
+    assert!(decision(1, Grounds::FullRank).is_exact());
+    assert!(!decision(0, Grounds::WithinData).is_exact());
+}
+
 /// numerics.md, 2.1: exactly redundant 8e-18 / 4e-34; misaligned by 1e-13: the same at every
 /// precision; by 1e-20: seen at 32 digits.
 #[test]
