@@ -1,0 +1,173 @@
+//! Starts far from the constraints: the ten examples in space with every body moved and turned at
+//! random. Where the axes of a joint must point is taken from the scene as it stands in the
+//! gallery, whose poses are right.
+
+use joints::space3::{Pose, dot};
+use model::start::{CorrectionLimit, scene_size};
+use model::{AnyDescription, BodyRef, Mechanism, Registry, SpatialDescription, System};
+use pfaff::AssembledScene;
+use tests::numbers::Numbers;
+
+use crate::examples;
+
+const NAMES: [&str; 10] = [
+    "hinges", "linkage", "hooke", "bennett", "sarrus", "bricard", "table", "hexapod", "top",
+    "wagon",
+];
+
+/// Largest |Φ|, relative to the size of the mechanism where it is a length: rounding of the terms
+/// of a row.
+const RESIDUAL: f64 = 1e-12;
+
+/// Cosine of the angle between axes that are parallel.
+const PARALLEL: f64 = 1.0 - 1e-12;
+
+fn read(name: &str) -> AssembledScene {
+    let text = examples::read(&examples::scene(name));
+    AssembledScene::read(name, &text, &Registry::standard())
+        .unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+fn spatial(d: &AnyDescription) -> &SpatialDescription {
+    match d {
+        AnyDescription::Space3(d) => d,
+        AnyDescription::Plane(_) => panic!("a scene in space"),
+    }
+}
+
+/// A direction at random, all alike.
+fn direction(numbers: &mut Numbers) -> [f64; 3] {
+    loop {
+        let d = [0; 3].map(|_| numbers.unit());
+        let square = dot(d, d);
+        if (0.01..=1.0).contains(&square) {
+            return d.map(|x| x / square.sqrt());
+        }
+    }
+}
+
+/// a∘b
+fn product([a, x, y, z]: [f64; 4], [b, u, v, w]: [f64; 4]) -> [f64; 4] {
+    [
+        a * b - x * u - y * v - z * w,
+        a * u + x * b + y * w - z * v,
+        a * v + y * b + z * u - x * w,
+        a * w + z * b + x * v - y * u,
+    ]
+}
+
+/// Every body turned by this angle and moved by this length.
+fn disturb(d: &mut AnyDescription, angle: f64, length: f64, numbers: &mut Numbers) {
+    let AnyDescription::Space3(d) = d else {
+        panic!("a scene in space")
+    };
+    for body in &mut d.bodies {
+        let [axis, way] = [(); 2].map(|()| direction(numbers));
+        let (sin, cos) = (0.5 * angle).sin_cos();
+        let turn = [cos, sin * axis[0], sin * axis[1], sin * axis[2]];
+        body.orientation = product(turn, body.orientation);
+        body.position = [0, 1, 2].map(|k| body.position[k] + length * way[k]);
+    }
+}
+
+/// The poses of the bodies of a joint; the tensors of the examples are diagonal, so that
+/// coordinates are those of the frames.
+fn poses(bodies: &[BodyRef], q: &[f64]) -> Vec<Pose> {
+    let of = |body: &BodyRef| match body {
+        BodyRef::Ground => Pose::GROUND,
+        BodyRef::Body(k) => {
+            let [x, y, z, e @ ..]: [f64; 7] =
+                q[7 * k..][..7].try_into().expect("seven coordinates");
+            Pose::new([x, y, z], e)
+        }
+    };
+    bodies.iter().map(of).collect()
+}
+
+/// Faults of a start: rows that do not hold, axes that point elsewhere than in the gallery, and
+/// wheels below the ground.
+fn faults(
+    d: &SpatialDescription,
+    right: &[f64],
+    m: &Mechanism,
+    q: &[f64],
+    size: f64,
+) -> Vec<String> {
+    let mut s = m.scratch();
+    m.pose(0.0, q, &mut s);
+    m.phi(&mut s);
+    let layout = m.layout();
+    let mut found = Vec::new();
+    for (row, phi) in s.phi.iter().enumerate() {
+        let unit = if layout.is_angular(row) { 1.0 } else { size };
+        if phi.abs() > RESIDUAL * unit {
+            found.push(format!("row {} misses by {phi:e}", layout.labels[row]));
+        }
+    }
+    for joint in &d.joints {
+        let [before, after] = [right, q].map(|q| poses(&joint.bodies, q));
+        let kept: &[usize] = match joint.element.spec().common.scene_type {
+            "revolute" => &[2],
+            "translational" => &[0, 1, 2],
+            "wheel-contact" => {
+                if after[0].r[2] <= 0.0 {
+                    found.push(format!("`{}` lies below the ground", joint.name));
+                }
+                &[]
+            }
+            _ => &[],
+        };
+        for &k in kept {
+            let first = joint.element.axes().expect("a joint with an axis")[k];
+            let second = before[1].direction_to_local(before[0].direction_to_global(first));
+            let [a, b] = [(0, first), (1, second)].map(|(k, d)| after[k].direction_to_global(d));
+            if dot(a, b) < PARALLEL {
+                found.push(format!("axes of `{}` at {}", joint.name, dot(a, b)));
+            }
+        }
+    }
+    found
+}
+
+/// Starts of each example with every body this far off (rad; share of the size): all assemble.
+fn assembles(starts: usize, angle: f64, share: f64, seed: u64) {
+    let mut wrong = Vec::new();
+    for name in NAMES {
+        let mut as_it_is = read(name);
+        let right = as_it_is
+            .assemble()
+            .unwrap_or_else(|e| panic!("{name}: {e}"))
+            .q;
+        let size = scene_size(&as_it_is.mechanism, &right);
+        let mut numbers = Numbers::new(seed);
+        for start in 0..starts {
+            let mut scene = read(name).scene;
+            scene.start.correction = CorrectionLimit::Any;
+            disturb(&mut scene.description, angle, share * size, &mut numbers);
+            let mut disturbed =
+                AssembledScene::build(scene).unwrap_or_else(|e| panic!("{name}: {e}"));
+            match disturbed.assemble() {
+                Err(e) => wrong.push(format!("{name} {start}: {e}")),
+                Ok(found) => {
+                    let d = spatial(&as_it_is.scene.description);
+                    let faults = faults(d, &right, &disturbed.mechanism, &found.q, size);
+                    if !faults.is_empty() {
+                        wrong.push(format!("{name} {start}: {}", faults.join(", ")));
+                    }
+                }
+            }
+        }
+    }
+    let (n, of) = (wrong.len(), starts * NAMES.len());
+    assert!(wrong.is_empty(), "{n} of {of}:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn starts_ten_degrees_and_ten_percent_off_assemble() {
+    assembles(20, 10_f64.to_radians(), 0.1, 1);
+}
+
+#[test]
+fn starts_twenty_degrees_and_twenty_percent_off_assemble() {
+    assembles(10, 20_f64.to_radians(), 0.2, 2);
+}
