@@ -23,7 +23,7 @@ pub(crate) mod within;
 
 use linalg::least_squares_step;
 
-use crate::mechanism::{Mechanism, initialise, unmet_requirement};
+use crate::mechanism::{Mechanism, initialise, unmet_requirement, unmet_rows};
 use crate::system::{Scratch, System};
 use metric::{DAMPING, ROUNDINGS, Restricting, SMALL_CORRECTION, dense_rows, largest, weights};
 use options::kept_columns;
@@ -89,14 +89,19 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         q
     };
     let q = match q {
-        Ok(q) if approach::points_as_described(mechanism, &mut s, &q) => Ok(q),
+        Ok(q) if approach::is_meant(mechanism, &mut s, &q) => Ok(q),
         Err(e @ StartError::NoAssembly { .. })
             if approach::is_near(mechanism, &mut s, &rows, &described, size) =>
         {
             Err(e)
         }
         Ok(_) | Err(StartError::NoAssembly { .. }) => {
-            approached(mechanism, &mut s, start, restricting, &described, size)
+            let meant = approached(mechanism, &mut s, start, restricting, &described, size);
+            // A requirement that is not met is told below.
+            match (q, meant) {
+                (Ok(q), Err(_)) if !unmet_rows(mechanism, &q).is_empty() => Ok(q),
+                (_, meant) => meant,
+            }
         }
         Err(other) => Err(other),
     };
@@ -135,10 +140,19 @@ fn approached(
     described: &[f64],
     size: f64,
 ) -> Result<Vec<f64>, StartError> {
-    let there = approach::approach(mechanism, s, restricting, described, size)?;
+    let mut there = approach::approach(mechanism, s, restricting, described, size)?;
+    // A wheel that was described below its plane reaches it from below: the others first.
+    let (rows, weights) = restricting;
+    let unmet = unmet_rows(mechanism, &there);
+    if !unmet.is_empty() {
+        let mut others = rows.to_vec();
+        others.retain(|row| !unmet.contains(row));
+        let aside = approach::approach(mechanism, s, (&others, weights), described, size)?;
+        there = approach::approach(mechanism, s, restricting, &aside, size)?;
+    }
     let closest = nearest(mechanism, s, start, restricting, described, &there);
     match closest {
-        Ok(q) if approach::points_as_described(mechanism, s, &q) => Ok(q),
+        Ok(q) if approach::is_meant(mechanism, s, &q) => Ok(q),
         _ => nearest(mechanism, s, start, restricting, &there, &there),
     }
 }
@@ -203,8 +217,8 @@ fn position_weights(
 }
 
 /// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, from a given one, until Φ
-/// is zero to rounding. If rows contradict each other, the sum of squares of Φ is minimised, and the result is
-/// accepted if it is `within` the stated tolerances.
+/// is zero to rounding. If rows contradict each other, the sum of squares of Φ is minimised, and
+/// the result is accepted if it is `within` the stated tolerances.
 fn nearest(
     mechanism: &Mechanism,
     s: &mut Scratch,

@@ -3,8 +3,9 @@
 //! gallery, whose poses are right.
 
 use joints::space3::{Pose, dot};
-use model::start::{CorrectionLimit, scene_size};
-use model::{AnyDescription, BodyRef, Mechanism, Registry, SpatialDescription, System};
+use model::start::{CorrectionLimit, consistent_velocity, scene_size};
+use model::{AnyDescription, BodyRef, Mechanism, Registry, SpatialDescription, StartError, System};
+use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3};
 use pfaff::AssembledScene;
 use tests::numbers::Numbers;
 
@@ -170,4 +171,91 @@ fn starts_ten_degrees_and_ten_percent_off_assemble() {
 #[test]
 fn starts_twenty_degrees_and_twenty_percent_off_assemble() {
     assembles(10, 20_f64.to_radians(), 0.2, 2);
+}
+
+/// A body on a ball joint, turned, of which a point is to move with 0.5 m/s along a direction.
+const BALL: &str = r#"
+scene = { name = "ball", space = "spatial" }
+body = [{ name = "b", mass = 1.0, inertia = [0.3, 0.7, 0.9], orientation = { axis = [1, -2, 3], angle = 0.8 } }]
+joint = [
+    { name = "J", type = "spherical", bodies = ["ground", "b"], at = [0, 0, 0] },
+    { name = "V", type = "velocity", body = "b", point = [0.3, 0.2, -0.4], direction = [0.6, 0.0, 0.8], rate = 0.5 },
+]
+"#;
+
+/// Least kinetic energy, solved with multipliers in ground axes by nalgebra: kept components are
+/// zero.
+#[test]
+fn components_of_an_angular_velocity_are_kept_along_the_axes_of_the_ground() {
+    let axis = Vector3::new(1.0, -2.0, 3.0).normalize();
+    let r = UnitQuaternion::from_scaled_axis(0.8 * axis).to_rotation_matrix();
+    let inertia =
+        r.matrix() * Matrix3::from_diagonal(&Vector3::new(0.3, 0.7, 0.9)) * r.matrix().transpose();
+    let (point, way) = (
+        r * Vector3::new(0.3, 0.2, -0.4),
+        r * Vector3::new(0.6, 0.0, 0.8),
+    );
+    // way·(ω × point) = ω·(point × way)
+    let row = point.cross(&way);
+    for kept in [vec![], vec![0], vec![1], vec![2], vec![0, 1], vec![2, 0]] {
+        let n = 4 + kept.len();
+        let mut matrix = DMatrix::<f64>::zeros(n, n);
+        matrix.view_mut((0, 0), (3, 3)).copy_from(&inertia);
+        let units = kept.iter().map(|&k| Vector3::ith(k, 1.0));
+        for (k, row) in std::iter::once(row).chain(units).enumerate() {
+            matrix
+                .view_mut((3 + k, 0), (1, 3))
+                .copy_from(&row.transpose());
+            matrix.view_mut((0, 3 + k), (3, 1)).copy_from(&row);
+        }
+        let mut right = DVector::zeros(n);
+        right[3] = 0.5;
+        let expected = matrix.lu().solve(&right).expect("one solution");
+
+        let names: Vec<_> = kept
+            .iter()
+            .map(|k| format!("\"b.w{}\"", ["x", "y", "z"][*k]))
+            .collect();
+        let text = format!("{BALL}start = {{ keep = [{}] }}\n", names.join(", "));
+        let mut scene = AssembledScene::read("ball", &text, &Registry::standard())
+            .unwrap_or_else(|e| panic!("{e}"));
+        let q = scene.assemble().expect("it is").q;
+        let (m, given) = (
+            &scene.mechanism,
+            scene.mechanism.frames().given_velocities(&q),
+        );
+        let found = consistent_velocity(m, &scene.scene.start, &q, &given, &[0, 1, 2, 3])
+            .unwrap_or_else(|e| panic!("{e}"));
+        let omega = m.frames().body(0, &q, &found.v).omega;
+        for k in 0..3 {
+            assert!(
+                (omega[k] - expected[k]).abs() < 1e-14,
+                "{kept:?}: {omega:?}, {expected}"
+            );
+        }
+    }
+}
+
+/// Users write angular velocities along the axes of the ground, and read of them so.
+#[test]
+fn an_impossible_angular_velocity_is_told_along_the_axes_of_the_ground() {
+    let text = r#"
+scene = { name = "hinge", space = "spatial" }
+body = [{ name = "b", mass = 1.0, inertia = [0.3, 0.7, 0.9], orientation = { axis = [0, 0, 1], angle = 1.5707963267948966 }, velocity = [0, 0, 0], angular_velocity = [0.25, 3.0, 0.0] }]
+joint = [{ name = "J", type = "revolute", bodies = ["ground", "b"], at = [0, 0, 0], axis = [0, 1, 0] }]
+"#;
+    let mut scene = AssembledScene::read("hinge", text, &Registry::standard()).expect("a scene");
+    let q = scene.assemble().expect("it is").q;
+    let (m, given) = (
+        &scene.mechanism,
+        scene.mechanism.frames().given_velocities(&q),
+    );
+    let rows = [0, 1, 2, 3, 4];
+    let found = consistent_velocity(m, &scene.scene.start, &q, &given, &rows);
+    let Err(StartError::Velocities(conflict)) = found else {
+        panic!("{found:?}")
+    };
+    // The hinge turns about y of the ground, which is x of the body.
+    assert_eq!((conflict.coordinate, conflict.given), ("wx", 0.25));
+    assert!(conflict.nearest.abs() < 1e-15, "{conflict}");
 }

@@ -78,8 +78,8 @@ impl PlacedConstraint {
         self.framed.axes
     }
 
-    /// Axes of its first two bodies that its rows keep parallel, each as three unit vectors in ground
-    /// axes.
+    /// Axes of its first two bodies that its rows keep parallel, each as three unit vectors in
+    /// ground axes.
     pub(crate) fn parallel_axes(&self, s: &Slots) -> Option<[[[f64; 3]; 3]; 2]> {
         let element = &self.framed.element;
         let own = with!(AnyConstraint, element, element, _S => element.parallel_axes())?;

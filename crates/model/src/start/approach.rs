@@ -10,7 +10,7 @@ use linalg::{Matrix, least_squares_step};
 use super::error::{Misfit, StartError};
 use super::metric::{Restricting, SMALL_CORRECTION, dense_rows, lengths};
 use super::parallel::Parallel;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, unmet_rows};
 use crate::system::{Scratch, System};
 
 /// Joints that miss by less than this fraction of the worst one are not named.
@@ -99,8 +99,12 @@ fn linearised(
     Ok(Linearised { residual, c })
 }
 
-/// Whether all axes that the joints keep parallel at q point as described, not the other way.
-pub(super) fn points_as_described(mechanism: &Mechanism, s: &mut Scratch, q: &[f64]) -> bool {
+/// Whether all axes that the joints keep parallel at q point as described, not the other way, and
+/// all requirements of definitions are met, as that a wheel is above the ground.
+pub(super) fn is_meant(mechanism: &Mechanism, s: &mut Scratch, q: &[f64]) -> bool {
+    if !unmet_rows(mechanism, q).is_empty() {
+        return false;
+    }
     mechanism.pose(0.0, q, s);
     let joints = mechanism.elements.constraints.iter();
     let mut axes = joints.filter_map(|joint| Parallel::of(joint, s));
@@ -122,7 +126,7 @@ pub(super) fn is_near(
     })
 }
 
-/// A configuration near the described one that satisfies the rows to [`REACHED`]; coordinates of
+/// A configuration near another one that satisfies the rows to [`REACHED`]; coordinates of
 /// weight zero do not move.
 ///
 /// # Errors
@@ -131,14 +135,14 @@ pub(super) fn approach(
     mechanism: &Mechanism,
     s: &mut Scratch,
     (rows, weights): Restricting<'_>,
-    described: &[f64],
+    from: &[f64],
     size: f64,
 ) -> Result<Vec<f64>, StartError> {
     let is_held = |(&of_length, &weight): (&f64, &f64)| if weight == 0.0 { 0.0 } else { of_length };
     let lengths = lengths(mechanism, size);
     let weights: Vec<f64> = lengths.iter().zip(weights).map(is_held).collect();
     let space = mechanism.space();
-    let mut q = described.to_vec();
+    let mut q = from.to_vec();
     let mut at = linearised(mechanism, s, rows, &q, size)?;
     let (mut damping, mut iterations) = (DAMPING, 0);
     loop {

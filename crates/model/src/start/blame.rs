@@ -48,6 +48,7 @@ impl Start<'_> {
                 residual: self.equations.residual(row, &nearest),
             });
         };
+        let closest = nearest.clone();
         let mut v = self.written.clone();
         let can_be_corrected = self
             .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
@@ -73,7 +74,7 @@ impl Start<'_> {
             with_others,
         } = self.fault(rows, &candidates)?;
         let body = &mechanism.bodies()[mechanism.space().body_of(column)];
-        let (coordinate, [given, fitting]) = self.as_written(column, &nearest);
+        let (coordinate, [given, fitting]) = self.as_written(column, &closest, &nearest);
         Ok(VelocityConflict {
             body: body.name.clone(),
             coordinate,
@@ -92,8 +93,13 @@ impl Start<'_> {
 
     /// Name of a velocity of a centre of mass or of a rotation, its given value and that in other
     /// velocities. Scenes write rotations in space about the axes of the ground, so it is the
-    /// component about them that differs most.
-    fn as_written(&self, column: usize, other: &[f64]) -> (&'static str, [f64; 2]) {
+    /// component about them that differs most in the closest velocities that fit.
+    fn as_written(
+        &self,
+        column: usize,
+        closest: &[f64],
+        other: &[f64],
+    ) -> (&'static str, [f64; 2]) {
         let space = self.equations.mechanism.space();
         let own = space.dof_of(column);
         if space != SpaceKind::Space3 || !space.is_rotation(column) || self.is_component(column) {
@@ -103,12 +109,12 @@ impl Start<'_> {
             );
         }
         let body = space.body_of(column);
-        let [given, other] = [&self.written, other].map(|v| {
+        let [given, closest, other] = [&self.written, closest, other].map(|v| {
             let v = self.equations.velocities(v);
             let mechanism = self.equations.mechanism;
             mechanism.frames().body(body, &self.equations.q, &v).omega
         });
-        let off = |k: usize| (other[k] - given[k]).abs();
+        let off = |k: usize| (closest[k] - given[k]).abs();
         let farthest = (1..3).fold(0, |a, k| if off(k) > off(a) { k } else { a });
         let name = space.velocities()[space.n_translations() + farthest];
         (name, [given[farthest], other[farthest]])

@@ -1,10 +1,10 @@
 //! Bodies in space of which single components of the angular velocity are kept, in ground axes.
 //!
 //! Columns of C belong to angular velocities in the axes in which a body moves, where its inertia J
-//! is diagonal. For such a body they are replaced by others: `ω = E·y`, in which the kept components
-//! are numbers of y, and the kinetic energy has no products of a kept number with one that follows,
-//! nor of two that follow. With kept directions a of the ground, in the axes of the body:
-//! one: `e₁ = J⁻¹·a/(aᵀ·J⁻¹·a)`, and e₂, e₃ across a with `e₂ᵀ·J·e₃ = 0`; two: `e₃` is the third
+//! is diagonal. For such a body they are replaced by others, `ω = E·y`. The kept components are
+//! numbers of y, and the kinetic energy has no products of a kept number with one that follows, nor
+//! of two that follow. With kept directions a of the ground, in the axes of the body, one:
+//! `e₁ = J⁻¹·a/(aᵀ·J⁻¹·a)`, and e₂, e₃ across a with `e₂ᵀ·J·e₃ = 0`; two: e₃ is the third
 //! direction, and `e_k = a_k − (a_kᵀ·J·e₃/e₃ᵀ·J·e₃)·e₃`.
 
 use std::ops::Range;

@@ -32,9 +32,9 @@ pub enum CorrectionLimit {
 pub struct Coordinate {
     /// Index of the body in the list.
     pub body: usize,
-    /// Index of its velocity: in the plane 0 for x, 1 for y, 2 for the angle; in space 0 to 2 for x,
-    /// y and z, then the rotations. Single components of an angular velocity are those about the
-    /// axes of the ground; rotations themselves are kept together.
+    /// Index of its velocity: in the plane 0 for x, 1 for y, 2 for the angle; in space 0 to 2 for
+    /// x, y and z, then the rotations. Single components of an angular velocity are those about
+    /// the axes of the ground; rotations themselves are kept together.
     pub dof: usize,
     /// Position or velocity.
     pub level: KeepLevel,
