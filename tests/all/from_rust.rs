@@ -259,7 +259,7 @@ fn errors_have_names() {
     let far = build(&|d| d.bodies[4].position = [7.0, 7.0]);
     assert!(matches!(far, StudyError::Motion(MotionError::Start(_))));
     assert!(far.is_input());
-    assert!(far.to_string().contains("(`guide`, normal)"), "{far}");
+    assert!(far.to_string().contains("of body `slide`"), "{far}");
     let nan = build(&|d| {
         let joint = Revolute {
             s_i: [f64::NAN, 0.0],

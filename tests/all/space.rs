@@ -5,4 +5,5 @@ mod catalogue;
 mod drifts;
 mod motion;
 mod second_order;
+mod starts;
 mod verdicts;

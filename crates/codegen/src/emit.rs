@@ -180,6 +180,11 @@ fn constraint_type(
     let requirement = parts::requirement(model);
     let points = parts::points(d);
     let axes = parts::axes(d);
+    // A drive has the parameters of its joint, but not its rows.
+    let parallel_axes = match t.driven {
+        None => parts::parallel_axes(d),
+        Some(_) => None,
+    };
     let data = data::methods(model, &t.data);
     let drives = parts::drives(d, model, name, &t.drives);
     let visit = t
@@ -257,6 +262,7 @@ fn constraint_type(
             #requirement
             #points
             #axes
+            #parallel_axes
             #data
         }
 

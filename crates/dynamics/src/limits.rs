@@ -50,6 +50,13 @@ pub(crate) const FAR_FROM_A_METRE: f64 = 1e5;
 /// `limits_stand_in_their_order`.
 pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
 
+/// Quaternions of these lengths are left as they are at an accepted step; others are scaled to
+/// length one. The motion does not depend on the length, but the tolerance of a step is one of its
+/// parts.
+/// Unit: length. Less: steps change coordinates for nothing. More: coarse runs of free bodies lose
+/// digits of their orientation. Test: `a_quaternion_that_has_drifted_far_is_scaled`.
+pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
+
 // Projection.
 
 /// Corrections of the position per projection; one or two are the rule, more where a tolerance is

@@ -22,6 +22,13 @@ pub trait Definition<S: Space = Plane>: Send + Sync {
         None
     }
 
+    /// Axes u, v and w of the bodies in its first two slots, each in the frame of its body, whose w
+    /// its rows `axis_u` and `axis_v` keep parallel, and with `turn` u and v as well. `None` if it
+    /// keeps none.
+    fn parallel_axes(&self) -> Option<[[[f64; 3]; 3]; 2]> {
+        None
+    }
+
     /// Writes the numbers stored by a constraint, in the order of [`crate::ConstraintSpec::data`];
     /// nothing for forces.
     fn data(&self, _out: &mut [f64]) {}

@@ -9,7 +9,7 @@ use crate::body::{Body, BodyRecord, BodyRef, DescribedBody};
 use crate::element::{angle_at, axes_at, turned_at};
 use crate::mechanism::Mechanism;
 use crate::observed::{Marker, Measure, MeasureKind, Observed};
-use crate::space::{SpaceKind, cross, difference, norm};
+use crate::space::{SpaceKind, cross, difference, norm, normalised, quaternion_product};
 
 /// Position and velocity of a point of a body, or of its frame; ground axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -187,14 +187,18 @@ impl<'m> Frames<'m> {
         self.0.bodies().iter().enumerate().flat_map(of).collect()
     }
 
-    /// State of a marker at q and v. Its angle is that of its axes.
+    /// State of a marker at q and v. Its angle, or its orientation, is that of its axes.
     ///
     /// # Panics
     /// If there is no such marker, or q and v are not those of the mechanism.
     #[must_use]
     pub fn marker(self, marker: usize, q: &[f64], v: &[f64]) -> FrameState {
         let Marker {
-            body, point, angle, ..
+            body,
+            point,
+            angle,
+            orientation,
+            ..
         } = self.0.observed.markers[marker];
         let of_body = match body {
             BodyRef::Body(k) => self.point(k, point, q, v),
@@ -203,8 +207,13 @@ impl<'m> Frames<'m> {
                 ..FrameState::of_ground(self.0.space())
             },
         };
+        let quaternion = match orientation {
+            Some(own) => quaternion_product(of_body.quaternion, normalised(own)),
+            None => of_body.quaternion,
+        };
         FrameState {
             angle: of_body.angle + angle.unwrap_or_default(),
+            quaternion,
             ..of_body
         }
     }
@@ -215,8 +224,7 @@ impl<'m> Frames<'m> {
     /// use model::{Body, Description, Marker, Measure, MeasureKind, Mechanism};
     /// let mut d = Description::new("top");
     /// let body = d.body(Body::new("top", 1.0, 1.0));
-    /// let marker = Marker { name: "rim".into(), body, point: [2.0, 0.0, 0.0], angle: None, tolerance: None };
-    /// d.observed.markers.push(marker);
+    /// d.observed.markers.push(Marker::new("rim", body, [2.0, 0.0, 0.0]));
     /// for kind in [MeasureKind::Y, MeasureKind::Speed, MeasureKind::Angle] {
     ///     let (name, between) = (kind.name().into(), [None, Some(0)]);
     ///     d.observed.measures.push(Measure { name, kind, between });

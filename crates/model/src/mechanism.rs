@@ -28,7 +28,7 @@ pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
 pub use forces::{AppliedForce, AppliedForces};
-pub(crate) use initial::{initialise, unmet_requirement};
+pub(crate) use initial::{initialise, unmet_requirement, unmet_rows};
 pub use part::{Part, Places};
 pub use work::Work;
 

@@ -14,14 +14,47 @@ pub struct Marker {
     /// In the frame of the body (m); in the plane z = 0.
     pub point: [f64; 3],
     /// In the plane, the angle of its axes in the frame of the body (rad); `None`: they are those
-    /// of the body, as in space, and nobody asks for their angle.
+    /// of the body, and nobody asks for their angle.
     pub angle: Option<f64>,
+    /// In space, the orientation of its axes in the frame of the body: a quaternion (w, x, y, z) of
+    /// any length but zero; `None`: they are those of the body.
+    pub orientation: Option<[f64; 4]>,
     /// Tolerance of its point (m), also as a point of joints; takes precedence over those of its
     /// body and of the scene.
     pub tolerance: Option<f64>,
 }
 
 impl Marker {
+    /// Its axes x, y and z in the frame of its body.
+    ///
+    /// ```
+    /// use model::{BodyRef, Marker};
+    /// let mut pin = Marker::new("pin", BodyRef::Ground, [0.0; 3]);
+    /// // A quarter turn about x.
+    /// pin.orientation = Some([1.0, 1.0, 0.0, 0.0]);
+    /// assert_eq!(pin.axes(), [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]);
+    /// ```
+    #[must_use]
+    pub fn axes(&self) -> [[f64; 3]; 3] {
+        let e = self.orientation.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+        let pose = joints::space3::Pose::new([0.0; 3], e);
+        let unit = |axis| [0, 1, 2].map(|k| if k == axis { 1.0 } else { 0.0 });
+        [0, 1, 2].map(|axis| pose.direction_to_global(unit(axis)))
+    }
+
+    /// A marker with the axes of its body, at this point of its frame (m).
+    #[must_use]
+    pub fn new(name: &str, body: BodyRef, point: [f64; 3]) -> Self {
+        Self {
+            name: name.to_owned(),
+            body,
+            point,
+            angle: None,
+            orientation: None,
+            tolerance: None,
+        }
+    }
+
     /// Its place relative to the centre of mass of its body, one of `bodies` (m), as joints and
     /// forces take it.
     #[must_use]

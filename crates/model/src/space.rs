@@ -25,7 +25,7 @@ pub use vector::{difference, norm, unit_cross};
 
 pub use joints::space3::{cross, dot};
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// Axes in which the force of a reaction is expressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,6 +172,43 @@ impl SpaceKind {
     #[must_use]
     pub fn unit(self, column: usize, size: f64) -> f64 {
         if self.is_rotation(column) { 1.0 } else { size }
+    }
+
+    /// Scales quaternions among coordinates q whose length is not allowed to length one, and their
+    /// rates with them; returns how many. The motion does not change: a rotation depends on the
+    /// direction of its quaternion alone.
+    ///
+    /// ```
+    /// let (mut q, mut qd) = ([0.0; 7], [0.0; 7]);
+    /// (q[3], qd[4]) = (4.0, 2.0);
+    /// assert_eq!(model::SpaceKind::Space3.normalise(&mut q, &mut qd, &(0.5..=2.0)), 1);
+    /// assert_eq!((q[3], qd[4]), (1.0, 0.5));
+    /// ```
+    pub fn normalise(self, q: &mut [f64], qd: &mut [f64], allowed: &RangeInclusive<f64>) -> u64 {
+        if self != Self::Space3 {
+            return 0;
+        }
+        let mut count = 0;
+        let bodies = q.chunks_exact_mut(Space3::N_Q);
+        for (q, qd) in bodies.zip(qd.chunks_exact_mut(Space3::N_Q)) {
+            let [own, rate] = [&mut q[3..], &mut qd[3..]];
+            let length = own.iter().map(|e| e * e).sum::<f64>().sqrt();
+            if !allowed.contains(&length) && length > 0.0 && length.is_finite() {
+                own.iter_mut().chain(rate).for_each(|x| *x /= length);
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// The angle (rad) that a row of angles misses by this residual: rows in space are products of
+    /// directions, sines of what is left of an angle.
+    #[must_use]
+    pub(crate) fn angle_of_row(self, residual: f64) -> f64 {
+        match self {
+            Self::Space3 => residual.clamp(-1.0, 1.0).asin(),
+            _ => residual,
+        }
     }
 
     /// Names of the numbers that are written of a frame: its place and orientation, then its

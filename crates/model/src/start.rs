@@ -1,25 +1,31 @@
 //! A consistent start: the configuration closest to the described one, in the mass metric, that
-//! satisfies the constraints. Rows that store an initial value do not restrict it: they hold at any
-//! start.
+//! satisfies the constraints, with axes that point as described. Rows that store an initial value
+//! do not restrict it: they hold at any start.
+//!
+//! Where the iteration towards it does not converge, or converges to axes that point the other way,
+//! the constraints are approached first, in lengths, and it begins anew from there.
 //!
 //! No rank is decided here: at a configuration that violates the constraints, a redundant row is
 //! not yet redundant. The correction is the regularised least-squares step of `linalg`, repeated to
 //! rounding.
 
+mod approach;
 mod blame;
+mod components;
 mod conflict;
 mod dependent;
 mod error;
 mod metric;
 mod options;
+mod parallel;
 mod velocity;
 pub(crate) mod within;
 
 use linalg::least_squares_step;
 
-use crate::mechanism::{Mechanism, initialise, unmet_requirement};
+use crate::mechanism::{Mechanism, initialise, unmet_requirement, unmet_rows};
 use crate::system::{Scratch, System};
-use metric::{DAMPING, ROUNDINGS, SMALL_CORRECTION, dense_rows, largest, weights};
+use metric::{DAMPING, ROUNDINGS, Restricting, SMALL_CORRECTION, dense_rows, largest, weights};
 use options::kept_columns;
 
 pub use crate::size::scene_size;
@@ -40,9 +46,6 @@ pub struct Assembly {
     /// Size of the mechanism, the unit of positions (m).
     pub size: f64,
 }
-
-/// Rows with a residual below this fraction of the largest one are not named.
-const NAMED_MISFIT: f64 = 1e-2;
 
 /// Largest number of iterations of the assembly; convergence is linear, with a rate that depends on
 /// the size of the correction.
@@ -70,18 +73,37 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let weights = position_weights(mechanism, options, size)?;
     let mut s = mechanism.scratch();
     let within = mechanism.has_tolerances();
+    let start = (0.0, within);
+    let restricting = (&rows[..], &weights[..]);
     let q = nearest(
         mechanism,
         &mut s,
-        (0.0, within),
-        &rows,
-        &weights,
+        start,
+        restricting,
+        &described,
         &described,
     );
     let q = if within {
-        within::within_data(mechanism, &mut s, (&rows, &weights), &described, size, q)
+        within::within_data(mechanism, &mut s, restricting, &described, size, q)
     } else {
         q
+    };
+    let q = match q {
+        Ok(q) if approach::is_meant(mechanism, &mut s, &q) => Ok(q),
+        Err(e @ StartError::NoAssembly { .. })
+            if approach::is_near(mechanism, &mut s, &rows, &described, size) =>
+        {
+            Err(e)
+        }
+        Ok(_) | Err(StartError::NoAssembly { .. }) => {
+            let meant = approached(mechanism, &mut s, start, restricting, &described, size);
+            // A requirement that is not met is told below.
+            match (q, meant) {
+                (Ok(q), Err(_)) if !unmet_rows(mechanism, &q).is_empty() => Ok(q),
+                (_, meant) => meant,
+            }
+        }
+        Err(other) => Err(other),
     };
     // A violated requirement of a definition explains more than the rows that are violated because
     // of it.
@@ -106,6 +128,33 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         residual,
         size,
     })
+}
+
+/// The configuration closest to the described one, from where the constraints are reached in
+/// lengths; if that is not found, the one closest to that place.
+fn approached(
+    mechanism: &Mechanism,
+    s: &mut Scratch,
+    start: (f64, bool),
+    restricting: Restricting<'_>,
+    described: &[f64],
+    size: f64,
+) -> Result<Vec<f64>, StartError> {
+    let mut there = approach::approach(mechanism, s, restricting, described, size)?;
+    // A wheel that was described below its plane reaches it from below: the others first.
+    let (rows, weights) = restricting;
+    let unmet = unmet_rows(mechanism, &there);
+    if !unmet.is_empty() {
+        let mut others = rows.to_vec();
+        others.retain(|row| !unmet.contains(row));
+        let aside = approach::approach(mechanism, s, (&others, weights), described, size)?;
+        there = approach::approach(mechanism, s, restricting, &aside, size)?;
+    }
+    let closest = nearest(mechanism, s, start, restricting, described, &there);
+    match closest {
+        Ok(q) if approach::is_meant(mechanism, s, &q) => Ok(q),
+        _ => nearest(mechanism, s, start, restricting, &there, &there),
+    }
 }
 
 /// Metric that defines the closest configuration.
@@ -136,18 +185,10 @@ pub fn nearest_configuration(
     let weights = match metric {
         Metric::Mass => position_weights(mechanism, &StartOptions::default(), size)?,
         Metric::Start(options) => position_weights(mechanism, options, size)?,
-        Metric::Length => (0..mechanism.layout().n_v)
-            .map(|j| {
-                if mechanism.space().is_rotation(j) {
-                    1.0 / (size * size)
-                } else {
-                    1.0
-                }
-            })
-            .collect(),
+        Metric::Length => metric::lengths(mechanism, size),
     };
     let mut s = mechanism.scratch();
-    nearest(mechanism, &mut s, (t, false), rows, &weights, q)
+    nearest(mechanism, &mut s, (t, false), (rows, &weights), q, q)
 }
 
 /// Rows of Φ that restrict the start.
@@ -175,18 +216,18 @@ fn position_weights(
     Ok(weights)
 }
 
-/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to
-/// rounding. If rows contradict each other, the sum of squares of Φ is minimised, and the result is
-/// accepted if it is `within` the stated tolerances.
+/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, from a given one, until Φ
+/// is zero to rounding. If rows contradict each other, the sum of squares of Φ is minimised, and
+/// the result is accepted if it is `within` the stated tolerances.
 fn nearest(
     mechanism: &Mechanism,
     s: &mut Scratch,
     (t, within): (f64, bool),
-    rows: &[usize],
-    weights: &[f64],
+    (rows, weights): Restricting<'_>,
     described: &[f64],
+    from: &[f64],
 ) -> Result<Vec<f64>, StartError> {
-    let mut q = described.to_vec();
+    let mut q = from.to_vec();
     let mut best = f64::INFINITY;
     let mut stalled = 0;
     for iteration in 0..=ITERATIONS {
@@ -210,9 +251,8 @@ fn nearest(
             return Ok(q);
         }
         if iteration == ITERATIONS || !residual.is_finite() {
-            let rows = misfits(mechanism, s, rows);
             return Err(StartError::NoAssembly {
-                rows,
+                misfits: approach::misfits(mechanism, s, rows),
                 iterations: iteration,
             });
         }
@@ -238,26 +278,6 @@ fn nearest(
         q = mechanism.space().displaced(described, 1.0, &step);
     }
     unreachable!("the last iteration returns")
-}
-
-/// Violated rows, the worst first. The residual of a least-squares solution is orthogonal to all
-/// motions, so these rows contradict each other.
-fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<Misfit> {
-    let worst = rows.iter().fold(0.0_f64, |a, &r| a.max(s.phi[r].abs()));
-    let missing = |r: &&usize| {
-        let residual = s.phi[**r].abs();
-        residual.is_nan() || residual >= NAMED_MISFIT * worst
-    };
-    let mut found: Vec<Misfit> = rows
-        .iter()
-        .filter(missing)
-        .map(|&r| Misfit {
-            row: mechanism.layout().labels[r].clone(),
-            residual: s.phi[r],
-        })
-        .collect();
-    found.sort_by(|a, b| b.residual.abs().total_cmp(&a.residual.abs()));
-    found
 }
 
 fn check_correction(

@@ -109,13 +109,8 @@ fn tables_have_the_columns_of_space() {
     let mut d = four_bar(0.0);
     d.bodies.truncate(1);
     d.joints.truncate(1);
-    d.observed.markers.push(Marker {
-        name: "tip".into(),
-        body: BodyRef::Body(0),
-        point: [0.0, 2.0, 0.0],
-        angle: None,
-        tolerance: None,
-    });
+    let tip = Marker::new("tip", BodyRef::Body(0), [0.0, 2.0, 0.0]);
+    d.observed.markers.push(tip);
     let built = Mechanism::build(&d).expect("builds");
     let mut table = TrajectoryTable::new(Vec::new(), &built).expect("writes");
     // A quarter of a turn about x, with ω = (0, 0, 3) in its axes, so (0, −3, 0) in those of the

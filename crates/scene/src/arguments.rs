@@ -48,6 +48,15 @@ impl Arguments {
                 arguments.push::<S>(point, parameter.shape, place.span.clone());
                 continue;
             }
+            let is_direction = matches!(
+                parameter.shape,
+                Shape::Axes { .. } | Shape::Direction { .. }
+            );
+            if let Some(between) = directions.between.as_ref().filter(|_| is_direction) {
+                let own = between.direction::<S>(parameter.name, parameter.shape);
+                arguments.push::<S>(own, parameter.shape, between.span.clone());
+                continue;
+            }
             if let Shape::Axes { slot, like } = parameter.shape {
                 let (axis, span) = match like {
                     Some(other) => arguments.like(spec, [other, slot], directions),

@@ -4,7 +4,7 @@ mod orientation;
 mod plane;
 mod space3;
 
-pub(crate) use orientation::{ANGLE, AXIS, MATRIX, QUATERNION, RPY};
+pub(crate) use orientation::{ANGLE, AXIS, MATRIX, QUATERNION, RPY, read as read_orientation};
 
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};

@@ -7,6 +7,7 @@ use joints::spec::{Parameter, Shape, Spec};
 use joints::{Argument, Space3};
 use model::BodyRef;
 
+use crate::between::{Between, MARKERS};
 use crate::body::Bodies;
 use crate::dimension::Dimension;
 use crate::field::Field;
@@ -67,6 +68,8 @@ pub(crate) struct Directions<'b, S: SceneSpace> {
     is_paired: bool,
     /// The axis in the frames of the bodies of the first two slots, if it could be read.
     own: Option<[S::Vector<f64>; 2]>,
+    /// The markers whose directions they are, if these are given.
+    pub(crate) between: Option<Between<'b>>,
 }
 
 impl<'b, S: SceneSpace> Directions<'b, S> {
@@ -75,7 +78,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         table: &mut Table,
         spec: &'static Spec,
         slots: &'b [Option<BodyRef>],
-        bodies: &'b Bodies<S>,
+        (bodies, between): (&'b Bodies<S>, Option<Between<'b>>),
         findings: &mut Findings,
     ) -> Self {
         let mut directions = Self {
@@ -85,10 +88,19 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             across: None,
             is_paired: false,
             own: None,
+            between,
         };
+        // Other keys have been refused.
+        if directions.between.is_some() {
+            return directions;
+        }
         if !S::CARRIES {
             // `axes` is more likely a misspelt `axis`.
-            table.spaces([FRAME, CROSS].map(|key| (key, Space3::NAME)).into_iter());
+            table.spaces(
+                [FRAME, CROSS, MARKERS]
+                    .map(|key| (key, Space3::NAME))
+                    .into_iter(),
+            );
             return directions;
         }
         for key in keys(spec) {

@@ -7,6 +7,7 @@ use model::registry::{ConstraintDefinition, ForceDefinition};
 use model::{BodyRef, ConstraintKernels, Definitions, ForceKernels, Registry};
 
 use crate::arguments::Arguments;
+use crate::between::Between;
 use crate::body::Bodies;
 use crate::connection;
 use crate::direction::Directions;
@@ -15,7 +16,7 @@ use crate::function::Domain;
 use crate::key::TYPE;
 use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
-use crate::place;
+use crate::place::{self, Place};
 use crate::section;
 use crate::space::{self, SceneSpace};
 use crate::table::{Table, belongs};
@@ -178,8 +179,15 @@ pub(crate) fn read<'r, D: Definition>(
     };
     let (spec, definition) = (specs[at], definitions[at]);
     let slots = connection::slots(table, spec, named, &bodies.names, findings);
-    let place = place::read(table, spec, &slots, bodies, findings);
-    let directions = Directions::read(table, spec, &slots, bodies, findings);
+    let between = Between::read(table, spec, &slots, bodies, findings);
+    let place = match &between {
+        Some(between) => Place {
+            points: between.points(spec, bodies),
+            span: between.span.clone(),
+        },
+        None => place::read(table, spec, &slots, bodies, findings),
+    };
+    let directions = Directions::read(table, spec, &slots, (bodies, between), findings);
     let mut arguments = Arguments::read(table, spec, place, &directions, domains, findings);
     let subject = table.subject.clone();
     let built = arguments.build::<D::Space, _>(spec, &subject, definition.constructor(), findings);

@@ -25,6 +25,7 @@
 
 mod active;
 mod arguments;
+mod between;
 mod body;
 mod combination;
 mod connection;

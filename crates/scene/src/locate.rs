@@ -121,10 +121,10 @@ pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> 
 /// The place of an error of [`model::start`].
 pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     let (span, label) = match error {
-        StartError::NoAssembly { rows, .. } => {
-            let labels = rows.iter().map(|r| &r.row);
+        StartError::NoAssembly { misfits, .. } => {
+            let joints = misfits.iter().map(|m| m.joint.as_str());
             let marks = ["cannot hold together with the others", "misses too"];
-            return at_rows(map, labels, error, marks);
+            return at_joints(map, joints, error, marks);
         }
         StartError::NoVelocity { worst, .. } => (row(map, worst), "misses most"),
         StartError::Velocities(conflict) => return velocities(map, conflict, error),
@@ -149,7 +149,7 @@ fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) 
         (true, _) => map.section("start", "keep"),
         (false, coordinate) => {
             let key = match coordinate {
-                "omega" => "angular_velocity",
+                "omega" | "wx" | "wy" | "wz" => "angular_velocity",
                 _ => "velocity",
             };
             let entry = map.body(&conflict.body);
@@ -260,11 +260,22 @@ fn at_rows<'a>(
     map: &SourceMap,
     labels: impl IntoIterator<Item = &'a RowLabel>,
     error: &impl Coded,
+    marks: [&str; 2],
+) -> Diagnostic {
+    let joints = labels.into_iter().map(|label| label.joint.as_str());
+    at_joints(map, joints, error, marks)
+}
+
+/// The same of joints and drives.
+fn at_joints<'a>(
+    map: &SourceMap,
+    names: impl IntoIterator<Item = &'a str>,
+    error: &impl Coded,
     [first_mark, mark]: [&str; 2],
 ) -> Diagnostic {
     let mut seen = BTreeSet::new();
-    let joints = labels.into_iter().filter(|label| seen.insert(&label.joint));
-    let mut spans = joints.take(MARKS).map(|label| row(map, label));
+    let joints = names.into_iter().filter(|name| seen.insert(*name));
+    let mut spans = joints.take(MARKS).map(|name| element_key(map, name, &[]));
     let first = spans.next().unwrap_or_else(|| map.section("scene", ""));
     spans.fold(at(map, first, error, first_mark), |d, span| {
         d.and(map.text.label(span, mark))

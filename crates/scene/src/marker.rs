@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use joints::{Plane, Space3};
 use model::{BodyRef, Marker, SpaceKind};
 
-use crate::body::Bodies;
+use crate::body::{Bodies, read_orientation};
 use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
@@ -33,6 +33,12 @@ const SPATIAL_POINT: Key = Key::triple("point")
 const ANGLE: Key = Key::optional("angle", "a number", Takes::Number(Interval::Any))
     .unit(Dimension::ANGLE)
     .doc("Angle of its axes in the frame of the body; where it is given, the angle of the marker is written, too");
+const ORIENTATION: Key = Key::optional(
+    "orientation",
+    "a table { quaternion | axis, angle | rpy | matrix }",
+    Takes::Orientation,
+)
+.doc("Orientation of its axes in the frame of the body, written as that of a body: { quaternion }, { axis, angle }, { rpy } or { matrix }; z is the axis of a joint between markers, x lies across it");
 const TOLERANCE: Key = tolerance::length(
     "What its point is known to, wherever it is used; that of its body, or of the scene, where it is not given",
 );
@@ -40,7 +46,7 @@ const TOLERANCE: Key = tolerance::length(
 /// Keys of a marker in addition to its name.
 pub(crate) fn keys(space: SpaceKind) -> &'static [Key] {
     match space {
-        SpaceKind::Space3 => &[BODY, SPATIAL_POINT, TOLERANCE],
+        SpaceKind::Space3 => &[BODY, SPATIAL_POINT, ORIENTATION, TOLERANCE],
         _ => &[BODY, POINT, ANGLE, TOLERANCE],
     }
 }
@@ -77,8 +83,11 @@ impl Markers {
         let body = body.and_then(|field| bodies.names.find(&field, findings));
         let point = table.needed(POINT.name, S::POINT, findings);
         let point = point.and_then(|field| field.vector::<S>(S::POINT, POINT.unit, findings));
-        let mut angle = None;
-        if S::KIND != SpaceKind::Space3 {
+        let (mut angle, mut orientation) = (None, None);
+        if S::KIND == SpaceKind::Space3 {
+            let field = table.optional(&ORIENTATION);
+            orientation = field.map(|field| read_orientation(&field, findings));
+        } else {
             let field = table.optional(&ANGLE);
             angle = field.map(|field| field.number(ANGLE.unit, findings));
         }
@@ -92,7 +101,8 @@ impl Markers {
             by_name,
         } = &mut bodies.markers;
         let at = list.len();
-        let read = body.zip(point).filter(|_| angle != Some(None));
+        let is_turned = angle != Some(None) && orientation != Some(None);
+        let read = body.zip(point).filter(|_| is_turned);
         by_name.entry(name.to_owned()).or_insert(read.map(|_| at));
         if let Some((body, point)) = read {
             list.push(Marker {
@@ -100,6 +110,7 @@ impl Markers {
                 body,
                 point: S::point(point),
                 angle: angle.flatten(),
+                orientation: orientation.flatten(),
                 tolerance,
             });
             entries.push(entry);
@@ -169,16 +180,32 @@ impl<S: SceneSpace> Bodies<S> {
         field: &Field,
         findings: &mut Findings,
     ) {
+        let name = &marker.name;
+        let advice = format!(
+            "a point of `{}` is needed; `at = \"{name}\"` takes the place where it is",
+            self.names.name(needed)
+        );
+        self.not_of_body(marker, &advice, field, findings);
+    }
+
+    /// Reports a marker that belongs to another body than the one that is needed.
+    pub(crate) fn not_of_body(
+        &self,
+        marker: &Marker,
+        needed: &str,
+        field: &Field,
+        findings: &mut Findings,
+    ) {
         let (name, body) = (&marker.name, self.names.name(marker.body));
         let own = self.markers.list.iter().zip(&self.markers.entries);
         let found = own.clone().find(|(own, _)| own.name == marker.name);
         let place = found.map_or_else(|| field.span(), |(_, entry)| entry.span(BODY.name));
-        findings.collision(Mistake::ForeignMarker,
+        findings.collision(
+            Mistake::ForeignMarker,
             field.span(),
             format!(
-                "{}: marker `{name}` belongs to `{body}`, and a point of `{}` is needed; `at = \"{name}\"` takes the place where it is",
-                field.subject,
-                self.names.name(needed)
+                "{}: marker `{name}` belongs to `{body}`, and {needed}",
+                field.subject
             ),
             "not a marker of this body",
             place,

@@ -66,7 +66,7 @@ impl Entry {
 }
 
 /// Keys for the place of an element.
-pub(crate) const PLACE_KEYS: [&str; 3] = ["at", "points", "point"];
+pub(crate) const PLACE_KEYS: [&str; 4] = ["at", "points", "point", "markers"];
 /// Keys for its bodies.
 pub(crate) const BODY_KEYS: [&str; 2] = ["bodies", "body"];
 

@@ -20,7 +20,7 @@ const KEEP: Key = Key::optional(
     "a list of coordinates [\"body.angle\", …]",
     Takes::Texts(0),
 )
-.doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body, in space x, y, z, rotation, vx, vy, vz, omega; a velocity that is not given is held at zero")
+.doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body, in space x, y, z, rotation, vx, vy, vz, wx, wy, wz (ground axes), omega for these three; a velocity that is not given is held at zero")
 .or(|| json!([]));
 const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false", Takes::Flag)
     .doc("Whether the start may be corrected by more than a thousandth of the scene's size, and given velocities by more than a thousandth of the fastest that hang together with them")
@@ -46,15 +46,14 @@ pub(crate) fn read<S: SceneSpace>(
             continue;
         };
         let Kept { dofs, level, .. } = found;
-        let thing = (body, dofs.start, *level == KeepLevel::Position);
         let twice = "`[start]`: `keep` names a coordinate twice";
-        if findings.is_first(&mut named, thing, item.span(), twice) {
-            let all = dofs.clone().map(|dof| Coordinate {
-                body,
-                dof,
-                level: *level,
-            });
-            kept.extend(all);
+        for dof in dofs.clone() {
+            let level = *level;
+            let thing = (body, dof, level == KeepLevel::Position);
+            if !findings.is_first(&mut named, thing, item.span(), twice) {
+                break;
+            }
+            kept.push(Coordinate { body, dof, level });
         }
     }
     let allowed = table

@@ -70,6 +70,30 @@ fn close(found: &[f64], expected: &[f64], bound: f64, what: &str) {
     }
 }
 
+/// Steps of a tenth of the coordinates change the length of a quaternion by per cents each, and
+/// fine steps do not. The body turns uniformly either way.
+#[test]
+fn a_quaternion_that_has_drifted_far_is_scaled() {
+    let mut d = SpatialDescription::new("spinning body");
+    d.body(SpatialBody {
+        velocity: Some([0.0; 3]),
+        angular_velocity: Some([0.0, 0.0, 2.0]),
+        ..SpatialBody::new("body", 1.0, diagonal([1.0, 2.0, 3.0]))
+    });
+    for (rtol, is_coarse) in [(0.1, true), (1e-10, false)] {
+        let mut lengths = Vec::new();
+        let summary = run(&d, &options(200.0, Method::Dopri5, rtol), |_, row| {
+            let square: f64 = row.q[3..7].iter().map(|e| e * e).sum();
+            lengths.push(square.sqrt());
+            assert_eq!(row.v[5], 2.0);
+        });
+        let scaled = summary.normalisations;
+        assert_eq!(scaled > 0, is_coarse, "{scaled}: {lengths:?}");
+        let last = lengths.last().expect("rows");
+        assert!((0.5..=2.0).contains(last), "{lengths:?}");
+    }
+}
+
 /// A free body with moments 1, 2, 3: ω(10) by Jacobi's elliptic functions.
 #[test]
 fn a_free_body_turns_as_eulers_equations_say() {

@@ -453,6 +453,27 @@ pub(super) fn axes(d: &Definition) -> Option<TokenStream> {
     })
 }
 
+/// The method that returns the axes of both bodies that a joint in space keeps parallel: those of
+/// one parameter, and those that are like it. None if there are none.
+pub(super) fn parallel_axes(d: &Definition) -> Option<TokenStream> {
+    let [first, second] = d.slots.first_chunk()?;
+    let of = |name: &Ident| d.params.iter().find(|p| p.name == *name);
+    let is_of_first = |p: &Param| matches!(&p.kind, ParamKind::Axes { slot, .. } if slot == first);
+    let [a, b] = d.params.iter().find_map(|p| match &p.kind {
+        ParamKind::Axes {
+            slot,
+            like: Some(like),
+            ..
+        } if slot == second && of(like).is_some_and(is_of_first) => Some([like, &p.name]),
+        _ => None,
+    })?;
+    Some(quote! {
+        fn parallel_axes(&self) -> Option<[[[f64; 3]; 3]; 2]> {
+            Some([self.#a.uvw(), self.#b.uvw()])
+        }
+    })
+}
+
 fn collect(c: &Condition, out: &mut Vec<Expr>) {
     match c {
         Condition::Compare(_, a, b) => out.extend([*a, *b]),

@@ -15,7 +15,7 @@ use super::sample::{AtRows, Known, OfMotion, Sample, Source};
 use super::span::Span;
 use crate::error::MotionFault;
 use crate::guards::GUARDED;
-use crate::limits::{COARSE, IMPLICIT_REACH};
+use crate::limits::{COARSE, IMPLICIT_REACH, QUATERNION_LENGTHS};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
@@ -386,6 +386,10 @@ impl<'m> RunEquations<'m> {
         // From here on the step is accepted.
         motion.equations.accept_misfits(true);
         self.record.note(mechanism, (q, v, work(q, v, y)), found);
+        let layout = mechanism.layout();
+        let (q, qd) = (&mut y[..layout.n_q], &mut dy[..layout.n_q]);
+        let scaled = layout.space.normalise(q, qd, &QUATERNION_LENGTHS);
+        self.record.normalisations += scaled;
         let now = now(mechanism, step.t, y, dy);
         if let Some(code) = motion.code.as_mut().filter(|_| on_code) {
             motion.watch.is_suspect = false;
@@ -396,7 +400,13 @@ impl<'m> RunEquations<'m> {
             self.record.min_pivot_ratio = self.record.min_pivot_ratio.min(pivot_ratio);
         }
         if !projects {
-            return Ok(StepEnd::Unchanged);
+            return Ok(match scaled {
+                0 => StepEnd::Unchanged,
+                _ => StepEnd::Projected {
+                    correction: 0.0,
+                    evaluations: 0,
+                },
+            });
         }
         if !on_code {
             self.look_ahead(now, step.t - step.t0, may_have_passed);

@@ -13,6 +13,8 @@ pub(super) struct Record {
     energy: EnergyBalance,
     max_position_residual: f64,
     max_velocity_residual: f64,
+    /// Quaternions that were scaled at accepted steps.
+    pub(super) normalisations: u64,
     pub(super) min_pivot_ratio: f64,
     pub(super) events: Vec<Event>,
     /// Whether the motion is unique at a passage, by the number of dependent rows.
@@ -26,6 +28,7 @@ impl Record {
             energy: EnergyBalance::new(mechanism, q, v),
             max_position_residual: 0.0,
             max_velocity_residual: 0.0,
+            normalisations: 0,
             min_pivot_ratio: f64::INFINITY,
             events: Vec::new(),
             uniqueness: Vec::new(),
@@ -61,6 +64,7 @@ impl Record {
             energy_balance: energy::relative(gap, kinetic),
             energy_gap: gap,
             largest_kinetic_energy: kinetic,
+            normalisations: self.normalisations,
             min_pivot_ratio: self.min_pivot_ratio,
             events: self.events.clone(),
             ..Summary::default()

@@ -23,6 +23,8 @@ pub struct Summary {
     pub evaluations: u64,
     /// Projections of steps.
     pub projections: u64,
+    /// Quaternions that had drifted far from length one and were scaled, at accepted steps.
+    pub normalisations: u64,
     /// Factorisations of iteration matrices of implicit methods.
     pub factorisations: u64,
     /// Wall-clock time of the integration alone (s).
@@ -97,6 +99,7 @@ impl Summary {
             rejected: sum(|s| s.rejected),
             evaluations: sum(|s| s.evaluations),
             projections: sum(|s| s.projections),
+            normalisations: sum(|s| s.normalisations),
             factorisations: sum(|s| s.factorisations),
             wall_seconds,
             max_position_residual: largest(|s| s.max_position_residual),

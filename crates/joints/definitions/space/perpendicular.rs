@@ -6,7 +6,9 @@ joint! { space Perpendicular(i, j) {
         /// The axis on body j.
         cross: Direction in j,
     }
+    let k = dot(direction(i, axis), direction(j, cross));
+    require "its two axes do not lie along one line": 1.0 - k * k > 0.000001;
     rows: [cross];
-    phi: dot(direction(i, axis), direction(j, cross));
+    phi: k;
     place: origin(i);
 } }

@@ -11,10 +11,9 @@ joint! { space Universal(i, j) {
         /// The axis of the cross that is fixed in body j.
         cross: Direction in j,
     }
+    let k = dot(direction(i, axis), direction(j, cross));
+    require "the two axes of its cross do not lie along one line": 1.0 - k * k > 0.000001;
     rows: [x, y, z, cross];
-    phi: [
-        point(i, s_i) - point(j, s_j),
-        dot(direction(i, axis), direction(j, cross)),
-    ];
+    phi: [point(i, s_i) - point(j, s_j), k];
     place: point(i, s_i);
 } }

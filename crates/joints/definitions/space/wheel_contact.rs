@@ -20,6 +20,7 @@ joint! { space WheelContact(i) {
     initial { half_inverse: PerLength = 0.5 / radius }
     require "the radius is not zero": radius * radius > 0.0;
     require "the wheel does not lie flat": steep > 0.000001;
+    require "the wheel is on the side of the normal of its plane": h > 0.0;
     rows: [contact];
     phi: (h * h - radius * radius * steep) * half_inverse;
     place: point(i, s) - (n - a * k) * (radius / norm(n - a * k));

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use joints::spec::ConstraintSpec;
-use joints::{Magnitude, Recorded};
+use joints::{Magnitude, Recorded, Space3};
 use linalg::Dd;
 
 use super::recorded::RecordedSlots;
@@ -76,6 +76,15 @@ impl PlacedConstraint {
     /// Axes u, v and w of its joint, fixed in the first body, in the axes of its frame.
     pub(crate) fn axes(&self) -> Option<[[f64; 3]; 3]> {
         self.framed.axes
+    }
+
+    /// Axes of its first two bodies that its rows keep parallel, each as three unit vectors in
+    /// ground axes.
+    pub(crate) fn parallel_axes(&self, s: &Slots) -> Option<[[[f64; 3]; 3]; 2]> {
+        let element = &self.framed.element;
+        let own = with!(AnyConstraint, element, element, _S => element.parallel_axes())?;
+        let poses = self.site.x::<Space3>(s);
+        Some([0, 1].map(|slot| own[slot].map(|axis| poses[slot].direction_to_global(axis))))
     }
 
     pub(crate) fn spec(&self) -> &'static ConstraintSpec {

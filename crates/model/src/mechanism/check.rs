@@ -336,7 +336,10 @@ fn check_observed<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) 
             });
         }
         let (point, angle) = (marker.point, marker.angle.unwrap_or_default());
-        if !point.iter().chain([&angle]).all(|x| is_usable(*x)) {
+        let orientation = marker.orientation.iter().flatten();
+        let mut numbers = point.iter().chain([&angle]).chain(orientation);
+        let is_zero = marker.orientation == Some([0.0; 4]);
+        if is_zero || !numbers.all(|x| is_usable(*x)) {
             errors.push(BuildError::Marker {
                 name: name(),
                 point: point[..S::DIM].to_vec(),

@@ -42,6 +42,14 @@ pub(crate) fn unmet_requirement(
     of_constraints.next().or_else(|| of_forces.next())
 }
 
+/// Rows of the constraints with a requirement that a configuration does not satisfy, ascending.
+pub(crate) fn unmet_rows(mechanism: &Mechanism, q: &[f64]) -> Vec<usize> {
+    let bodies = Bodies::at(mechanism.space(), q);
+    let constraints = mechanism.elements.constraints.iter();
+    let unmet = constraints.filter(|c| c.unmet_requirement(&bodies).is_some());
+    unmet.flat_map(|c| c.rows.clone()).collect()
+}
+
 /// An arm below this many roundings of the position of its body counts as zero: it is the rounding
 /// of a difference of positions.
 const ROUNDINGS: f64 = 4.0;

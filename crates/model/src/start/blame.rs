@@ -8,7 +8,7 @@ use super::dependent::DependentVelocities;
 use super::error::StartError;
 use super::options::CorrectionLimit;
 use super::velocity::{Hold, Miss, Start};
-use crate::mechanism::Mechanism;
+use crate::space::SpaceKind;
 use crate::system::{RowLabel, System};
 
 /// Largest number of velocities to leave out that are searched for.
@@ -48,6 +48,7 @@ impl Start<'_> {
                 residual: self.equations.residual(row, &nearest),
             });
         };
+        let closest = nearest.clone();
         let mut v = self.written.clone();
         let can_be_corrected = self
             .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
@@ -73,12 +74,13 @@ impl Start<'_> {
             with_others,
         } = self.fault(rows, &candidates)?;
         let body = &mechanism.bodies()[mechanism.space().body_of(column)];
+        let (coordinate, [given, fitting]) = self.as_written(column, &closest, &nearest);
         Ok(VelocityConflict {
             body: body.name.clone(),
-            coordinate: velocity_name(mechanism, column),
-            given: self.written[column],
+            coordinate,
+            given,
             is_kept: self.hold[column] == Hold::Kept,
-            nearest: nearest[column],
+            nearest: fitting,
             limit: self.allowed(column, &columns, &self.hold, &nearest),
             rows: rows_at_fault,
             with_others,
@@ -87,6 +89,42 @@ impl Start<'_> {
             is_enough,
             can_be_corrected,
         })
+    }
+
+    /// Name of a velocity of a centre of mass or of a rotation, its given value and that in other
+    /// velocities. Scenes write rotations in space about the axes of the ground, so it is the
+    /// component about them that differs most in the closest velocities that fit.
+    fn as_written(
+        &self,
+        column: usize,
+        closest: &[f64],
+        other: &[f64],
+    ) -> (&'static str, [f64; 2]) {
+        let space = self.equations.mechanism.space();
+        let own = space.dof_of(column);
+        if space != SpaceKind::Space3 || !space.is_rotation(column) || self.is_component(column) {
+            return (
+                space.velocities()[own],
+                [self.written[column], other[column]],
+            );
+        }
+        let body = space.body_of(column);
+        let [given, closest, other] = [&self.written, closest, other].map(|v| {
+            let v = self.equations.velocities(v);
+            let mechanism = self.equations.mechanism;
+            mechanism.frames().body(body, &self.equations.q, &v).omega
+        });
+        let off = |k: usize| (closest[k] - given[k]).abs();
+        let farthest = (1..3).fold(0, |a, k| if off(k) > off(a) { k } else { a });
+        let name = space.velocities()[space.n_translations() + farthest];
+        (name, [given[farthest], other[farthest]])
+    }
+
+    /// Whether a column is a rotation that is kept without the others of its body.
+    fn is_component(&self, column: usize) -> bool {
+        let space = self.equations.mechanism.space();
+        let mut rotations = space.rotations_of(space.body_of(column));
+        self.hold[column] == Hold::Kept && rotations.any(|j| self.hold[j] != Hold::Kept)
     }
 
     /// The held velocity that is farthest from the closest compatible velocities if all may move;
@@ -241,12 +279,15 @@ impl Start<'_> {
             } else {
                 Hold::No
             };
-            let coordinate = velocity_name(mechanism, kept);
-            let before = std::mem::replace(&mut hold[kept], to);
-            return (
-                HeldVelocity::Keep { body, coordinate },
-                vec![(kept, before)],
-            );
+            // An angular velocity that is kept as a whole is one entry.
+            let is_whole = turns && own.clone().all(|j| self.hold[j] == Hold::Kept);
+            let (coordinate, entry) = if is_whole {
+                ("omega", own)
+            } else {
+                (space.velocities()[space.dof_of(kept)], kept..kept + 1)
+            };
+            let before = entry.map(|j| (j, std::mem::replace(&mut hold[j], to)));
+            return (HeldVelocity::Keep { body, coordinate }, before.collect());
         }
         let what = if turns {
             HeldVelocity::AngularVelocity { body }
@@ -256,10 +297,4 @@ impl Start<'_> {
         let before = own.map(|j| (j, std::mem::replace(&mut hold[j], Hold::No)));
         (what, before.collect())
     }
-}
-
-/// Name of the velocity of a column of C.
-fn velocity_name(mechanism: &Mechanism, column: usize) -> &'static str {
-    let space = mechanism.space();
-    space.velocities()[space.dof_of(column)]
 }

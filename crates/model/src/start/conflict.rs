@@ -10,7 +10,7 @@ pub struct VelocityConflict {
     /// The body of the wrong velocity: the one that is farthest from its value if it were left out
     /// with the others of its kind.
     pub body: String,
-    /// `vx`, `vy` or `omega`.
+    /// `vx`, `vy` or `omega`; in space `vx` to `wz`, ground axes.
     pub coordinate: &'static str,
     /// The given value.
     pub given: f64,
@@ -54,7 +54,7 @@ pub enum HeldVelocity {
     Keep {
         /// The body.
         body: String,
-        /// `vx`, `vy` or `omega`.
+        /// `vx`, `vy` or `omega`; in space `vx` to `wz`, or `omega`.
         coordinate: &'static str,
     },
 }

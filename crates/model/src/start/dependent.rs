@@ -15,8 +15,10 @@ use linalg::{
 };
 use rank::{Circuit, circuits, decide};
 
+use super::components::Components;
 use super::error::StartError;
 use super::metric::{DAMPING, ROUNDINGS, weights};
+use super::options::StartOptions;
 use crate::mechanism::Mechanism;
 use crate::size::size_of;
 use crate::space::norm;
@@ -45,10 +47,14 @@ const PROGRESS: f64 = 0.5;
 /// The equations `C·v = b` of a start.
 pub(super) struct Equations<'m> {
     pub(super) mechanism: &'m Mechanism,
+    pub(super) q: Vec<f64>,
     pub(super) s: Scratch,
     pub(super) size: f64,
     /// Diagonal of M⁻¹; velocities without mass have the weight of the smallest one with mass.
     pub(super) weights: Vec<f64>,
+    /// Bodies of which single components of the angular velocity are kept: their columns are
+    /// others.
+    components: Vec<Components>,
     /// A velocity that is zero to rounding moves by less than a hundred roundings of the position
     /// in this time (1/s).
     rest_rate: f64,
@@ -57,7 +63,7 @@ pub(super) struct Equations<'m> {
 }
 
 impl<'m> Equations<'m> {
-    pub(super) fn new(mechanism: &'m Mechanism, q: &[f64]) -> Self {
+    pub(super) fn new(mechanism: &'m Mechanism, options: &StartOptions, q: &[f64]) -> Self {
         let mut s = mechanism.scratch();
         mechanism.pose(0.0, q, &mut s);
         mechanism.phi(&mut s);
@@ -67,16 +73,35 @@ impl<'m> Equations<'m> {
         let weight = mechanism.weight().iter().zip(mechanism.mass());
         let gravity = weight.filter(|(_, m)| **m > 0.0).map(|(w, m)| w.abs() / m);
         let gravity = gravity.fold(0.0, f64::max);
+        let mut weights = weights(mechanism, size);
+        let components = Components::kept(mechanism, options, &s, &weights);
+        for body in &components {
+            body.take_over(mechanism, &mut s, &mut weights);
+        }
         Self {
             mechanism,
+            q: q.to_vec(),
             s,
             size,
-            weights: weights(mechanism, size),
+            weights,
+            components,
             // The second is the unit of time of a scene; a body that falls under its weight has a
             // shorter characteristic time.
             rest_rate: (gravity / size).sqrt().max(1.0),
             known: None,
         }
+    }
+
+    /// Replaces velocities of the mechanism by those of these equations.
+    pub(super) fn take(&self, v: &mut [f64]) {
+        self.components.iter().for_each(|body| body.replace(v));
+    }
+
+    /// The velocities of the mechanism for those of these equations.
+    pub(super) fn velocities(&self, v: &[f64]) -> Vec<f64> {
+        let mut v = v.to_vec();
+        self.components.iter().for_each(|body| body.restore(&mut v));
+        v
     }
 
     /// `C·v − b` of row `i`.

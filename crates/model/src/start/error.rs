@@ -1,5 +1,7 @@
 //! Reasons why no consistent start was found.
 
+use std::fmt;
+
 use crate::codes::Code;
 use linalg::{SaddleError, SparseError, StepError};
 use rank::RankError;
@@ -14,13 +16,13 @@ use crate::system::RowLabel;
 pub enum StartError {
     /// The constraints cannot be satisfied from the described configuration.
     #[error(
-        "the constraints cannot be assembled: after {iterations} iterations these rows still miss: {}; \
+        "the constraints cannot be assembled: after {iterations} iterations these still miss: {}; \
          they contradict each other, or the start is too far from an assembled one",
-        list(rows)
+        list(misfits)
     )]
     NoAssembly {
-        /// The violated rows, the worst first.
-        rows: Vec<Misfit>,
+        /// The joints and drives that miss, the worst first.
+        misfits: Vec<Misfit>,
         /// Number of iterations.
         iterations: usize,
     },
@@ -62,16 +64,19 @@ pub enum StartError {
         /// Number of bodies.
         bodies: usize,
     },
-    /// A coordinate of a frame that is not at the centre of mass is to be kept without its angle.
+    /// A coordinate of a frame that is not at the centre of mass is to be kept without its
+    /// rotation.
     #[error(
         "`keep` holds the origin of the frame of body `{body}`, which is not its centre of mass; {}",
-        needed(body, *level)
+        needed(body, *level, rotation)
     )]
     KeptOrigin {
         /// The body.
         body: String,
         /// Position or velocity.
         level: KeepLevel,
+        /// Name of its rotation in `keep`.
+        rotation: &'static str,
     },
     /// The rows allow no velocities, whatever velocities are given.
     #[error(
@@ -131,35 +136,56 @@ impl StartError {
     }
 }
 
-/// A row that is not satisfied.
+/// A joint or drive whose rows are not satisfied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misfit {
-    /// The row.
-    pub row: RowLabel,
-    /// Its residual.
-    pub residual: f64,
+    /// The joint or drive.
+    pub joint: String,
+    /// How far its points are from where they should be (m).
+    pub distance: f64,
+    /// How far its axes or angles are from where they should be (rad).
+    pub angle: f64,
 }
 
-fn needed(body: &str, level: KeepLevel) -> String {
-    match level {
-        KeepLevel::Position => format!("hold `{body}.angle` too"),
-        KeepLevel::Velocity => {
-            format!("give its `velocity` and `angular_velocity`, and hold `{body}.omega` too")
+impl fmt::Display for Misfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` by ", self.joint)?;
+        let (distance, angle) = (self.distance, self.angle.to_degrees());
+        match (distance != 0.0, angle != 0.0) {
+            (true, true) => write!(f, "{} m and {}°", short(distance), short(angle)),
+            (false, true) => write!(f, "{}°", short(angle)),
+            _ => write!(f, "{} m", short(distance)),
         }
     }
 }
 
-fn list(rows: &[Misfit]) -> String {
-    let parts = rows.iter().take(NAMED_ROWS);
-    let parts: Vec<String> = parts
-        .map(|m| format!("{} by {:.3e}", m.row, m.residual))
-        .collect();
-    let named = parts.join(", ");
-    match rows.len().saturating_sub(NAMED_ROWS) {
+/// A number with four digits.
+fn short(x: f64) -> String {
+    if (1e-3..1e4).contains(&x) {
+        let digits = (3.0 - x.log10().floor()).max(0.0);
+        format!("{x:.*}", digits as usize)
+    } else {
+        format!("{x:.3e}")
+    }
+}
+
+fn needed(body: &str, level: KeepLevel, rotation: &str) -> String {
+    match level {
+        KeepLevel::Position => format!("hold `{body}.{rotation}` too"),
+        KeepLevel::Velocity => {
+            format!("give its `velocity` and `angular_velocity`, and hold `{body}.{rotation}` too")
+        }
+    }
+}
+
+fn list(misfits: &[Misfit]) -> String {
+    let parts = misfits.iter().take(NAMED).map(Misfit::to_string);
+    let named = parts.collect::<Vec<_>>().join(", ");
+    match misfits.len().saturating_sub(NAMED) {
         0 => named,
         more => format!("{named}, and {more} more"),
     }
 }
 
-/// Largest number of rows named in a message.
-const NAMED_ROWS: usize = 20;
+/// Largest number of joints named in a message.
+const NAMED: usize = 20;

@@ -57,6 +57,13 @@ pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) 
 /// would overflow.
 const LIGHTEST: f64 = 1e-30;
 
+/// Inverse weights of the coordinates in the metric of lengths, with angles times the size.
+pub(super) fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let turns = |j| mechanism.space().is_rotation(j);
+    let weight = |j| if turns(j) { 1.0 / (size * size) } else { 1.0 };
+    (0..mechanism.layout().n_v).map(weight).collect()
+}
+
 /// Inverse weights of the coordinates in the mass metric; coordinates without mass or inertia have
 /// the weight of the smallest one with mass or inertia.
 pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {

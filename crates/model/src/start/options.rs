@@ -2,6 +2,7 @@
 
 use super::error::StartError;
 use crate::mechanism::Mechanism;
+use crate::space::SpaceKind;
 
 /// Options of a start.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,7 +32,9 @@ pub enum CorrectionLimit {
 pub struct Coordinate {
     /// Index of the body in the list.
     pub body: usize,
-    /// Index of its velocity: in the plane 0 for x, 1 for y, 2 for the angle.
+    /// Index of its velocity: in the plane 0 for x, 1 for y, 2 for the angle; in space 0 to 2 for
+    /// x, y and z, then the rotations. Single components of an angular velocity are those about
+    /// the axes of the ground; rotations themselves are kept together.
     pub dof: usize,
     /// Position or velocity.
     pub level: KeepLevel,
@@ -40,9 +43,10 @@ pub struct Coordinate {
 /// Position or velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeepLevel {
-    /// `x`, `y` or `angle`
+    /// `x`, `y` or `angle`; in space `x`, `y`, `z` or `rotation`
     Position,
-    /// `vx`, `vy` or `omega`
+    /// `vx`, `vy` or `omega`; in space `vx`, `vy`, `vz`, `wx`, `wy`, `wz`, or `omega` for the last
+    /// three
     Velocity,
 }
 
@@ -71,8 +75,16 @@ pub(super) fn kept_columns(
                 KeepLevel::Velocity => !described.has_velocity(),
             };
             if !turns(dof) && !described.is_centred() && (is_open || !is_turn_kept()) {
-                let body = described.name.clone();
-                return Err(StartError::KeptOrigin { body, level });
+                let rotation = match (level, space) {
+                    (KeepLevel::Velocity, _) => "omega",
+                    (KeepLevel::Position, SpaceKind::Space3) => "rotation",
+                    (KeepLevel::Position, _) => "angle",
+                };
+                return Err(StartError::KeptOrigin {
+                    body: described.name.clone(),
+                    level,
+                    rotation,
+                });
             }
             Ok(space.n_v() * body + dof)
         })

@@ -111,15 +111,15 @@ pub fn consistent_velocity(
         _ => v - written,
     });
     Ok(StartVelocity {
-        correction: correction.collect(),
-        v,
+        correction: start.equations.velocities(&correction.collect::<Vec<_>>()),
+        v: start.equations.velocities(&v),
     })
 }
 
 /// Requirements on the velocities of a start.
 pub(super) struct Start<'m> {
     pub(super) equations: Equations<'m>,
-    /// Given velocities; zero if not given.
+    /// Given velocities, as the equations have them; zero if not given.
     pub(super) written: Vec<f64>,
     /// Whether each is given in the scene.
     pub(super) is_written: Vec<bool>,
@@ -148,9 +148,12 @@ impl<'m> Start<'m> {
         for column in kept_columns(mechanism, options, KeepLevel::Velocity)? {
             hold[column] = Hold::Kept;
         }
+        let equations = Equations::new(mechanism, options, q);
+        let mut written: Vec<f64> = given.iter().map(|x| x.unwrap_or_default()).collect();
+        equations.take(&mut written);
         Ok(Self {
-            equations: Equations::new(mechanism, q),
-            written: given.iter().map(|x| x.unwrap_or_default()).collect(),
+            equations,
+            written,
             is_written: given.iter().map(Option::is_some).collect(),
             hold,
             limit: options.correction,

@@ -132,8 +132,8 @@ fn constraints_that_cannot_be_assembled() {
         &[
             "cannot be assembled",
             "still miss",
-            "(`pivot`, x) by",
-            "(`other`, x) by",
+            "`pivot` by 2.000 m",
+            "`other` by 2.000 m",
         ],
     );
 }

@@ -127,6 +127,7 @@ fn simulate_writes_the_files_of_the_contract() {
         "steps",
         "evaluations",
         "projections",
+        "normalisations",
         "wall_seconds",
         "max_position_residual",
         "max_velocity_residual",

@@ -85,6 +85,8 @@ pub struct RunDocument {
     pub evaluations: u64,
     /// Projections of steps.
     pub projections: u64,
+    /// Quaternions that were scaled to length one at accepted steps.
+    pub normalisations: u64,
     /// Wall-clock time of the integration alone (s).
     pub wall_seconds: f64,
     /// Largest |Φ|.
@@ -138,6 +140,8 @@ pub struct ComponentRunDocument {
     pub evaluations: u64,
     /// Projections of steps.
     pub projections: u64,
+    /// Quaternions that were scaled to length one at accepted steps.
+    pub normalisations: u64,
     /// Largest |Φ|.
     pub max_position_residual: f64,
     /// Largest |C·v − b|.
@@ -303,6 +307,7 @@ impl RunDocument {
             rejected: summary.rejected,
             evaluations: summary.evaluations,
             projections: summary.projections,
+            normalisations: summary.normalisations,
             wall_seconds: summary.wall_seconds,
             max_position_residual: summary.max_position_residual,
             max_velocity_residual: summary.max_velocity_residual,
@@ -338,6 +343,7 @@ impl ComponentRunDocument {
             rejected: summary.rejected,
             evaluations: summary.evaluations,
             projections: summary.projections,
+            normalisations: summary.normalisations,
             max_position_residual: summary.max_position_residual,
             max_velocity_residual: summary.max_velocity_residual,
             energy_balance: summary.energy_balance,

@@ -48,7 +48,7 @@ const MATRIX_EXPECTED: &str = "a rotation matrix of three rows";
 const ROUGH: f64 = 1e-2;
 
 /// Reads an orientation as a quaternion (w, x, y, z) of any length.
-pub(super) fn read(field: &Field, findings: &mut Findings) -> Option<[f64; 4]> {
+pub(crate) fn read(field: &Field, findings: &mut Findings) -> Option<[f64; 4]> {
     let mut table = field.table(ORIENTATION.expected, findings)?;
     let given = [&QUATERNION, &AXIS, &RPY, &MATRIX].map(|key| table.optional(key));
     let angle = table.optional(&ANGLE);

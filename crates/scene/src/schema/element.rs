@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::value::{described, name_in, number, reference, tuple, vector};
 use crate::active::ACTIVE;
+use crate::between::{MARKERS, takes_markers};
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
 use crate::direction::{self, AXES, CROSS, FRAME, FRAMES};
@@ -73,12 +74,15 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
         }
         properties.insert(variant.key.to_owned(), value);
     }
+    let takes_markers = takes_markers::<S>(spec);
     let mut has_axes = None;
+    let mut directions = Vec::new();
     for parameter in spec.parameters {
         match parameter.shape {
             Shape::Point { .. } | Shape::Axes { like: Some(_), .. } => continue,
             Shape::Axes { .. } if parameter.optional => continue,
             Shape::Axes { .. } => has_axes = Some(parameter.name),
+            Shape::Direction { .. } if takes_markers => directions.push(parameter.name),
             _ if !parameter.optional => required.push(parameter.name),
             _ => {}
         }
@@ -95,20 +99,46 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
         "required": required,
         "additionalProperties": false,
     });
+    let markers = takes_markers.then(|| {
+        properties.insert(MARKERS.to_owned(), two_markers());
+        json!({ "required": [MARKERS] })
+    });
     let owners: Vec<usize> = spec.slots_of_points().collect();
     if !owners.is_empty() {
         let local = local_key(spec);
         properties.insert(AT.to_owned(), global::<S>(spec, owners.len()));
         properties.insert(local.to_owned(), in_bodies::<S>(spec, &owners));
-        table["oneOf"] = json!([{ "required": [AT] }, { "required": [local] }]);
+        let mut ways = vec![json!({ "required": [AT] }), json!({ "required": [local] })];
+        ways.extend(markers.clone());
+        table["oneOf"] = ways.into();
     }
+    let mut all = Vec::new();
     if let Some(axis) = has_axes {
         let mut ways = vec![json!({ "required": [axis] })];
         ways.extend(keys.contains(&AXES).then(|| json!({ "required": [AXES] })));
-        table["allOf"] = json!([{ "oneOf": ways }]);
+        ways.extend(markers.clone());
+        all.push(json!({ "oneOf": ways }));
+    }
+    if let Some(markers) = markers {
+        let ways = |key: &str| json!({ "oneOf": [{ "required": [key] }, markers] });
+        all.extend(directions.into_iter().map(ways));
+        // What only says where directions are written is refused beside markers.
+        let beside = keys.iter().filter(|key| [FRAME, CROSS].contains(*key));
+        all.extend(beside.map(|key| json!({ "not": { "required": [key, MARKERS] } })));
+    }
+    if !all.is_empty() {
+        table["allOf"] = all.into();
     }
     table["properties"] = properties.into();
     table
+}
+
+/// `markers`
+fn two_markers() -> Value {
+    let mut markers = tuple(vec![json!({ "type": "string" }); 2]);
+    markers["description"] = "Two markers [first, second] of the bodies, in place of points and directions: z along the axis of the joint, x across".into();
+    markers["uniqueItems"] = true.into();
+    markers
 }
 
 /// A key for directions beside the parameters.

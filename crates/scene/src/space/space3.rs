@@ -31,6 +31,9 @@ impl SceneSpace for Space3 {
         Kept::new("vx", 0..1, KeepLevel::Velocity),
         Kept::new("vy", 1..2, KeepLevel::Velocity),
         Kept::new("vz", 2..3, KeepLevel::Velocity),
+        Kept::new("wx", 3..4, KeepLevel::Velocity),
+        Kept::new("wy", 4..5, KeepLevel::Velocity),
+        Kept::new("wz", 5..6, KeepLevel::Velocity),
         Kept::new("omega", 3..6, KeepLevel::Velocity),
     ];
 

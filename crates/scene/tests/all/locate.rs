@@ -127,19 +127,19 @@ fn a_contradiction_points_at_all_its_drives() {
 }
 
 #[test]
-fn rows_that_miss_together_point_at_each_joint_once() {
+fn joints_that_miss_together_are_all_marked() {
     let scene = read_more(TWO_DRIVES);
     let mechanism = Mechanism::build(&scene.description).expect("a mechanism");
-    let labels = model::System::layout(&mechanism).labels.iter();
-    let rows = labels.map(|row| Misfit {
-        row: row.clone(),
-        residual: 1.0,
+    let joints = model::System::layout(&mechanism).groups.iter();
+    let misfits = joints.map(|joint| Misfit {
+        joint: joint.name.clone(),
+        distance: 1.0,
+        angle: 0.0,
     });
     let error = MotionError::Start(StartError::NoAssembly {
-        rows: rows.collect(),
+        misfits: misfits.collect(),
         iterations: 1,
     });
-    // The joint has two rows.
     let (first, others) = marks(&scene, &error);
     assert_eq!(first, "\"A\"");
     assert_eq!(others, ["\"slow\"", "\"fast\""]);

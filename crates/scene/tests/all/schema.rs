@@ -262,6 +262,49 @@ fn what_the_reader_refuses_by_form_is_not_valid() {
     }
 }
 
+/// A joint between markers, and the same with one key that says the place or the axis again.
+#[test]
+fn markers_stand_alone() {
+    let scene = |kind: &str, more: &str| {
+        format!(
+            "[scene]\nname = \"pin\"\nspace = \"spatial\"\n[[body]]\nname = \"a\"\nmass = 1.0\n\
+             inertia = [1, 1, 1]\n[[marker]]\nname = \"m\"\nbody = \"ground\"\npoint = [0, 0, 0]\n\
+             orientation = {{ rpy = [0, 0.5, 0] }}\n[[marker]]\nname = \"n\"\nbody = \"a\"\n\
+             point = [0, 0, 0]\n[[joint]]\nname = \"J\"\ntype = \"{kind}\"\n\
+             bodies = [\"ground\", \"a\"]\nmarkers = [\"m\", \"n\"]\n{more}"
+        )
+    };
+    for kind in [
+        "revolute",
+        "universal",
+        "fixed",
+        "spherical",
+        "perpendicular",
+        "orientation",
+    ] {
+        let text = scene(kind, "");
+        assert_eq!((read(&text).err(), verdict(&text)), (None, None), "{kind}");
+    }
+    for (kind, more) in [
+        ("revolute", "at = [0, 0, 0]"),
+        ("revolute", "points = { ground = [0, 0, 0], a = [0, 0, 0] }"),
+        ("revolute", "axis = [0, 0, 1]"),
+        ("revolute", "axes = { ground = [0, 0, 1], a = [0, 0, 1] }"),
+        ("revolute", "frame = \"global\""),
+        ("revolute", "cross = [1, 0, 0]"),
+        ("universal", "axis = [0, 0, 1]"),
+        ("universal", "cross = [1, 0, 0]"),
+        ("perpendicular", "cross = [1, 0, 0]"),
+    ] {
+        let text = scene(kind, more);
+        assert!(read(&text).is_err(), "the reader takes {more:?} of {kind}");
+        assert!(
+            verdict(&text).is_some(),
+            "the schema takes {more:?} of {kind}"
+        );
+    }
+}
+
 /// Expressions stand where numbers do, in format 2; the schema does not tell the formats apart.
 #[test]
 fn expressions_are_valid() {

@@ -242,6 +242,144 @@ fn directions_of_the_body_of_the_ground_and_of_both() {
     }
 }
 
+/// Two markers: on the ground z points along −y and x along x, on body d z along its x and x along
+/// its −z. Body d stands so that they coincide.
+const MARKED: &str = r#"[[body]]
+name = "d"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+centre = [0.0, 0.5, 0.0]
+position = [1.0, 0.0, 0.0]
+orientation = { matrix = [[0, 0, -1], [-1, 0, 0], [0, 1, 0]] }
+
+[[marker]]
+name = "bearing"
+body = "ground"
+point = [1.0, -2.0, 0.0]
+orientation = { axis = [1, 0, 0], angle = 1.5707963267948966 }
+
+[[marker]]
+name = "journal"
+body = "d"
+point = [2.0, 0.0, 0.0]
+orientation = { axis = [0, 1, 0], angle = 1.5707963267948966 }
+
+[[joint]]
+name = "J"
+bodies = ["ground", "d"]
+markers = ["bearing", "journal"]
+"#;
+
+/// z along the axis, x across: every joint holds where its markers coincide, and moves as its type
+/// says.
+#[test]
+fn a_joint_between_markers_has_their_places_and_axes() {
+    let along = [0.0, 1.0, 0.0];
+    let across = [1.0, 0.0, 0.0];
+    // Whether a joint allows rotations about z and about x of the first marker.
+    for (kind, allowed) in [
+        ("revolute", [true, false]),
+        ("cylindrical", [true, false]),
+        ("translational", [false, false]),
+        ("fixed", [false, false]),
+        ("orientation", [false, false]),
+        ("parallel", [true, false]),
+        ("universal", [true, true]),
+        ("perpendicular", [true, true]),
+        ("planar", [true, false]),
+        ("point-on-line", [true, true]),
+    ] {
+        let d = described(&format!("{BODIES}{MARKED}type = \"{kind}\"\n"));
+        let body = &d.bodies[3];
+        let pose = Pose::new(body.position, body.orientation);
+        let pose = Pose {
+            r: pose.to_global(body.centre),
+            ..pose
+        };
+        let element = &d.joints[0].element;
+        let phi = |second: Pose| {
+            let mut out = vec![0.0; element.spec().rows.len()];
+            element.phi(&[Pose::GROUND, second], &[], &mut out);
+            out.iter().fold(0.0_f64, |m, x| m.max(x.abs()))
+        };
+        assert!(phi(pose) < 1e-15, "{kind}: {}", phi(pose));
+        // About the place of the joint, at (1, −2, 0).
+        let moved = |by: f64, mut pose: Pose| {
+            pose.r[1] += by;
+            pose
+        };
+        for (axis, allowed) in [along, across].into_iter().zip(allowed) {
+            let there = moved(-2.0, turned(moved(2.0, pose), axis, 0.7));
+            assert_eq!(phi(there) < 1e-15, allowed, "{kind} about {axis:?}");
+        }
+    }
+}
+
+#[test]
+fn faults_of_markers() {
+    let scene = format!("{BODIES}{MARKED}type = \"revolute\"\n");
+    const GIVEN: &str = "markers = [\"bearing\", \"journal\"]";
+    check_in(
+        &scene,
+        &[
+            (
+                GIVEN,
+                "markers = [\"bearing\", «\"jornal\"»]",
+                "joint `J` refers to the unknown marker `jornal`",
+                "no such marker",
+            ),
+            (
+                GIVEN,
+                "markers = [«\"journal\"», \"journal\"]",
+                "joint `J`: marker `journal` belongs to `d`, and one of `ground` is needed here",
+                "not a marker of this body",
+            ),
+            (
+                GIVEN,
+                "markers = «[\"bearing\"]»",
+                "joint `J`: `markers` must be two markers [first, second], found a list of 1 value",
+                "expected two markers [first, second]",
+            ),
+            (
+                GIVEN,
+                "markers = [\"bearing\", \"journal\"]\nat = «[1, 0, 0]»",
+                "joint `J` takes `markers` or `at`, not both",
+                "and here once more",
+            ),
+            (
+                GIVEN,
+                "markers = [\"bearing\", \"journal\"]\npoints = «{ ground = [1, 0, 0], d = [0, 0, 0] }»",
+                "joint `J` takes `markers` or `points`, not both",
+                "and here once more",
+            ),
+            (
+                GIVEN,
+                "markers = [\"bearing\", \"journal\"]\naxis = «[1, 0, 0]»",
+                "joint `J` takes `markers` or `axis`, not both",
+                "and here once more",
+            ),
+            (
+                GIVEN,
+                "markers = [\"bearing\", \"journal\"]\naxes = «{ ground = [1, 0, 0], d = [0, 0, 1] }»",
+                "joint `J` takes `markers` or `axes`, not both",
+                "and here once more",
+            ),
+            (
+                GIVEN,
+                "markers = [\"bearing\", \"journal\"]\nframe = «\"global\"»",
+                "joint `J` takes `markers` or `frame`, not both",
+                "and here once more",
+            ),
+            (
+                GIVEN,
+                "markers = [\"bearing\", \"journal\"]\ncross = «[1, 0, 0]»",
+                "joint `J` takes `markers` or `cross`, not both",
+                "and here once more",
+            ),
+        ],
+    );
+}
+
 const SPACE: &str = r#"[scene]
 name = "small"
 space = "spatial"
@@ -410,6 +548,12 @@ fn the_other_space_is_named() {
                 "at = [0.0, 0.0]\n«cross» = [1, 0, 0]",
                 "joint `J` has no key `cross`",
                 "`cross` belongs to `space = \"spatial\"`",
+            ),
+            (
+                "at = [0.0, 0.0]",
+                "at = [0.0, 0.0]\n«markers» = [\"m\", \"m\"]",
+                "joint `J` has no key `markers`",
+                "`markers` belongs to `space = \"spatial\"`",
             ),
         ],
     );

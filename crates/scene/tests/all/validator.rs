@@ -80,6 +80,7 @@ fn check(
             let schemas = of.as_array().expect("schemas");
             refused(schemas.iter().all(|s| fault(root, s, value).is_some()))
         }
+        "not" => refused(fault(root, of, value).is_none()),
         "allOf" => {
             let mut schemas = of.as_array().expect("schemas").iter();
             schemas.find_map(|schema| fault(root, schema, value))

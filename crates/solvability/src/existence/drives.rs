@@ -3,6 +3,8 @@
 //! that is violated belongs to a drive, and no joint is named as the cause, however much the drives
 //! differ.
 
+use std::cell::OnceCell;
+
 use crate::error::AnalysisError;
 use crate::limits::{DRIVE_HALVINGS, DRIVE_POSITIONS, DRIVE_STEPS, ONE_PART, RUNS_NOTICE, STRIDE};
 use crate::pose::{dimensionless, uncertainty};
@@ -12,7 +14,7 @@ use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
 use rank::{RankDecision, circuits, components, decide_keeping};
 
 use super::{Comparison, ConstraintLevel, Contradiction};
-use crate::generic::{OtherConfiguration, generic};
+use crate::generic::{Generic, OtherConfiguration, generic};
 use crate::state::check_configuration;
 
 /// Contradictions between drives and the other constraints at time t and coordinates q: drives that
@@ -56,18 +58,31 @@ pub fn contradicting_drives_along(
         Some(rows) if rows.has_redundant_drives(mechanism) => {}
         _ => return Ok(None),
     }
+    // Other configurations are looked for once, if anything contradicts at all.
+    let elsewhere = OnceCell::new();
+    let elsewhere = || {
+        elsewhere
+            .get_or_init(|| generic(mechanism, 0.0, start))
+            .as_ref()
+    };
     walk(mechanism, start, t_end, |t, q| {
         let all = compared(mechanism, t, q, Notice::RunTo(t_end))?;
-        found = all.into_iter().find(|one| lasts(mechanism, start, one));
+        found = all
+            .into_iter()
+            .find(|one| lasts(mechanism, elsewhere(), one));
         Ok(found.is_none())
     })?;
     Ok(found)
 }
 
 /// Whether the drives of a contradiction are redundant at other configurations as well, if any can
-/// be reached from the start q: at a singular start a drive may be redundant that is needed at all
+/// be reached from the start: at a singular start a drive may be redundant that is needed at all
 /// configurations around it.
-fn lasts(mechanism: &Mechanism, q: &[f64], contradiction: &Contradiction) -> bool {
+fn lasts(
+    mechanism: &Mechanism,
+    elsewhere: Option<&Generic>,
+    contradiction: &Contradiction,
+) -> bool {
     let labels = &mechanism.layout().labels;
     let (drives, _) = contradiction.split_rows();
     let row = |label: &&RowLabel| labels.iter().position(|other| other == *label);
@@ -79,7 +94,7 @@ fn lasts(mechanism: &Mechanism, q: &[f64], contradiction: &Contradiction) -> boo
             drives.iter().any(|row| needed.binary_search(row).is_err())
         })
     };
-    generic(mechanism, 0.0, q).is_none_or(|found| found.points.iter().all(is_redundant))
+    elsewhere.is_none_or(|found| found.points.iter().all(is_redundant))
 }
 
 /// Whether there are no drives, or too many rows.

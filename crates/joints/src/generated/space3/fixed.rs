@@ -321,6 +321,9 @@ impl Definition<Space3> for Fixed {
     fn axes(&self) -> Option<[[f64; 3]; 3]> {
         Some(self.axes.uvw())
     }
+    fn parallel_axes(&self) -> Option<[[[f64; 3]; 3]; 2]> {
+        Some([self.axes.uvw(), self.axes_j.uvw()])
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s_i[0];
         out[1] = self.s_i[1];

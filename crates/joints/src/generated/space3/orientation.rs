@@ -219,6 +219,9 @@ impl Definition<Space3> for Orientation {
     fn axes(&self) -> Option<[[f64; 3]; 3]> {
         Some(self.axes.uvw())
     }
+    fn parallel_axes(&self) -> Option<[[[f64; 3]; 3]; 2]> {
+        Some([self.axes.uvw(), self.axes_j.uvw()])
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = 0.0;
         out[1] = 0.0;

@@ -181,6 +181,9 @@ impl Definition<Space3> for Parallel {
     fn axes(&self) -> Option<[[f64; 3]; 3]> {
         Some(self.axis.uvw())
     }
+    fn parallel_axes(&self) -> Option<[[[f64; 3]; 3]; 2]> {
+        Some([self.axis.uvw(), self.axis_j.uvw()])
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = 0.0;
         out[1] = 0.0;

@@ -27,7 +27,7 @@ impl Constraint<Space3> for Perpendicular {
             scene_type: "perpendicular",
             variant: None,
             doc: "The axis of body i stays perpendicular to the axis of body j.",
-            text: "joint! { space Perpendicular(i, j) {\n    /// The axis of body i stays perpendicular to the axis of body j.\n    params {\n        /// The axis on body i.\n        axis: Direction in i,\n        /// The axis on body j.\n        cross: Direction in j,\n    }\n    rows: [cross];\n    phi: dot(direction(i, axis), direction(j, cross));\n    place: origin(i);\n} }",
+            text: "joint! { space Perpendicular(i, j) {\n    /// The axis of body i stays perpendicular to the axis of body j.\n    params {\n        /// The axis on body i.\n        axis: Direction in i,\n        /// The axis on body j.\n        cross: Direction in j,\n    }\n    let k = dot(direction(i, axis), direction(j, cross));\n    require \"its two axes do not lie along one line\": 1.0 - k * k > 0.000001;\n    rows: [cross];\n    phi: k;\n    place: origin(i);\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
@@ -42,7 +42,7 @@ impl Constraint<Space3> for Perpendicular {
                 ),
             ],
             points_apart: false,
-            requirements: &[],
+            requirements: &["its two axes do not lie along one line"],
         },
         role: Role::Joint,
         level: Level::Holonomic,
@@ -125,7 +125,48 @@ impl Constraint<Space3> for Perpendicular {
 impl Definition<Space3> for Perpendicular {
     fn initialise(&mut self, x: &[Pose]) {}
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
+        match k {
+            0 => {
+                let rot_i_xx = x[0].rot[0][0];
+                let rot_i_xy = x[0].rot[0][1];
+                let rot_i_xz = x[0].rot[0][2];
+                let rot_i_yx = x[0].rot[1][0];
+                let rot_i_yy = x[0].rot[1][1];
+                let rot_i_yz = x[0].rot[1][2];
+                let rot_i_zx = x[0].rot[2][0];
+                let rot_i_zy = x[0].rot[2][1];
+                let rot_i_zz = x[0].rot[2][2];
+                let rot_j_xx = x[1].rot[0][0];
+                let rot_j_xy = x[1].rot[0][1];
+                let rot_j_xz = x[1].rot[0][2];
+                let rot_j_yx = x[1].rot[1][0];
+                let rot_j_yy = x[1].rot[1][1];
+                let rot_j_yz = x[1].rot[1][2];
+                let rot_j_zx = x[1].rot[2][0];
+                let rot_j_zy = x[1].rot[2][1];
+                let rot_j_zz = x[1].rot[2][2];
+                let axis_local_x = self.axis.xyz()[0];
+                let axis_local_y = self.axis.xyz()[1];
+                let axis_local_z = self.axis.xyz()[2];
+                let cross_local_x = self.cross.xyz()[0];
+                let cross_local_y = self.cross.xyz()[1];
+                let cross_local_z = self.cross.xyz()[2];
+                let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                    + rot_j_xz * cross_local_z;
+                let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                    + rot_j_yz * cross_local_z;
+                let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                    + rot_j_zz * cross_local_z;
+                let k = axis_local_x
+                    * (rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z)
+                    + axis_local_y
+                        * (rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z)
+                    + axis_local_z
+                        * (rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z);
+                -(k * k - 1.0) > 0.000001
+            }
+            _ => true,
+        }
     }
     fn points(&self) -> Vec<[f64; 3]> {
         vec![]

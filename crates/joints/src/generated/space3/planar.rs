@@ -301,6 +301,9 @@ impl Definition<Space3> for Planar {
     fn axes(&self) -> Option<[[f64; 3]; 3]> {
         Some(self.normal.uvw())
     }
+    fn parallel_axes(&self) -> Option<[[[f64; 3]; 3]; 2]> {
+        Some([self.normal.uvw(), self.normal_j.uvw()])
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s_i[0];
         out[1] = self.s_i[1];

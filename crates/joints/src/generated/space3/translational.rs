@@ -399,6 +399,9 @@ impl Definition<Space3> for Translational {
     fn axes(&self) -> Option<[[f64; 3]; 3]> {
         Some(self.axis.uvw())
     }
+    fn parallel_axes(&self) -> Option<[[[f64; 3]; 3]; 2]> {
+        Some([self.axis.uvw(), self.axis_j.uvw()])
+    }
     fn data(&self, out: &mut [f64]) {
         out[0] = self.s_i[0];
         out[1] = self.s_i[1];

@@ -35,7 +35,7 @@ impl Constraint<Space3> for WheelContact {
             scene_type: "wheel-contact",
             variant: None,
             doc: "A wheel touches a plane of the ground: of the circle of `radius` about point `s` across `axis` the lowest point lies in the plane. With the height h of the centre above the plane and the slope k = up·axis that is `(h² − radius²·(1 − k²))/(2·radius) = 0`.",
-            text: "joint! { space WheelContact(i) {\n    /// A wheel touches a plane of the ground: of the circle of `radius` about point `s` across `axis` the lowest point\n    /// lies in the plane. With the height h of the centre above the plane and the slope k = up·axis that is\n    /// `(h² − radius²·(1 − k²))/(2·radius) = 0`.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane.\n        radius: Length,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let h = dot(n, point(i, s) - start(plane));\n    let k = dot(n, a);\n    let steep = 1.0 - k * k;\n    initial { half_inverse: PerLength = 0.5 / radius }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    require \"the wheel does not lie flat\": steep > 0.000001;\n    rows: [contact];\n    phi: (h * h - radius * radius * steep) * half_inverse;\n    place: point(i, s) - (n - a * k) * (radius / norm(n - a * k));\n} }",
+            text: "joint! { space WheelContact(i) {\n    /// A wheel touches a plane of the ground: of the circle of `radius` about point `s` across `axis` the lowest point\n    /// lies in the plane. With the height h of the centre above the plane and the slope k = up·axis that is\n    /// `(h² − radius²·(1 − k²))/(2·radius) = 0`.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane.\n        radius: Length,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let h = dot(n, point(i, s) - start(plane));\n    let k = dot(n, a);\n    let steep = 1.0 - k * k;\n    initial { half_inverse: PerLength = 0.5 / radius }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    require \"the wheel does not lie flat\": steep > 0.000001;\n    require \"the wheel is on the side of the normal of its plane\": h > 0.0;\n    rows: [contact];\n    phi: (h * h - radius * radius * steep) * half_inverse;\n    place: point(i, s) - (n - a * k) * (radius / norm(n - a * k));\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
@@ -60,7 +60,11 @@ impl Constraint<Space3> for WheelContact {
                 ),
             ],
             points_apart: false,
-            requirements: &["the radius is not zero", "the wheel does not lie flat"],
+            requirements: &[
+                "the radius is not zero",
+                "the wheel does not lie flat",
+                "the wheel is on the side of the normal of its plane",
+            ],
         },
         role: Role::Joint,
         level: Level::Holonomic,
@@ -188,6 +192,35 @@ impl Definition<Space3> for WheelContact {
                 let k = plane_normal_x * a_x + plane_normal_y * a_y
                     + plane_normal_z * a_z;
                 -(k * k - 1.0) > 0.000001
+            }
+            2 => {
+                let r_i_x = x[0].r[0];
+                let r_i_y = x[0].r[1];
+                let r_i_z = x[0].r[2];
+                let rot_i_xx = x[0].rot[0][0];
+                let rot_i_xy = x[0].rot[0][1];
+                let rot_i_xz = x[0].rot[0][2];
+                let rot_i_yx = x[0].rot[1][0];
+                let rot_i_yy = x[0].rot[1][1];
+                let rot_i_yz = x[0].rot[1][2];
+                let rot_i_zx = x[0].rot[2][0];
+                let rot_i_zy = x[0].rot[2][1];
+                let rot_i_zz = x[0].rot[2][2];
+                let s_x = self.s[0];
+                let s_y = self.s[1];
+                let s_z = self.s[2];
+                let plane_point_x = self.plane.point()[0];
+                let plane_point_y = self.plane.point()[1];
+                let plane_point_z = self.plane.point()[2];
+                let plane_normal_x = self.plane.normal().xyz()[0];
+                let plane_normal_y = self.plane.normal().xyz()[1];
+                let plane_normal_z = self.plane.normal().xyz()[2];
+                let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
+                let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
+                let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
+                plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                    + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                    + plane_normal_z * (r_i_z - plane_point_z + arm_i_z) > 0.0
             }
             _ => true,
         }

@@ -1,0 +1,235 @@
+//! Axes that joints in space keep parallel, while their bodies are far from it.
+//!
+//! The rows of a joint are products of directions: `u·w' = v·w' = 0` holds for w' = w and for w' =
+//! −w, and three such products hold for four orientations. While a start is assembled the rotation
+//! vector of the remaining rotation takes their place: it is zero only where the axes point as
+//! described, and near that it is equal to the products.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use crate::element::PlacedConstraint;
+use crate::system::Scratch;
+
+/// Sines of angles below this count as the angle, where the next term does not matter.
+const SERIES: f64 = 1e-4;
+
+/// Rows of one joint that keep axes parallel.
+pub(super) struct Parallel {
+    /// The rows: two if the bodies may rotate about the axis, otherwise three.
+    pub(super) rows: Range<usize>,
+    /// What is left of the angle (rad), 0 to π.
+    pub(super) angle: f64,
+    /// The residual of each row, in which the products of directions are replaced (rad), and its
+    /// derivative by the angular velocity of the second body against the first, ground axes.
+    pub(super) each: [(f64, [f64; 3]); 3],
+}
+
+impl Parallel {
+    /// The rows of a joint at the poses of the scratch; `None` if it keeps no axes parallel.
+    pub(super) fn of(joint: &PlacedConstraint, s: &Scratch) -> Option<Self> {
+        let [own, other] = joint.parallel_axes(&s.slots)?;
+        let names = joint.spec().rows;
+        let at = names.iter().position(|row| row.name == "axis_u")?;
+        let first = joint.rows.start + at;
+        let is_turn_kept = names.get(at + 2).is_some_and(|row| row.name == "turn");
+        let (count, (angle, each)) = if is_turn_kept {
+            (3, whole_rotation(own, other))
+        } else {
+            (2, swing(own, other[2]))
+        };
+        Some(Self {
+            rows: first..first + count,
+            angle,
+            each,
+        })
+    }
+
+    /// Whether the axes point as described, if the rows of the joint hold.
+    pub(super) fn is_as_described(&self) -> bool {
+        self.angle < 0.5 * PI
+    }
+}
+
+type Residuals = (f64, [(f64, [f64; 3]); 3]);
+
+/// The smallest rotation of w to `other`: the components `α/sin α·(u·w', v·w')` of its rotation
+/// vector along v and −u.
+fn swing([u, v, w]: [[f64; 3]; 3], other: [f64; 3]) -> Residuals {
+    let (along_u, along_v, cos) = (dot(u, other), dot(v, other), dot(w, other));
+    let sin = along_u.hypot(along_v);
+    let angle = sin.atan2(cos);
+    if sin < SERIES && cos < 0.0 {
+        // Half a turn, about any direction across.
+        let back = u.map(|x| -x);
+        return (angle, [(angle, v), (0.0, back), (0.0, [0.0; 3])]);
+    }
+    // f = α/sin α, and its derivative by cos α.
+    let factor = if sin > 0.0 { angle / sin } else { 1.0 };
+    let slope = if sin < SERIES {
+        -1.0 / 3.0
+    } else {
+        (cos * factor - 1.0) / (sin * sin)
+    };
+    let turning = cross(other, w);
+    let row = |along: f64, direction: [f64; 3]| {
+        let own = cross(other, direction);
+        let gradient = [0, 1, 2].map(|k| factor * own[k] + slope * along * turning[k]);
+        (factor * along, gradient)
+    };
+    (angle, [row(along_u, u), row(along_v, v), (0.0, [0.0; 3])])
+}
+
+/// The components along v, −u and w of the vector θ of the rotation of the axes to `other`. With ω
+/// in these axes, `θ̇ = ω − ½·θ×ω + β·θ×(θ×ω)`, `β = (1 − ½θ·cot ½θ)/θ²`.
+fn whole_rotation(own: [[f64; 3]; 3], other: [[f64; 3]; 3]) -> Residuals {
+    let [w, e @ ..] = quaternion(own.map(|a| other.map(|b| dot(a, b))));
+    let half = norm(e).atan2(w);
+    let (angle, length) = (2.0 * half, norm(e));
+    let theta = if length > 0.0 {
+        e.map(|x| angle * x / length)
+    } else {
+        [0.0; 3]
+    };
+    let square = angle * angle;
+    let beta = if square < SERIES * SERIES {
+        1.0 / 12.0
+    } else {
+        (1.0 - half / half.tan()) / square
+    };
+    // Row k of the matrix is the derivative of θ_k by ω, in ground axes.
+    let gradient = |k: usize| {
+        let unit = [0, 1, 2].map(|l| if l == k { 1.0 } else { 0.0 });
+        // (θ×)ᵀ = −θ×
+        let once = cross(theta, unit);
+        let twice = cross(theta, once);
+        let own_axes = [0, 1, 2].map(|l| unit[l] + 0.5 * once[l] + beta * twice[l]);
+        [0, 1, 2].map(|x| (0..3).map(|l| own_axes[l] * own[l][x]).sum())
+    };
+    let minus = |(r, g): (f64, [f64; 3])| (-r, g.map(|x| -x));
+    let [u, v, w] = [0, 1, 2].map(|k| (theta[k], gradient(k)));
+    (angle, [v, minus(u), w])
+}
+
+/// The unit quaternion of a rotation matrix, by rows, with w ≥ 0: from its largest component.
+fn quaternion(r: [[f64; 3]; 3]) -> [f64; 4] {
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = r;
+    // Row k is 4·e_k·e.
+    let rows = [
+        [1.0 + xx + yy + zz, zy - yz, xz - zx, yx - xy],
+        [zy - yz, 1.0 + xx - yy - zz, xy + yx, xz + zx],
+        [xz - zx, xy + yx, 1.0 - xx + yy - zz, yz + zy],
+        [yx - xy, xz + zx, yz + zy, 1.0 - xx - yy + zz],
+    ];
+    let largest = (1..4).fold(0, |a, k| if rows[k][k] > rows[a][a] { k } else { a });
+    let row = rows[largest];
+    let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+    row.map(|x| x / length.copysign(row[0]))
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    joints::space3::dot(a, b)
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    joints::space3::cross(a, b)
+}
+
+fn norm(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Rotation3, Unit, Vector3};
+
+    use super::*;
+
+    /// Step and bound of difference quotients.
+    const STEP: f64 = 1e-6;
+    const AGREES: f64 = 1e-7;
+
+    fn axes(r: &Rotation3<f64>) -> [[f64; 3]; 3] {
+        [0, 1, 2].map(|k| r.matrix().column(k).into_owned().into())
+    }
+
+    /// Rotations of several sizes about several axes, and those of the first body.
+    fn cases() -> impl Iterator<Item = (Rotation3<f64>, Vector3<f64>)> {
+        let own = Rotation3::from_scaled_axis(Vector3::new(0.7, -1.1, 0.4));
+        let directions = [[1.0, 0.2, -0.3], [-0.4, 0.9, 1.3], [0.1, -1.0, 0.2]];
+        [1e-6, 0.1, 1.0, 2.0, 3.0]
+            .into_iter()
+            .flat_map(move |angle| {
+                directions.into_iter().map(move |d| {
+                    let direction = Unit::new_normalize(Vector3::from(d));
+                    (own, angle * direction.into_inner())
+                })
+            })
+    }
+
+    /// The rotation vector of nalgebra, and its difference quotients.
+    #[test]
+    fn a_whole_rotation_is_told_by_its_vector() {
+        for (own, turn) in cases() {
+            let at = |more: Vector3<f64>| {
+                let other =
+                    Rotation3::from_scaled_axis(more) * own * Rotation3::from_scaled_axis(turn);
+                whole_rotation(axes(&own), axes(&other))
+            };
+            let (angle, each) = at(Vector3::zeros());
+            assert!((angle - turn.norm()).abs() < 1e-14, "{angle}");
+            let expected = [turn[1], -turn[0], turn[2]];
+            for (k, (found, gradient)) in each.into_iter().enumerate() {
+                assert!((found - expected[k]).abs() < 1e-13, "{k}: {found}");
+                for x in 0..3 {
+                    let step = Vector3::ith(x, STEP);
+                    let slope = (at(step).1[k].0 - at(-step).1[k].0) / (2.0 * STEP);
+                    assert!((slope - gradient[x]).abs() < AGREES, "{turn}, {k}, {x}");
+                }
+            }
+        }
+    }
+
+    /// What is left of the angle of two axes, and difference quotients; a rotation about the axis
+    /// does not count.
+    #[test]
+    fn a_swing_is_told_by_the_angle_of_the_axes() {
+        for (own, turn) in cases() {
+            let across = Vector3::new(turn[0], turn[1], 0.0);
+            let at = |more: Vector3<f64>| {
+                let other = Rotation3::from_scaled_axis(more)
+                    * own
+                    * Rotation3::from_scaled_axis(across)
+                    * Rotation3::from_scaled_axis(Vector3::new(0.0, 0.0, 0.8));
+                swing(axes(&own), axes(&other)[2])
+            };
+            let (angle, each) = at(Vector3::zeros());
+            assert!((angle - across.norm()).abs() < 1e-9, "{angle}");
+            let expected = [across[1], -across[0]];
+            for (k, expected) in expected.into_iter().enumerate() {
+                let (found, gradient) = each[k];
+                assert!((found - expected).abs() < 1e-9, "{k}: {found}");
+                for x in 0..3 {
+                    let step = Vector3::ith(x, STEP);
+                    let slope = (at(step).1[k].0 - at(-step).1[k].0) / (2.0 * STEP);
+                    assert!((slope - gradient[x]).abs() < AGREES, "{turn}, {k}, {x}");
+                }
+            }
+        }
+    }
+
+    /// Neither half a turn of an axis nor of a body counts as aligned.
+    #[test]
+    fn half_a_turn_is_no_zero() {
+        let own = Rotation3::from_scaled_axis(Vector3::new(0.3, 0.2, 0.1));
+        for k in 0..3 {
+            let half = own * Rotation3::from_scaled_axis(Vector3::ith(k, PI));
+            let (angle, each) = whole_rotation(axes(&own), axes(&half));
+            assert!((angle - PI).abs() < 1e-7);
+            assert!((norm(each.map(|(r, _)| r)) - PI).abs() < 1e-7);
+        }
+        let [u, v, w] = axes(&own);
+        let (angle, each) = swing([u, v, w], w.map(|x| -x));
+        assert!((angle - PI).abs() < 1e-7 && (each[0].0 - PI).abs() < 1e-7);
+    }
+}

@@ -1,0 +1,159 @@
+//! `markers`: a joint between two oriented markers, z along its axis, x across; points and
+//! directions of both bodies are those of the markers.
+
+use std::ops::Range;
+
+use joints::Argument;
+use joints::space3::Axes;
+use joints::spec::{Shape, Spec};
+use model::{BodyRef, Marker};
+
+use crate::body::Bodies;
+use crate::connection::listed;
+use crate::direction;
+use crate::field::Field;
+use crate::findings::Findings;
+use crate::mistake::Mistake;
+use crate::place::{self, AT};
+use crate::space::SceneSpace;
+use crate::table::Table;
+
+/// The key of the markers of both bodies.
+pub(crate) const MARKERS: &str = "markers";
+
+/// What it takes.
+const EXPECTED: &str = "two markers [first, second]";
+
+/// Whether a definition connects two bodies at points or along axes, which markers can give.
+pub(crate) fn takes_markers<S: SceneSpace>(spec: &Spec) -> bool {
+    let is_given = |shape: Shape| {
+        matches!(
+            shape,
+            Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. }
+        )
+    };
+    S::CARRIES && listed(spec) == 2 && spec.parameters.iter().any(|p| is_given(p.shape))
+}
+
+/// Keys that say the same as `markers`: the place, and parameters and keys of directions.
+fn replaced(spec: &'static Spec) -> Vec<&'static str> {
+    let mut keys = Vec::new();
+    if spec.slots_of_points().next().is_some() {
+        keys.extend([AT, place::local_key(spec)]);
+    }
+    keys.extend(directions(spec));
+    keys.extend(direction::keys(spec));
+    keys
+}
+
+/// The parameters of a definition that are written as directions.
+fn directions(spec: &'static Spec) -> impl Iterator<Item = &'static str> {
+    let is_written = |shape: Shape| {
+        matches!(
+            shape,
+            Shape::Direction { .. } | Shape::Axes { like: None, .. }
+        )
+    };
+    let parameters = spec.parameters.iter();
+    parameters
+        .filter(move |p| is_written(p.shape) && !p.optional)
+        .map(|p| p.name)
+}
+
+/// The markers of a joint, and their place in the text.
+pub(crate) struct Between<'b> {
+    markers: [Option<&'b Marker>; 2],
+    pub(crate) span: Range<usize>,
+}
+
+impl<'b> Between<'b> {
+    /// Reads `markers` of a definition whose slots contain the bodies `slots`; `None` if it is not
+    /// written.
+    pub(crate) fn read<S: SceneSpace>(
+        table: &mut Table,
+        spec: &'static Spec,
+        slots: &[Option<BodyRef>],
+        bodies: &'b Bodies<S>,
+        findings: &mut Findings,
+    ) -> Option<Self> {
+        if !takes_markers::<S>(spec) {
+            return None;
+        }
+        let field = table.optional(MARKERS)?;
+        let between = Self {
+            markers: of_bodies(&field, slots, bodies, findings).unwrap_or_default(),
+            span: field.span(),
+        };
+        for key in replaced(spec) {
+            if let Some(other) = table.optional(key) {
+                findings.collision(
+                    Mistake::Exclusive,
+                    other.span(),
+                    format!("{} takes `{MARKERS}` or `{key}`, not both", table.subject),
+                    "and here once more",
+                    field.span(),
+                    "place and axes are those of the markers",
+                );
+            }
+        }
+        Some(between)
+    }
+
+    /// The points of a definition, relative to the centres of mass of their bodies.
+    pub(crate) fn points<S: SceneSpace>(
+        &self,
+        spec: &Spec,
+        bodies: &Bodies<S>,
+    ) -> Vec<Option<S::Vector<f64>>> {
+        let point = |slot: usize| self.of(slot).map(|marker| bodies.place_of(marker));
+        spec.slots_of_points().map(point).collect()
+    }
+
+    /// The value of a parameter along or across the axis: z of the marker of its body, and x for
+    /// what is called `cross`.
+    pub(crate) fn direction<S: SceneSpace>(&self, name: &str, shape: Shape) -> Option<Argument> {
+        match shape {
+            Shape::Axes { slot, .. } => {
+                let [x, y, z] = self.of(slot)?.axes();
+                Some(Argument::Axes(Axes::FRAME.map(|d| {
+                    [0, 1, 2].map(|k| d[0] * x[k] + d[1] * y[k] + d[2] * z[k])
+                })))
+            }
+            Shape::Direction { slot } => {
+                let [x, _, z] = self.of(slot)?.axes();
+                let along = if name == direction::CROSS { x } else { z };
+                Some(S::argument(S::vector(along)))
+            }
+            _ => None,
+        }
+    }
+
+    fn of(&self, slot: usize) -> Option<&'b Marker> {
+        self.markers.get(slot).copied().flatten()
+    }
+}
+
+/// One marker of each of the two bodies.
+fn of_bodies<'b, S: SceneSpace>(
+    field: &Field,
+    slots: &[Option<BodyRef>],
+    bodies: &'b Bodies<S>,
+    findings: &mut Findings,
+) -> Option<[Option<&'b Marker>; 2]> {
+    let items = field.items(EXPECTED, findings)?;
+    let [first, second] = items.as_slice() else {
+        field.miscount(EXPECTED, items.len(), 2, findings);
+        return None;
+    };
+    let mut of_slot = |slot: usize, field: &Field| {
+        let marker = bodies.markers.find(field, findings)?;
+        let body = slots.get(slot).copied().flatten()?;
+        if marker.body != body {
+            let needed = format!("one of `{}` is needed here", bodies.names.name(body));
+            bodies.not_of_body(marker, &needed, field, findings);
+            return None;
+        }
+        Some(marker)
+    };
+    Some([of_slot(0, first), of_slot(1, second)])
+}
