@@ -66,7 +66,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
             there.0 != *t || length(moved, &units, size) >= POINTS_APART
         };
         if visited.iter().all(is_new) {
-            points.extend(elsewhere(mechanism, &there, (&rows, &compared)));
+            points.extend(elsewhere(mechanism, &there, &compared));
         }
         visited.push(there);
         if points.len() == POINTS {
@@ -180,7 +180,7 @@ fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>>
         let mut rows = here.kept.clone();
         rows.push(row);
         let found = rank::decide(&c.select_rows(&rows), &known.select_rows(&rows));
-        found.is_ok_and(|found| found.rank == here.rank)
+        found.is_ok_and(|found| found.is_decided() && found.rank == here.rank)
     };
     let dependent = here
         .dropped
@@ -192,17 +192,20 @@ fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>>
     Some(rows)
 }
 
-/// The rank of the compared rows at a point that satisfies others, if it is decided there.
+/// The rank of the compared rows at a point, if it is decided there.
 fn elsewhere(
     mechanism: &Mechanism,
     (t, q): &(f64, Vec<f64>),
-    (rows, compared): (&[usize], &[usize]),
+    compared: &[usize],
 ) -> Option<OtherConfiguration> {
     let mut s = crate::pose::evaluated(mechanism, *t, q);
-    // Drives and rows that are redundant within a tolerance were left out of the walk, so the
-    // residuals of their rows say nothing about the accuracy of this configuration.
-    for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
-        s.phi[i] = 0.0;
+    // Drives were left out of the walk, and have other values at this configuration. A row that was
+    // left out because it is redundant within a tolerance has to agree there with the others.
+    let layout = mechanism.layout();
+    for group in layout.groups.iter().filter(|g| g.is_drive()) {
+        for i in group.rows.clone().filter(|i| *i < layout.m) {
+            s.phi[i] = 0.0;
+        }
     }
     let decision = Rows::in_double(mechanism, &s, q)
         .select(compared)

@@ -1,14 +1,25 @@
 //! Poses that a mechanism reaches on its kept rows: a redundancy exists at all of them, a
 //! singularity at one only.
+//!
+//! Within a stated tolerance the intended mechanism has other data, and is at a pose nearby. A pose
+//! counts only if it certainly exists there, by the condition of Newton and Kantorovich:
+//! `‖C_K⁺‖·γ·η ≤ ½`, with the distance η by which data within the tolerance move the pose to first
+//! order, and the constant γ = 1 by which C changes with a pose, in units of the size. Elsewhere the
+//! first order says nothing: near a singular pose of the kept rows the walk may have gone on along a
+//! branch that the intended mechanism does not have.
+//!
+//! Source: L. V. Kantorovich, G. P. Akilov, Functional Analysis (1982), ch. XVIII.
 
 use crate::limits::{
-    OTHER_DIRECTIONS, WALK_CORRECTED, WALK_POSES, WALK_REACH, WALK_SMALL_STEPS, WALK_STEPS,
+    KNOWN_POSE, OTHER_DIRECTIONS, WALK_CORRECTED, WALK_POSES, WALK_REACH, WALK_SMALL_STEPS,
+    WALK_STEPS,
 };
 use crate::pose::{dimensionless, velocity_units};
-use linalg::Matrix;
+use linalg::{Matrix, singular_values};
 use model::start::{Metric, nearest_configuration};
+use model::{DataBlock, Scratch, System};
 
-use super::follow::{Ground, Step};
+use super::follow::{Followed, Ground, Step};
 use super::pose::Candidate;
 use super::share::Question;
 
@@ -18,7 +29,7 @@ pub(super) struct Walk {
     sides: [Vec<Step>; 2],
     /// Coordinates of each pose, its side, and the number of steps that lead there.
     stops: Vec<(Vec<f64>, usize, usize)>,
-    /// Whether all requested poses were reached, or nothing can move.
+    /// Whether all poses of one side were reached, or nothing can move.
     pub(super) is_complete: bool,
 }
 
@@ -49,7 +60,16 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
     };
     let (mut sides, mut stops) = ([Vec::new(), Vec::new()], Vec::new());
     let is_still = free_directions(&dimensionless(mechanism, question.s, size), kept).nrows() == 0;
-    let signs = if is_still { &[][..] } else { &[1.0, -1.0] };
+    let is_known = |s: &Scratch| {
+        let blurred = question.tolerance().map(|_| blurred(question, &ground, s));
+        blurred.is_none_or(|blurred| blurred <= KNOWN_POSE)
+    };
+    let signs = if is_still || !is_known(question.s) {
+        &[][..]
+    } else {
+        &[1.0, -1.0]
+    };
+    let mut is_complete = is_still;
     for (side, sign) in signs.iter().enumerate() {
         let way: &mut Vec<Step> = &mut sides[side];
         let mut q = question.q.to_vec();
@@ -68,17 +88,47 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
             let Some((there, on, taken)) = next else {
                 break;
             };
+            if !is_known(&crate::pose::evaluated(mechanism, ground.t, &there)) {
+                break;
+            }
             (q, heading) = (there, on);
             way.extend(taken);
             stops.push((q.clone(), side, way.len()));
         }
+        is_complete |= stops.iter().filter(|(_, own, _)| *own == side).count() == WALK_POSES;
     }
-    let is_complete = is_still || stops.len() == 2 * WALK_POSES;
     Walk {
         sides,
         stops,
         is_complete,
     }
+}
+
+/// `‖C_K⁺‖·η` of the kept rows of Φ at the pose of the scratch. Lengths are measured by the size of
+/// the mechanism, and the largest entry of each row is one.
+fn blurred(question: &Question<'_>, ground: &Ground<'_>, s: &Scratch) -> f64 {
+    let (mechanism, size) = (question.mechanism, question.size);
+    let rows = ground.holonomic();
+    let mut scaled = dimensionless(mechanism, s, size).select_rows(&rows);
+    let mut own = Vec::with_capacity(rows.len());
+    for (i, &row) in rows.iter().enumerate() {
+        let largest = scaled.row(i).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        scaled.row_mut(i).iter_mut().for_each(|x| *x /= largest);
+        own.push((row, largest.recip()));
+    }
+    let Some(&weakest) = singular_values(&scaled).last() else {
+        return 0.0;
+    };
+    let followed = Followed::new(&scaled, own, ground.units.to_vec());
+    let data = mechanism.data();
+    let blocks = data.blocks(s);
+    let moved = ground.units.iter().enumerate().map(|(column, unit)| {
+        let mut gradient = vec![0.0; ground.units.len()];
+        gradient[column] = 1.0;
+        let (lambda, _) = followed.split(&gradient, mechanism.layout().rows());
+        data.phi_change(s, &lambda, &blocks, DataBlock::known_to) / (unit * size)
+    });
+    moved.fold(0.0, f64::max) / weakest
 }
 
 /// One step, which is recorded if nonholonomic rows are kept. Returns `None` if the step cannot be
