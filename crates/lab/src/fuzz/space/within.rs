@@ -49,7 +49,7 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
                 let Judged {
                     findings,
                     other_rank: other,
-                } = meant.judge(document, precision.tolerance, known);
+                } = meant.judge(document, precision.tolerance);
                 other_rank = other;
                 findings
             },
@@ -76,7 +76,7 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
 }
 
 /// The right results for a drawing, with their distance from others.
-struct Meant<'a> {
+pub struct Meant<'a> {
     truth: &'a Truth<'a>,
     /// The rank at other poses.
     elsewhere: Elsewhere,
@@ -88,7 +88,9 @@ struct Meant<'a> {
 }
 
 impl<'a> Meant<'a> {
-    fn of(truth: &'a Truth<'a>) -> Self {
+    /// The right results, from exact arithmetic.
+    #[must_use]
+    pub fn of(truth: &'a Truth<'a>) -> Self {
         let size = size(truth.drawing);
         let margins = Margins::of(truth, size);
         Self {
@@ -105,7 +107,10 @@ impl<'a> Meant<'a> {
         CHANGES * (self.truth.rows.len() as f64).sqrt() * tolerance / self.size
     }
 
-    fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>, known: f64) -> Judged {
+    /// Compares a document with the right results; a tolerance (m) is stated or not.
+    #[must_use]
+    pub fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>) -> Judged {
+        let known = tolerance.map_or(0.0, |t| self.known(t));
         let mut judged = Judged::default();
         let findings = &mut judged.findings;
         let mut right = Right {
