@@ -26,9 +26,8 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    /// Factors the selected rows of a scaled C.
-    pub(super) fn new(scaled: &Matrix, rows: Vec<(usize, f64)>, columns: Vec<f64>) -> Self {
-        let qr = PivotedQr::of_rows(scaled.clone());
+    /// Takes factored rows of a scaled C.
+    pub(super) fn new(qr: PivotedQr, rows: Vec<(usize, f64)>, columns: Vec<f64>) -> Self {
         Self { rows, columns, qr }
     }
 
@@ -126,7 +125,8 @@ impl Ground<'_> {
 
     pub(super) fn followed(&self, c: &Matrix, rows: &[usize]) -> Followed {
         let own = rows.iter().map(|&i| (i, 1.0)).collect();
-        Followed::new(&c.select_rows(rows), own, self.units.to_vec())
+        let factored = PivotedQr::of_rows(c.select_rows(rows));
+        Followed::new(factored, own, self.units.to_vec())
     }
 
     /// The kept rows of Φ.
