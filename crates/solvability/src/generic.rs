@@ -12,7 +12,7 @@ use crate::limits::{
 use crate::pose::{dimensionless, uncertainty, velocity_units};
 use linalg::{Matrix, PivotedQr};
 use model::start::{Metric, nearest_configuration, scene_size};
-use model::{Mechanism, System};
+use model::{DataBlock, Mechanism, SHARED, System};
 use rank::RankDecision;
 
 use crate::certificate::{Rows, holding_together};
@@ -50,7 +50,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     if mechanism.layout().rows() > ONE_PART {
         return None;
     }
-    let rows = holding_together(mechanism, t, q, lasting_rows(mechanism));
+    let rows = Lasting::of(mechanism, t, q);
     let compared = compared_rows(mechanism, t, q)?;
     let size = scene_size(mechanism, q);
     let units = velocity_units(mechanism, size);
@@ -66,7 +66,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
             there.0 != *t || length(moved, &units, size) >= POINTS_APART
         };
         if visited.iter().all(is_new) {
-            points.extend(elsewhere(mechanism, &there, (&rows, &compared)));
+            points.extend(elsewhere(mechanism, &there, &compared));
         }
         visited.push(there);
         if points.len() == POINTS {
@@ -99,20 +99,60 @@ pub fn is_permanent(
 }
 
 /// Rows of Φ that do not belong to drives.
-fn lasting_rows(mechanism: &Mechanism) -> Vec<usize> {
-    let layout = mechanism.layout();
-    let lasting = layout.groups.iter().filter(|g| !g.is_drive());
-    lasting
-        .flat_map(|g| g.rows.clone())
-        .filter(|row| *row < layout.m)
-        .collect()
+struct Lasting {
+    /// Rows that are satisfied at other points.
+    held: Vec<usize>,
+    /// Rows that are redundant within a stated tolerance, ascending: at other points they have
+    /// residuals.
+    dropped: Vec<usize>,
+}
+
+impl Lasting {
+    fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
+        let layout = mechanism.layout();
+        let lasting = layout.groups.iter().filter(|g| !g.is_drive());
+        let rows = lasting.flat_map(|g| g.rows.clone());
+        let mut dropped: Vec<usize> = rows.filter(|row| *row < layout.m).collect();
+        let held = holding_together(mechanism, t, q, dropped.clone());
+        dropped.retain(|row| !held.contains(row));
+        Self { held, dropped }
+    }
+
+    /// Whether data within the tolerance explain the residuals of the dropped rows at a point at
+    /// which the others are satisfied. On another branch of the held rows they do not.
+    fn agree(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> bool {
+        if self.dropped.is_empty() {
+            return true;
+        }
+        let s = crate::pose::evaluated(mechanism, t, q);
+        let c = dimensionless(mechanism, &s, scene_size(mechanism, q));
+        let held = PivotedQr::of_rows(c.select_rows(&self.held));
+        let blocks = mechanism.data().blocks(&s);
+        self.dropped.iter().all(|&row| {
+            // The dependency `row − Σ t_k·row k` of the held rows k.
+            let mut t = c.row(row).to_vec();
+            held.q_transpose_mul(&mut t);
+            t.truncate(self.held.len());
+            held.solve_r(&mut t);
+            let mut z = vec![0.0; mechanism.layout().rows()];
+            z[row] = 1.0;
+            for (t, &k) in t.iter().zip(held.permutation()) {
+                z[self.held[k]] = -t;
+            }
+            let explained = SHARED
+                * mechanism
+                    .data()
+                    .phi_change(&s, &z, &blocks, DataBlock::known_to);
+            s.phi[row].abs() <= explained
+        })
+    }
 }
 
 /// The last point of one walk, if it moved away from the start.
 fn walk_from(
     mechanism: &Mechanism,
     from: &(f64, Vec<f64>),
-    rows: &[usize],
+    rows: &Lasting,
     units: &[f64],
     size: f64,
     walk: usize,
@@ -123,7 +163,7 @@ fn walk_from(
     let (mut t, mut q) = from.clone();
     let mut heading: Option<Vec<f64>> = None;
     for _ in 0..GENERIC_STEPS {
-        let directions = free_directions(mechanism, t, &q, rows, units)?;
+        let directions = free_directions(mechanism, t, &q, &rows.held, units)?;
         if directions.nrows() == 0 && !moves_time {
             return None;
         }
@@ -146,8 +186,9 @@ fn walk_from(
             let moved = mechanism.space().displaced(&q, factor, &step);
             let later = t + time * share;
             let there =
-                nearest_configuration(mechanism, later, rows, &moved, Metric::Length).ok()?;
-            Some((later, there))
+                nearest_configuration(mechanism, later, &rows.held, &moved, Metric::Length).ok()?;
+            rows.agree(mechanism, later, &there)
+                .then_some((later, there))
         });
         let Some(next) = next else {
             break;
@@ -180,7 +221,7 @@ fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>>
         let mut rows = here.kept.clone();
         rows.push(row);
         let found = rank::decide(&c.select_rows(&rows), &known.select_rows(&rows));
-        found.is_ok_and(|found| found.rank == here.rank)
+        found.is_ok_and(|found| found.is_decided() && found.rank == here.rank)
     };
     let dependent = here
         .dropped
@@ -192,17 +233,20 @@ fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>>
     Some(rows)
 }
 
-/// The rank of the compared rows at a point that satisfies others, if it is decided there.
+/// The rank of the compared rows at a point, if it is decided there.
 fn elsewhere(
     mechanism: &Mechanism,
     (t, q): &(f64, Vec<f64>),
-    (rows, compared): (&[usize], &[usize]),
+    compared: &[usize],
 ) -> Option<OtherConfiguration> {
     let mut s = crate::pose::evaluated(mechanism, *t, q);
-    // Drives and rows that are redundant within a tolerance were left out of the walk, so the
-    // residuals of their rows say nothing about the accuracy of this configuration.
-    for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
-        s.phi[i] = 0.0;
+    // Drives were left out of the walk, and have other values at this configuration. A row that was
+    // left out because it is redundant within a tolerance has to agree there with the others.
+    let layout = mechanism.layout();
+    for group in layout.groups.iter().filter(|g| g.is_drive()) {
+        for i in group.rows.clone().filter(|i| *i < layout.m) {
+            s.phi[i] = 0.0;
+        }
     }
     let decision = Rows::in_double(mechanism, &s, q)
         .select(compared)

@@ -166,6 +166,13 @@ pub(crate) const WALK_SMALL_STEPS: usize = 40;
 /// `rows_that_are_nearly_redundant_at_a_pose_are_left_out_together`.
 pub(crate) const WALK_CORRECTED: f64 = 0.5;
 
+/// The condition of Newton and Kantorovich for a pose of a walk: with data anywhere within the
+/// stated tolerance the mechanism has a pose there.
+/// Unit: 1. Less: what a tolerance makes redundant is undecided. More: poses count that the intended
+/// mechanism does not have, and permanent redundancy is called full rank. Test:
+/// `bricard_with_few_digits_is_right_or_undecided`.
+pub(crate) const KNOWN_POSE: f64 = 0.5;
+
 /// Share of the other directions.
 /// Unit: share of a direction. Less: freedoms stand still. More: the way is that of all freedoms.
 /// Test: `a_way_is_led_by_one_freedom_and_takes_the_others_along`.

@@ -26,9 +26,8 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    /// Factors the selected rows of a scaled C.
-    pub(super) fn new(scaled: &Matrix, rows: Vec<(usize, f64)>, columns: Vec<f64>) -> Self {
-        let qr = PivotedQr::of_rows(scaled.clone());
+    /// Takes factored rows of a scaled C.
+    pub(super) fn new(qr: PivotedQr, rows: Vec<(usize, f64)>, columns: Vec<f64>) -> Self {
         Self { rows, columns, qr }
     }
 
@@ -57,6 +56,25 @@ impl Followed {
             .map(|(x, f)| x / f)
             .collect();
         (lambda, free)
+    }
+
+    /// The smallest velocity by which the unscaled rows change by `y` (physical units).
+    pub(super) fn answer(&self, y: &[f64]) -> Vec<f64> {
+        let scaled = |&k: &usize| y[k] * self.rows[k].1;
+        let mut x: Vec<f64> = self.qr.permutation().iter().map(scaled).collect();
+        self.qr.solve_r_transpose(&mut x);
+        x.resize(self.columns.len(), 0.0);
+        self.qr.q_mul(&mut x);
+        x.iter().zip(&self.columns).map(|(x, f)| x * f).collect()
+    }
+
+    /// A matrix with the singular values of `C_K⁺·A`, both scaled.
+    pub(super) fn through(&self, a: &Matrix) -> Matrix {
+        let mut columns = a.select_rows(self.qr.permutation()).transpose();
+        for j in 0..columns.nrows() {
+            self.qr.solve_r_transpose(columns.row_mut(j));
+        }
+        columns
     }
 
     /// The velocity closest to `v` that the rows allow.
@@ -99,15 +117,16 @@ pub(super) struct Ground<'a> {
 
 impl Ground<'_> {
     /// C without dimensions at a configuration.
-    fn at(&self, q: &[f64]) -> (Scratch, Matrix) {
+    pub(super) fn at(&self, q: &[f64]) -> (Scratch, Matrix) {
         let s = crate::pose::evaluated(self.mechanism, self.t, q);
         let c = dimensionless(self.mechanism, &s, self.size);
         (s, c)
     }
 
-    fn followed(&self, c: &Matrix, rows: &[usize]) -> Followed {
+    pub(super) fn followed(&self, c: &Matrix, rows: &[usize]) -> Followed {
         let own = rows.iter().map(|&i| (i, 1.0)).collect();
-        Followed::new(&c.select_rows(rows), own, self.units.to_vec())
+        let factored = PivotedQr::of_rows(c.select_rows(rows));
+        Followed::new(factored, own, self.units.to_vec())
     }
 
     /// The kept rows of Φ.

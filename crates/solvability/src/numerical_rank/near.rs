@@ -204,7 +204,7 @@ impl Question<'_> {
         let noise = rounding(&lower.scaled);
         let mut asked = lower.asked(&here, &[], noise);
         asked.extend(lower.misfits(&here, noise));
-        lower.here = least * lower.change(&[asked], 1.0, Start::Known);
+        lower.here = least * lower.change(&[&asked[..]], 1.0, Start::Known);
         (lower.here <= limit).then_some(lower)
     }
 }
@@ -223,16 +223,47 @@ impl Lower<'_> {
     fn near(&self, walked: &Walk, held: &[usize]) -> Nearness {
         let m = self.question.mechanism.layout().m;
         let is_led = self.rows(held).iter().any(|&row| row >= m);
-        let mut poses = vec![self.at(self.question.s, held, &[])];
-        for (q, way) in walked.poses() {
-            let s = crate::pose::evaluated(self.question.mechanism, self.question.s.t, q);
-            poses.push(self.at(&s, held, &way.collect::<Vec<_>>()));
+        let start = self.at(self.question.s, held, &[]);
+        let sides = [0, 1].map(|side| {
+            let poses = walked.poses(side).map(|(q, way)| {
+                let s = crate::pose::evaluated(self.question.mechanism, self.question.s.t, q);
+                self.at(&s, held, &way.collect::<Vec<_>>())
+            });
+            poses.collect::<Vec<_>>()
+        });
+        let poses = |reach: [usize; 2]| -> Vec<&[Asked]> {
+            let [one, other] = &sides;
+            let others = one[..reach[0]].iter().chain(&other[..reach[1]]);
+            std::iter::once(&start)
+                .chain(others)
+                .map(|x| &**x)
+                .collect()
+        };
+        let change = |reach: [usize; 2]| {
+            let share = self.change(&poses(reach), 1.0, Start::Known);
+            self.least * self.change(&poses(reach), share, Start::Known)
+        };
+        let (mut reach, known) = (walked.reach(), walked.known_reach());
+        let mut everywhere = change(reach);
+        let mut certain = reach;
+        if let Some(stated) = self.question.tolerance() {
+            // A full rank rests on poses that the intended mechanism has whatever its data are
+            // within the tolerance; a redundancy on poses that it has up to the change of the data
+            // that makes a row redundant.
+            let is_full = |length: f64| length > rank::BEYOND_DOUBT * stated.metres;
+            if is_full(everywhere) && (known == reach || is_full(change(known))) {
+                certain = known;
+            } else {
+                while let Some(shorter) = walked.shorter(reach, everywhere / stated.metres) {
+                    reach = shorter;
+                    everywhere = change(reach);
+                }
+                certain = reach;
+            }
         }
-        let share = self.change(&poses, 1.0, Start::Known);
-        let everywhere = self.least * self.change(&poses, share, Start::Known);
         let is_asked = self.question.tolerance().is_some() && is_led && everywhere > self.here;
         let at_least = if is_asked {
-            everywhere.min(self.least * self.change(&poses, 1.0, Start::AsData))
+            everywhere.min(self.least * self.change(&poses(certain), 1.0, Start::AsData))
         } else {
             everywhere
         };
@@ -240,7 +271,7 @@ impl Lower<'_> {
             here: self.here,
             everywhere,
             at_least,
-            is_walked: walked.is_complete,
+            is_walked: walked.is_complete(reach),
             by_angles: self.by_angles,
         }
     }
@@ -313,9 +344,9 @@ impl Lower<'_> {
 
     /// The fraction of `least` by which the data have to change, if the second-order terms of
     /// changes up to `share` of it are left open.
-    fn change(&self, poses: &[Vec<Asked>], share: f64, start: Start) -> f64 {
+    fn change(&self, poses: &[&[Asked]], share: f64, start: Start) -> f64 {
         let curved = CURVED * (self.least / self.question.size).powi(2) * share.min(1.0);
-        let equations = poses.iter().flatten();
+        let equations = poses.iter().copied().flatten();
         let equations: Vec<Equation> = equations.map(|asked| asked.loose(curved, start)).collect();
         least_change(&equations).middle()
     }

@@ -35,6 +35,8 @@ pub(super) struct Pose<'a> {
 pub(super) struct Candidate {
     /// The r' kept rows.
     pub(super) kept: Vec<usize>,
+    /// Their factors, in this order.
+    pub(super) factored: PivotedQr,
     left: Matrix,
     right: Matrix,
     sigma: Vec<f64>,
@@ -84,6 +86,7 @@ impl Candidate {
         let svd = small_svd(&rest);
         Self {
             kept,
+            factored: qr,
             left: complete(&svd.u, &svd.sigma).transpose().product(&u),
             right: complete(&svd.v, &svd.sigma)
                 .transpose()
@@ -182,11 +185,13 @@ impl<'a> Pose<'a> {
         let is_holonomic = |&i: &usize| places[i] < mechanism.layout().m;
         let holonomic: Vec<usize> = held.iter().copied().filter(is_holonomic).collect();
         let of_mechanism = holonomic.iter().map(|&i| (places[i], rows[i])).collect();
-        let positions = Followed::new(
-            &scaled.select_rows(&holonomic),
-            of_mechanism,
-            columns.clone(),
-        );
+        // In most mechanisms these are the kept rows, which have been factored.
+        let factored = if holonomic == candidate.kept {
+            candidate.factored
+        } else {
+            PivotedQr::of_rows(scaled.select_rows(&holonomic))
+        };
+        let positions = Followed::new(factored, of_mechanism, columns.clone());
         Self {
             mechanism,
             s,

@@ -128,7 +128,7 @@ impl Question<'_> {
         let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, rank);
         let kept = candidate.kept.clone();
-        let factored = PivotedQr::of_rows(scaled.select_rows(&kept));
+        let factored = candidate.factored.clone();
         let matrices = (scaled, &dimensions, scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data().blocks(self.s);

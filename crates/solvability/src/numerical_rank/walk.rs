@@ -1,11 +1,22 @@
 //! Poses that a mechanism reaches on its kept rows: a redundancy exists at all of them, a
 //! singularity at one only.
+//!
+//! Within a stated tolerance the intended mechanism has other data, and is at a pose nearby. To first
+//! order data within the tolerance move a pose by up to δq, on which C_K changes by δC_K. By the
+//! theorem of Newton and Kantorovich the pose certainly exists if `‖C_K⁺·δC_K‖ ≤ ½`; beyond, the
+//! first order says nothing: near a singular pose of the kept rows a walk may go on along a branch
+//! that the intended mechanism does not have.
+//!
+//! Source: P. Deuflhard, Newton Methods for Nonlinear Problems (2004), section 2.1, for the form that
+//! does not depend on the scales of the rows.
 
 use crate::limits::{
-    OTHER_DIRECTIONS, WALK_CORRECTED, WALK_POSES, WALK_REACH, WALK_SMALL_STEPS, WALK_STEPS,
+    KNOWN_POSE, OTHER_DIRECTIONS, WALK_CORRECTED, WALK_POSES, WALK_REACH, WALK_SMALL_STEPS,
+    WALK_STEPS,
 };
 use crate::pose::{dimensionless, velocity_units};
-use linalg::Matrix;
+use linalg::{Matrix, singular_values};
+use model::System;
 use model::start::{Metric, nearest_configuration};
 
 use super::follow::{Ground, Step};
@@ -14,25 +25,78 @@ use super::share::Question;
 
 /// Poses of a mechanism.
 pub(super) struct Walk {
-    /// Steps to each side of the first pose, if nonholonomic rows are kept.
-    sides: [Vec<Step>; 2],
-    /// Coordinates of each pose, its side, and the number of steps that lead there.
-    stops: Vec<(Vec<f64>, usize, usize)>,
-    /// Whether all requested poses were reached, or nothing can move.
-    pub(super) is_complete: bool,
+    sides: [Side; 2],
+    /// Whether nothing can move.
+    is_still: bool,
+}
+
+/// Poses on one side of the first pose.
+#[derive(Default)]
+struct Side {
+    /// Steps, if nonholonomic rows are kept.
+    way: Vec<Step>,
+    stops: Vec<Stop>,
+}
+
+/// A pose.
+struct Stop {
+    /// Its coordinates.
+    q: Vec<f64>,
+    /// The number of steps that lead there.
+    steps: usize,
+    /// `‖C_K⁺·δC_K‖` for data within the stated tolerance; zero without one.
+    blur: f64,
 }
 
 impl Walk {
-    /// Coordinates of each pose, and the steps that lead to it, the last one first; no steps if
-    /// only holonomic rows are kept, because these determine every pose directly.
-    pub(super) fn poses(&self) -> impl Iterator<Item = (&[f64], impl Iterator<Item = &Step>)> {
-        let stops = self.stops.iter();
-        stops.map(|(q, side, steps)| (&**q, self.sides[*side][..*steps].iter().rev()))
+    /// Coordinates of each pose of one side, and the steps that lead to it, the last one first; no
+    /// steps if only holonomic rows are kept, because these determine every pose directly.
+    pub(super) fn poses(
+        &self,
+        side: usize,
+    ) -> impl Iterator<Item = (&[f64], impl Iterator<Item = &Step>)> {
+        let Side { way, stops } = &self.sides[side];
+        let steps = |stop: &Stop| way[..stop.steps].iter().rev();
+        stops.iter().map(move |stop| (&*stop.q, steps(stop)))
     }
 
     /// The last pose.
     pub(super) fn farthest(&self) -> Option<&[f64]> {
-        self.stops.last().map(|(q, ..)| &**q)
+        let last = self.sides.iter().rev().find_map(|side| side.stops.last());
+        last.map(|stop| &*stop.q)
+    }
+
+    /// The number of poses on each side.
+    pub(super) fn reach(&self) -> [usize; 2] {
+        self.sides.each_ref().map(|side| side.stops.len())
+    }
+
+    /// The number of poses on each side up to the first one that data within the tolerance move too
+    /// far for the first order.
+    pub(super) fn known_reach(&self) -> [usize; 2] {
+        self.sides.each_ref().map(|side| {
+            let known = side.stops.iter().take_while(|stop| stop.blur <= KNOWN_POSE);
+            known.count()
+        })
+    }
+
+    /// The reach without the pose that data move farthest and those beyond it, if changes of this
+    /// share of the tolerance move it too far for the first order.
+    pub(super) fn shorter(&self, reach: [usize; 2], share: f64) -> Option<[usize; 2]> {
+        let of_side = |k: usize| {
+            let stops = self.sides[k].stops[..reach[k]].iter().enumerate();
+            stops.map(move |(at, stop)| (stop.blur, k, at))
+        };
+        let blurred = [0, 1].into_iter().flat_map(of_side);
+        let (blur, side, at) = blurred.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mut reach = reach;
+        reach[side] = at;
+        (blur * share > KNOWN_POSE).then_some(reach)
+    }
+
+    /// Whether all poses of one side are within reach, or nothing can move.
+    pub(super) fn is_complete(&self, reach: [usize; 2]) -> bool {
+        self.is_still || reach.contains(&WALK_POSES)
     }
 }
 
@@ -47,11 +111,10 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
         size,
         t: question.s.t,
     };
-    let (mut sides, mut stops) = ([Vec::new(), Vec::new()], Vec::new());
     let is_still = free_directions(&dimensionless(mechanism, question.s, size), kept).nrows() == 0;
+    let mut sides = [Side::default(), Side::default()];
     let signs = if is_still { &[][..] } else { &[1.0, -1.0] };
-    for (side, sign) in signs.iter().enumerate() {
-        let way: &mut Vec<Step> = &mut sides[side];
+    for (Side { way, stops }, sign) in sides.iter_mut().zip(signs) {
         let mut q = question.q.to_vec();
         let mut heading: Option<Vec<f64>> = None;
         for _ in 0..WALK_POSES {
@@ -70,15 +133,65 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
             };
             (q, heading) = (there, on);
             way.extend(taken);
-            stops.push((q.clone(), side, way.len()));
+            stops.push(Stop {
+                blur: question.tolerance().map_or(0.0, |_| blur(&ground, &q)),
+                q: q.clone(),
+                steps: way.len(),
+            });
         }
     }
-    let is_complete = is_still || stops.len() == 2 * WALK_POSES;
-    Walk {
-        sides,
-        stops,
-        is_complete,
+    Walk { sides, is_still }
+}
+
+/// `‖C_K⁺·δC_K‖` of the kept rows of Φ, where data within their uncertainty move the pose such that
+/// one of its coordinates moves farthest.
+fn blur(ground: &Ground<'_>, q: &[f64]) -> f64 {
+    let (mechanism, data) = (ground.mechanism, ground.mechanism.data());
+    let rows = ground.holonomic();
+    let (s, c) = ground.at(q);
+    let kept = c.select_rows(&rows);
+    let followed = ground.followed(&c, &rows);
+    let blocks = data.blocks(&s);
+    let gradient_of = |lambda: &[f64]| {
+        let mut gradient = vec![0.0; data.count()];
+        data.add_phi(&s, lambda, 1.0, &mut gradient);
+        gradient
+    };
+    let of_column = |column: usize| {
+        let mut own = vec![0.0; ground.units.len()];
+        own[column] = 1.0;
+        let gradient = gradient_of(&followed.split(&own, mechanism.layout().rows()).0);
+        let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
+        (changes.sum::<f64>() / ground.units[column], gradient)
+    };
+    let moved = (0..ground.units.len()).map(of_column);
+    let Some((_, gradient)) = moved.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+        return 0.0;
+    };
+    // The change of each row by these changes of the data.
+    let missed = rows.iter().map(|&row| {
+        let mut own = vec![0.0; mechanism.layout().rows()];
+        own[row] = 1.0;
+        let by = gradient_of(&own);
+        let changes = blocks.iter().map(|b| {
+            let (along, by) = (b.part(&gradient), b.part(&by));
+            let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            match dot(along, along).sqrt() {
+                0.0 => 0.0,
+                size => b.known_to() * dot(along, by) / size,
+            }
+        });
+        changes.sum::<f64>()
+    });
+    let moved = followed.answer(&missed.collect::<Vec<_>>());
+    let (_, there) = ground.at(&mechanism.space().displaced(q, -1.0, &moved));
+    let mut change = there.select_rows(&rows);
+    for (x, here) in change.as_mut_slice().iter_mut().zip(kept.as_slice()) {
+        *x -= here;
     }
+    let blur = singular_values(&followed.through(&change)).first().copied();
+    // A change that is not a number is no small one.
+    blur.map_or(0.0, |blur| if blur.is_nan() { f64::INFINITY } else { blur })
 }
 
 /// One step, which is recorded if nonholonomic rows are kept. Returns `None` if the step cannot be

@@ -3,9 +3,12 @@
 use serde_json::{Value, json};
 
 use super::findings::{Findings, Kind, list, rows, share_of_free};
-use super::reference::{Reference, RightReaction, RightWrench, Verdict};
+use super::reference::{Elsewhere, Reference, RightReaction, RightWrench, Verdict};
 use super::truth::Truth;
 use super::{deletions, words};
+
+/// Part of the sentence that a redundancy belongs to this configuration alone.
+const ONLY_HERE: &str = "hold at this singular configuration only";
 
 /// Compares a document with the correct results.
 #[must_use]
@@ -77,17 +80,35 @@ fn ranks(right: &impl Reference, answer: &Value, findings: &mut Findings) {
         let left = ranks.rows - drives - rank;
         findings.number(Kind::Rank, what, &without["redundancy"], left);
     }
-    if right.has_constant_rank() {
-        let elsewhere = &answer["generic"]["redundancy"];
-        if !elsewhere.is_null() {
-            let what = "redundancy elsewhere";
-            findings.number(Kind::Sentence, what, elsewhere, redundancy);
-        }
-        if answer["evidence"]["permanent"] == false {
-            findings.note(Kind::Sentence, "the rank is the same everywhere".to_owned());
-        }
-    }
+    elsewhere(right, answer, findings);
     kept_rows(right, answer, findings);
+}
+
+/// What the answer says of other configurations: no claim is needed, but none may be wrong.
+pub(in crate::fuzz) fn elsewhere(right: &impl Reference, answer: &Value, findings: &mut Findings) {
+    let ranks = right.ranks();
+    let redundancy = (ranks.rows - ranks.all) as u64;
+    let told = answer["generic"]["redundancy"].as_u64();
+    let permanent = answer["evidence"]["permanent"].as_bool();
+    let mut warnings = list(&answer["warnings"]).iter().filter_map(Value::as_str);
+    let falls =
+        told.is_some_and(|told| told < redundancy) || warnings.any(|w| w.contains(ONLY_HERE));
+    let rises = told.is_some_and(|told| told > redundancy);
+    let is_wrong = match right.elsewhere() {
+        Elsewhere::Same => falls || rises || permanent == Some(false),
+        Elsewhere::NotHigher => falls,
+        Elsewhere::Higher => permanent == Some(true) || told.is_some_and(|told| told >= redundancy),
+        Elsewhere::Unknown => false,
+    };
+    if is_wrong {
+        let text = format!(
+            "redundancy {redundancy}, {}: answer {}, permanent {}",
+            right.elsewhere().words(),
+            answer["generic"]["redundancy"],
+            answer["evidence"]["permanent"]
+        );
+        findings.note(Kind::Sentence, text);
+    }
 }
 
 /// The kept rows must be independent, and their number must be the rank.

@@ -12,8 +12,8 @@ pub trait Reference {
     /// Joints and drives in the order of the file.
     fn reactions(&self) -> Vec<RightReaction>;
 
-    /// Whether theory shows that the rank is the same at all configurations.
-    fn has_constant_rank(&self) -> bool;
+    /// What is known of the rank at other configurations.
+    fn elsewhere(&self) -> Elsewhere;
 
     /// The tolerance for numbers of directions and dependencies, relative to the largest.
     fn rounding(&self) -> f64;
@@ -34,6 +34,32 @@ pub struct Ranks {
     pub nonholonomic: usize,
     /// The rank without the rows of drives, and their number; `None` if it is not compared.
     pub without_drives: Option<[usize; 2]>,
+}
+
+/// The rank at almost all other configurations that the holonomic rows without drives allow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Elsewhere {
+    /// The same as at this one.
+    Same,
+    /// The same, or a lower one if data within a stated tolerance have it.
+    NotHigher,
+    /// A higher one: this configuration is singular.
+    Higher,
+    /// Not known.
+    Unknown,
+}
+
+impl Elsewhere {
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Same => "the same rank elsewhere",
+            Self::NotHigher => "no higher rank elsewhere",
+            Self::Higher => "a higher rank elsewhere",
+            Self::Unknown => "unknown rank elsewhere",
+        }
+    }
 }
 
 /// The right verdict.

@@ -9,7 +9,7 @@ use num_traits::{ToPrimitive, Zero};
 use super::findings::rounding;
 use super::pose::Posed;
 use super::ratio::Ratio;
-use super::reference::{Ranks, Reference, RightReaction, RightWrench};
+use super::reference::{Elsewhere, Ranks, Reference, RightReaction, RightWrench};
 use super::rows::{self, Row};
 
 /// A wrench on the first body of a joint, with components along the axes of the drawing and about
@@ -401,8 +401,12 @@ impl Reference for Truth<'_> {
         (0..self.posed.links.len()).map(of_link).collect()
     }
 
-    fn has_constant_rank(&self) -> bool {
-        self.posed.has_constant_rank
+    fn elsewhere(&self) -> Elsewhere {
+        if self.posed.has_constant_rank {
+            Elsewhere::Same
+        } else {
+            Elsewhere::Unknown
+        }
     }
 
     fn rounding(&self) -> f64 {

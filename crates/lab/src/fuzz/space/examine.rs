@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::drawing::{Drawing, Kind};
 use super::expected::AXES;
+use super::permanence::elsewhere;
 use super::pose::extent;
 use super::rows::{Meaning, Owner};
 use super::text::{SLIP, text};
@@ -13,7 +14,9 @@ use super::{Expected, scene};
 use crate::fuzz::exact::answer::answer;
 use crate::fuzz::exact::examine::ranks_and_reactions;
 use crate::fuzz::exact::findings::{Findings, rounding_at};
-use crate::fuzz::exact::reference::{Ranks, Reference, RightReaction, RightWrench, Verdict};
+use crate::fuzz::exact::reference::{
+    Elsewhere, Ranks, Reference, RightReaction, RightWrench, Verdict,
+};
 use crate::fuzz::exact::tally::{Outcome, judged};
 
 /// Tests one scene with all digits of a double.
@@ -48,6 +51,7 @@ pub fn examine(drawing: &Drawing, document: &Value) -> Findings {
     let truth = Truth::of(drawing);
     let right = Right {
         truth: &truth,
+        elsewhere: elsewhere(&truth),
         known_to: 0.0,
     };
     let mut findings = Findings::default();
@@ -58,6 +62,8 @@ pub fn examine(drawing: &Drawing, document: &Value) -> Findings {
 /// What exact arithmetic says of a drawing.
 pub(super) struct Right<'a> {
     pub(super) truth: &'a Truth<'a>,
+    /// The rank at other poses.
+    pub(super) elsewhere: Elsewhere,
     /// What directions are known to, beyond rounding.
     pub(super) known_to: f64,
 }
@@ -107,8 +113,8 @@ impl Reference for Right<'_> {
         reactions
     }
 
-    fn has_constant_rank(&self) -> bool {
-        false
+    fn elsewhere(&self) -> Elsewhere {
+        self.elsewhere
     }
 
     fn rounding(&self) -> f64 {

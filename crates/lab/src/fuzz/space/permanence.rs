@@ -11,21 +11,38 @@ use num_bigint::BigInt;
 
 use super::drawing::{Drawing, Joint, Kind, Measure, Side};
 use super::ratio::{Ratio, whole_multiples};
-use super::rows::Wrench;
-use super::truth::on_bodies;
+use super::rows::{Meaning, Wrench};
+use super::truth::{Truth, on_bodies};
 use super::vector::Vector;
+use crate::fuzz::exact::reference::Elsewhere;
 
 /// The velocity of a body: of the point at the origin of the ground, and of rotation.
 type Twist = [Vector; 2];
 
-/// Whether the rank of a drawing stays the same, to first order, towards every other pose: that of
-/// all rows, and that of the holonomic ones alone. Rows against slip may hold to first order what
-/// the others let go, as where a wheel on a spherical hub tilts; then nothing is said.
+/// The rank of a drawing at other poses.
+///
+/// It is the same if it stays so, to first order, towards every other pose: that of all rows, and
+/// that of the holonomic ones alone. Rows against slip may hold to first order what the others let
+/// go, as where a wheel on a spherical hub tilts; then nothing is said. It is higher if that of all
+/// rows rises along a velocity that is certainly one of a motion, because the holonomic rows
+/// without drives are independent.
 #[must_use]
-pub fn is_permanent(drawing: &Drawing) -> bool {
+pub fn elsewhere(truth: &Truth<'_>) -> Elsewhere {
     let all = |_: &Row| true;
     let holonomic = |row: &Row| row.leads;
-    is_permanent_of(drawing, all) && is_permanent_of(drawing, holonomic)
+    if truth.redundancy() == 0 {
+        return Elsewhere::Same;
+    }
+    let leading =
+        truth.rows_where(|row| !row.meaning.is_nonholonomic() && row.meaning != Meaning::Driven);
+    let stays = is_permanent_of(truth.drawing, all);
+    if stays && is_permanent_of(truth.drawing, holonomic) {
+        Elsewhere::Same
+    } else if !stays && truth.rank_of(&leading) == leading.len() {
+        Elsewhere::Higher
+    } else {
+        Elsewhere::Unknown
+    }
 }
 
 fn is_permanent_of(drawing: &Drawing, wanted: impl Fn(&Row) -> bool) -> bool {
@@ -258,7 +275,8 @@ mod tests {
     #[test]
     fn what_belongs_to_the_mechanism_and_what_to_its_pose() {
         let drawings = catalogue::all().into_iter();
-        let singular = drawings.filter(|(_, drawing)| !is_permanent(drawing));
+        let singular =
+            drawings.filter(|(_, drawing)| elsewhere(&Truth::of(drawing)) != Elsewhere::Same);
         let singular: Vec<&str> = singular.map(|(name, _)| name).collect();
         assert_eq!(singular, ["V6 two parallelograms, flat"]);
     }

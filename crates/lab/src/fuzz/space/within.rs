@@ -11,15 +11,15 @@ use model::space::norm;
 use super::Expected;
 use super::drawing::Drawing;
 use super::examine::Right;
-use super::permanence::is_permanent;
+use super::permanence::elsewhere;
 use super::rows::Row;
 use super::text::{Precision, text_within};
 use super::truth::Truth;
 use super::vector::Vector;
 use crate::fuzz::exact::answer::answer;
-use crate::fuzz::exact::examine::{ranks_and_reactions, reactions};
+use crate::fuzz::exact::examine::{self, ranks_and_reactions, reactions};
 use crate::fuzz::exact::findings::Kind;
-use crate::fuzz::exact::reference::{Reference, Verdict};
+use crate::fuzz::exact::reference::{Elsewhere, Reference, Verdict};
 use crate::fuzz::exact::rounded::{DIGITS, Outcome};
 use crate::fuzz::exact::tally::judged;
 use crate::fuzz::exact::within::{BEYOND_DOUBT, FAR, Judged};
@@ -49,7 +49,7 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
                 let Judged {
                     findings,
                     other_rank: other,
-                } = meant.judge(document, precision.tolerance, known);
+                } = meant.judge(document, precision.tolerance);
                 other_rank = other;
                 findings
             },
@@ -62,11 +62,7 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
                 "{}\nσ_r {:.2e}, C known to {known:.1e}, {}",
                 right.describe(),
                 meant.sigma,
-                if meant.is_permanent {
-                    "permanent"
-                } else {
-                    "singular pose"
-                }
+                meant.elsewhere.words()
             ),
             judged: Judged {
                 findings,
@@ -80,9 +76,10 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
 }
 
 /// The right results for a drawing, with their distance from others.
-struct Meant<'a> {
+pub struct Meant<'a> {
     truth: &'a Truth<'a>,
-    is_permanent: bool,
+    /// The rank at other poses.
+    elsewhere: Elsewhere,
     /// Size of the drawing (m).
     size: f64,
     /// The smallest singular value that is not zero, of rows of size one.
@@ -91,12 +88,14 @@ struct Meant<'a> {
 }
 
 impl<'a> Meant<'a> {
-    fn of(truth: &'a Truth<'a>) -> Self {
+    /// The right results, from exact arithmetic.
+    #[must_use]
+    pub fn of(truth: &'a Truth<'a>) -> Self {
         let size = size(truth.drawing);
         let margins = Margins::of(truth, size);
         Self {
             truth,
-            is_permanent: truth.redundancy() == 0 || is_permanent(truth.drawing),
+            elsewhere: elsewhere(truth),
             size,
             sigma: margins.sigma,
             margins,
@@ -108,11 +107,15 @@ impl<'a> Meant<'a> {
         CHANGES * (self.truth.rows.len() as f64).sqrt() * tolerance / self.size
     }
 
-    fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>, known: f64) -> Judged {
+    /// Compares a document with the right results; a tolerance (m) is stated or not.
+    #[must_use]
+    pub fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>) -> Judged {
+        let known = tolerance.map_or(0.0, |t| self.known(t));
         let mut judged = Judged::default();
         let findings = &mut judged.findings;
-        let right = Right {
+        let mut right = Right {
             truth: self.truth,
+            elsewhere: self.elsewhere,
             known_to: BEYOND_DOUBT * known / self.sigma,
         };
         if tolerance.is_none() {
@@ -133,11 +136,15 @@ impl<'a> Meant<'a> {
             }
             judged.other_rank = Some("lower within the tolerance");
         } else if found > rank {
-            if self.is_permanent {
+            if self.elsewhere == Elsewhere::Same {
                 findings.note(Kind::Rank, format!("{told} in every pose"));
             }
             judged.other_rank = Some("singular pose");
         } else if BEYOND_DOUBT * known >= self.sigma {
+            if right.elsewhere == Elsewhere::Same {
+                right.elsewhere = Elsewhere::NotHigher;
+                examine::elsewhere(&right, document, findings);
+            }
             judged.other_rank = Some("verdicts near a lower rank");
         } else {
             let open = Open {
@@ -146,6 +153,7 @@ impl<'a> Meant<'a> {
                 turned: known / self.sigma,
             };
             reactions(&open, document, findings);
+            examine::elsewhere(&open, document, findings);
         }
         judged
     }
@@ -309,8 +317,8 @@ impl Reference for Open<'_> {
         reactions
     }
 
-    fn has_constant_rank(&self) -> bool {
-        false
+    fn elsewhere(&self) -> Elsewhere {
+        self.right.elsewhere
     }
 
     fn rounding(&self) -> f64 {
