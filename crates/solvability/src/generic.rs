@@ -102,10 +102,7 @@ pub fn is_permanent(
 fn lasting_rows(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
     let lasting = layout.groups.iter().filter(|g| !g.is_drive());
-    lasting
-        .flat_map(|g| g.rows.clone())
-        .filter(|row| *row < layout.m)
-        .collect()
+    lasting.flat_map(|g| g.rows.holonomic.clone()).collect()
 }
 
 /// The last point of one walk, if it moved away from the start.
