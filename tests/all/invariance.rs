@@ -145,7 +145,7 @@ fn rows() {
             .layout()
             .groups
             .iter()
-            .map(|g| g.rows.clone().collect())
+            .map(|g| g.rows.iter().collect())
             .collect();
         // Rounding errors as large as those of recombined rows are taken as noise in both.
         let noise = 1e-14;

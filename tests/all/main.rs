@@ -42,5 +42,6 @@ mod starts;
 mod tally;
 mod three_cranks;
 mod tidy;
+mod two_levels;
 mod units;
 mod verdict_catalogue;

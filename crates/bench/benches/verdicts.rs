@@ -3,12 +3,11 @@
 //! `cargo bench -p bench --bench verdicts`.
 
 use std::hint::black_box;
-use std::ops::Range;
 
 use divan::Bencher;
 use dynamics::{Prepared, RowChoice, prepare};
 use linalg::{DdMatrix, Matrix};
-use model::{Mechanism, StartOptions, System};
+use model::{Mechanism, RowRanges, StartOptions, System};
 use solvability::Solvability;
 use tests::robot::{robot, steering};
 
@@ -23,7 +22,7 @@ fn prepared() -> Prepared {
 }
 
 /// C of the robot at its start, and the rows of its fourteen reactions.
-fn matrix() -> (Matrix, Vec<Range<usize>>) {
+fn matrix() -> (Matrix, Vec<RowRanges>) {
     let p = prepared();
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(0.0, &p.q, &mut s);
@@ -34,7 +33,7 @@ fn matrix() -> (Matrix, Vec<Range<usize>>) {
 }
 
 /// How many of all rows and groups are unique.
-fn unique(s: &Solvability, groups: &[Range<usize>]) -> usize {
+fn unique(s: &Solvability, groups: &[RowRanges]) -> usize {
     let judged =
         |verdict: Result<solvability::Judgement, _>| verdict.is_ok_and(|j| j.verdict.is_unique());
     let rows = groups

@@ -4,6 +4,8 @@
 //! `e = C·v − b`: `C = ∂e/∂v`, `b = −e(v = 0)`, and `Γ = −ė` without the terms in the
 //! accelerations.
 
+use std::ops::Range;
+
 use proc_macro2::Ident;
 use quote::format_ident;
 use symbolic::Expr;
@@ -27,6 +29,7 @@ pub(crate) struct Entry {
 
 /// Kernels of a constraint.
 pub(crate) struct ConstraintKernels {
+    /// One value for each holonomic row.
     pub(crate) phi: Vec<Expr>,
     pub(crate) restricts_start: Vec<bool>,
     pub(crate) c: Vec<Entry>,
@@ -85,14 +88,9 @@ pub(crate) fn constraint(
     data: &[Along],
 ) -> Result<ConstraintKernels, usize> {
     let columns = columns(model);
-    let velocity: Vec<Expr> = if body.holonomic {
-        body.rows
-            .iter()
-            .map(|&r| model.time.apply(&mut model.g, r))
-            .collect()
-    } else {
-        body.rows.clone()
-    };
+    let (phi, psi) = body.rows.split_at(body.holonomic);
+    let rates = phi.iter().map(|&r| model.time.apply(&mut model.g, r));
+    let velocity: Vec<Expr> = rates.chain(psi.iter().copied()).collect();
     let c = c_block(model, &velocity, columns.len());
     if let Some(row) = (0..velocity.len()).find(|row| c.iter().all(|e| e.row != *row)) {
         return Err(row);
@@ -110,12 +108,13 @@ pub(crate) fn constraint(
     let component = match component {
         Component::None => Vec::new(),
         Component::Motion(along) => {
-            let rows = body.rows.iter();
-            rows.map(|&row| {
+            let mut slope_of = |&row: &Expr| {
                 let slope = along.apply(&mut model.g, row);
                 model.g.neg(slope)
-            })
-            .collect()
+            };
+            let mut slopes: Vec<Expr> = phi.iter().map(&mut slope_of).collect();
+            slopes.resize(body.rows.len(), model.g.number(0.0));
+            slopes
         }
         Component::Along => {
             let (_, along) = body.component.as_ref().expect("the definition has one");
@@ -139,12 +138,11 @@ pub(crate) fn constraint(
     let d_force_dx = match model.inputs.space {
         Space::Plane => force_derivatives(model, &c, &columns),
         Space::Space3 => {
-            let power = weighted(model, &body.rows, &body.vectors);
-            let power = if body.holonomic {
-                model.time.apply(&mut model.g, power)
-            } else {
-                power
-            };
+            let work = weighted(model, &body.rows, 0..body.holonomic, &body.vectors);
+            let power = model.time.apply(&mut model.g, work);
+            let of_psi = body.holonomic..body.rows.len();
+            let of_psi = weighted(model, &body.rows, of_psi, &body.vectors);
+            let power = model.g.add(power, of_psi);
             let forces = along_velocities(model, power);
             along_columns(model, &forces, &columns)
         }
@@ -152,17 +150,8 @@ pub(crate) fn constraint(
     let d_residual_dx = along_columns(model, &residuals, &columns);
     let d_gamma_dv = velocity_derivatives(model, &gamma);
     let d_velocity_dx = along_columns(model, &velocity, &columns);
-    let phi = if body.holonomic {
-        body.rows.clone()
-    } else {
-        Vec::new()
-    };
-    let vectors = if body.holonomic {
-        &body.vectors[..]
-    } else {
-        &[]
-    };
-    let d_phi_dp = gradient(model, &phi, vectors, data);
+    let phi = phi.to_vec();
+    let d_phi_dp = gradient(model, &phi, &body.vectors, data);
     let d_residual_dp = match model.inputs.space {
         Space::Plane => gradient(model, &residuals, &[], data),
         Space::Space3 => {
@@ -419,7 +408,7 @@ fn gradient(
     vectors: &[(usize, Vector)],
     data: &[Along],
 ) -> Vec<Expr> {
-    let sum = weighted(model, rows, vectors);
+    let sum = weighted(model, rows, 0..rows.len(), vectors);
     data.iter()
         .map(|along| {
             let slope = along.apply(&mut model.g, sum);
@@ -432,11 +421,17 @@ fn gradient(
         .collect()
 }
 
-/// `λᵀ·rows`. In space, rows that are the components of a vector are multiplied as vectors.
-fn weighted(model: &mut Model, rows: &[Expr], vectors: &[(usize, Vector)]) -> Expr {
+/// `Σ λ·row` of these rows. In space, rows that are the components of a vector are multiplied as
+/// vectors.
+fn weighted(
+    model: &mut Model,
+    rows: &[Expr],
+    which: Range<usize>,
+    vectors: &[(usize, Vector)],
+) -> Expr {
     let mut terms: Vec<(f64, Expr)> = Vec::new();
-    let mut row = 0;
-    while row < rows.len() {
+    let mut row = which.start;
+    while row < which.end {
         let vector = vectors.iter().find(|(first, _)| *first == row);
         match vector {
             Some((_, vector)) if model.inputs.space == Space::Space3 => {
@@ -460,7 +455,7 @@ fn weighted(model: &mut Model, rows: &[Expr], vectors: &[(usize, Vector)]) -> Ex
 fn second_rates(model: &mut Model, body: &ConstraintBody) -> Vec<(usize, Vector)> {
     let full = model.inputs.full_time_derivation(&mut model.g);
     let vectors = body.vectors.iter().map(|(first, v)| {
-        let velocity = if body.holonomic {
+        let velocity = if *first < body.holonomic {
             v.rate(&mut model.g, &model.turns, &model.time)
         } else {
             v.clone()

@@ -39,7 +39,7 @@ const RESERVED: [&str; 7] = [
 ];
 
 /// Names of types and traits in the generated module, which no definition can have.
-const RESERVED_TYPES: [&str; 40] = [
+const RESERVED_TYPES: [&str; 39] = [
     "Argument",
     "ArgumentError",
     "Axes",
@@ -57,7 +57,6 @@ const RESERVED_TYPES: [&str; 40] = [
     "ForceElement",
     "ForceSpec",
     "GroundPlane",
-    "Level",
     "Line",
     "Measure",
     "None",

@@ -96,7 +96,10 @@ pub(crate) fn constraint(
             }
         };
         let driven = ConstraintBody {
-            holonomic: true,
+            holonomic: match drive.by {
+                Driven::Measure | Driven::Turn => rows.len(),
+                Driven::Rows => body.holonomic,
+            },
             rows,
             vectors: Vec::new(),
             at,

@@ -13,7 +13,8 @@
 //!     initial { name: Kind = expr, … } kept from the assembled start
 //!     require "words": condition;      must hold at the assembled start
 //!     rows: [name, …];
-//!     phi: expr;                       or   psi: expr;   (constraints)
+//!     phi: expr;                       rows of position level (constraints); one of both may be missing
+//!     psi: expr;                       rows of velocity level, whose names follow those of `phi`
 //!     measure name: expr;              what a drive may prescribe
 //!     place: expr;                     where the reaction is reported
 //!     component name: expr;            a named direction of the reaction

@@ -32,7 +32,7 @@ fn kernels_read_as_one_would_write_them() {
     for piece in [
         "use ::joints::plane::{Direction, Line, Pose, Twist};",
         "pub normal: Direction,",
-        "level: Level::Nonholonomic,",
+        "holonomic: 0,",
         "rows: &[Row::restricting_start(\"normal\")],",
         "Entry::constant(0, 0, 2)",
         "wrench: &[[0, 0], [1, 0]],",

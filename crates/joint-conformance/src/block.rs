@@ -53,6 +53,17 @@ impl<T: Copy> Block<T> {
         }
     }
 
+    /// Its first `rows` rows; all of them if it has fewer.
+    #[must_use]
+    pub(crate) fn head(&self, rows: usize) -> Self {
+        let rows = rows.min(self.rows);
+        Self {
+            rows,
+            columns: self.columns,
+            entries: self.entries[..rows * self.columns].to_vec(),
+        }
+    }
+
     /// Number of rows.
     #[must_use]
     pub(crate) fn rows(&self) -> usize {

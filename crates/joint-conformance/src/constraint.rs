@@ -6,7 +6,7 @@ mod identities;
 use std::collections::BTreeSet;
 use std::marker::PhantomData;
 
-use joints::spec::{Level, Row, Spec};
+use joints::spec::{Row, Spec};
 use joints::{Argument, ArgumentError, Constraint, Definition, Derivatives, Element};
 
 use crate::block::Block;
@@ -25,7 +25,7 @@ pub(crate) struct OfConstraint<K, S>(K, PhantomData<S>);
 /// Kernels of a constraint, and what is made of them.
 #[derive(Clone, Copy)]
 pub(crate) enum Kernel {
-    /// Φ; zero for nonholonomic constraints.
+    /// Φ, of the holonomic rows.
     Phi,
     C,
     B,
@@ -47,7 +47,7 @@ pub(crate) enum Kernel {
     DResidualDp,
 }
 
-/// Derivatives of Φ.
+/// Derivatives of Φ, in the holonomic rows.
 const OF_POSITIONS: [Derivative<Kernel>; 4] = {
     use {Derivative as D, Kernel as K, Property as P};
     [
@@ -109,10 +109,7 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
         let v = &State::<S, D>::twists(&at.v);
         let (m, n) = (Self::ROWS.len(), Self::columns());
         match kernel {
-            Kernel::Phi if K::SPEC.level == Level::Nonholonomic => {
-                Block::filled(m, 1, D::from(0.0))
-            }
-            Kernel::Phi => dense(m, |out| k.phi(x, f, out)),
+            Kernel::Phi => dense(K::SPEC.holonomic, |out| k.phi(x, f, out)),
             Kernel::C => sparse([m, n], &c_pattern::<K, S>(), |out| c_entries(k, x, f, out)),
             Kernel::B if !K::SPEC.rheonomic => dense(m, |out| {
                 out.fill(D::from(0.0));
@@ -187,11 +184,7 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
     }
 
     fn derivatives() -> impl Iterator<Item = &'static Derivative<Kernel>> {
-        let of_positions = match K::SPEC.level {
-            Level::Holonomic => &OF_POSITIONS[..],
-            Level::Nonholonomic => &[],
-        };
-        of_positions.iter().chain(&OF_VELOCITIES)
+        OF_POSITIONS.iter().chain(&OF_VELOCITIES)
     }
 
     /// Kernels write exactly the entries that are theirs.
@@ -249,13 +242,14 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
             return Err(fact(Self::COMMON.name, Property::B, entry, facts, None));
         }
         let idle = |(n, row): &(usize, &Row)| row.restricts_start && !seen.restricting.contains(n);
-        match Self::ROWS.iter().enumerate().find(idle) {
-            Some((_, row)) if K::SPEC.level == Level::Holonomic => {
+        let holonomic = Self::ROWS.iter().take(K::SPEC.holonomic);
+        match holonomic.enumerate().find(idle) {
+            Some((_, row)) => {
                 let entry = format!("row `{}`, zero at every start", row.name);
                 let facts = [0.0, 1.0];
                 Err(fact(Self::COMMON.name, Property::Start, entry, facts, None))
             }
-            _ => Ok(()),
+            None => Ok(()),
         }
     }
 }

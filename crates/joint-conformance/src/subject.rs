@@ -91,7 +91,7 @@ pub(crate) struct Derivative<K> {
 }
 
 impl<K> Derivative<K> {
-    /// `kernel = sign · d of / d by`, else the definition lacks the property.
+    /// `kernel = sign · d of / d by` in the rows of `of`, else the definition lacks the property.
     pub(crate) const fn new(property: Property, kernel: K, sign: f64, of: K, by: By) -> Self {
         Self {
             property,

@@ -41,7 +41,7 @@ pub trait Element<T: Ring = f64, S: Space = Plane>: Definition<S> {
     /// The specification of the definition.
     fn spec(&self) -> &'static ConstraintSpec;
 
-    /// Writes `Φ`, one value for each row; nothing for nonholonomic constraints.
+    /// Writes `Φ`, one value for each holonomic row.
     fn phi(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
     /// Writes the entries of the block of C that depend on parameters only; the others are not
@@ -73,8 +73,8 @@ pub trait Element<T: Ring = f64, S: Space = Plane>: Definition<S> {
     where
         T: Real;
 
-    /// Writes `∂(λᵀ·Φ)/∂p`, one value for each number p of [`Definition::data`]; zeros for
-    /// nonholonomic constraints.
+    /// Writes `∂(λᵀ·Φ)/∂p`, one value for each number p of [`Definition::data`], from the λ of the
+    /// holonomic rows.
     ///
     /// Values that are computed from other numbers change with them. Values stored at the start do
     /// not: they are numbers of their own.

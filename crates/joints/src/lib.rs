@@ -13,6 +13,7 @@
 //! | [`definition`] | the numbers stored by constraints and forces |
 //! | [`constraint`] | the traits of constraints: a definition as a type, and its kernels |
 //! | [`force`] | the same for forces |
+//! | [`former`] | scene types that there were |
 //! | [`visitor`] | all definitions, one after the other, with their types |
 //! | [`generated`] | one module for each file in `definitions/` |
 
@@ -20,6 +21,7 @@ pub mod arguments;
 pub mod constraint;
 pub mod definition;
 pub mod force;
+pub mod former;
 pub mod generated;
 pub mod plane;
 pub mod recorded;
@@ -33,6 +35,7 @@ pub use arguments::{Argument, ArgumentError, LARGEST, is_usable};
 pub use constraint::{Constraint, Derivatives, Element};
 pub use definition::Definition;
 pub use force::{Force, ForceElement};
+pub use former::{FORMER_TYPES, FormerType};
 pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};
 pub use recorded::Recorded;

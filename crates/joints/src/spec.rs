@@ -256,10 +256,10 @@ pub struct ConstraintSpec {
     pub common: Spec,
     /// Joint, or drive of a measure of a joint.
     pub role: Role,
-    /// Position or velocity level.
-    pub level: Level,
-    /// Its rows, in order.
+    /// Its rows: `Φ(q, t) = 0`, then `Ψ(q, t)·q̇ + ψ(q, t) = 0`.
     pub rows: &'static [Row],
+    /// How many of its rows are holonomic: all, none or the first few.
+    pub holonomic: usize,
     /// Entries of its block of C that are not identically zero, row by row.
     pub c: &'static [Entry],
     /// Whether it depends on time explicitly, so that b is not identically zero.
@@ -297,6 +297,12 @@ impl ConstraintSpec {
             [.., last] => last.first + last.count,
             [] => 0,
         }
+    }
+
+    /// Number of its nonholonomic rows, which follow the holonomic ones.
+    #[must_use]
+    pub const fn nonholonomic(&self) -> usize {
+        self.rows.len() - self.holonomic
     }
 }
 
@@ -376,15 +382,6 @@ pub enum Role {
     Joint,
     /// Prescribes a measure of a joint.
     Drive,
-}
-
-/// Level at which a constraint is stated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
-    /// `Φ(q, t) = 0`
-    Holonomic,
-    /// `Ψ(q, t)·q̇ + ψ(q, t) = 0`
-    Nonholonomic,
 }
 
 /// One row of a constraint.

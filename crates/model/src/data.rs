@@ -12,9 +12,10 @@ use joints::spec::{DatumShape, Unit};
 
 use crate::element::{OwnRates, PlacedConstraint};
 use crate::mechanism::Mechanism;
+use crate::rows::RowRanges;
 use crate::size::size_of;
 use crate::space::norm;
-use crate::system::{Scratch, System};
+use crate::system::Scratch;
 use crate::tolerance::Tolerance;
 use crate::uncertainty::ROUNDING;
 
@@ -212,7 +213,7 @@ impl<'m> Data<'m> {
     /// `factor`, to `out`; `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
     pub fn add_power(self, s: &Scratch, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
         let mut rates = OwnRates::default();
-        self.add(lambda, factor, out, |c, lambda, own| {
+        self.add((lambda, RowRanges::clone), factor, out, |c, lambda, own| {
             rates.take(&c.site, v);
             c.d_power_dp(&s.slots, &mut rates, lambda, own);
         });
@@ -221,24 +222,28 @@ impl<'m> Data<'m> {
     /// Adds the gradient of `λᵀ·Φ` with respect to all numbers of the constraints, times `factor`,
     /// to `out`; `lambda` has at least m values.
     pub fn add_phi(self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
-        let of_phi = &lambda[..self.0.layout().m];
-        self.add(of_phi, factor, out, |c, lambda, own| {
+        let of_phi = |rows: &RowRanges| RowRanges {
+            holonomic: rows.holonomic.clone(),
+            nonholonomic: 0..0,
+        };
+        self.add((lambda, of_phi), factor, out, |c, lambda, own| {
             c.d_phi_dp(&s.slots, lambda, own);
         });
     }
 
-    /// Adds gradients that `kernel` writes for a constraint and its multipliers, times `factor`, to
-    /// `out`. Rows beyond `lambda` have no part in them.
+    /// Adds gradients that `kernel` writes for a constraint and the multipliers of some of its
+    /// rows, times `factor`, to `out`.
     fn add(
         self,
-        lambda: &[f64],
+        (lambda, some): (&[f64], fn(&RowRanges) -> RowRanges),
         factor: f64,
         out: &mut [f64],
         mut kernel: impl FnMut(&PlacedConstraint, &[f64], &mut [f64]),
     ) {
-        let mut own = Vec::new();
+        let (mut own, mut storage) = (Vec::new(), Vec::new());
         for (c, numbers) in self.numbered() {
-            let lambda = lambda.get(c.rows.clone()).unwrap_or_default();
+            let rows = some(&c.rows);
+            let lambda = rows.of(lambda, &mut storage);
             if numbers.is_empty() || lambda.iter().all(|l| *l == 0.0) {
                 continue;
             }
@@ -270,10 +275,10 @@ impl<'m> Data<'m> {
     /// Adds the gradient of `λᵀ·C·v` with respect to the pose, n_v values along velocity
     /// directions, to `out`.
     pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
-        let mut own = Vec::new();
+        let (mut own, mut storage) = (Vec::new(), Vec::new());
         for c in &self.0.elements.constraints {
             let pattern = c.spec().d_force_dx;
-            let lambda = &lambda[c.rows.clone()];
+            let lambda = c.rows.of(lambda, &mut storage);
             if pattern.is_empty() || lambda.iter().all(|l| *l == 0.0) {
                 continue;
             }

@@ -107,9 +107,7 @@ fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
     let mut phi = vec![Dd::ZERO; mechanism.layout().m];
     let (bodies, jets) = arguments(mechanism, t, q);
     for c in &mechanism.elements.constraints {
-        if c.rows.start < phi.len() {
-            c.extended_phi(&bodies, &jets, &mut phi[c.rows.clone()]);
-        }
+        c.extended_phi(&bodies, &jets, &mut phi[c.rows.holonomic.clone()]);
     }
     phi
 }

@@ -1,10 +1,9 @@
 //! Joints and drives with their rows: names, sizes, and the components of their reactions.
 
-use std::ops::Range;
-
 use joints::spec::{ConstraintSpec, Entry};
 
 use crate::body::BodyRef;
+use crate::rows::RowRanges;
 use crate::space::SpaceKind;
 
 /// Index of a joint or drive in [`crate::Layout::groups`].
@@ -34,7 +33,7 @@ pub struct ConstraintGroup {
     /// Its bodies.
     pub bodies: Vec<BodyRef>,
     /// Its rows of C.
-    pub rows: Range<usize>,
+    pub rows: RowRanges,
 }
 
 impl ConstraintGroup {

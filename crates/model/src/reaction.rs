@@ -307,20 +307,27 @@ impl<'a> Reactions<'a> {
     #[must_use]
     pub fn reaction_in(self, block: &mut Vec<f64>, id: ConstraintId, lambda: &[f64]) -> Reaction {
         let (group, c) = (self.group(id), self.constraint(id));
-        let lambda = &lambda[group.rows.clone()];
+        let early = &lambda[group.rows.holonomic.clone()];
+        let late = &lambda[group.rows.nonholonomic.clone()];
+        let of_row = |own: usize| match early.get(own) {
+            Some(lambda) => *lambda,
+            None => late[own - early.len()],
+        };
         // Of multipliers that there are not, no component is known.
-        let none = lambda.iter().map(|l| l * 0.0).sum::<f64>() + 0.0;
+        let nothing = |lambda: &[f64]| lambda.iter().map(|l| l * 0.0).sum::<f64>();
+        let none = nothing(early) + nothing(late) + 0.0;
         let space = group.space;
         let mut wrench = Reaction::default();
         (0..space.n_v()).for_each(|k| *wrench.of_mut(space, k) = none);
         self.visit_wrench(id, block, |component, row, value| {
-            *wrench.of_mut(space, component) += value * lambda[row];
+            *wrench.of_mut(space, component) += value * of_row(row);
         });
         wrench.component = group.spec.component.map(|_| {
             block.clear();
-            block.resize(lambda.len(), 0.0);
+            block.resize(group.rows.len(), 0.0);
             c.component(&self.s.slots, block);
-            block.iter().zip(lambda).map(|(k, l)| k * l).sum()
+            let product = |k: &[f64], l: &[f64]| k.iter().zip(l).map(|(k, l)| k * l).sum::<f64>();
+            product(block, early) + product(&block[early.len()..], late)
         });
         wrench
     }
@@ -347,7 +354,7 @@ impl<'a> Reactions<'a> {
             });
             along
         };
-        self.group(id).rows.clone().any(|row| {
+        self.group(id).rows.iter().any(|row| {
             (0..space.n_v()).any(|motion| {
                 let (mut sum, mut size) = (0.0, 0.0_f64);
                 for (column, c) in self.layout().row(self.s, row) {

@@ -112,7 +112,7 @@ fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
         force: numbers(mechanism.weight()),
     };
     for c in &elements.constraints {
-        record_constraint(c, inputs, layout.m, &mut r);
+        record_constraint(c, inputs, &mut r);
     }
     for f in &elements.forces {
         let mut block = vec![zero; f.columns.len()];
@@ -126,16 +126,17 @@ fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
     r
 }
 
-fn record_constraint(c: &PlacedConstraint, inputs: &RecordedSlots, m: usize, r: &mut Results) {
-    let rows = c.rows.clone();
-    if rows.start < m {
-        c.recorded_phi(inputs, &mut r.phi[rows.clone()]);
-    }
+fn record_constraint(c: &PlacedConstraint, inputs: &RecordedSlots, r: &mut Results) {
+    let mut own = Vec::new();
+    c.recorded_phi(inputs, &mut r.phi[c.rows.holonomic.clone()]);
     if c.has_varying_entries() {
         c.recorded_c(inputs, &mut r.entries[c.entries.clone()]);
     }
     if c.depends_on_time() {
-        c.recorded_b(inputs, &mut r.b[rows.clone()]);
+        c.rows
+            .write(&mut r.b, &mut own, |b| c.recorded_b(inputs, b));
     }
-    c.recorded_gamma(inputs, &mut r.gamma[rows]);
+    c.rows.write(&mut r.gamma, &mut own, |gamma| {
+        c.recorded_gamma(inputs, gamma);
+    });
 }

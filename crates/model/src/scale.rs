@@ -123,10 +123,9 @@ impl Scales<'_> {
     /// the sum of `|f| + |ḟ| + |f̈|`. A rate that is rounding relative to it counts as zero.
     #[must_use]
     pub fn prescribed(self, i: usize) -> f64 {
-        // Rows are numbered in the order of the constraints.
-        let constraints = &self.mechanism.elements.constraints;
-        let at = constraints.partition_point(|c| c.rows.end <= i);
-        let of_row = constraints.get(at);
+        let mechanism = self.mechanism;
+        let owner = mechanism.layout().owners.get(i);
+        let of_row = owner.map(|id| &mechanism.elements.constraints[id.0]);
         let jets = of_row.map_or(&[][..], |c| c.site.f(&self.s.slots));
         jets.iter().flatten().map(|x| x.abs()).sum()
     }

@@ -197,8 +197,8 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
     layout
         .groups
         .iter()
-        .flat_map(|g| g.rows.clone().zip(g.spec.rows))
-        .filter(|(row, spec)| *row < layout.m && spec.restricts_start)
+        .flat_map(|g| g.rows.holonomic.clone().zip(g.spec.rows))
+        .filter(|(_, spec)| spec.restricts_start)
         .map(|(row, _)| row)
         .collect()
 }

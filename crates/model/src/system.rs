@@ -84,8 +84,11 @@ pub struct Layout {
     pub h: usize,
     /// Pattern of C.
     pub pattern: Pattern,
-    /// Joints and drives, in the order of their rows.
+    /// Joints with holonomic rows, drives, joints without holonomic rows, each in the order of the
+    /// description. Holonomic rows follow this order, nonholonomic ones that of the description.
     pub groups: Vec<ConstraintGroup>,
+    /// The joint or drive of each row.
+    pub owners: Vec<ConstraintId>,
     /// One label for each row.
     pub labels: Vec<RowLabel>,
     /// Times at which a derivative of a function of time jumps, ascending.
@@ -105,7 +108,16 @@ impl Layout {
     #[must_use]
     pub fn drive_rows(&self) -> Vec<usize> {
         let drives = self.groups.iter().filter(|g| g.is_drive());
-        drives.flat_map(|g| g.rows.clone()).collect()
+        drives.flat_map(|g| g.rows.iter()).collect()
+    }
+
+    /// The joint or drive of row `i`.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    #[must_use]
+    pub fn owner(&self, i: usize) -> &ConstraintGroup {
+        &self.groups[self.owners[i].0]
     }
 
     /// Row `i` of C as (column, value).
@@ -116,7 +128,7 @@ impl Layout {
         places.map(|(&column, &entry)| (column, s.entries[entry]))
     }
 
-    /// Ids of all joints and drives, in the order of their rows.
+    /// Ids of all joints and drives, in the order of [`Layout::groups`].
     pub fn constraint_ids(&self) -> impl Iterator<Item = ConstraintId> + use<> {
         (0..self.groups.len()).map(ConstraintId)
     }
@@ -249,4 +261,6 @@ pub struct Scratch {
     pub(crate) jets_at: f64,
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,
+    /// Values of the rows of one constraint.
+    pub(crate) own_rows: Vec<f64>,
 }

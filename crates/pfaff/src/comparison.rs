@@ -13,7 +13,7 @@ use std::ops::Range;
 
 use linalg::{Matrix, PivotedQr};
 use model::start::scene_size;
-use model::{Mechanism, Part, Scratch, SpaceKind, System};
+use model::{Mechanism, Part, RowRanges, Scratch, SpaceKind, System};
 use rank::{RankDecision, deletions, dependencies};
 use report::{ComparedChoice, Comparison, Frame, Freedom, Recording};
 use solvability::parts::parts;
@@ -244,7 +244,7 @@ impl<'a> Set<'a> {
         let free: Vec<Matrix> = maps
             .iter()
             .zip(&mechanism.layout().groups)
-            .map(|(w, g)| product(w, &z, g.rows.start))
+            .map(|(w, g)| product(w, &z, &g.rows))
             .collect();
         let least = Configuration::new(mechanism, frame.t, &q, &decision)
             .ok()
@@ -277,7 +277,8 @@ impl<'a> Set<'a> {
     fn wrenches(&self, maps: &[Matrix], lambda: &[f64]) -> Vec<Vec<f64>> {
         let groups = &self.part.mechanism.layout().groups;
         let each = maps.iter().zip(groups);
-        each.map(|(map, group)| map.times(&lambda[group.rows.clone()]))
+        let mut own = Vec::new();
+        each.map(|(map, group)| map.times(group.rows.of(lambda, &mut own)))
             .collect()
     }
 
@@ -424,10 +425,11 @@ fn moved(lambda: &[f64], z: &Matrix, y: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// `W·Z` with the rows of Z from `start` on.
-fn product(w: &Matrix, z: &Matrix, start: usize) -> Matrix {
+/// `W·Z` with these rows of Z.
+fn product(w: &Matrix, z: &Matrix, rows: &RowRanges) -> Matrix {
+    let rows: Vec<usize> = rows.iter().collect();
     Matrix::from_fn(w.nrows(), z.ncols(), |i, j| {
-        let terms = w.row(i).iter().enumerate();
-        terms.map(|(k, w)| w * z[(start + k, j)]).sum()
+        let terms = w.row(i).iter().zip(&rows);
+        terms.map(|(w, row)| w * z[(*row, j)]).sum()
     })
 }

@@ -34,7 +34,7 @@ use incidence::Incidence;
 pub use cycles::cycles;
 pub use incidence::{Part, RowGroup};
 
-pub(crate) use incidence::partition;
+pub(crate) use incidence::{partition, within};
 
 /// Result for a row or group before any rank of the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -76,15 +76,18 @@ pub struct Structure {
 /// use rank::{RowGroup, Settled, structure};
 /// // Block k = column k. Rows 0 and 1 both fix block 0; row 2 connects block 1 to it.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [-1.0, 1.0]]);
-/// let groups = [(0..1, true), (1..2, true), (2..3, false)].map(|(rows, ground)| RowGroup { rows, ground });
+/// let groups = [(0..1, true), (1..2, true), (2..3, false)].map(|(rows, ground)| {
+///     let rows = rows.collect();
+///     RowGroup { rows, ground }
+/// });
 /// let found = structure(&c, 0.0, &groups, &[0..1, 1..2])?;
 /// assert_eq!(found.groups, [Settled::Open(0), Settled::Open(0), Settled::Peeled]);
 /// assert_eq!(found.open[0].rows, [0, 1]);
 /// # Ok::<(), rank::RankError>(())
 /// ```
 ///
-/// Ranges beyond the matrix are cut off; a row in several groups, or a column in several blocks,
-/// counts for the first.
+/// Rows and columns beyond the matrix are left out; a row in several groups, or a column in several
+/// blocks, counts for the first.
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.

@@ -125,7 +125,7 @@ pub(crate) fn variants(mechanism: &Mechanism, variants: &[Variant]) -> String {
     };
     out.push_str(&line("motion", &motion_difference, "the same"));
     for (k, group) in mechanism.layout().groups.iter().enumerate() {
-        let row = group.rows.start + 1;
+        let row = group.rows.row(0) + 1;
         let deleted_in_all = group.rows.len() == 1 && DELETED.iter().all(|d| d.contains(&row));
         let note = match PUBLISHED.contains(&group.name.as_str()) {
             true if deleted_in_all => "a choice: deleted, and so zero, in all three",

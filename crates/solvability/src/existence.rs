@@ -360,8 +360,8 @@ impl Comparison<'_> {
         }
         let layout = mechanism.layout();
         let driven_by = |row: usize| {
-            let group = layout.groups.iter().position(|g| g.rows.contains(&row))?;
-            layout.groups[group].spec.rheonomic.then_some(group)
+            let owner = layout.owners.get(row)?.0;
+            layout.groups[owner].spec.rheonomic.then_some(owner)
         };
         let drives: BTreeSet<usize> = terms().filter_map(|(i, _)| driven_by(i)).collect();
         let forced = match (drives.is_empty(), self.level) {
@@ -423,7 +423,7 @@ impl Comparison<'_> {
     /// continue to hold.
     fn forcing(&self, mechanism: &Mechanism, rows: &[usize]) -> BTreeSet<usize> {
         let layout = mechanism.layout();
-        let group = |row: usize| layout.groups.partition_point(|g| g.rows.end <= row);
+        let group = |row: usize| layout.owners[row].0;
         let bodies = |k: usize| layout.groups[k].bodies.iter().filter_map(|b| b.moving());
         let Some(first) = rows.first().and_then(|&row| bodies(group(row)).next()) else {
             return BTreeSet::new();

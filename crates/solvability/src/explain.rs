@@ -218,7 +218,7 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
     let touching = |rows: &[usize]| -> Vec<ConstraintId> {
         let touched = |id: &ConstraintId| {
             rows.iter()
-                .any(|row| layout.groups[id.0].rows.contains(row))
+                .any(|row| layout.groups[id.0].rows.contains(*row))
         };
         layout.constraint_ids().filter(touched).collect()
     };
@@ -362,7 +362,7 @@ fn reaction(
     };
     let is_open = group
         .rows
-        .clone()
+        .iter()
         .any(|row| open.binary_search(&row).is_ok());
     let shared = match others.as_slice() {
         _ if is_open => "within the tolerance it is open what it shares loads with".to_owned(),
@@ -392,7 +392,7 @@ fn stress(
     }
     let carries = |id: ConstraintId| {
         let group = &layout.groups[id.0];
-        if !group.rows.clone().any(|row| lambda[row] != 0.0) {
+        if !group.rows.iter().any(|row| lambda[row] != 0.0) {
             return None;
         }
         let reaction = mechanism.reactions(s).reaction(id, &lambda);

@@ -111,8 +111,7 @@ impl Lasting {
     fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
         let layout = mechanism.layout();
         let lasting = layout.groups.iter().filter(|g| !g.is_drive());
-        let rows = lasting.flat_map(|g| g.rows.clone());
-        let mut dropped: Vec<usize> = rows.filter(|row| *row < layout.m).collect();
+        let mut dropped: Vec<usize> = lasting.flat_map(|g| g.rows.holonomic.clone()).collect();
         let held = holding_together(mechanism, t, q, dropped.clone());
         dropped.retain(|row| !held.contains(row));
         Self { held, dropped }
@@ -244,7 +243,7 @@ fn elsewhere(
     // left out because it is redundant within a tolerance has to agree there with the others.
     let layout = mechanism.layout();
     for group in layout.groups.iter().filter(|g| g.is_drive()) {
-        for i in group.rows.clone().filter(|i| *i < layout.m) {
+        for i in group.rows.iter().filter(|i| *i < layout.m) {
             s.phi[i] = 0.0;
         }
     }

@@ -37,9 +37,16 @@ pub(crate) fn judge_sparse(
         Ok((found.rank, found.status))
     })?;
     let verdict = |id: ConstraintId| {
-        let rows = layout.groups[id.0].rows.clone();
-        let own = 0..rows.len();
-        reaction(mechanism, id, s, &all.basis(rows), own, Detail::Directions)
+        let rows: Vec<usize> = layout.groups[id.0].rows.iter().collect();
+        let own: Vec<usize> = (0..rows.len()).collect();
+        reaction(
+            mechanism,
+            id,
+            s,
+            &all.basis(&rows),
+            &own,
+            Detail::Directions,
+        )
     };
     let decision = PartDecision::Sparse {
         rows: (&all.found).into(),

@@ -40,7 +40,7 @@ pub(crate) fn tell(
     let images: Vec<Matrix> = joints
         .iter()
         .map(|&id| {
-            let rows: Vec<usize> = layout.groups[id.0].rows.clone().collect();
+            let rows: Vec<usize> = layout.groups[id.0].rows.iter().collect();
             let own = multipliers.select_rows(&rows);
             let mut image = reactions.wrench_map_about(id, about).product(&own);
             for k in layout.space.torques() {

@@ -5,10 +5,8 @@
 //! its joint keeps one row (a revolute becomes a pin in a slot), and a joint or drive with a single
 //! row may be deleted.
 
-use std::ops::Range;
-
 use linalg::Matrix;
-use model::{ConstraintId, ConstraintKind, Layout, Mechanism, System};
+use model::{ConstraintId, ConstraintKind, Layout, Mechanism, RowRanges, System};
 use rank::{DeletionError, Limits};
 
 use crate::matrices::Solvability;
@@ -65,7 +63,7 @@ pub fn make_unique(
         Allowed::Whole => layout
             .groups
             .iter()
-            .map(|g| g.rows.clone().collect())
+            .map(|g| g.rows.iter().collect())
             .collect(),
         Allowed::Rows(rows) => rows.iter().map(|&row| vec![row]).collect(),
     };
@@ -74,9 +72,9 @@ pub fn make_unique(
             || layout
                 .groups
                 .iter()
-                .all(|g| g.rows.len() <= 1 || !g.rows.clone().all(|row| rows.contains(&row)))
+                .all(|g| g.rows.len() <= 1 || !g.rows.iter().all(|row| rows.contains(&row)))
     };
-    let target = solvability.wrench_combinations(layout.groups[id.0].rows.clone());
+    let target = solvability.wrench_combinations(&layout.groups[id.0].rows);
     let decision = solvability.decision();
     let found = rank::making_unique(decision, &target, &candidates, admits, limits)?;
     let proposal = |set: &Vec<usize>| {
@@ -97,12 +95,12 @@ pub fn make_unique(
 impl Solvability {
     /// The combinations of all multipliers that give `C_Xᵀ·λ_X` (n × m), each in the scale of its
     /// equilibrated column.
-    fn wrench_combinations(&self, rows: Range<usize>) -> Matrix {
+    fn wrench_combinations(&self, rows: &RowRanges) -> Matrix {
         let decision = self.decision();
         let m = decision.rank + decision.redundancy;
         let c = self.equilibrated();
         Matrix::from_fn(c.ncols(), m, |k, i| {
-            if rows.contains(&i) {
+            if rows.contains(i) {
                 c[(i, k)] / decision.scaling.row_factor(i)
             } else {
                 0.0
@@ -118,7 +116,7 @@ fn sentence(layout: &Layout, rows: &[usize]) -> String {
         let own: Vec<usize> = rows
             .iter()
             .copied()
-            .filter(|row| group.rows.contains(row))
+            .filter(|row| group.rows.contains(*row))
             .collect();
         if own.is_empty() {
             continue;

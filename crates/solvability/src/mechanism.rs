@@ -1,8 +1,6 @@
 //! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive,
 //! row and direction.
 
-use std::ops::Range;
-
 use linalg::Matrix;
 use model::{ConstraintId, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
@@ -75,8 +73,8 @@ pub(crate) fn reaction_verdicts(
         }
     })?;
     let verdict = |id: ConstraintId| {
-        let own = layout.groups[id.0].rows.clone();
-        reaction(mechanism, id, s, basis, own, detail)
+        let own: Vec<usize> = layout.groups[id.0].rows.iter().collect();
+        reaction(mechanism, id, s, basis, &own, detail)
     };
     let decision = PartDecision::Dense(Box::new(decision.clone()));
     Judged::new(mechanism, s.t, rows.size(), decision, ranks, verdict)
@@ -88,7 +86,7 @@ pub(crate) fn reaction(
     id: ConstraintId,
     s: &Scratch,
     basis: &Basis,
-    rows: Range<usize>,
+    rows: &[usize],
     detail: Detail,
 ) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
@@ -101,7 +99,9 @@ pub(crate) fn reaction(
         .iter()
         .filter(|&c| group.space.forces().contains(c))
         .count();
-    let mapped = basis.mapped(&map, rows.clone())?.with_forces(forces);
+    let mapped = basis
+        .mapped(&map, rows.iter().copied())?
+        .with_forces(forces);
     let mut zero_components = Vec::new();
     for (i, &c) in components.iter().enumerate() {
         if mapped.is_zero(i)? {
@@ -115,7 +115,7 @@ pub(crate) fn reaction(
         })
     });
     let components = judged.collect::<Result<Vec<_>, QueryError>>()?;
-    let on_bodies = basis.group(rows.clone())?;
+    let on_bodies = basis.group(rows.iter().copied())?;
     let free = components
         .iter()
         .find(|c| c.judgement.verdict == Verdict::NotUnique);
@@ -140,10 +140,10 @@ pub(crate) fn reaction(
     let live_directions = unique_directions
         .as_deref()
         .map(|unique| told(mapped.live_directions(unique)));
-    let row_verdict = |(row, own)| {
+    let row_verdict = |(row, own): (usize, &usize)| {
         Ok(RowVerdict {
             row,
-            judgement: basis.row(own)?,
+            judgement: basis.row(*own)?,
         })
     };
     Ok(ReactionVerdict {
@@ -152,8 +152,8 @@ pub(crate) fn reaction(
         space: group.space,
         kind: group.spec.common.scene_type,
         wrench,
-        multipliers: basis.multipliers(rows.clone())?,
-        rows: (group.rows.clone().zip(rows))
+        multipliers: basis.multipliers(rows.iter().copied())?,
+        rows: (group.rows.iter().zip(rows))
             .map(row_verdict)
             .collect::<Result<_, _>>()?,
         components,

@@ -2,7 +2,7 @@
 //! which the whole mechanism is moved. Frames of bodies are turned and off the centre of mass.
 
 use joints::space3::{Axes, Cylindrical, Direction, Planar, Pose, Revolute, Spherical};
-use joints::space3::{Distance, GroundPlane, PointOnPlane, Translational, WheelContact, WheelSlip};
+use joints::space3::{Distance, GroundPlane, PointOnPlane, Translational, Wheel};
 use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription};
 
 use crate::{Analysis, analyse};
@@ -152,23 +152,14 @@ impl Sketch {
     /// A wheel of this radius on the plane z = 0 of the home pose, which the mechanism must be at.
     pub(crate) fn wheel(&mut self, name: &str, wheel: BodyRef, axis: [f64; 3], radius: f64) {
         let axis = Direction::new(self.direction(wheel, axis)).expect("a direction");
-        let (s, plane) = ([0.0; 3], GroundPlane::Z);
-        let contact = WheelContact {
-            s,
+        let rolls = Wheel {
+            s: [0.0; 3],
             axis,
             radius,
-            plane,
-            half_inverse: 0.0,
-        };
-        let slip = WheelSlip {
-            s,
-            axis,
-            radius,
-            plane,
+            plane: GroundPlane::Z,
             inverse: 0.0,
         };
-        self.d.joint(&format!("contact {name}"), &[wheel], contact);
-        self.d.joint(&format!("slip {name}"), &[wheel], slip);
+        self.d.joint(name, &[wheel], rolls);
     }
 
     /// The mechanism, its configuration and its verdicts.

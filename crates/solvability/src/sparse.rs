@@ -70,15 +70,16 @@ impl Decided {
     }
 
     /// What verdicts of a group of the decided rows are read from: the rows alone.
-    pub(crate) fn basis(&self, own: Range<usize>) -> Basis {
+    pub(crate) fn basis(&self, own: &[usize]) -> Basis {
         let e = &self.found.evidence;
-        let mut columns: Vec<usize> = own.clone().flat_map(|i| self.c.row(i).0).copied().collect();
+        let of_rows = own.iter().flat_map(|&i| self.c.row(i).0);
+        let mut columns: Vec<usize> = of_rows.copied().collect();
         let entries = columns.len();
         columns.sort_unstable();
         columns.dedup();
         let scaling = &self.found.scaling;
         let mut c = Matrix::zeros(own.len(), columns.len());
-        for (k, i) in own.clone().enumerate() {
+        for (k, &i) in own.iter().enumerate() {
             let (at, values) = self.c.row(i);
             for (j, value) in at.iter().zip(values) {
                 if let Ok(l) = columns.binary_search(j) {
@@ -91,10 +92,10 @@ impl Decided {
         let noise = self.found.noise();
         Basis {
             c,
-            z: w.select_rows(&own.clone().collect::<Vec<_>>()),
+            z: w.select_rows(own),
             known: matrices::Known {
                 status: self.found.status,
-                row_factor: own.clone().map(|i| scaling.row_factor(i)).collect(),
+                row_factor: own.iter().map(|&i| scaling.row_factor(i)).collect(),
                 row_noise: vec![noise; own.len()],
                 row_rounding: Vec::new(),
                 tolerance: noise,

@@ -6,7 +6,7 @@ use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 use rank::{RankError, RowGroup, Structure};
 
-/// Analyses the structure: its groups are joints and drives in the order of their rows, its blocks
+/// Analyses the structure: its groups are joints and drives in the order of the layout, its blocks
 /// are bodies. The scratch must hold Φ and C at coordinates q.
 ///
 /// # Errors
@@ -15,7 +15,7 @@ pub fn structure(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Struct
     let layout = mechanism.layout();
     let size = scene_size(mechanism, q);
     let group = |id: model::ConstraintId| RowGroup {
-        rows: layout.groups[id.0].rows.clone(),
+        rows: layout.groups[id.0].rows.iter().collect(),
         ground: mechanism.reactions(s).acts_on_ground(id),
     };
     let groups: Vec<RowGroup> = mechanism.layout().constraint_ids().map(group).collect();

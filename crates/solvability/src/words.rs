@@ -35,8 +35,8 @@ pub(crate) fn names(layout: &Layout, ids: &[ConstraintId]) -> Vec<String> {
 pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
     let layout = mechanism.layout();
     let touched = |id: &ConstraintId| {
-        let own = layout.groups[id.0].rows.clone();
-        rows.iter().any(|row| own.contains(row))
+        let own = &layout.groups[id.0].rows;
+        rows.iter().any(|row| own.contains(*row))
     };
     let ids: Vec<ConstraintId> = mechanism
         .layout()

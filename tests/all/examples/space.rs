@@ -234,11 +234,11 @@ fn wagon() {
     let run = Spatial::of("wagon");
     for row in &run.0.rows {
         close(run.centre(row, "chassis")[0], 0.25 * row.t * row.t, 1.0);
-        let braked = run.sum(row, &["slip-front-left"]);
+        let braked = run.sum(row, &["wheel-front-left"]);
         close(braked[0], -0.5 * 0.5, 13.0);
     }
     let wheels = ["front-left", "front-right", "rear-left", "rear-right"];
-    let contacts = wheels.map(|w| format!("contact-{w}"));
+    let contacts = wheels.map(|w| format!("wheel-{w}"));
     let contacts = contacts.each_ref().map(String::as_str);
     close(run.sum(run.0.last(), &contacts)[2].abs(), 24.0 * G, 240.0);
 }

@@ -5,7 +5,6 @@
 use lab::fuzz::space::expected::AXES;
 use lab::fuzz::space::pose::{Writing, posed};
 use lab::fuzz::space::text::Precision;
-use lab::fuzz::space::text::SLIP;
 use lab::fuzz::space::{Drawing, Expected, catalogue, description, scenes};
 use lab::numbers::Numbers;
 use model::{Mechanism, System};
@@ -53,13 +52,7 @@ fn judged(what: &str, drawing: &Drawing) -> [usize; 4] {
     for right in &expected.reactions {
         let what = format!("{what}, {}", right.name);
         let verdict = of(&right.name).unwrap_or_else(|| panic!("{what}: no verdict"));
-        let slip = of(&format!("{}{SLIP}", right.name));
-        let is_unique = unique(verdict) && slip.is_none_or(unique);
-        assert_eq!(is_unique, right.is_unique, "{what}");
-        // The wrench of a wheel is the sum of two.
-        if slip.is_some() {
-            continue;
-        }
+        assert_eq!(unique(verdict), right.is_unique, "{what}");
         for (name, is_unique) in AXES.into_iter().zip(right.components) {
             let component = verdict.components.iter().find(|c| c.name == name);
             let found = component.is_none_or(|c| c.judgement.verdict == Verdict::Unique);

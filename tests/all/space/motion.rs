@@ -237,7 +237,11 @@ fn a_disk_rolls_steadily() {
         assert!((row.v[5] - disk.spin()).abs() < 1e-9, "{}", row.v[5]);
         close(&row.q[2..3], &[RollingDisk::RADIUS * tilt], 1e-10, "height");
         let reactions = row.reactions().expect("unique");
-        close(&[reactions[0].force[2]], &[weight], 1e-6, "contact");
+        let [edge] = &reactions[..] else {
+            panic!("one joint: {reactions:?}");
+        };
+        close(&[edge.force[2]], &[weight], 1e-6, "contact");
+        close(&edge.torque, &[0.0; 3], 1e-6, "moment about the contact");
         rows += 1;
     });
     assert_eq!(rows, 21);

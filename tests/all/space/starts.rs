@@ -110,7 +110,7 @@ fn faults(
         let kept: &[usize] = match joint.element.spec().common.scene_type {
             "revolute" => &[2],
             "translational" => &[0, 1, 2],
-            "wheel-contact" => {
+            "wheel" => {
                 if after[0].r[2] <= 0.0 {
                     found.push(format!("`{}` lies below the ground", joint.name));
                 }

@@ -413,7 +413,7 @@ fn tables() {
 /// with its front axle turned in parallel.
 #[test]
 fn cars() {
-    use joints::space3::{GroundPlane, WheelContact, WheelSlip};
+    use joints::space3::{GroundPlane, Wheel};
     let car = |turn: f64| {
         let mut s = Sketch::new("car");
         let chassis = s.body("chassis", [0.1, 0.0, 0.5], [1.0, 0.0, 0.0, 0.0]);
@@ -430,23 +430,14 @@ fn cars() {
             let axis = [-angle.sin(), angle.cos(), 0.0];
             s.joint(&format!("hub {k}"), Kind::R, [chassis, wheel], centre, axis);
             let axis = Direction::new(s.direction(wheel, axis)).expect("a direction");
-            let plane = GroundPlane::Z;
-            let contact = WheelContact {
+            let rolls = Wheel {
                 s: [0.0; 3],
                 axis,
                 radius: 0.3,
-                plane,
-                half_inverse: 0.0,
-            };
-            let slip = WheelSlip {
-                s: [0.0; 3],
-                axis,
-                radius: 0.3,
-                plane,
+                plane: GroundPlane::Z,
                 inverse: 0.0,
             };
-            s.d.joint(&format!("contact {k}"), &[wheel], contact);
-            s.d.joint(&format!("slip {k}"), &[wheel], slip);
+            s.d.joint(&format!("tread {k}"), &[wheel], rolls);
         }
         s
     };

@@ -75,10 +75,7 @@ fn with_rows(text: &str) -> Fallible<String> {
         .layout()
         .groups
         .iter()
-        .map(|g| match g.rows.len() {
-            1 => format!("{} ({})", g.name, g.rows.start + 1),
-            _ => format!("{} ({}–{})", g.name, g.rows.start + 1, g.rows.end),
-        })
+        .map(|g| format!("{} ({})", g.name, g.rows))
         .collect();
     let named = |name: &str| {
         let found = rows

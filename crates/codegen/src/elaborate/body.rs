@@ -29,21 +29,24 @@ impl<'a> Scope<'a> {
 
     pub(super) fn constraint(&mut self) -> syn::Result<ConstraintBody> {
         let d = self.definition;
-        let (holonomic, expr) = match (&d.phi, &d.psi) {
-            (Some(phi), _) => (true, phi),
-            (None, Some(psi)) => (false, psi),
-            (None, None) => unreachable!("the parser requires phi or psi"),
-        };
-        let mut vectors = Vec::new();
-        let rows = self.rows(expr, &mut vectors)?;
-        check_row_count(d, expr, rows.len())?;
-        for &(row, at) in &rows {
-            if holonomic {
-                self.refuse_all(at, check::PHI)?;
-            } else {
-                self.refuse_all(at, check::PSI)?;
+        let (mut rows, mut vectors) = (Vec::new(), Vec::new());
+        let mut counts = [0; 2];
+        for (expr, count) in [&d.phi, &d.psi].into_iter().zip(&mut counts) {
+            if let Some(expr) = expr {
+                let before = rows.len();
+                self.rows(expr, &mut rows, &mut vectors)?;
+                *count = rows.len() - before;
             }
-            if !holonomic && !check::moves(&mut self.model, row) {
+        }
+        check_row_count(d, counts)?;
+        let [holonomic, _] = counts;
+        for (k, &(row, at)) in rows.iter().enumerate() {
+            if k < holonomic {
+                self.refuse_all(at, check::PHI)?;
+                continue;
+            }
+            self.refuse_all(at, check::PSI)?;
+            if !check::moves(&mut self.model, row) {
                 return Err(syn::Error::new_spanned(
                     at,
                     "this row of `psi` contains no velocity: a constraint on the level of positions is `phi`",
@@ -72,7 +75,7 @@ impl<'a> Scope<'a> {
                         other => Measure::Of(as_scalar(other, e)?),
                     }
                 }
-                None => Measure::Kept(self.moved(name, &rows)?),
+                None => Measure::Kept(self.moved(name, &rows[..holonomic])?),
             };
             measures.push((name.clone(), measure));
         }
@@ -91,7 +94,7 @@ impl<'a> Scope<'a> {
         })
     }
 
-    /// The kept number of this name, which the rows must contain.
+    /// The kept number of this name, which these rows of Φ must contain.
     fn moved(&self, name: &Ident, rows: &[Row<'_>]) -> syn::Result<Expr> {
         let kept = self.model.kept.iter().find(|k| *name == k.field);
         let number = kept.filter(|k| matches!(k.kind, Kept::Number(_)) && k.of_start);
@@ -134,40 +137,37 @@ impl<'a> Scope<'a> {
         Ok(terms)
     }
 
-    /// Scalars of a list of scalars and vectors, vectors as their global components; these are
-    /// noted with the numbers of their first rows.
+    /// Appends the scalars of a list of scalars and vectors, vectors as their global components;
+    /// these are noted with the numbers of their first rows.
     fn rows(
         &mut self,
         e: &'a syn::Expr,
+        rows: &mut Vec<Row<'a>>,
         vectors: &mut Vec<(usize, Vector)>,
-    ) -> syn::Result<Vec<Row<'a>>> {
+    ) -> syn::Result<()> {
         match e {
-            syn::Expr::Paren(inner) => self.rows(&inner.expr, vectors),
-            syn::Expr::Group(inner) => self.rows(&inner.expr, vectors),
+            syn::Expr::Paren(inner) => self.rows(&inner.expr, rows, vectors),
+            syn::Expr::Group(inner) => self.rows(&inner.expr, rows, vectors),
             syn::Expr::Array(list) => {
-                let mut rows = Vec::new();
-                for entry in &list.elems {
-                    let mut own = Vec::new();
-                    let scalars = self.rows(entry, &mut own)?;
-                    let before = rows.len();
-                    vectors.extend(own.into_iter().map(|(first, v)| (before + first, v)));
-                    rows.extend(scalars);
-                }
-                Ok(rows)
+                let mut entries = list.elems.iter();
+                entries.try_for_each(|entry| self.rows(entry, rows, vectors))
             }
             _ => {
                 let value = self.value(e)?;
                 if let Value::Vector(v) = &value {
-                    vectors.push((0, v.clone()));
+                    vectors.push((rows.len(), v.clone()));
                 }
                 let scalars = self.components(value, e)?;
-                Ok(scalars.into_iter().map(|row| (row, e)).collect())
+                rows.extend(scalars.into_iter().map(|row| (row, e)));
+                Ok(())
             }
         }
     }
 }
 
-fn check_row_count(d: &Definition, expr: &syn::Expr, found: usize) -> syn::Result<()> {
+/// Compares the number of names with the numbers of rows of `phi` and `psi`.
+fn check_row_count(d: &Definition, counts: [usize; 2]) -> syn::Result<()> {
+    let found = counts.iter().sum();
     if found == d.rows.len() {
         return Ok(());
     }
@@ -185,15 +185,15 @@ fn check_row_count(d: &Definition, expr: &syn::Expr, found: usize) -> syn::Resul
             rows(found)
         ),
     );
-    error.combine(syn::Error::new_spanned(
-        expr,
-        match d.space {
-            Space::Plane => format!("this has {} (a vector counts as two, x and y)", rows(found)),
-            Space::Space3 => format!(
-                "this has {} (a vector counts as three, x, y and z)",
-                rows(found)
-            ),
-        },
-    ));
+    let vector = match d.space {
+        Space::Plane => "a vector counts as two, x and y",
+        Space::Space3 => "a vector counts as three, x, y and z",
+    };
+    for (expr, found) in [&d.phi, &d.psi].into_iter().zip(counts) {
+        if let Some(expr) = expr {
+            let words = format!("this has {} ({vector})", rows(found));
+            error.combine(syn::Error::new_spanned(expr, words));
+        }
+    }
     Err(error)
 }

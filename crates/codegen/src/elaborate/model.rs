@@ -49,8 +49,9 @@ pub(crate) enum Body {
 
 /// A constraint as mathematics.
 pub(crate) struct ConstraintBody {
-    /// Whether `rows` are Φ; otherwise they are Ψ·q̇ + ψ.
-    pub(crate) holonomic: bool,
+    /// How many rows are holonomic.
+    pub(crate) holonomic: usize,
+    /// The holonomic rows Φ, then the nonholonomic rows Ψ·q̇ + ψ.
     pub(crate) rows: Vec<Expr>,
     /// Vectors whose ground components are rows, with the first of them.
     pub(crate) vectors: Vec<(usize, Vector)>,

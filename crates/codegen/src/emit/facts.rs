@@ -24,11 +24,7 @@ pub(super) fn constraint_spec(
     } else {
         quote!(Role::Joint)
     };
-    let level = if body.holonomic {
-        quote!(Level::Holonomic)
-    } else {
-        quote!(Level::Nonholonomic)
-    };
+    let holonomic = index(body.holonomic);
     let rows = t
         .rows
         .iter()
@@ -76,8 +72,8 @@ pub(super) fn constraint_spec(
         const SPEC: ConstraintSpec = ConstraintSpec {
             common: #common,
             role: #role,
-            level: #level,
             rows: &[#(#rows),*],
+            holonomic: #holonomic,
             c: &[#(#c),*],
             rheonomic: #rheonomic,
             wrench: #wrench,

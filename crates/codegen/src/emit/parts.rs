@@ -94,7 +94,6 @@ pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> Tok
                 Datum,
                 DatumShape,
                 Entry,
-                Level,
                 Measure,
                 Parameter,
                 Role,

@@ -191,12 +191,16 @@ fn constraint_item(word: &Ident, input: ParseStream<'_>, d: &mut Definition) -> 
         "phi" => {
             input.parse::<Token![:]>()?;
             once(word, d.phi.replace(input.parse()?))?;
-            one_level(word, d)?;
+            if d.psi.is_some() {
+                return Err(syn::Error::new_spanned(
+                    word,
+                    "`phi` stands before `psi`: the names in `rows` are those of `phi`, then those of `psi`",
+                ));
+            }
         }
         "psi" => {
             input.parse::<Token![:]>()?;
             once(word, d.psi.replace(input.parse()?))?;
-            one_level(word, d)?;
         }
         "measure" => {
             let name = name(input)?;
@@ -271,16 +275,5 @@ fn once<T>(at: &Ident, previous: Option<T>) -> syn::Result<()> {
             format!("`{at}` is given twice"),
         )),
         None => Ok(()),
-    }
-}
-
-fn one_level(at: &Ident, d: &Definition) -> syn::Result<()> {
-    if d.phi.is_some() && d.psi.is_some() {
-        Err(syn::Error::new_spanned(
-            at,
-            "a definition is either holonomic (`phi`) or nonholonomic (`psi`), not both: make it two definitions",
-        ))
-    } else {
-        Ok(())
     }
 }

@@ -158,10 +158,7 @@ fn what_is_wrong_is_named() {
         ("points: 3;", "expected `apart`"),
         ("force: 1.0 on x;", "`force` belongs into a `force!`"),
         ("phi: 1.0; phi: 2.0;", "`phi` is given twice"),
-        (
-            "phi: 1.0; psi: 2.0;",
-            "either holonomic (`phi`) or nonholonomic (`psi`)",
-        ),
+        ("psi: 2.0; phi: 1.0;", "`phi` stands before `psi`"),
         ("points apart; points apart;", "`points` is given twice"),
         ("params { a: Lengt }", "did you mean `Length`?"),
         ("params { a: Banana }", "known are `Point`, `Direction`"),

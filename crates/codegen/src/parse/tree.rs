@@ -32,11 +32,11 @@ pub struct Definition {
     pub bindings: Vec<Binding>,
     /// Conditions on the assembled start.
     pub requirements: Vec<(LitStr, Expr)>,
-    /// Names of the rows.
+    /// Names of the rows, of `phi` and then of `psi`.
     pub rows: Vec<Ident>,
-    /// Position level constraint.
+    /// The rows of position level, whose names come first.
     pub phi: Option<Expr>,
-    /// Velocity level constraint.
+    /// The rows of velocity level.
     pub psi: Option<Expr>,
     /// The measures that drives may prescribe; `None` for a kept value, which a drive moves in the
     /// rows of the joint.

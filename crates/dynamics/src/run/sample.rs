@@ -150,7 +150,7 @@ impl OfMotion<'_, '_> {
         }
         for (k, group) in mechanism.layout().groups.iter().enumerate() {
             if !self.wants(k) {
-                lambda[group.rows.clone()].fill(f64::NAN);
+                group.rows.iter().for_each(|row| lambda[row] = f64::NAN);
             }
         }
         self.lambda = Some(lambda.clone());

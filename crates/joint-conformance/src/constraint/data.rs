@@ -5,12 +5,12 @@
 use std::marker::PhantomData;
 
 use joints::Constraint;
-use joints::spec::{DatumShape, Level};
+use joints::spec::DatumShape;
 
 use super::{Kernel, OfConstraint};
 use crate::block::{Block, dot};
 use crate::bodies::Bodies;
-use crate::case::Motion;
+use crate::case::{Case, Motion};
 use crate::check::Check;
 use crate::derivative::{DualNumbers, by_differences};
 use crate::failure::{Claim, Failure, Oracle, Property};
@@ -44,11 +44,10 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
             self.data_claim(Property::DPhiDp, Oracle::DIFFERENCES, &phi)?;
             self.data_claim(Property::DResidualDp, Oracle::DIFFERENCES, &residual)?;
         }
-        if K::SPEC.level == Level::Holonomic {
-            let residual = self.each(|m| self.residual_by_data(m));
-            self.data_claim(Property::DResidualDp, Oracle::DUAL_NUMBERS, &residual)?;
-        }
-        Ok(())
+        let case = self.on_holonomic_rows();
+        let of_phi = self.with(&case);
+        let residual = of_phi.each(|m| of_phi.residual_by_data(m));
+        of_phi.data_claim(Property::DResidualDp, Oracle::DUAL_NUMBERS, &residual)
     }
 
     fn numbers(&self) -> Vec<f64> {
@@ -145,7 +144,16 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         Block::column((0..numbers.len()).map(slope).collect())
     }
 
-    /// `∂(λᵀ·(C·a − Γ))/∂p` of holonomic constraints from `g = ∂(λᵀ·Φ)/∂p`: `C·a − Γ` is the change
+    /// The case with λ = 0 in the nonholonomic rows.
+    fn on_holonomic_rows(&self) -> Case<S> {
+        let mut case = self.case.clone();
+        for motion in &mut case.motions {
+            motion.lambda[K::SPEC.holonomic..].fill(0.0);
+        }
+        case
+    }
+
+    /// `∂(λᵀ·(C·a − Γ))/∂p` of holonomic rows from `g = ∂(λᵀ·Φ)/∂p`: `C·a − Γ` is the change
     /// of Φ along a, bodies only, and its second derivative along `x + τv` and `t + τ`, so the same
     /// holds for g.
     fn residual_by_data(&self, m: &Motion) -> Block {

@@ -2,7 +2,7 @@
 //! forces, the start.
 
 use joints::Constraint;
-use joints::spec::{Level, Parameter, Role, Shape};
+use joints::spec::{Parameter, Role, Shape};
 
 use super::{Kernel, OfConstraint};
 use crate::block::Block;
@@ -60,7 +60,8 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
             squares.sum::<f64>().sqrt()
         };
         let bound = |row| match length(row, 0..S::DIM) {
-            0.0 => length(row, S::DIM..S::N_DOF),
+            // There is no torque about a place that does not exist at this pose.
+            0.0 => length(row, S::DIM..S::N_DOF).max(0.0),
             force => force,
         };
         // Equal where within the bound, else the bound: what exceeds it is the error.
@@ -102,9 +103,8 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
 
     /// Only where Φ = 0: elsewhere two points that should coincide give the pair of forces a lever.
     pub(super) fn rows_balance(&self) -> Result<(), Failure> {
-        let holonomic = K::SPEC.level == Level::Holonomic;
         let ordinary = self.case.kind == Kind::Ordinary;
-        if !(ordinary && holonomic && is_internal::<OfConstraint<K, S>>()) {
+        if K::SPEC.holonomic == 0 || !(ordinary && is_internal::<OfConstraint<K, S>>()) {
             return Ok(());
         }
         let case = self.closed();
@@ -113,12 +113,14 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         let left = check.first(Kernel::Phi).norm();
         let floor = c.largest().max(1.0) * case.size() + left / DUAL_TOLERANCE;
         check.balance(
-            &(0..c.rows()).map(|row| c.row(row)).collect::<Vec<_>>(),
+            &(0..K::SPEC.holonomic)
+                .map(|row| c.row(row))
+                .collect::<Vec<_>>(),
             floor,
         )
     }
 
-    fn with<'s>(&'s self, case: &'s Case<S>) -> Check<'s, OfConstraint<K, S>> {
+    pub(super) fn with<'s>(&'s self, case: &'s Case<S>) -> Check<'s, OfConstraint<K, S>> {
         Check {
             subject: self.subject,
             case,
@@ -135,7 +137,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
             if phi.largest() <= f64::EPSILON * case.size() {
                 break;
             }
-            for row in 0..K::SPEC.rows.len() {
+            for row in 0..K::SPEC.holonomic {
                 let phi = self.with(&case).first(Kernel::Phi).get(row, 0);
                 let c = self.with(&case).first(Kernel::C);
                 let square: f64 = c.row(row).iter().map(|e| e * e).sum();

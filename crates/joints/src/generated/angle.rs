@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// The relative angle of two bodies keeps its initial value.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,8 +32,8 @@ impl Constraint for Angle {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("angle")],
+        holonomic: 1,
         c: &[Entry::constant(0, 0, 2), Entry::constant(0, 1, 2)],
         rheonomic: false,
         wrench: &[[2, 0]],

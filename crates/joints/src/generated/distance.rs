@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form
 /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.
@@ -54,8 +54,8 @@ impl Constraint for Distance {
             requirements: &["the two points are apart (L > 0)"],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("distance")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),
@@ -745,8 +745,8 @@ impl Constraint for DistanceLengthDrive {
             requirements: &["the two points are apart (L > 0)"],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("distance")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,12 +49,12 @@ impl Constraint for Fixed {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::keeping_start("x"),
             Row::keeping_start("y"),
             Row::keeping_start("angle"),
         ],
+        holonomic: 3,
         c: &[
             Entry::constant(0, 0, 0),
             Entry::varying(0, 0, 2),

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The
 /// ratio of an external mesh is negative.
@@ -41,8 +41,8 @@ impl Constraint for Gear {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("mesh")],
+        holonomic: 1,
         c: &[
             Entry::constant(0, 0, 2),
             Entry::constant(0, 1, 2),

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s` has no velocity along `normal` (a wheel or a blade): `(R·n)·v_s = 0`.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +41,8 @@ impl Constraint for KnifeEdge {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Nonholonomic,
         rows: &[Row::restricting_start("normal")],
+        holonomic: 0,
         c: &[Entry::varying(0, 0, 0), Entry::varying(0, 0, 1), Entry::constant(0, 0, 2)],
         rheonomic: false,
         wrench: &[[0, 0], [1, 0]],

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Teeth of two wheels whose centres `s_i` and `s_j` are borne on a carrier: at the pitch point P of the carrier both wheels have one
 /// velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is
@@ -74,8 +74,8 @@ impl Constraint for Mesh {
             requirements: &["the ratio is not 1", "the two centres are apart"],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("teeth")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),

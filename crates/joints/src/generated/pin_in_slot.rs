@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,8 +74,8 @@ impl Constraint for PinInSlot {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::restricting_start("normal")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),
@@ -640,8 +640,8 @@ impl Constraint for PinInSlotDisplacementDrive {
             requirements: &[],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("displacement")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),
@@ -1247,8 +1247,8 @@ impl Constraint for PinInSlotAngleDrive {
             requirements: &[],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("angle")],
+        holonomic: 1,
         c: &[Entry::constant(0, 0, 2), Entry::constant(0, 1, 2)],
         rheonomic: true,
         wrench: &[[2, 0]],

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s` of the body stays on a straight line of the ground.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +41,8 @@ impl Constraint for PointOnLine {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::restricting_start("normal")],
+        holonomic: 1,
         c: &[
             Entry::constant(0, 0, 0),
             Entry::constant(0, 0, 1),

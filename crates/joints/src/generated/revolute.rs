@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_i` of body i and point `s_j` of body j coincide.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,8 +56,8 @@ impl Constraint for Revolute {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::restricting_start("x"), Row::restricting_start("y")],
+        holonomic: 2,
         c: &[
             Entry::constant(0, 0, 0),
             Entry::varying(0, 0, 2),
@@ -401,8 +401,8 @@ impl Constraint for RevoluteAngleDrive {
             requirements: &[],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("angle")],
+        holonomic: 1,
         c: &[Entry::constant(0, 0, 2), Entry::constant(0, 1, 2)],
         rheonomic: true,
         wrench: &[[2, 0]],

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:
 /// `(R·d)·v_s − radius·ω_j = 0`.
@@ -53,8 +53,8 @@ impl Constraint for Rolling {
             requirements: &["the radius is not zero"],
         },
         role: Role::Joint,
-        level: Level::Nonholonomic,
         rows: &[Row::restricting_start("along")],
+        holonomic: 0,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its
 /// initial value.
@@ -68,8 +68,8 @@ impl Constraint for Translational {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::restricting_start("normal"), Row::keeping_start("angle")],
+        holonomic: 2,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),
@@ -660,8 +660,8 @@ impl Constraint for TranslationalDisplacementDrive {
             requirements: &[],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("displacement")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),

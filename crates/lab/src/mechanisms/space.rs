@@ -1,9 +1,7 @@
 //! Mechanisms of space whose motion is known: a spinning top, a rolling disk, and linkages that
 //! move although Grübler counts no freedom.
 
-use joints::space3::{
-    Axes, Direction, GroundPlane, Revolute, Spherical, WheelContact, WheelSlip, cross,
-};
+use joints::space3::{Axes, Direction, GroundPlane, Revolute, Spherical, Wheel, cross};
 use model::{BodyRef, SpatialBody, SpatialDescription};
 
 use crate::fuzz::space::pose::{Writing, posed};
@@ -161,22 +159,14 @@ impl RollingDisk {
             angular_velocity: Some(omega),
             ..SpatialBody::new("disk", Self::MASS, diagonal([a, a, c]))
         });
-        let contact = WheelContact {
-            s: [0.0; 3],
-            axis: Direction::Z,
-            radius: Self::RADIUS,
-            plane: GroundPlane::Z,
-            half_inverse: 0.0,
-        };
-        let slip = WheelSlip {
+        let edge = Wheel {
             s: [0.0; 3],
             axis: Direction::Z,
             radius: Self::RADIUS,
             plane: GroundPlane::Z,
             inverse: 0.0,
         };
-        d.joint("contact", &[disk], contact);
-        d.joint("slip", &[disk], slip);
+        d.joint("edge", &[disk], edge);
         d
     }
 }

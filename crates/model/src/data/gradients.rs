@@ -9,7 +9,8 @@ use std::ops::Range;
 
 use super::Data;
 use crate::element::OwnRates;
-use crate::system::{Scratch, System};
+use crate::rows::RowRanges;
+use crate::system::Scratch;
 
 /// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` with respect to all numbers of the
 /// constraints, for any y, y_λ, w_v and w_q.
@@ -28,8 +29,7 @@ struct OfConstraint {
     numbers: Range<usize>,
     /// Columns of C of its bodies.
     bodies: Vec<Range<usize>>,
-    rows: Range<usize>,
-    is_holonomic: bool,
+    rows: RowRanges,
 }
 
 impl Data<'_> {
@@ -50,8 +50,9 @@ impl Data<'_> {
                 fill(&mut values[place..]);
             };
             let slots = &s.slots;
-            let (own, mut rates, mut bodies) =
-                (&lambda[c.rows.clone()], OwnRates::default(), Vec::new());
+            let (mut storage, mut rates, mut bodies) =
+                (Vec::new(), OwnRates::default(), Vec::new());
+            let own = c.rows.of(lambda, &mut storage);
             for (k, body) in c.site.bodies.iter().enumerate() {
                 let Some(body) = body.moving() else {
                     continue;
@@ -68,7 +69,7 @@ impl Data<'_> {
                 rates
             };
             let (a, mut v) = (of(a), of(v));
-            let is_holonomic = c.rows.start < self.0.layout().m;
+            let holonomic = c.rows.holonomic.len();
             let mut unit = vec![0.0; c.rows.len()];
             for i in 0..unit.len() {
                 unit[i] = 1.0;
@@ -76,8 +77,8 @@ impl Data<'_> {
                 if moves {
                     column(&mut |out| c.d_power_dp(slots, &mut v, &unit, out));
                 }
-                if is_holonomic {
-                    column(&mut |out| c.d_phi_dp(slots, &unit, out));
+                if i < holonomic {
+                    column(&mut |out| c.d_phi_dp(slots, &unit[..holonomic], out));
                 }
                 unit[i] = 0.0;
             }
@@ -85,7 +86,6 @@ impl Data<'_> {
                 numbers,
                 bodies,
                 rows: c.rows.clone(),
-                is_holonomic,
             });
         }
         DataGradients {
@@ -118,12 +118,12 @@ impl DataGradients {
             for columns in &c.bodies {
                 y[columns.clone()].iter().for_each(|y| add(*y));
             }
-            for row in c.rows.clone() {
+            for row in &c.rows {
                 add(y_lambda[row]);
                 if self.moves {
                     add(w_v[row]);
                 }
-                if c.is_holonomic {
+                if c.rows.holonomic.contains(&row) {
                     add(w_q[row]);
                 }
             }

@@ -9,6 +9,7 @@ use linalg::Dd;
 use super::recorded::RecordedSlots;
 use super::slots::{Kinematics, OwnRates, Rates, Site, Slots};
 use super::{AnyConstraint, Bodies, BodySpace, with};
+use crate::rows::RowRanges;
 
 /// A constraint in the axes in which its bodies move.
 #[derive(Clone)]
@@ -41,16 +42,17 @@ pub(crate) struct PlacedConstraint {
     pub(crate) entries: Range<usize>,
     /// Indices of the varying entries, relative to `entries`.
     pub(crate) varying: Vec<usize>,
-    pub(crate) rows: Range<usize>,
+    pub(crate) rows: RowRanges,
     /// Tolerance of its data (m), if stated.
     pub(crate) tolerance: Option<f64>,
 }
 
 impl PlacedConstraint {
+    /// A constraint whose rows are not yet numbered.
     pub(crate) fn new(
         framed: Framed,
         site: Site,
-        [entries, rows]: [Range<usize>; 2],
+        entries: Range<usize>,
         tolerance: Option<f64>,
     ) -> Self {
         let all = framed.element.spec().c.iter().enumerate();
@@ -60,7 +62,7 @@ impl PlacedConstraint {
             framed,
             site,
             entries,
-            rows,
+            rows: RowRanges::default(),
             tolerance,
         }
     }
@@ -122,6 +124,7 @@ impl PlacedConstraint {
         Some(words[unmet])
     }
 
+    /// Φ of its holonomic rows.
     #[inline]
     pub(crate) fn phi(&self, s: &Slots, out: &mut [f64]) {
         with!(AnyConstraint, &self.framed.element, element, S => {
@@ -206,7 +209,7 @@ impl PlacedConstraint {
         });
     }
 
-    /// Gradient of `λᵀ·Φ` with respect to its numbers.
+    /// Gradient of `λᵀ·Φ` with respect to its numbers, for λ of its holonomic rows.
     pub(crate) fn d_phi_dp(&self, s: &Slots, lambda: &[f64], out: &mut [f64]) {
         with!(AnyConstraint, &self.framed.element, element, S => {
             element.d_phi_dp(self.site.x::<S>(s), self.site.f(s), lambda, out);
@@ -233,7 +236,7 @@ impl PlacedConstraint {
         });
     }
 
-    /// Φ in double-double, with all functions of time of the mechanism.
+    /// Φ of its holonomic rows in double-double, with all functions of time of the mechanism.
     pub(crate) fn extended_phi(&self, bodies: &Bodies<Dd>, jets: &[[Dd; 3]], out: &mut [Dd]) {
         with!(AnyConstraint, &self.framed.element, element, S => {
             let x = self.site.poses::<S, Dd>(bodies);

@@ -1,6 +1,8 @@
 //! From a description to a mechanism. All faults of a description are found at once.
 
-use joints::spec::Level;
+use std::ops::Range;
+
+use joints::spec::ConstraintSpec;
 
 use super::check;
 use super::turn;
@@ -12,8 +14,9 @@ use crate::element::{
     AnyForce, BodySpace, Framed, PlacedConstraint, PlacedForce, Site, TurnedSlots,
 };
 use crate::function::Function;
-use crate::group::{ConstraintGroup, ConstraintKind};
+use crate::group::{ConstraintGroup, ConstraintId, ConstraintKind};
 use crate::observed::Observed;
+use crate::rows::RowRanges;
 use crate::space::SpaceKind;
 use crate::system::{Layout, RowLabel};
 use crate::tolerance::Tolerance;
@@ -57,7 +60,9 @@ impl Mechanism {
             return Err(errors);
         }
         let mut b = Builder::new(S::KIND);
-        b.joints(d, &bodies, Level::Holonomic);
+        let is_early = |spec: &ConstraintSpec| spec.holonomic > 0;
+        b.joints(d, &bodies, is_early);
+        let first_drive = b.elements.constraints.len();
         for drive in &d.drives {
             let element = S::any_constraint(drive.element.clone());
             let element = turn::constraint(element, &bodies, &drive.bodies);
@@ -70,9 +75,15 @@ impl Mechanism {
                 drive.tolerance,
             );
         }
-        b.layout.m = b.layout.labels.len();
-        b.joints(d, &bodies, Level::Nonholonomic);
-        b.layout.h = b.layout.labels.len() - b.layout.m;
+        b.joints(d, &bodies, |spec| !is_early(spec));
+        let drives = first_drive..first_drive + d.drives.len();
+        let mut next = [0, drives.end];
+        let joints = d.joints.iter().map(|j| {
+            let next = &mut next[usize::from(!is_early(j.element.spec()))];
+            *next += 1;
+            *next - 1
+        });
+        b.number_rows(&joints.chain(drives).collect::<Vec<_>>());
         for f in &d.forces {
             let turned = TurnedSlots::new(turn::principal(&bodies, &f.bodies));
             let kernels = S::any_force(f.element.clone());
@@ -126,9 +137,14 @@ impl Builder {
         }
     }
 
-    /// Adds the joints of one level.
-    fn joints<S: BodySpace>(&mut self, d: &Described<S>, bodies: &[BodyRecord], level: Level) {
-        for j in d.joints.iter().filter(|j| j.element.spec().level == level) {
+    /// Adds those joints whose definitions are of this kind.
+    fn joints<S: BodySpace>(
+        &mut self,
+        d: &Described<S>,
+        bodies: &[BodyRecord],
+        is_of_kind: impl Fn(&ConstraintSpec) -> bool,
+    ) {
+        for j in d.joints.iter().filter(|j| is_of_kind(j.element.spec())) {
             let (kind, element) = (ConstraintKind::Joint, S::any_constraint(j.element.clone()));
             let element = turn::constraint(element, bodies, &j.bodies);
             self.constraint(&j.name, kind, &j.bodies, element, &j.functions, j.tolerance);
@@ -146,34 +162,16 @@ impl Builder {
     ) {
         let element = framed.kernels();
         let spec = element.spec();
-        let first_row = self.layout.labels.len();
-        let rows = first_row..first_row + spec.rows.len();
         let first_entry = self.elements.entries.len();
         let entries = first_entry..first_entry + spec.c.len();
         self.elements.entries.resize(entries.end, 0.0);
         element.c_constant(&mut self.elements.entries[entries.clone()]);
-        for (k, row) in spec.rows.iter().enumerate() {
-            self.layout.labels.push(RowLabel {
-                number: first_row + k + 1,
-                joint: name.to_owned(),
-                row: row.name,
-            });
-            self.pattern_row(
-                bodies,
-                spec.c
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, e)| e.row == k)
-                    .map(|(at, e)| (e.slot, e.dof, first_entry + at)),
-            );
-        }
         let offset = |f: &Function| match kind {
             ConstraintKind::Drive => f.jet(0.0)[0],
             ConstraintKind::Joint => 0.0,
         };
         let site = self.site(bodies, functions, offset, spec.turning);
-        let places = [entries, rows.clone()];
-        let placed = PlacedConstraint::new(framed, site, places, tolerance);
+        let placed = PlacedConstraint::new(framed, site, entries, tolerance);
         self.layout.rheonomic |= spec.rheonomic;
         self.layout.groups.push(ConstraintGroup {
             space: self.layout.space,
@@ -181,7 +179,7 @@ impl Builder {
             kind,
             spec,
             bodies: bodies.to_vec(),
-            rows,
+            rows: RowRanges::default(),
         });
         self.elements.constraints.push(placed);
     }
@@ -199,24 +197,62 @@ impl Builder {
         self.elements.forces.push(placed);
     }
 
-    /// One row of the pattern of C, from (slot, degree of freedom, index of the entry).
-    fn pattern_row(
-        &mut self,
-        bodies: &[BodyRef],
-        entries: impl Iterator<Item = (usize, usize, usize)>,
-    ) {
-        let columns = self.layout.space.n_v();
-        let pattern = &mut self.layout.pattern;
-        if pattern.start.is_empty() {
-            pattern.start.push(0);
+    /// Numbers the rows of all constraints, with their labels, owners and patterns: the holonomic
+    /// ones in the order of the constraints, then the nonholonomic ones in the order of this list
+    /// of all constraints.
+    pub(super) fn number_rows(&mut self, nonholonomic: &[usize]) {
+        let constraints = &mut self.elements.constraints;
+        let mut next = 0;
+        let mut following = |n: usize| {
+            next += n;
+            next - n..next
+        };
+        for c in constraints.iter_mut() {
+            c.rows.holonomic = following(c.spec().holonomic);
         }
-        for (slot, dof, entry) in entries {
-            if let BodyRef::Body(body) = bodies[slot] {
-                pattern.column.push(columns * body + dof);
-                pattern.entry.push(entry);
+        self.layout.m = following(0).end;
+        for &id in nonholonomic {
+            constraints[id].rows.nonholonomic = following(constraints[id].spec().nonholonomic());
+        }
+        self.layout.h = following(0).end - self.layout.m;
+        self.layout.pattern.start.push(0);
+        for (group, c) in self.layout.groups.iter_mut().zip(constraints) {
+            group.rows.clone_from(&c.rows);
+        }
+        for id in 0..self.layout.groups.len() {
+            self.pattern_of(id, |rows| rows.holonomic.clone());
+        }
+        for &id in nonholonomic {
+            self.pattern_of(id, |rows| rows.nonholonomic.clone());
+        }
+    }
+
+    /// Appends the labels, owners and patterns of rows of one constraint.
+    fn pattern_of(&mut self, id: usize, of: fn(&RowRanges) -> Range<usize>) {
+        let (layout, first_entry) = (
+            &mut self.layout,
+            self.elements.constraints[id].entries.start,
+        );
+        let (group, columns) = (&layout.groups[id], layout.space.n_v());
+        for i in of(&group.rows) {
+            let Some(own) = group.rows.own(i) else {
+                continue;
+            };
+            layout.owners.push(ConstraintId(id));
+            layout.labels.push(RowLabel {
+                number: i + 1,
+                joint: group.name.clone(),
+                row: group.spec.rows[own].name,
+            });
+            let entries = group.spec.c.iter().enumerate();
+            for (at, e) in entries.filter(|(_, e)| e.row == own) {
+                if let BodyRef::Body(body) = group.bodies[e.slot] {
+                    layout.pattern.column.push(columns * body + e.dof);
+                    layout.pattern.entry.push(first_entry + at);
+                }
             }
+            layout.pattern.start.push(layout.pattern.column.len());
         }
-        pattern.start.push(pattern.column.len());
     }
 
     /// The next slots, for these bodies and functions of time; `offset` is subtracted from the
@@ -252,7 +288,8 @@ impl Builder {
         }
     }
 
-    /// The mechanism of these bodies; initial values and arms are not yet set.
+    /// The mechanism of these bodies and of constraints whose rows are numbered; initial values and
+    /// arms are not yet set.
     pub(super) fn finish(
         mut self,
         name: &str,
@@ -262,9 +299,6 @@ impl Builder {
         let space = self.layout.space;
         self.layout.n_q = space.n_q() * bodies.len();
         self.layout.n_v = space.n_v() * bodies.len();
-        if self.layout.pattern.start.is_empty() {
-            self.layout.pattern.start.push(0);
-        }
         self.layout.break_times.sort_by(f64::total_cmp);
         self.layout.break_times.dedup();
         let mass = bodies.iter();

@@ -26,6 +26,8 @@ pub struct Derivatives {
     pub velocity_dq: Sparse,
     /// Accelerations of the slots.
     slots: Rates,
+    /// Multipliers of one constraint.
+    own_lambda: Vec<f64>,
 }
 
 /// A matrix as a sum of entries, in the order of the elements to which they belong. The pattern is
@@ -105,11 +107,12 @@ impl Derivatives {
             gamma_dv: Sparse::default(),
             velocity_dq: Sparse::default(),
             slots: Rates::zero(mechanism.space(), mechanism.elements.n_slots),
+            own_lambda: Vec::new(),
         };
         for c in &mechanism.elements.constraints {
             let spec = c.spec();
             let column = |k: usize| c.site.column(k);
-            let row = |i: usize| Some(c.rows.start + i);
+            let row = |i: usize| Some(c.rows.row(i));
             d.reaction_dq.push_block(spec.d_force_dx, column, column);
             d.residual_dq.push_block(spec.d_residual_dx, row, column);
             d.gamma_dv.push_block(spec.d_gamma_dv, row, column);
@@ -152,7 +155,7 @@ impl Derivatives {
         let mut velocity_dq = self.velocity_dq.blocks();
         for c in &mechanism.elements.constraints {
             let (spec, s) = (c.spec(), &s.slots);
-            let lambda = &lambda[c.rows.clone()];
+            let lambda = c.rows.of(lambda, &mut self.own_lambda);
             c.d_force_dx(s, lambda, reaction_dq(spec.d_force_dx.len()));
             c.d_residual_dx(s, &self.slots, residual_dq(spec.d_residual_dx.len()));
             c.d_gamma_dv(s, gamma_dv(spec.d_gamma_dv.len()));

@@ -85,9 +85,9 @@ fn longest_arms(mechanism: &Mechanism, q: &[f64]) -> Vec<f64> {
 fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let layout = mechanism.layout();
     let mut arms = vec![0.0_f64; mechanism.bodies().len()];
-    let places = |i: &usize| *i < layout.m && !layout.is_angular(*i);
+    let places = |i: &usize| !layout.is_angular(*i);
     for (k, constraint) in mechanism.elements.constraints.iter().enumerate() {
-        let mut rows = constraint.rows.clone().filter(places).peekable();
+        let mut rows = constraint.rows.holonomic.clone().filter(places).peekable();
         if rows.peek().is_none() {
             continue;
         }

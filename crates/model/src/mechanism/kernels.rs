@@ -38,6 +38,7 @@ impl System for Mechanism {
             },
             jets_at: f64::NAN,
             block: vec![0.0; self.elements.block],
+            own_rows: Vec::new(),
         }
     }
 
@@ -57,8 +58,8 @@ impl System for Mechanism {
 
     fn phi(&self, s: &mut Scratch) {
         for c in &self.elements.constraints {
-            if c.rows.start < self.layout.m {
-                c.phi(&s.slots, &mut s.phi[c.rows.clone()]);
+            if !c.rows.holonomic.is_empty() {
+                c.phi(&s.slots, &mut s.phi[c.rows.holonomic.clone()]);
             }
         }
     }
@@ -74,7 +75,8 @@ impl System for Mechanism {
     fn b(&self, s: &mut Scratch) {
         for c in &self.elements.constraints {
             if c.depends_on_time() {
-                c.b(&s.slots, &mut s.b[c.rows.clone()]);
+                c.rows
+                    .write(&mut s.b, &mut s.own_rows, |b| c.b(&s.slots, b));
             }
         }
     }
@@ -91,11 +93,13 @@ impl System for Mechanism {
 
     fn gamma(&self, s: &mut Scratch) {
         for c in &self.elements.constraints {
-            if !c.has_gamma() {
-                s.gamma[c.rows.clone()].fill(0.0);
-                continue;
-            }
-            c.gamma(&s.slots, &mut s.gamma[c.rows.clone()]);
+            c.rows.write(&mut s.gamma, &mut s.own_rows, |gamma| {
+                if c.has_gamma() {
+                    c.gamma(&s.slots, gamma);
+                } else {
+                    gamma.fill(0.0);
+                }
+            });
         }
     }
 

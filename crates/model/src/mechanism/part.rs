@@ -2,7 +2,6 @@
 //! force connects them. The ground does not connect bodies, because it does not move under any
 //! force.
 
-use joints::spec::Level;
 use linalg::DisjointSets;
 
 use super::build::Builder;
@@ -157,7 +156,6 @@ fn assembled<'a>(
         here.unwrap_or_default()
     };
     let mut b = Builder::new(whole.space());
-    let mut rows = Vec::new();
     for &k in groups {
         let (c, group) = (&whole.elements.constraints[k], &whole.layout.groups[k]);
         b.constraint(
@@ -168,12 +166,14 @@ fn assembled<'a>(
             &laws(whole, &c.site),
             c.tolerance,
         );
-        rows.extend(c.rows.clone());
-        match group.spec.level {
-            Level::Holonomic => b.layout.m = rows.len(),
-            Level::Nonholonomic => b.layout.h = rows.len() - b.layout.m,
-        }
     }
+    let rows = |own: usize| &whole.layout.groups[groups[own]].rows;
+    let mut late: Vec<usize> = (0..groups.len()).collect();
+    late.sort_by_key(|&own| rows(own).nonholonomic.start);
+    b.number_rows(&late);
+    let early = (0..groups.len()).flat_map(|own| rows(own).holonomic.clone());
+    let late = late.iter().flat_map(|&own| rows(own).nonholonomic.clone());
+    let rows: Vec<usize> = early.chain(late).collect();
     for (label, &row) in b.layout.labels.iter_mut().zip(&rows) {
         label.clone_from(&whole.layout.labels[row]);
     }

@@ -74,8 +74,8 @@ pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -
     let constraints = elements.constraints.iter();
     let rows: Vec<Vec<usize>> = constraints
         .filter(|c| !c.depends_on_time())
-        .flat_map(|c| c.rows.clone().map(move |i| (c, i)))
-        .filter(|&(_, i)| i < layout.m && layout.is_angular(i))
+        .flat_map(|c| c.rows.holonomic.clone().map(move |i| (c, i)))
+        .filter(|&(_, i)| layout.is_angular(i))
         .filter_map(|(c, i)| constant_row(elements, layout, c, i))
         .collect();
     let mut of_body = vec![Vec::new(); bodies];

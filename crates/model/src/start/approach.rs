@@ -190,7 +190,7 @@ pub(super) fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec
     let of_joint = joints.filter_map(|(group, joint)| {
         let parallel = Parallel::of(joint, s);
         let (mut distance, mut angle) = (0.0_f64, 0.0_f64);
-        let own = group.rows.clone();
+        let own = group.rows.iter();
         for row in own.filter(|row| rows.binary_search(row).is_ok()) {
             let residual = s.phi[row];
             if !mechanism.layout().is_angular(row) {

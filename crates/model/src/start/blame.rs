@@ -195,10 +195,7 @@ impl Start<'_> {
             }
         };
         let layout = of.mechanism.layout();
-        let prescribes = |i: &usize| {
-            let at = layout.groups.partition_point(|g| g.rows.end <= *i);
-            layout.groups[at].spec.rheonomic
-        };
+        let prescribes = |i: &usize| layout.owner(*i).spec.rheonomic;
         let (drives, joints): (Vec<usize>, Vec<usize>) = found.into_iter().partition(prescribes);
         let mut names: Vec<String> = drives
             .iter()

@@ -31,7 +31,7 @@ impl Parallel {
         let [own, other] = joint.parallel_axes(&s.slots)?;
         let names = joint.spec().rows;
         let at = names.iter().position(|row| row.name == "axis_u")?;
-        let first = joint.rows.start + at;
+        let first = joint.rows.row(at);
         let is_turn_kept = names.get(at + 2).is_some_and(|row| row.name == "turn");
         let (count, (angle, each)) = if is_turn_kept {
             (3, whole_rotation(own, other))

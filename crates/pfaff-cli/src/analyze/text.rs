@@ -113,11 +113,13 @@ fn verdicts(d: &AnalysisDocument) -> String {
 }
 
 fn line(r: &ReactionDocument) -> Vec<String> {
-    let rows = match r.rows.as_slice() {
-        [] => String::new(),
-        [row] => row.to_string(),
+    let adjacent = r.rows.chunk_by(|row, next| row + 1 == *next);
+    let ranges = adjacent.map(|rows| match rows {
         [first, .., last] => format!("{first}–{last}"),
-    };
+        [row] => row.to_string(),
+        [] => String::new(),
+    });
+    let rows = ranges.collect::<Vec<_>>().join(", ");
     let components = match r.wrench.verdict {
         "unique" => String::new(),
         _ => each(&r.components) + &oblique(r),

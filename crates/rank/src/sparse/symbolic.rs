@@ -13,7 +13,7 @@
 use crate::limits::{SMALL_FRONT, WORK_MAX};
 use std::ops::Range;
 
-use crate::structure::partition;
+use crate::structure::{partition, within};
 use linalg::{EliminationTree, SparseMatrix};
 
 /// The factor that is kept; the other one is not stored.
@@ -60,7 +60,7 @@ impl Symbolic {
     /// Determines the fronts of a matrix whose columns form blocks. Ranges beyond the matrix are
     /// cut off; a column in no block is a block of its own.
     pub(super) fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, TooDense> {
-        let blocks = partition(c.ncols(), blocks.iter());
+        let blocks = partition(c.ncols(), within(c.ncols(), blocks));
         let touched = Touched::new(c, &blocks);
         let mut work = 0.0;
         let admit = |k: usize, order: &[usize], beyond: &[usize]| {

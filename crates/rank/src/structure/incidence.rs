@@ -8,7 +8,7 @@ use linalg::Matrix;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RowGroup {
     /// Its rows of C.
-    pub rows: Range<usize>,
+    pub rows: Vec<usize>,
     /// Whether it acts between its blocks and the ground, not only among its blocks.
     ///
     /// `false` is a promise by the caller that its rows vanish on every common rigid motion of its
@@ -49,10 +49,10 @@ pub(super) struct Group {
 
 impl Incidence {
     pub(super) fn new(c: Matrix, groups: &[RowGroup], blocks: &[Range<usize>]) -> Self {
-        let grouped = groups.iter().map(|g| &g.rows);
+        let grouped = groups.iter().map(|g| g.rows.iter().copied());
         let rows_of = partition(c.nrows(), grouped);
         let ground = |k: usize| groups.get(k).is_none_or(|g| g.ground);
-        let blocks = partition(c.ncols(), blocks.iter());
+        let blocks = partition(c.ncols(), within(c.ncols(), blocks));
         let mut block_of = vec![0; c.ncols()];
         for (b, columns) in blocks.iter().enumerate() {
             columns.iter().for_each(|&column| block_of[column] = b);
@@ -103,17 +103,22 @@ impl Incidence {
     }
 }
 
-/// Splits `0..n` by ranges (a number belongs to the first range that contains it), followed by one
-/// set for each number in no range.
-pub(crate) fn partition<'a>(
+/// Ranges cut off at `n`.
+pub(crate) fn within(n: usize, ranges: &[Range<usize>]) -> impl Iterator<Item = Range<usize>> {
+    ranges.iter().map(move |r| r.start.min(n)..r.end.min(n))
+}
+
+/// Splits `0..n` by sets (a number belongs to the first set that contains it), followed by one set
+/// for each number in none.
+pub(crate) fn partition(
     n: usize,
-    ranges: impl Iterator<Item = &'a Range<usize>>,
+    given: impl Iterator<Item = impl IntoIterator<Item = usize>>,
 ) -> Vec<Vec<usize>> {
     let mut free = vec![true; n];
     let mut sets = Vec::new();
-    for range in ranges {
-        let cut = range.start.min(n)..range.end.min(n);
-        sets.push(cut.filter(|&k| std::mem::take(&mut free[k])).collect());
+    for set in given {
+        let mut is_free = |k: &usize| free.get_mut(*k).is_some_and(std::mem::take);
+        sets.push(set.into_iter().filter(&mut is_free).collect());
     }
     sets.extend((0..n).filter(|&k| free[k]).map(|k| vec![k]));
     sets

@@ -5,7 +5,6 @@ mod space;
 #[cfg(test)]
 mod tests;
 
-use joints::spec::Level;
 use linalg::Matrix;
 use model::reaction::ConstraintGroup;
 use model::space::difference;
@@ -65,7 +64,7 @@ pub(crate) struct Pitch {
     pub(crate) radius: f64,
 }
 
-/// All joints and drives, in the order of their rows, at the poses of the scratch.
+/// All joints and drives, in the order of the layout, at the poses of the scratch.
 pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
     mechanism
         .layout()
@@ -91,21 +90,20 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
         (_, None) if !is_plane => second(),
         (_, force) => force.map_or(place, |f| f.point_nearest(place)),
     };
-    let symbol = match (group.kind, spec.level, force) {
-        (_, Level::Holonomic, _) if spec.common.points_apart && rows.only_force().is_some() => {
-            Symbol::Rod
-        }
+    let slides = spec.nonholonomic() > 0;
+    let symbol = match (group.kind, slides, force) {
+        (_, false, _) if spec.common.points_apart && rows.only_force().is_some() => Symbol::Rod,
         _ if !is_plane => space::symbol(group, &map, difference(end, place)),
         (ConstraintKind::Drive, ..) => Symbol::Drive {
             axis: force.map(|f| f.direction),
         },
-        (_, Level::Nonholonomic, Some(f)) => Symbol::Edge {
+        (_, true, Some(f)) => Symbol::Edge {
             along: f.perpendicular(),
         },
-        (_, Level::Holonomic, Some(f)) if rows.torques > 0 => Symbol::Block {
+        (_, false, Some(f)) if rows.torques > 0 => Symbol::Block {
             axis: f.perpendicular(),
         },
-        (_, Level::Holonomic, Some(f)) => Symbol::Slot {
+        (_, false, Some(f)) => Symbol::Slot {
             axis: f.perpendicular(),
         },
         (_, _, None) if rows.forces.is_empty() => Symbol::Rotation,
@@ -121,7 +119,7 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
         pitch: mesh.map(|(_, circles)| circles),
         symbol,
         end,
-        grounded: spec.level == Level::Holonomic
+        grounded: !slides
             && group.kind == ConstraintKind::Joint
             && symbol != Symbol::Rotation
             && (group.bodies.len() == 1 || group.bodies.contains(&BodyRef::Ground)),

@@ -3,8 +3,6 @@
 
 mod view;
 
-use std::ops::Range;
-
 use model::reaction::ConstraintGroup;
 use model::{ConstraintKind, Mechanism, System};
 use solvability::ReactionVerdict;
@@ -424,7 +422,7 @@ impl Picture<'_> {
             .iter()
             .map(|group| match labels {
                 Labels::Names => group.name.clone(),
-                Labels::NamesAndRows => format!("{} {}", group.name, rows(&group.rows)),
+                Labels::NamesAndRows => format!("{} {}", group.name, group.rows),
             })
             .collect();
         let shown = model
@@ -556,15 +554,6 @@ fn looks() -> String {
 
 fn pair([x, y]: [f64; 2]) -> String {
     format!("{} {}", number(x), number(y))
-}
-
-/// Row numbers counted from 1.
-fn rows(rows: &Range<usize>) -> String {
-    match rows.len() {
-        0 => String::new(),
-        1 => rows.end.to_string(),
-        _ => format!("{}–{}", rows.start + 1, rows.end),
-    }
 }
 
 /// A time without the last digits of rounding: 0.3, not 0.30000000000000004.

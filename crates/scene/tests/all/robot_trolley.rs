@@ -33,7 +33,10 @@ fn rows_have_the_numbers_of_the_contract() {
         .layout()
         .groups
         .iter()
-        .map(|g| (g.name.as_str(), g.rows.start + 1, g.rows.end))
+        .map(|g| {
+            let last = g.rows.row(g.rows.len() - 1);
+            (g.name.as_str(), g.rows.row(0) + 1, last + 1)
+        })
         .collect();
     let expected = [
         ("A", 1, 2),

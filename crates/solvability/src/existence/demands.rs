@@ -37,7 +37,7 @@ impl Demand {
                 .driven(id)
                 .map(|(joint, measure)| (groups[joint.0].name.clone(), measure)),
             measure: group.spec.common.scene_type,
-            angular: mechanism.layout().is_angular(group.rows.start),
+            angular: mechanism.layout().is_angular(group.rows.row(0)),
             prescribed,
         })
     }

@@ -188,7 +188,7 @@ impl DriveWalk<'_> {
         let kept = &rows.decision.kept;
         let is_followed = |id: &ConstraintId| {
             let group = &groups[id.0];
-            group.is_drive() && kept.binary_search(&group.rows.start).is_ok()
+            group.is_drive() && kept.binary_search(&group.rows.row(0)).is_ok()
         };
         let changes = ids.filter(is_followed).map(|id| {
             let value = |s: &Scratch| {
@@ -199,7 +199,7 @@ impl DriveWalk<'_> {
                     .sum::<f64>()
             };
             let change = (value(&then) - value(now)).abs();
-            if self.mechanism.layout().is_angular(groups[id.0].rows.start) {
+            if self.mechanism.layout().is_angular(groups[id.0].rows.row(0)) {
                 change
             } else {
                 change / self.size

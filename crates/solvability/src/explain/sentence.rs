@@ -108,7 +108,7 @@ fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
         let group = &layout.groups[id.0];
         group.bodies.len() == 1
             && group.rows.len() == 1
-            && group.rows.start >= layout.m
+            && group.rows.holonomic.is_empty()
             && !group.spec.rheonomic
     })
 }

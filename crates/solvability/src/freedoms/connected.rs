@@ -80,7 +80,7 @@ impl<'a> Connected<'a> {
         let mut size = vec![0; self.sets.len()];
         for group in &layout.groups {
             let body = group.bodies.iter().find_map(|b| b.moving());
-            for row in group.rows.clone() {
+            for row in &group.rows {
                 set_of_row[row] = body.map(|b| set_of[b]);
             }
         }

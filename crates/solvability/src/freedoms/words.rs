@@ -167,7 +167,7 @@ fn about(of: &Component<'_>, bodies: &[usize], line: Line) -> String {
 fn joints_on(of: &Component<'_>, bodies: &[usize], line: Line) -> Vec<String> {
     let layout = of.mechanism.layout();
     let holds = |k: usize| {
-        let rows = layout.groups[k].rows.clone();
+        let rows = layout.groups[k].rows.iter();
         rows.filter(|&row| !layout.is_angular(row)).count()
     };
     let is_theirs = |b: &usize, k: usize| layout.groups[k].bodies.contains(&BodyRef::Body(*b));

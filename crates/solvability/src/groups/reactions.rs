@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use linalg::Matrix;
 use model::space::norm;
-use model::{ConstraintId, Mechanism, Scratch, SpaceKind, System};
+use model::{ConstraintId, Mechanism, RowRanges, Scratch, SpaceKind, System};
 
 use super::error::{RequestError, check, check_finite};
 use super::form::LinearForm;
@@ -54,7 +54,7 @@ impl ReactionForms<'_> {
             force: along,
             torque: [0.0; 3],
         };
-        self.add_wrench(&mut form, &map, self.first_row(id), along);
+        self.add_wrench(&mut form, &map, self.rows(id), along);
         Ok(form)
     }
 
@@ -81,7 +81,7 @@ impl ReactionForms<'_> {
             force: [0.0; 3],
             torque: along,
         };
-        self.add_wrench(&mut form, &map, self.first_row(id), along);
+        self.add_wrench(&mut form, &map, self.rows(id), along);
         Ok(form)
     }
 
@@ -122,7 +122,7 @@ impl ReactionForms<'_> {
                 ),
             });
         };
-        let rows = self.first_row(id)..;
+        let rows = self.rows(id).iter();
         let mut form = self.zero();
         form.add(&rows.zip(coefficients).collect::<Vec<_>>())?;
         Ok(form)
@@ -157,7 +157,7 @@ impl ReactionForms<'_> {
                 continue;
             }
             for (k, form) in forms.iter_mut().enumerate() {
-                self.add_wrench(form, &map, 0, Along::component(space, k));
+                self.add_wrench(form, &map, 0..map.ncols(), Along::component(space, k));
             }
         }
         Ok(forms)
@@ -181,15 +181,21 @@ impl ReactionForms<'_> {
                 force: force.map(|x| coefficient * x),
                 torque: torque.map(|x| coefficient * x),
             };
-            self.add_wrench(form, &map, self.first_row(id), along);
+            self.add_wrench(form, &map, self.rows(id), along);
         }
     }
 
-    /// Adds `along · (map·λ)` for a map of some rows. The size of a term is the magnitude of its
+    /// Adds `along · (map·λ)` for a map of these rows. The size of a term is the magnitude of its
     /// force, and for torques also that force times the size of the mechanism.
-    fn add_wrench(&self, form: &mut LinearForm, map: &Matrix, first_row: usize, along: Along) {
+    fn add_wrench(
+        &self,
+        form: &mut LinearForm,
+        map: &Matrix,
+        rows: impl IntoIterator<Item = usize>,
+        along: Along,
+    ) {
         let space = self.mechanism.space();
-        for j in 0..map.ncols() {
+        for (j, row) in rows.into_iter().enumerate() {
             let (mut force, mut torque) = ([0.0; 3], [0.0; 3]);
             space
                 .forces()
@@ -203,7 +209,7 @@ impl ReactionForms<'_> {
             let (force, torque) = (norm(&force), norm(&torque));
             let size =
                 force * norm(&along.force) + (torque + force * self.size) * norm(&along.torque);
-            form.add_term(first_row + j, coefficient, size);
+            form.add_term(row, coefficient, size);
         }
     }
 
@@ -228,8 +234,8 @@ impl ReactionForms<'_> {
         }
     }
 
-    fn first_row(&self, id: ConstraintId) -> usize {
-        self.mechanism.layout().groups[id.0].rows.start
+    fn rows(&self, id: ConstraintId) -> &RowRanges {
+        &self.mechanism.layout().groups[id.0].rows
     }
 
     /// The numbers of a group, with their names: the `sum` of a combination; all components of
@@ -322,10 +328,7 @@ impl ReactionForms<'_> {
         names.iter().copied().zip(forms).collect()
     }
 
-    pub(super) fn rows_of(
-        &self,
-        members: &[ConstraintId],
-    ) -> Result<Vec<std::ops::Range<usize>>, RequestError> {
+    pub(super) fn rows_of(&self, members: &[ConstraintId]) -> Result<Vec<RowRanges>, RequestError> {
         let groups = &self.mechanism.layout().groups;
         if members.is_empty() {
             return Err(NO_REACTION);

@@ -136,22 +136,18 @@ fn col_block(space: SpaceKind, j: usize) -> usize {
     2 * space.body_of(j) + usize::from(space.is_rotation(j))
 }
 
-/// The block of each row: the force rows or the moment rows of its joint. The rows of a block are
-/// adjacent; rows of the same kind that are not adjacent form different blocks.
+/// The block of each row: the force rows or the moment rows of its joint, on one level. The rows of
+/// a block are adjacent; rows of the same kind that are not adjacent form different blocks.
 fn row_blocks(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
+    let kind = |row: usize| (layout.owners[row], row < layout.m, layout.is_angular(row));
     let mut blocks = Vec::with_capacity(layout.rows());
-    let mut next = 0;
-    for group in &layout.groups {
-        let mut last = None;
-        for row in group.rows.clone() {
-            let kind = mechanism.layout().is_angular(row);
-            if last != Some(kind) {
-                next += 1;
-            }
-            last = Some(kind);
-            blocks.push(next - 1);
-        }
+    let (mut last, mut next) = (None, 0);
+    for row in 0..layout.rows() {
+        let own = Some(kind(row));
+        next += usize::from(last != own);
+        last = own;
+        blocks.push(next - 1);
     }
     blocks
 }

@@ -160,12 +160,15 @@ impl<'a> Instant<'a> {
         let mechanism = self.mechanism;
         let group = &mechanism.layout().groups[id.0];
         let map = mechanism.reactions(&self.s).wrench_map(id);
-        let first = self.kept.partition_point(|&row| row < group.rows.start);
-        let own = self.kept.partition_point(|&row| row < group.rows.end) - first;
+        // Its kept rows: their places among the kept ones, and their numbers in the joint.
+        let kept = self.kept.iter().enumerate();
+        let kept: Vec<(usize, usize)> = kept
+            .filter_map(|(k, &row)| Some((k, group.rows.own(row)?)))
+            .collect();
         let n = mechanism.data().count();
-        let mut gradients = vec![0.0; own * n];
-        for (k, gradient) in gradients.chunks_exact_mut(n.max(1)).enumerate() {
-            self.gradient(first + k, gradient)?;
+        let mut gradients = vec![0.0; kept.len() * n];
+        for (&(k, _), gradient) in kept.iter().zip(gradients.chunks_exact_mut(n.max(1))) {
+            self.gradient(k, gradient)?;
         }
         let mut squares = vec![0.0; self.blocks.len()];
         let mut reaction = 0.0_f64;
@@ -174,12 +177,12 @@ impl<'a> Instant<'a> {
             // Torques are divided by the size of the mechanism to compare with forces.
             let unit = if component == 2 { 1.0 / self.size } else { 1.0 };
             let row = map.row(component);
-            let terms = row.iter().zip(&self.lambda[group.rows.clone()]);
-            reaction = reaction.hypot(unit * terms.map(|(w, l)| w * l).sum::<f64>());
+            let terms = row.iter().zip(&group.rows);
+            let force = terms.map(|(w, i)| w * self.lambda[i]).sum::<f64>();
+            reaction = reaction.hypot(unit * force);
             gradient.fill(0.0);
-            let kept = &self.kept[first..first + own];
-            for (&i, of_row) in kept.iter().zip(gradients.chunks_exact(n.max(1))) {
-                let weight = unit * row[i - group.rows.start];
+            for (&(_, own), of_row) in kept.iter().zip(gradients.chunks_exact(n.max(1))) {
+                let weight = unit * row[own];
                 for (sum, g) in gradient.iter_mut().zip(of_row) {
                     *sum += weight * g;
                 }

@@ -164,7 +164,8 @@ fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]
     let lambda = solved(&c, &rest, true);
     let each = mechanism.layout().constraint_ids().map(|id| {
         let map = mechanism.reactions(&s).wrench_map(id);
-        let own = &lambda[layout.groups[id.0].rows.clone()];
+        let rows = layout.groups[id.0].rows.iter();
+        let own = &rows.map(|row| lambda[row]).collect::<Vec<_>>();
         [0, 1, 2].map(|i| map.row(i).iter().zip(own).map(|(w, l)| w * l).sum())
     });
     let each = each.collect();

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the axes of both bodies
 /// are parallel: body j slides along the axis and turns about it.
@@ -87,13 +87,13 @@ impl Constraint<Space3> for Cylindrical {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::restricting_start("u"),
             Row::restricting_start("v"),
             Row::restricting_start("axis_u"),
             Row::restricting_start("axis_v"),
         ],
+        holonomic: 4,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),
@@ -2636,8 +2636,8 @@ impl Constraint<Space3> for CylindricalDisplacementDrive {
             requirements: &[],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("displacement")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),
@@ -4186,8 +4186,8 @@ impl Constraint<Space3> for CylindricalAngleDrive {
             requirements: &[],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("angle")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 3),
             Entry::varying(0, 0, 4),

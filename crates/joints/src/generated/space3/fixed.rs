@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies stay parallel.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,6 @@ impl Constraint<Space3> for Fixed {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::restricting_start("x"),
             Row::restricting_start("y"),
@@ -71,6 +70,7 @@ impl Constraint<Space3> for Fixed {
             Row::restricting_start("axis_v"),
             Row::restricting_start("turn"),
         ],
+        holonomic: 6,
         c: &[
             Entry::constant(0, 0, 0),
             Entry::varying(0, 0, 3),

@@ -64,11 +64,8 @@ pub use universal::*;
 pub mod velocity;
 pub use velocity::*;
 #[rustfmt::skip]
-pub mod wheel_contact;
-pub use wheel_contact::*;
-#[rustfmt::skip]
-pub mod wheel_slip;
-pub use wheel_slip::*;
+pub mod wheel;
+pub use wheel::*;
 /// Shows all spatial constraints to a visitor, in alphabetical order.
 pub fn constraints<V: Visitor<Space3>>(visitor: &mut V) {
     visitor.constraint::<Cylindrical>();
@@ -86,8 +83,7 @@ pub fn constraints<V: Visitor<Space3>>(visitor: &mut V) {
     visitor.constraint::<Translational>();
     visitor.constraint::<Universal>();
     visitor.constraint::<Velocity>();
-    visitor.constraint::<WheelContact>();
-    visitor.constraint::<WheelSlip>();
+    visitor.constraint::<Wheel>();
 }
 /// Shows all spatial forces to a visitor, in alphabetical order.
 pub fn forces<V: Visitor<Space3>>(visitor: &mut V) {

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// The axes of both bodies stay parallel: the bodies do not turn against each other.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,12 +48,12 @@ impl Constraint<Space3> for Orientation {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::restricting_start("axis_u"),
             Row::restricting_start("axis_v"),
             Row::restricting_start("turn"),
         ],
+        holonomic: 3,
         c: &[
             Entry::varying(0, 0, 3),
             Entry::varying(0, 0, 4),

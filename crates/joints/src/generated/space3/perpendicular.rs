@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// The axis of body i stays perpendicular to the axis of body j.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,8 +45,8 @@ impl Constraint<Space3> for Perpendicular {
             requirements: &["its two axes do not lie along one line"],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::restricting_start("cross")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 3),
             Entry::varying(0, 0, 4),

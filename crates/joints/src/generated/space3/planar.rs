@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`, and the normals of both
 /// bodies are parallel.
@@ -63,12 +63,12 @@ impl Constraint<Space3> for Planar {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::restricting_start("normal"),
             Row::restricting_start("axis_u"),
             Row::restricting_start("axis_v"),
         ],
+        holonomic: 3,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),

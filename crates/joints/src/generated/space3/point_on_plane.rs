@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,8 +52,8 @@ impl Constraint<Space3> for PointOnPlane {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[Row::restricting_start("normal")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies are parallel.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +75,6 @@ impl Constraint<Space3> for Revolute {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::restricting_start("x"),
             Row::restricting_start("y"),
@@ -83,6 +82,7 @@ impl Constraint<Space3> for Revolute {
             Row::restricting_start("axis_u"),
             Row::restricting_start("axis_v"),
         ],
+        holonomic: 5,
         c: &[
             Entry::constant(0, 0, 0),
             Entry::varying(0, 0, 3),
@@ -1919,8 +1919,8 @@ impl Constraint<Space3> for RevoluteAngleDrive {
             requirements: &[],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("angle")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 3),
             Entry::varying(0, 0, 4),

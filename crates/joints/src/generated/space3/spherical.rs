@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_i` of body i and point `s_j` of body j coincide.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,12 +45,12 @@ impl Constraint<Space3> for Spherical {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::restricting_start("x"),
             Row::restricting_start("y"),
             Row::restricting_start("z"),
         ],
+        holonomic: 3,
         c: &[
             Entry::constant(0, 0, 0),
             Entry::varying(0, 0, 3),

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the bodies do not turn
 /// against each other.
@@ -76,7 +76,6 @@ impl Constraint<Space3> for Translational {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::restricting_start("u"),
             Row::restricting_start("v"),
@@ -84,6 +83,7 @@ impl Constraint<Space3> for Translational {
             Row::restricting_start("axis_v"),
             Row::restricting_start("turn"),
         ],
+        holonomic: 5,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),
@@ -3033,8 +3033,8 @@ impl Constraint<Space3> for TranslationalDisplacementDrive {
             requirements: &[],
         },
         role: Role::Drive,
-        level: Level::Holonomic,
         rows: &[Row::keeping_start("displacement")],
+        holonomic: 1,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// Point `s_i` of body i and point `s_j` of body j coincide, and the axis of body i is perpendicular to the axis
 /// of body j: the two axes of a cross.
@@ -60,13 +60,13 @@ impl Constraint<Space3> for Universal {
             requirements: &["the two axes of its cross do not lie along one line"],
         },
         role: Role::Joint,
-        level: Level::Holonomic,
         rows: &[
             Row::restricting_start("x"),
             Row::restricting_start("y"),
             Row::restricting_start("z"),
             Row::restricting_start("cross"),
         ],
+        holonomic: 4,
         c: &[
             Entry::constant(0, 0, 0),
             Entry::varying(0, 0, 3),

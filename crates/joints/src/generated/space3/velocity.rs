@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
-    Shape, Spec, Unit, Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
+    Unit, Variant,
 };
 /// The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,8 +50,8 @@ impl Constraint<Space3> for Velocity {
             requirements: &[],
         },
         role: Role::Joint,
-        level: Level::Nonholonomic,
         rows: &[Row::restricting_start("along")],
+        holonomic: 0,
         c: &[
             Entry::varying(0, 0, 0),
             Entry::varying(0, 0, 1),

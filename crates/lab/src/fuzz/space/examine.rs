@@ -3,12 +3,12 @@
 
 use serde_json::Value;
 
-use super::drawing::{Drawing, Kind};
+use super::drawing::Drawing;
 use super::expected::AXES;
 use super::permanence::elsewhere;
 use super::pose::extent;
 use super::rows::{Meaning, Owner};
-use super::text::{SLIP, text};
+use super::text::text;
 use super::truth::Truth;
 use super::{Expected, scene};
 use crate::fuzz::exact::answer::answer;
@@ -90,21 +90,12 @@ impl Reference for Right<'_> {
         self.truth.rank_of(rows)
     }
 
-    /// The rows of a wheel against slip are a joint of their own.
     fn reactions(&self) -> Vec<RightReaction> {
         let truth = self.truth;
         let mut reactions = Vec::new();
         for (k, joint) in truth.drawing.joints.iter().enumerate() {
             let own = truth.rows_of(Owner::Joint(k));
-            let is_late = |i: &usize| truth.rows[*i].meaning.is_nonholonomic();
-            if matches!(joint.kind, Kind::Wheel { .. }) {
-                let (slip, contact) = own.into_iter().partition(is_late);
-                reactions.push(self.reaction(joint.name.clone(), Owner::Joint(k), contact));
-                let name = format!("{}{SLIP}", joint.name);
-                reactions.push(self.reaction(name, Owner::Joint(k), slip));
-            } else {
-                reactions.push(self.reaction(joint.name.clone(), Owner::Joint(k), own));
-            }
+            reactions.push(self.reaction(joint.name.clone(), Owner::Joint(k), own));
         }
         for (k, drive) in truth.drawing.drives.iter().enumerate() {
             let own = truth.rows_of(Owner::Drive(k));

@@ -13,10 +13,6 @@ use super::vector::{Rotation, Vector};
 use model::{AnyDescription, Registry, SpatialDescription};
 use pfaff::AssembledScene;
 
-/// What follows the name of a wheel in the name of its rows against slip, which are a joint of
-/// their own.
-pub const SLIP: &str = " slip";
-
 /// The number of digits, and the data that the scene states in addition to the drawing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Precision {
@@ -181,18 +177,9 @@ impl Pen<'_> {
     }
 
     fn joint(&mut self, joint: &Joint) {
-        if let Kind::Wheel { .. } = joint.kind {
-            self.joint_of_type(joint, &joint.name, "wheel-contact");
-            let slip = format!("{}{SLIP}", joint.name);
-            return self.joint_of_type(joint, &slip, "wheel-slip");
-        }
-        self.joint_of_type(joint, &joint.name, joint.kind.name());
-    }
-
-    fn joint_of_type(&mut self, joint: &Joint, name: &str, kind: &str) {
         self.text.push_str("\n[[joint]]\n");
-        self.line("name", &format!("\"{name}\""));
-        self.line("type", &format!("\"{kind}\""));
+        self.line("name", &format!("\"{}\"", joint.name));
+        self.line("type", &format!("\"{}\"", joint.kind.name()));
         let [first, second] = joint.bodies.map(|side| self.name(side).to_owned());
         if joint.kind.has_one_body() {
             self.line("body", &format!("\"{first}\""));

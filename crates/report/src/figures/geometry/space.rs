@@ -3,7 +3,6 @@
 #[cfg(test)]
 mod tests;
 
-use joints::spec::Level;
 use linalg::Matrix;
 use model::ConstraintKind;
 use model::reaction::ConstraintGroup;
@@ -31,7 +30,7 @@ pub(super) fn symbol(group: &ConstraintGroup, wrenches: &Matrix, arm: [f64; 3]) 
         (ConstraintKind::Drive, &[force, ..], _) => Symbol::Drive { axis: Some(force) },
         (ConstraintKind::Drive, [], &[axis]) => Symbol::Turn { axis },
         (ConstraintKind::Drive, ..) => Symbol::Drive { axis: None },
-        _ if group.spec.level == Level::Nonholonomic => Symbol::Pin,
+        _ if group.spec.nonholonomic() > 0 => Symbol::Pin,
         (_, [], _) => Symbol::Rotation,
         (_, &[a, b], [_, _, _]) => Symbol::Block { axis: cross(a, b) },
         (_, &[a, b], _) => Symbol::Slot { axis: cross(a, b) },

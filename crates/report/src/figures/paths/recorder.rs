@@ -1,6 +1,5 @@
 //! Paths from the configurations of a run.
 
-use joints::spec::Level;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use super::Path;
@@ -59,7 +58,7 @@ impl<'m> PathRecorder<'m> {
             });
         }
         let groups = &mechanism.layout().groups;
-        let touches = |id: &ConstraintId| groups[id.0].spec.level == Level::Nonholonomic;
+        let touches = |id: &ConstraintId| groups[id.0].spec.nonholonomic() > 0;
         let centres = bodies
             .iter()
             .map(|&k| (Point::Centre(k), all[k].name.clone()));

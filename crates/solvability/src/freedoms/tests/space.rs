@@ -214,11 +214,11 @@ fn a_car_rolls_straight_on() {
             [x, y, 0.3],
             Y,
         );
-        s.wheel(&k.to_string(), wheel, Y, 0.3);
+        s.wheel(&format!("tread {k}"), wheel, Y, 0.3);
     }
-    let words = "`wheel 0` and `wheel 1` turn together about the axis through `slip 0` and `slip 1` along (0, 1, 0); \
+    let words = "`wheel 0` and `wheel 1` turn together about the axis through `tread 0` and `tread 1` along (0, 1, 0); \
         with them `chassis` slides along (1, 0, 0) and `wheel 2` and `wheel 3` turn together about the axis through \
-        `slip 2` and `slip 3` along (0, 1, 0)";
+        `tread 2` and `tread 3` along (0, 1, 0)";
     tells(&s, &[words]);
 }
 

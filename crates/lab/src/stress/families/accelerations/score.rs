@@ -90,7 +90,7 @@ fn of_multipliers(
         let of_group = || {
             kept.iter()
                 .zip(exact)
-                .filter(|(i, _)| group.rows.contains(i))
+                .filter(|(i, _)| group.rows.contains(**i))
         };
         let size = match worst(of_group().map(|(_, l)| *l)) {
             0.0 => force,

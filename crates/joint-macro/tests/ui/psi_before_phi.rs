@@ -3,9 +3,9 @@ use joint_macro::joint;
 joint! { plane Wrong(i, j) {
     /// One wrong thing.
     params { s_i: Point in i, s_j: Point in j }
-    rows: [x, y];
-    phi: point(i, s_i) - point(j, s_j);
+    rows: [x, y, u, v];
     psi: velocity(point(i, s_i));
+    phi: point(i, s_i) - point(j, s_j);
     place: point(i, s_i);
 } }
 

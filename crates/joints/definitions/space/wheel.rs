@@ -1,7 +1,9 @@
-joint! { space WheelSlip(i) {
-    /// A wheel that touches a plane of the ground does not slip on it: the point of contact has no velocity along the
-    /// track (axis × up) and across it. Rows are multiplied by the height of the centre over the radius, so that no
-    /// quotient is needed; arms are those of a wheel that touches.
+joint! { space Wheel(i) {
+    /// A wheel rolls without slip on a plane of the ground: of the circle of `radius` about point `s` across `axis` the
+    /// lowest point lies in the plane and has no velocity along the track (axis × up) and across it. With the height h of
+    /// the centre above the plane and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows
+    /// of velocities are multiplied by the height of the centre over the radius, so that no quotient is needed; arms are
+    /// those of a wheel that touches.
     params {
         /// The centre of the wheel.
         s: Point in i,
@@ -17,16 +19,20 @@ joint! { space WheelSlip(i) {
     let centre = point(i, s);
     let h = dot(n, centre - start(plane));
     let k = dot(n, a);
+    let steep = 1.0 - k * k;
     let along = cross(a, n);
     let across = cross(n, along);
     initial { inverse: PerLength = 1.0 / radius }
     let turned = cross(spin(i), (a * k - n) * (radius * radius));
     require "the radius is not zero": radius * radius > 0.0;
-    require "the wheel does not lie flat": 1.0 - k * k > 0.000001;
-    rows: [longitudinal, lateral];
+    require "the wheel does not lie flat": steep > 0.000001;
+    require "the wheel is on the side of the normal of its plane": h > 0.0;
+    rows: [contact, longitudinal, lateral];
+    phi: (h * h - radius * radius * steep) * (inverse * 0.5);
     psi: [
         (h * dot(along, velocity(centre)) + dot(along, turned)) * inverse,
         (h * dot(across, velocity(centre)) + dot(across, turned)) * inverse,
     ];
+    component N: n;
     place: centre - (n - a * k) * (radius / norm(n - a * k));
 } }

@@ -1,0 +1,12 @@
+use joint_macro::joint;
+
+joint! { plane Wrong(i, j) {
+    /// One wrong thing.
+    params { s_i: Point in i, s_j: Point in j }
+    rows: [x, y, u];
+    phi: point(i, s_i) - point(j, s_j);
+    psi: velocity(point(i, s_i));
+    place: point(i, s_i);
+} }
+
+fn main() {}
