@@ -168,8 +168,8 @@ pub(crate) const WALK_CORRECTED: f64 = 0.5;
 
 /// The condition of Newton and Kantorovich for a pose of a walk: with data anywhere within the
 /// stated tolerance the mechanism has a pose there.
-/// Unit: 1. Less: what a tolerance makes redundant is undecided. More: poses count that the intended
-/// mechanism does not have, and permanent redundancy is called full rank. Test:
+/// Unit: 1. Less: what a tolerance makes redundant is undecided. More: poses count that the
+/// intended mechanism does not have, and permanent redundancy is called full rank. Test:
 /// `bricard_with_few_digits_is_right_or_undecided`.
 pub(crate) const KNOWN_POSE: f64 = 0.5;
 

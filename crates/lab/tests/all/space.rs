@@ -77,8 +77,8 @@ fn couples_have_directions_within_a_tolerance() {
     }
 }
 
-/// Bricard's linkages whose data, known to few digits, do not tell where the linkage is on its walk:
-/// with four digits the rank was called full, and the walk went on along another branch.
+/// Bricard's linkages whose data, known to few digits, do not tell where the linkage is on its
+/// walk: with four digits the rank was called full, and the walk went on along another branch.
 #[test]
 fn bricard_with_few_digits_is_right_or_undecided() {
     let suite = rounded::Suite::Space;
@@ -99,8 +99,8 @@ fn bricard_with_few_digits_is_right_or_undecided() {
     }
 }
 
-/// A row that is redundant within the tolerance had to agree with the others at other poses as if it
-/// did at the given data: with 6 to 10 digits couplings, flat linkages, doors and vehicles were
+/// A row that is redundant within the tolerance had to agree with the others at other poses as if
+/// it did at the given data: with 6 to 10 digits couplings, flat linkages, doors and vehicles were
 /// called redundant at this pose only.
 #[test]
 fn with_few_digits_a_redundancy_that_lasts_is_the_same_elsewhere() {

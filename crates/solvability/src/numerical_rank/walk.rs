@@ -1,14 +1,14 @@
 //! Poses that a mechanism reaches on its kept rows: a redundancy exists at all of them, a
 //! singularity at one only.
 //!
-//! Within a stated tolerance the intended mechanism has other data, and is at a pose nearby. To first
-//! order data within the tolerance move a pose by up to δq, on which C_K changes by δC_K. By the
-//! theorem of Newton and Kantorovich the pose certainly exists if `‖C_K⁺·δC_K‖ ≤ ½`; beyond, the
-//! first order says nothing: near a singular pose of the kept rows a walk may go on along a branch
-//! that the intended mechanism does not have.
+//! Within a stated tolerance the intended mechanism has other data, and is at a pose nearby. To
+//! first order data within the tolerance move a pose by up to δq, on which C_K changes by δC_K. By
+//! the theorem of Newton and Kantorovich the pose certainly exists if `‖C_K⁺·δC_K‖ ≤ ½`; beyond,
+//! the first order says nothing: near a singular pose of the kept rows a walk may go on along a
+//! branch that the intended mechanism does not have.
 //!
-//! Source: P. Deuflhard, Newton Methods for Nonlinear Problems (2004), section 2.1, for the form that
-//! does not depend on the scales of the rows.
+//! Source: P. Deuflhard, Newton Methods for Nonlinear Problems (2004), section 2.1, for the form
+//! that does not depend on the scales of the rows.
 
 use crate::limits::{
     KNOWN_POSE, OTHER_DIRECTIONS, WALK_CORRECTED, WALK_POSES, WALK_REACH, WALK_SMALL_STEPS,
