@@ -175,7 +175,8 @@ impl<'a> Instant<'a> {
         let mut gradient = vec![0.0; n];
         for component in group.components() {
             // Torques are divided by the size of the mechanism to compare with forces.
-            let unit = if component == 2 { 1.0 / self.size } else { 1.0 };
+            let is_torque = mechanism.space().torques().contains(&component);
+            let unit = if is_torque { 1.0 / self.size } else { 1.0 };
             let row = map.row(component);
             let terms = row.iter().zip(&group.rows);
             let force = terms.map(|(w, i)| w * self.lambda[i]).sum::<f64>();

@@ -9,6 +9,8 @@ mod fleets;
 mod parts;
 
 use super::*;
+use crate::sketch::{GROUND, Kind, Sketch, Z};
+use joints::space3::Pose;
 
 /// Sensitivities of all reactions, all of which are unique.
 fn known(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Vec<Sensitivity> {
@@ -340,4 +342,39 @@ fn sentences_are_for_people() {
     ] {
         assert_eq!(told(change, reactions), text);
     }
+}
+
+/// A door in space: the hinge carries its weight and a moment of the weight times its width. What
+/// one moved point changes, as a share of both, depends neither on the axes of the ground nor on
+/// the unit of length.
+#[test]
+fn in_space_moments_are_compared_with_forces_by_the_size() {
+    let turns = [
+        [1.0, 0.0, 0.0, 0.0],
+        [0.5, 0.5, 0.5, 0.5],
+        [0.5, -0.5, -0.5, -0.5],
+        [0.8, -0.4, 0.2, 0.4],
+    ];
+    let mut changes = Vec::new();
+    // The least motion that follows the data has rotations in units of a power of two.
+    for length in [1.0, 1024.0, 1.0 / 1024.0] {
+        for turn in turns {
+            let moved = Pose::new([0.0; 3], turn);
+            let mut sketch = Sketch::at(moved);
+            let door = sketch.body("door", [0.7 * length, 0.0, 0.0]);
+            let own = &mut sketch.d.bodies[0];
+            own.centre = [0.0; 3];
+            own.position = moved.to_global([0.7 * length, 0.0, 0.0]);
+            own.inertia = own.inertia.map(|row| row.map(|j| j * length * length));
+            sketch.d.gravity = moved.direction_to_global([0.0, 0.0, -10.0]);
+            sketch.joint("hinge", Kind::Revolute, [GROUND, door], [0.0; 3], Z);
+            let mechanism = Mechanism::build(&sketch.d).expect("it builds");
+            let (q, _) = mechanism.described_state();
+            let found = known(&mechanism, 0.0, &q, &[0.0; 6]);
+            changes.push(found[0].change);
+        }
+    }
+    assert!(changes[0] > 1e-5 && changes[0] < 1e-2, "{changes:?}");
+    let is_same = |c: &f64| (c / changes[0] - 1.0).abs() < 1e-9;
+    assert!(changes.iter().all(is_same), "{changes:?}");
 }
