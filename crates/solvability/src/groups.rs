@@ -20,7 +20,7 @@ pub(crate) use group::NO_REACTION;
 pub use group::{Group, Term};
 pub use reactions::ReactionForms;
 
-use crate::verdict::{Judgement, Verdict};
+use crate::verdict::{Judgement, worst};
 
 /// The verdict of a group.
 #[derive(Clone, Debug)]
@@ -137,51 +137,5 @@ fn whole(space: SpaceKind, judgement: Judgement) -> GroupVerdict {
         judgement,
         components: Vec::new(),
         about: None,
-    }
-}
-
-/// The verdict on all together: not unique if one is not unique, otherwise undecided if one is
-/// undecided. Among equal verdicts the one with the largest margin counts (NaN is the largest).
-/// Margins of different verdicts cannot be compared, because each was compared with its own noise.
-pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
-    let severity = |j: &Judgement| match j.verdict {
-        Verdict::Unique => 0,
-        Verdict::Undecided { .. } => 1,
-        Verdict::NotUnique => 2,
-    };
-    let mut within_tolerance = false;
-    let judgements = judgements.inspect(|j| within_tolerance |= j.within_tolerance);
-    let worst = judgements.max_by(|a, b| {
-        let margins = a.margin.total_cmp(&b.margin);
-        severity(a).cmp(&severity(b)).then(margins)
-    })?;
-    let within_tolerance = within_tolerance && worst.verdict.is_unique();
-    Some(Judgement {
-        within_tolerance,
-        ..worst
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Noise differs from row to row: a small margin may be certain where a larger one is rounding.
-    #[test]
-    fn one_part_that_is_not_unique_decides_whatever_the_margins() {
-        let judged = Judgement::new;
-        let unclear = Verdict::Undecided {
-            reason: String::new(),
-        };
-        let parts = [
-            judged(Verdict::Unique, 1e-8),
-            judged(Verdict::NotUnique, 1e-12),
-            judged(unclear, 1e-7),
-        ];
-        let verdict = |parts: &[Judgement]| worst(parts.iter().cloned()).map(|j| j.verdict);
-        assert_eq!(verdict(&parts), Some(Verdict::NotUnique));
-        let rest = [parts[2].clone(), parts[0].clone()];
-        assert_eq!(verdict(&rest), Some(rest[0].verdict.clone()));
-        assert_eq!(verdict(&[]), None);
     }
 }

@@ -21,11 +21,11 @@ use crate::choices::{
 };
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
-use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term, worst};
+use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term};
 use crate::moments::MomentVerdict;
 use crate::parts::{ListedRows, PartAnalysis};
 use crate::units::{UnitCheck, UnitError, check_equations};
-use crate::verdict::{Judgement, Verdict};
+use crate::verdict::{Judgement, Verdict, worst};
 
 pub use eliminations::EliminationError;
 

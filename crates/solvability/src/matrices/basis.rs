@@ -10,7 +10,7 @@ use rank::{CoefficientReading, ExactNullSpace, RankStatus, Readings};
 
 use super::Mapped;
 use super::error::QueryError;
-use crate::verdict::{Judgement, Verdict};
+use crate::verdict::{Judgement, Verdict, worst};
 
 /// Rows, vectors that span their part of the left null space, and the accuracy of both.
 #[derive(Clone, Debug)]
@@ -69,15 +69,17 @@ impl Basis {
         &self,
         rows: impl IntoIterator<Item = usize>,
     ) -> Result<Judgement, QueryError> {
-        let rows = self.set(rows)?;
-        let margin = rows
-            .iter()
-            .map(|&i| norm(self.z.row(i)))
-            .fold(0.0, f64::hypot);
-        let noise = self.noise(rows.iter().map(|&i| (i, 1.0)));
-        Ok(self.judge(margin, noise, |z| {
-            rows.iter().all(|&i| z.annihilates([(i, 1.0)]))
-        }))
+        let rows = self.set(rows)?.into_iter();
+        let judged = rows.map(|i| {
+            let noise = self.noise(std::iter::once((i, 1.0)));
+            self.judge(norm(self.z.row(i)), noise, |z| z.annihilates([(i, 1.0)]))
+        });
+        // Each row has its own noise: what is certain of one must not get lost in that of another.
+        let judged: Vec<Judgement> = judged.collect();
+        let margin = judged.iter().map(|j| j.margin).fold(0.0, f64::hypot);
+        let unique = Judgement::new(Verdict::Unique, 0.0);
+        let worst = worst(judged.into_iter()).unwrap_or(unique);
+        Ok(Judgement { margin, ..worst })
     }
 
     /// `B_X = C_Xᵀ·Z_X` (n × p) of a group of rows, equilibrated.
