@@ -241,11 +241,9 @@ fn elsewhere(
     let mut s = crate::pose::evaluated(mechanism, *t, q);
     // Drives were left out of the walk, and have other values at this configuration. A row that was
     // left out because it is redundant within a tolerance has to agree there with the others.
-    let layout = mechanism.layout();
-    for group in layout.groups.iter().filter(|g| g.is_drive()) {
-        for i in group.rows.iter().filter(|i| *i < layout.m) {
-            s.phi[i] = 0.0;
-        }
+    let drives = mechanism.layout().groups.iter().filter(|g| g.is_drive());
+    for rows in drives.map(|g| g.rows.holonomic.clone()) {
+        s.phi[rows].fill(0.0);
     }
     let decision = Rows::in_double(mechanism, &s, q)
         .select(compared)
