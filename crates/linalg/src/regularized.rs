@@ -91,51 +91,83 @@ pub fn least_squares_step(
     weights: &[f64],
     mu: f64,
 ) -> Result<Vec<f64>, StepError> {
-    let (m, n) = (j.nrows(), j.ncols());
-    check("residual", residual, m)?;
-    check("weights", weights, n)?;
-    check("J", j.as_slice(), m * n)?;
-    check("mu", &[mu], 1)?;
-    check_sign("weights", weights)?;
-    check_sign("mu", &[mu])?;
+    check("residual", residual, j.nrows())?;
+    DampedRows::of(j, weights, mu)?.step(residual)
+}
 
-    let root: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
-    let mut rows = Matrix::zeros(m, n + m);
-    let mut rhs = vec![0.0; m];
-    for i in 0..m {
-        let row = rows.row_mut(i);
-        for l in 0..n {
-            row[l] = j[(i, l)] * root[l];
+/// Rows that were factored once for the steps of several residuals; see [`least_squares_step`].
+pub struct DampedRows {
+    /// QR of `[S·J·√W, √μ·I]ᵀ`.
+    qr: PivotedQr,
+    /// √W.
+    root: Vec<f64>,
+    /// Exponents of S.
+    exponents: Vec<i32>,
+}
+
+impl DampedRows {
+    /// Factors the m×n Jacobian j, with n weights and damping μ.
+    ///
+    /// # Errors
+    /// As [`least_squares_step`].
+    pub fn of(j: &Matrix, weights: &[f64], mu: f64) -> Result<Self, StepError> {
+        let (m, n) = (j.nrows(), j.ncols());
+        check("weights", weights, n)?;
+        check("J", j.as_slice(), m * n)?;
+        check("mu", &[mu], 1)?;
+        check_sign("weights", weights)?;
+        check_sign("mu", &[mu])?;
+
+        let root: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
+        let mut rows = Matrix::zeros(m, n + m);
+        let mut exponents = vec![0; m];
+        for i in 0..m {
+            let row = rows.row_mut(i);
+            for l in 0..n {
+                row[l] = j[(i, l)] * root[l];
+            }
+            exponents[i] = powers::unit_exponent(row);
+            for x in &mut row[..n] {
+                *x = powers::scale(*x, exponents[i]);
+            }
+            row[n + i] = mu.sqrt();
         }
-        let e = powers::unit_exponent(row);
-        for x in &mut row[..n] {
-            *x = powers::scale(*x, e);
+        let qr = PivotedQr::of_rows(rows);
+        let largest = qr.r_diagonal().next().unwrap_or(0.0).abs();
+        for (pivot, &row) in qr.r_diagonal().zip(qr.permutation()) {
+            let pivot = pivot.abs();
+            if pivot.is_nan() || pivot <= m as f64 * f64::EPSILON * largest {
+                return Err(StepError::Dependent {
+                    row,
+                    pivot,
+                    largest,
+                    mu,
+                });
+            }
         }
-        row[n + i] = mu.sqrt();
-        rhs[i] = -powers::scale(residual[i], e);
+        Ok(Self {
+            qr,
+            root,
+            exponents,
+        })
     }
 
-    // The minimum-norm solution of [S·J·√W, √μ·I]·x = −S·res is x = Q·R⁻ᵀ·Pᵀ·(−S·res).
-    let qr = PivotedQr::of_rows(rows);
-    let largest = qr.r_diagonal().next().unwrap_or(0.0).abs();
-    for (pivot, &row) in qr.r_diagonal().zip(qr.permutation()) {
-        let pivot = pivot.abs();
-        if pivot.is_nan() || pivot <= m as f64 * f64::EPSILON * largest {
-            return Err(StepError::Dependent {
-                row,
-                pivot,
-                largest,
-                mu,
-            });
+    /// The step for a residual of m numbers; allocates.
+    ///
+    /// # Errors
+    /// [`StepError::Length`], [`StepError::NonFinite`]: bad input.
+    pub fn step(&self, residual: &[f64]) -> Result<Vec<f64>, StepError> {
+        let (n, m) = (self.root.len(), self.exponents.len());
+        check("residual", residual, m)?;
+        // The minimum-norm solution of [S·J·√W, √μ·I]·x = −S·res is x = Q·R⁻ᵀ·Pᵀ·(−S·res).
+        let mut x = vec![0.0; n + m];
+        for (x_k, &row) in x.iter_mut().zip(self.qr.permutation()) {
+            *x_k = -powers::scale(residual[row], self.exponents[row]);
         }
+        self.qr.solve_r_transpose(&mut x[..m]);
+        self.qr.q_mul(&mut x);
+        Ok((0..n).map(|l| self.root[l] * x[l]).collect())
     }
-    let mut x = vec![0.0; n + m];
-    for (x_k, &row) in x.iter_mut().zip(qr.permutation()) {
-        *x_k = rhs[row];
-    }
-    qr.solve_r_transpose(&mut x[..m]);
-    qr.q_mul(&mut x);
-    Ok((0..n).map(|l| root[l] * x[l]).collect())
 }
 
 fn check(argument: &'static str, x: &[f64], expected: usize) -> Result<(), StepError> {

@@ -21,7 +21,7 @@ mod parallel;
 mod velocity;
 pub(crate) mod within;
 
-use linalg::least_squares_step;
+use linalg::DampedRows;
 
 use crate::mechanism::{Mechanism, initialise, unmet_requirement, unmet_rows};
 use crate::system::{Scratch, System};
@@ -50,6 +50,10 @@ pub struct Assembly {
 /// Largest number of iterations of the assembly; convergence is linear, with a rate that depends on
 /// the size of the correction.
 const ITERATIONS: usize = 60;
+
+/// An iteration that comes no digit nearer within this many steps does not arrive within
+/// [`ITERATIONS`]: what converges to rounding within them gains more.
+const PATIENCE: usize = 12;
 
 /// Finds a consistent configuration and takes the initial values of joints, drives and forces from
 /// it.
@@ -230,6 +234,8 @@ fn nearest(
     let mut q = from.to_vec();
     let mut best = f64::INFINITY;
     let mut stalled = 0;
+    // The least residual when it last had become smaller by a digit, and when that was.
+    let mut digit = (f64::INFINITY, 0);
     for iteration in 0..=ITERATIONS {
         mechanism.pose(t, &q, s);
         mechanism.phi(s);
@@ -241,16 +247,20 @@ fn nearest(
         let tolerance = ROUNDINGS * f64::EPSILON;
         stalled = if residual < best { 0 } else { stalled + 1 };
         best = best.min(residual);
+        if best <= 0.1 * digit.0 {
+            digit = (best, iteration);
+        }
+        let is_last = iteration == ITERATIONS || iteration >= digit.1 + PATIENCE;
         // Rounding may leave slightly more than the tolerance: an iteration that stalls near it has
         // converged.
         if residual <= tolerance || (stalled > 1 && residual <= ROUNDINGS * tolerance) {
             return Ok(q);
         }
-        let is_at_rest = stalled > 1 || iteration == ITERATIONS;
+        let is_at_rest = stalled > 1 || is_last;
         if within && is_at_rest && residual.is_finite() && within::is_within(mechanism, s, rows) {
             return Ok(q);
         }
-        if iteration == ITERATIONS || !residual.is_finite() {
+        if is_last || !residual.is_finite() {
             return Err(StartError::NoAssembly {
                 misfits: approach::misfits(mechanism, s, rows),
                 iterations: iteration,
@@ -265,14 +275,12 @@ fn nearest(
             .zip(&moved)
             .map(|(&r, m)| s.phi[r] + m)
             .collect();
-        let mut step = least_squares_step(&c, &misfit, weights, DAMPING)?;
+        let damped = DampedRows::of(&c, weights, DAMPING)?;
+        let mut step = damped.step(&misfit)?;
         // Damping leaves a small residual; one more step removes it if the rows agree.
         let left = c.times(&step);
         let misfit: Vec<f64> = misfit.iter().zip(&left).map(|(a, b)| a + b).collect();
-        for (a, b) in step
-            .iter_mut()
-            .zip(least_squares_step(&c, &misfit, weights, DAMPING)?)
-        {
+        for (a, b) in step.iter_mut().zip(damped.step(&misfit)?) {
             *a += b;
         }
         q = mechanism.space().displaced(described, 1.0, &step);

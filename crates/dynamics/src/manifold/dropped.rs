@@ -72,15 +72,14 @@ pub(super) fn monitor(
     );
     let scales = at.mechanism.scales(&at.s);
     let rounding = scales.relative_residual(at.size, exact.copied());
-    let all = 0..at.mechanism.layout().rows();
-    let fastest = all.map(scale).fold(0.0, f64::max);
+    let fastest = fastest(at, v);
     let level = Level {
         v: Some(v),
         share: share.max(STALLED_ROUNDINGS * rounding),
         residual: |i: usize| at.velocity_residual(i, v),
-        scale: |_| fastest,
+        scale: |i: usize| fastest * at.row_size(i),
         most: f64::INFINITY,
-        floor: || AT_REST * size_of_rows(at) / horizon,
+        floor: |i: usize| AT_REST * at.row_size(i) / horizon,
     };
     level.check(rows, at, &mut equations.misfits)?;
     Ok(found)
@@ -96,7 +95,7 @@ pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), M
         residual: |i: usize| at.s.phi[i],
         scale: |i| at.position_scale(i),
         most: POSITION_MISFIT,
-        floor: || 0.0,
+        floor: |_| 0.0,
     };
     level.check(rows, at, &mut equations.misfits)
 }
@@ -108,10 +107,12 @@ fn dropped_misfit(rows: &KeptRows) -> f64 {
     DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0)
 }
 
-/// The largest value of a row of C for motions of the size of the mechanism.
-fn size_of_rows(at: &Evaluation<'_>) -> f64 {
+/// The largest terms of a row of C·v, as a share of the row for a motion of the size of the
+/// mechanism (1/s): rows of lengths and of angles, and those with long arms, compare so.
+fn fastest(at: &Evaluation<'_>, v: &[f64]) -> f64 {
     let rows = 0..at.mechanism.layout().rows();
-    rows.map(|i| at.row_size(i)).fold(0.0, f64::max)
+    let rates = rows.map(|i| at.velocity_scale(i, v) / at.row_size(i));
+    rates.filter(|rate| rate.is_finite()).fold(0.0, f64::max)
 }
 
 /// Residuals of rows at the level of positions or velocities, and the sizes of their terms.
@@ -135,7 +136,7 @@ impl<R, S, F> Level<'_, R, S, F>
 where
     R: Fn(usize) -> f64,
     S: Fn(usize) -> f64,
-    F: Fn() -> f64,
+    F: Fn(usize) -> f64,
 {
     fn name(&self) -> &'static str {
         match self.v {
@@ -168,7 +169,7 @@ where
             let implied = self.share * rows.implied_scale(at, i, &self.scale)?;
             let mut tolerance = implied.min(self.most * (self.scale)(i));
             if residual > tolerance {
-                tolerance = tolerance.max((self.floor)());
+                tolerance = tolerance.max((self.floor)(i));
             }
             let is_rounding = residual <= tolerance;
             if let Some(misfits) = misfits {
