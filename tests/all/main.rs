@@ -25,6 +25,7 @@ mod independent_coordinates;
 mod invariance;
 mod large;
 mod limits;
+mod linearise;
 mod long_runs;
 mod misfits;
 mod nearly_redundant;

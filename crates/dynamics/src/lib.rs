@@ -14,6 +14,7 @@
 //! | [`motion`] | these three for one mechanism |
 //! | [`run`] | a run: integration, projected output, energy balance |
 //! | [`events`] | events during a run |
+//! | [`mod@linearise`] | small motions about a state at rest or a steady one |
 //! | `limits` | every threshold, with its reason |
 
 mod choose;
@@ -23,6 +24,7 @@ mod error;
 pub mod events;
 mod guards;
 mod limits;
+pub mod linearise;
 mod manifold;
 pub mod motion;
 pub mod options;

@@ -57,6 +57,55 @@ pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
 /// digits of their orientation. Test: `a_quaternion_that_has_drifted_far_is_scaled`.
 pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
 
+// Linearised motions.
+
+/// Length of a step along a curve, in sizes of the mechanism or radians; the longest of the eight
+/// is four times as long.
+/// Unit: share of the size, or rad. Less: rounding, 1e-16, is divided by it. More: truncation, its
+/// eighth power, takes part. Test: `a_pendulum_has_the_matrices_of_its_textbook`.
+pub(crate) const LINEARISE_STEP: f64 = 1.0 / 128.0;
+
+/// Two orders of a derivative differ by at most this share of the largest one.
+/// Unit: share. Less: steep functions are refused. More: a corner passes as a slope. Test:
+/// `a_force_with_a_corner_is_refused`.
+pub(crate) const LINEARISE_ACCURACY: f64 = 1e-6;
+
+/// A body accelerates by no more than this share of what forces would do without joints.
+/// Unit: share. Less: places of rest known to a few digits are refused. More: matrices of a state
+/// that is left at once are believed. Test: `a_pendulum_held_aside_is_not_at_rest`.
+pub(crate) const STEADY_ACCELERATION: f64 = 1e-6;
+
+/// A steady state changes its acceleration by no more than this share of the cube of its rate.
+/// Unit: share. Less: rounding of derivatives refuses steady states. More: a mass that passes its
+/// place of rest counts as steady. Test: `a_mass_that_passes_its_place_of_rest_is_not_steady`.
+pub(crate) const STEADY_FRACTION: f64 = 1e-6;
+
+/// What a followed coordinate changes of the rates, as a share of the largest entry of A.
+/// Unit: share. Less: rounding of derivatives refuses symmetries. More: what the motion depends on
+/// is left out. Test: `what_the_motion_depends_on_cannot_be_followed`.
+pub(crate) const SYMMETRY: f64 = 1e-7;
+
+/// Eigenvalues below this share of the largest one are zero: the square root of rounding, since
+/// zeros of free motions are double.
+/// Unit: share of the largest eigenvalue. Less: free motions seem to grow or decay. More: slow modes
+/// are lost. Test: `the_benchmark_bicycle_has_its_published_eigenvalues`.
+pub(crate) const ZERO_EIGENVALUE: f64 = 1e-7;
+
+/// Real parts below this share of the largest eigenvalue neither grow nor decay.
+/// Unit: share of the largest eigenvalue. Less: rounding calls undamped motions unstable. More:
+/// lightly damped ones are not called stable. Test: `what_first_order_says_of_stability`.
+pub(crate) const NEITHER: f64 = 1e-9;
+
+/// Among free directions the first one is chosen whose share is at least this part of the largest.
+/// Unit: share. Less: coordinates may determine the state badly. More: names follow rounding. Test:
+/// none.
+pub(crate) const CHOSEN_PIVOT: f64 = 0.3;
+
+/// A direction with less than this share left free is determined by those chosen before.
+/// Unit: share. Less: coordinates that determine nothing are accepted. More: useful ones near a
+/// dead centre are refused. Test: `asked_coordinates_have_to_be_independent`.
+pub(crate) const DEPENDENT_COORDINATE: f64 = 1e-6;
+
 // Projection.
 
 /// Corrections of the position per projection; one or two are the rule, more where a tolerance is

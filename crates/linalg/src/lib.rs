@@ -3,6 +3,8 @@
 
 mod dd_matrix;
 mod disjoint_sets;
+#[cfg(feature = "eigen")]
+mod eigen;
 mod equilibrate;
 mod jacobi;
 #[cfg(feature = "faer")]
@@ -24,6 +26,8 @@ pub mod powers;
 pub use dd_matrix::DdMatrix;
 pub use disjoint_sets::DisjointSets;
 pub use double_double::Dd;
+#[cfg(feature = "eigen")]
+pub use eigen::{Eigenpair, eigenpairs};
 pub use equilibrate::{Scaling, equilibrate, equilibrate_blocks, equilibrate_sparse};
 pub use jacobi::{SmallSvd, small_svd};
 pub use limits::GRADED_MASSES;

@@ -33,6 +33,18 @@ pub(crate) const ZERO_SQUARED: f64 = 1e-150;
 /// not a number. Test: none, work only.
 pub(crate) const QR_STEPS_EACH: usize = 60;
 
+#[cfg(feature = "eigen")]
+/// Sweeps over rows and columns of a matrix before its eigenvalues at most; three to five are
+/// usual.
+/// Unit: sweeps. Less: units of states cost digits. More: time. Test: `units_do_not_matter`.
+pub(crate) const BALANCINGS: usize = 20;
+
+#[cfg(feature = "eigen")]
+/// A row and its column are balanced if their sum then is below this share.
+/// Unit: share. Less: units of states cost digits. More: sweeps for nothing. Test:
+/// `units_do_not_matter`.
+pub(crate) const BALANCED: f64 = 0.95;
+
 #[cfg(feature = "faer")]
 /// Smaller dimension from which faer finds singular values: up to about 200 our own kernel is
 /// faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by

@@ -79,7 +79,7 @@ pub use frame::{FrameState, Frames};
 pub use function::{Function, FunctionError};
 pub use law::Law;
 pub use mechanism::{
-    AppliedForce, AppliedForces, BuildError, Buildable, Derivatives, Mechanism, Part, Places,
+    AppliedForce, AppliedForces, BuildError, Buildable, Derivatives, Mechanism, Part, Places, Push,
     Sparse, Work,
 };
 /// The version whose poses, vectors and tensors bodies in space take.

@@ -27,7 +27,7 @@ use crate::tolerance::Tolerance;
 pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
-pub use forces::{AppliedForce, AppliedForces};
+pub use forces::{AppliedForce, AppliedForces, Push};
 pub(crate) use initial::{initialise, unmet_requirement, unmet_rows};
 pub use part::{Part, Places};
 pub use work::Work;

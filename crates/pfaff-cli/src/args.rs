@@ -56,6 +56,9 @@ pub(crate) enum Command {
     /// Read and assemble only: report every error of the file, with its place
     #[command(after_help = examples::CHECK)]
     Check(Check),
+    /// Small motions about a state at rest or a steady one: matrices, eigenvalues, modes
+    #[command(after_help = examples::LINEARISE)]
+    Linearise(Linearise),
     /// Create a scene from a template; without a name, list the templates
     #[command(after_help = examples::NEW)]
     New(New),
@@ -95,6 +98,7 @@ impl Command {
             | Self::Sweep(Sweep { json, .. })
             | Self::WorkPrecision(WorkPrecision { json, .. })
             | Self::Check(Check { json, .. })
+            | Self::Linearise(Linearise { json, .. })
             | Self::New(New { json, .. })
             | Self::View(View { json, .. })
             | Self::Diff(Diff { json, .. })
@@ -322,6 +326,41 @@ pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// The errors, or a summary of the scene, as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Linearise {
+    /// Scene file, or - for standard input
+    pub(crate) scene: PathBuf,
+    /// Time of the motion at which it is linearised (s)
+    #[arg(
+        long,
+        value_name = "T",
+        default_value_t = 0.0,
+        allow_hyphen_values = true
+    )]
+    pub(crate) at_time: f64,
+    /// Independent coordinates to use, such as crank.angle or rod.x, in space also rod.rz; the
+    /// others are chosen
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) coordinates: Vec<String>,
+    /// Coordinates in which a steady motion goes on, such as frame.x,frame.y,frame.wz: they are
+    /// left out, and the axes turn with the latter
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) follow: Vec<String>,
+    /// Directory for matrices and modes as tables, and pages on which the modes move
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Also replace files there that pfaff has not written
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) known: Known,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+    /// Matrices, eigenvalues and modes as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -8,6 +8,7 @@ mod diff;
 mod explain;
 pub mod input;
 pub mod interrupt;
+mod linearise;
 mod manual;
 mod new;
 pub mod output;
@@ -148,6 +149,7 @@ impl CommandLine for Arguments {
             Command::Sweep(a) => sweep::run(a, console),
             Command::WorkPrecision(a) => work_precision::run(a, console),
             Command::Check(a) => check::run(a, console),
+            Command::Linearise(a) => linearise::run(a, console),
             Command::New(a) => new::run(a, console),
             Command::View(a) => view::run(a, console),
             Command::Diff(a) => diff::run(a, console),

@@ -1,6 +1,7 @@
 //! Reasons why there are no results, or only a part of them.
 
 use dynamics::MotionError;
+use dynamics::linearise::LineariseError;
 use model::BuildError;
 use model::codes::Code;
 use rank::DeletionError;
@@ -83,6 +84,9 @@ pub enum StudyError {
     /// A stop was requested before there was any result.
     #[error("interrupted before the first row; nothing was written")]
     Interrupted,
+    /// A motion could not be linearised.
+    #[error(transparent)]
+    Linearise(#[from] LineariseError),
     /// A configuration could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
@@ -133,6 +137,7 @@ impl StudyError {
             Self::Motion(e) => e.code(),
             Self::Stopped { error, .. } => error.code(),
             Self::Interrupted => const { Code::new(8) },
+            Self::Linearise(e) => e.code(),
             Self::Analysis(e) => e.code(),
             Self::State(e) => e.code(),
             Self::Explanation(e) => e.code(),
@@ -189,6 +194,7 @@ impl StudyError {
                     | MotionError::Option { .. }
                     | MotionError::Combination { .. }
             ),
+            Self::Linearise(e) => e.is_input(),
             Self::Analysis(e) => matches!(e, AnalysisError::Rows { .. }),
             Self::Deletion(e) => matches!(
                 e,

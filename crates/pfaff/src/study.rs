@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
     Failure, Method, MotionFault, MotionOptions, Plan, Prepared, Sample, Stabilisation, Stop,
@@ -157,6 +158,20 @@ impl Study {
             Some(worst) => Err(worst.into()),
             None => Ok(configuration),
         }
+    }
+
+    /// Small motions about the state at a time of the motion, which has to be at rest or steady; at
+    /// t = 0 no run is needed.
+    ///
+    /// # Errors
+    /// If the motion does not reach that time, or as [`linearise`].
+    pub fn linearise(
+        &self,
+        t: f64,
+        options: &LineariseOptions,
+    ) -> Result<Linearisation, StudyError> {
+        let State { q, v } = self.state_at(t)?;
+        Ok(linearise(&self.prepared, (t, &q, &v), options)?)
     }
 
     /// The first contradiction of drives after the start: with each other, or with what joints

@@ -5,6 +5,7 @@
 mod analysis;
 mod answers;
 mod freedoms;
+mod linearise;
 mod misfits;
 mod motion;
 mod plan;
@@ -35,6 +36,9 @@ pub use answers::{
     TemplatesDocument, ViewDocument,
 };
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
+pub use linearise::{
+    InputDocument, LinearisationDocument, ModeDocument, SecondOrderDocument, StateDocument,
+};
 pub use misfits::{MisfitDocument, SpreadDocument};
 pub use motion::{MomentDocument, MotionDocument};
 pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};

@@ -33,7 +33,7 @@ pub use html::{
 };
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
-pub use tables::{ReactionTable, Selection, TableError, TrajectoryTable};
+pub use tables::{MatrixTable, ReactionTable, Selection, TableError, TrajectoryTable, modes_table};
 pub use work_precision::{
     CurveName, Place, Provenance, RankingLine, ReferenceDocument, WorkPrecisionDocument,
     WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, work_precision_page,

@@ -3,6 +3,7 @@
 //!
 //! The times and the destination of rows are chosen by the caller.
 
+mod linearise;
 mod reactions;
 #[cfg(test)]
 mod tests;
@@ -13,6 +14,7 @@ use std::io::{self, BufWriter, Write};
 
 use serde::Serialize;
 
+pub use linearise::{MatrixTable, modes_table};
 pub use reactions::{ReactionTable, Selection};
 pub use trajectory::TrajectoryTable;
 

@@ -756,6 +756,41 @@ pub const TABLE: &[Entry] = &[
         Example::Scene("simulate - --out run", bar!("")),
     ),
     entry(
+        220,
+        "The state about which a motion is to be linearised is not steady",
+        "Describe a start at rest where forces balance, or let dampers bring the mechanism there in a run and linearise at its end with `--at-time`. A steady motion in a circle is steady in axes that turn: `--follow BODY.wz`.",
+        Example::Scene(
+            "linearise -",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        221,
+        "A force has a corner where it is to be differentiated",
+        "Linearise beside the corner, or give the force a smooth function.",
+        Example::None("needs a force with a corner"),
+    ),
+    entry(
+        222,
+        "A coordinate of a linearisation does not exist, or others determine it",
+        "Write it as BODY.angle, BODY.x or BODY.y, in space BODY.x to BODY.z and BODY.rx to BODY.rz; leave out those that the joints determine.",
+        Example::Scene("linearise - --coordinates bar.tilt", bar!("")),
+    ),
+    entry(
+        223,
+        "A coordinate that is to be followed acts on the motion",
+        "Follow only coordinates whose values do not matter, such as the place of a vehicle on a plane.",
+        Example::None("needs a steady motion"),
+    ),
+    entry(
+        224,
+        "No independent coordinates determine the state",
+        "The configuration is singular: choose another one.",
+        Example::None("needs a singular configuration"),
+    ),
+    entry(
         301,
         "A state is not one of the mechanism",
         "Give as many finite numbers as it has coordinates and velocities.",

@@ -26,6 +26,24 @@ pub struct AppliedForce<'m> {
     pub points: Vec<(BodyRef, [f64; 3])>,
 }
 
+/// What the change of a function of a force adds to Q.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Push<'m> {
+    /// Name of the force.
+    pub name: &'m str,
+    /// Name of the function in its definition.
+    pub function: &'static str,
+    /// Unit of the function.
+    pub unit: Unit,
+    /// Change of Q for a change of the function by one, n_v.
+    pub q: Vec<f64>,
+}
+
+/// Share of a function, or of one, by which it is changed; the difference of two values is exact
+/// where Q is linear in the function, or quadratic.
+const PUSH: f64 = 1.0 / 256.0;
+
 impl Mechanism {
     /// Its applied forces, without the weight.
     #[must_use]
@@ -52,6 +70,38 @@ impl<'m> AppliedForces<'m> {
                 points: f.points(),
             }
         })
+    }
+
+    /// What a change of each function of time by one adds to Q, at the pose and the twist of the
+    /// scratch; allocates.
+    #[must_use]
+    pub fn pushes(self, s: &mut Scratch) -> Vec<Push<'m>> {
+        let mut all = Vec::new();
+        // A law takes a measure; its function of time is not used.
+        for force in self.0.iter().filter(|force| !force.is_law()) {
+            let functions = force.spec().common.functions();
+            for ((function, unit), at) in functions.zip(force.site.functions.clone()) {
+                let value = s.slots.jets[at][0];
+                let step = PUSH * value.abs().max(1.0);
+                let mut q = vec![0.0; s.force.len()];
+                for sign in [1.0, -1.0] {
+                    s.slots.jets[at][0] = value + sign * step;
+                    force.q(&s.slots, &mut s.block);
+                    let columns = force.columns.iter().zip(&s.block);
+                    for (column, x) in columns.filter_map(|(c, x)| Some(((*c)?, x))) {
+                        q[column] += sign * x / (2.0 * step);
+                    }
+                }
+                s.slots.jets[at][0] = value;
+                all.push(Push {
+                    name: &force.name,
+                    function,
+                    unit,
+                    q,
+                });
+            }
+        }
+        all
     }
 
     /// The first force without a finite value at the pose and the twist of the scratch: "the force

@@ -40,6 +40,15 @@ pub(super) const CHECK: &str = "Examples:
   pfaff check robot-trolley.toml --watch    again whenever the file is saved; Ctrl-C ends it
   pfaff check - --json < robot-trolley.toml";
 
+pub(super) const LINEARISE: &str = "Examples:
+  pfaff linearise crane.toml                               eigenvalues, frequencies, damping ratios
+  pfaff linearise crane.toml --out modes                   A, B, M, D, K as tables; every mode as a page that moves
+  pfaff linearise crane.toml --coordinates boom.angle,hook.x
+  pfaff linearise bicycle.toml --follow frame.x,frame.y    a steady motion; its place does not matter
+  pfaff linearise crane.toml --at-time 20 --json
+
+The state has to be at rest where forces balance, or steady.";
+
 pub(super) const SCHEMA: &str = "Examples:
   pfaff schema > pfaff.schema.json
 

@@ -41,13 +41,16 @@ pub fn is_ours(path: &Path) -> bool {
 }
 
 /// Whether this is the header of one of our tables: quantities of bodies, joints and drives over
-/// time, runs of a sweep, or runs of a comparison.
+/// time, runs of a sweep, runs of a comparison, matrices or modes.
 fn is_table(header: &str) -> bool {
     let mut names = header.split(',');
     match names.next() {
         // Measures at the end of a row have names of their own.
         Some("t") => names.next().is_none_or(|name| name.contains('.')),
         Some("run") => names.any(|name| name == "status"),
+        // Matrices of a linearised motion, with the names of their columns.
+        Some("A" | "B" | "M" | "D" | "K") => true,
+        Some("mode") => header.starts_with("mode,real,imaginary,"),
         Some("scene") => header.starts_with("scene,formulation,method,"),
         _ => false,
     }

@@ -1,0 +1,306 @@
+//! Independent coordinates: places and turns of the frames of bodies.
+
+use linalg::{Matrix, PivotedQr};
+use model::words::listed;
+use model::{Mechanism, SpaceKind};
+
+use super::curve::{BODY, Curves, Derivative};
+use super::error::LineariseError;
+use super::frame_row;
+use super::reduce::Followed;
+use crate::limits::{CHOSEN_PIVOT, DEPENDENT_COORDINATE};
+
+/// A coordinate of the frame of a body, or its velocity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Coordinate {
+    /// `body.x`, or `body.vx`.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+    pub(crate) body: usize,
+    /// Three translations, then three rotations, along axes of the ground.
+    pub(crate) direction: usize,
+}
+
+impl Coordinate {
+    /// Row of all frames.
+    pub(crate) fn row(&self) -> usize {
+        frame_row(self.body, self.direction)
+    }
+}
+
+/// Names of the directions of a frame: in the plane only some of them exist.
+fn names(space: SpaceKind) -> [[&'static str; 2]; BODY] {
+    match space {
+        SpaceKind::Space3 => [
+            ["x", "vx"],
+            ["y", "vy"],
+            ["z", "vz"],
+            ["rx", "wx"],
+            ["ry", "wy"],
+            ["rz", "wz"],
+        ],
+        _ => [
+            ["x", "vx"],
+            ["y", "vy"],
+            ["", ""],
+            ["", ""],
+            ["", ""],
+            ["angle", "omega"],
+        ],
+    }
+}
+
+/// A direction of a body, as a position or as a velocity.
+pub(crate) fn coordinate(
+    mechanism: &Mechanism,
+    body: usize,
+    direction: usize,
+    is_velocity: bool,
+) -> Coordinate {
+    let name = names(mechanism.space())[direction][usize::from(is_velocity)];
+    let unit = match (direction < 3, is_velocity) {
+        (true, false) => "m",
+        (true, true) => "m/s",
+        (false, false) => "rad",
+        (false, true) => "rad/s",
+    };
+    Coordinate {
+        name: format!("{}.{name}", mechanism.bodies()[body].name),
+        unit,
+        body,
+        direction,
+    }
+}
+
+/// The coordinate of a name, by the name of its position or of its velocity.
+pub(crate) fn named(
+    mechanism: &Mechanism,
+    name: &str,
+) -> Result<(Coordinate, bool), LineariseError> {
+    let refused = |hint: String| LineariseError::Coordinate {
+        name: name.to_owned(),
+        hint,
+    };
+    let known = names(mechanism.space());
+    let parts = || known.iter().flatten().filter(|part| !part.is_empty());
+    let Some((body, part)) = name.rsplit_once('.') else {
+        let some = parts().next().copied().unwrap_or_default();
+        return Err(refused(format!(
+            "need a body and a coordinate, as `body.{some}`"
+        )));
+    };
+    let Some(at) = mechanism.bodies().iter().position(|b| b.name == body) else {
+        let bodies: Vec<_> = mechanism.bodies().iter().map(|b| &b.name).collect();
+        let bodies = listed(&bodies);
+        return Err(refused(format!("there is no body `{body}`, but {bodies}")));
+    };
+    let found = known
+        .iter()
+        .position(|own| !part.is_empty() && own.contains(&part));
+    let Some(direction) = found else {
+        let parts: Vec<_> = parts().collect();
+        return Err(refused(format!("a body has {}", listed(&parts))));
+    };
+    let is_velocity = known[direction][1] == part;
+    Ok((
+        coordinate(mechanism, at, direction, is_velocity),
+        is_velocity,
+    ))
+}
+
+/// The independent coordinates of a linearisation.
+pub(crate) struct Chosen {
+    pub(crate) positions: Vec<Coordinate>,
+    pub(crate) velocities: Vec<Coordinate>,
+}
+
+impl Chosen {
+    /// Chooses velocities first, then positions, of which the velocities are rates: those that are
+    /// followed and asked for, then turns before places, the first whose share of what is still
+    /// free is large.
+    pub(crate) fn new(
+        curves: &Curves<'_>,
+        followed: &Followed,
+        asked: &[String],
+    ) -> Result<Self, LineariseError> {
+        let mechanism = curves.mechanism();
+        let mut wanted: Vec<(usize, String, bool)> = Vec::new();
+        for coordinate in &followed.coordinates {
+            wanted.push((coordinate.row(), coordinate.name.clone(), true));
+        }
+        for name in asked {
+            let (coordinate, _) = named(mechanism, name)?;
+            if !wanted.iter().any(|w| w.0 == coordinate.row()) {
+                wanted.push((coordinate.row(), name.clone(), false));
+            }
+        }
+        let [of_phi, of_c] = curves.kept();
+        let velocities = Free::new(curves, of_c).choose(&wanted, &[], false)?;
+        let positions = Free::new(curves, of_phi).choose(&wanted, &velocities, true)?;
+        let all = |rows: Vec<usize>, is_velocity| {
+            let of = |row: usize| coordinate(mechanism, row / BODY, row % BODY, is_velocity);
+            rows.into_iter().map(of).collect()
+        };
+        Ok(Self {
+            positions: all(positions, false),
+            velocities: all(velocities, true),
+        })
+    }
+
+    /// Number of states.
+    pub(crate) fn len(&self) -> usize {
+        self.positions.len() + self.velocities.len()
+    }
+
+    /// Rates of all states for the derivatives along a curve, in axes that turn.
+    pub(crate) fn rates<'a>(
+        &'a self,
+        d: &'a Derivative,
+        curves: &'a Curves<'_>,
+        turning: [f64; 3],
+    ) -> impl Iterator<Item = f64> + 'a {
+        let part = |x: &[f64], c: &Coordinate| -> [f64; 3] {
+            let first = frame_row(c.body, c.direction / 3 * 3);
+            [x[first], x[first + 1], x[first + 2]]
+        };
+        let turned = move |x: [f64; 3], by: [f64; 3], axis: usize| model::space::cross(by, x)[axis];
+        let positions = self.positions.iter().map(move |c| {
+            let axis = c.direction % 3;
+            let shift = part(&d.shift, c);
+            let carried = if c.direction < 3 {
+                0.0
+            } else {
+                turned(shift, curves.omega(c.body), axis)
+            };
+            d.velocity[c.row()] + carried - turned(shift, turning, axis)
+        });
+        let velocities = self.velocities.iter().map(move |c| {
+            let axis = c.direction % 3;
+            d.acceleration[c.row()] - turned(part(&d.velocity, c), turning, axis)
+        });
+        positions.chain(velocities)
+    }
+}
+
+/// Motions of all frames that rows leave free.
+struct Free<'c, 'm> {
+    curves: &'c Curves<'m>,
+    /// Their frames, without dimensions: a row for each direction, a column for each free motion.
+    rows: Matrix,
+    /// Orthonormal directions that have been chosen.
+    taken: Vec<Vec<f64>>,
+}
+
+impl<'c, 'm> Free<'c, 'm> {
+    fn new(curves: &'c Curves<'m>, kept: &[usize]) -> Self {
+        let squared = curves.squared_units();
+        let mut rows = curves.rows(kept);
+        let n = rows.ncols();
+        for i in 0..rows.nrows() {
+            let row = rows.row_mut(i);
+            row.iter_mut()
+                .zip(&squared)
+                .for_each(|(c, u)| *c *= u.sqrt());
+            let size = row.iter().map(|c| c * c).sum::<f64>().sqrt();
+            if size > 0.0 {
+                row.iter_mut().for_each(|c| *c /= size);
+            }
+        }
+        let count = rows.nrows();
+        let mut basis = PivotedQr::of_rows(rows).q_columns(count.min(n)..n);
+        for j in 0..n {
+            let unit = squared[j].sqrt();
+            basis.row_mut(j).iter_mut().for_each(|x| *x *= unit);
+        }
+        let mut rows = curves.frames.product(&basis);
+        for i in 0..rows.nrows() {
+            if i % BODY < 3 {
+                let size = curves.size();
+                rows.row_mut(i).iter_mut().for_each(|x| *x /= size);
+            }
+        }
+        Self {
+            curves,
+            rows,
+            taken: Vec::new(),
+        }
+    }
+
+    /// What of a row is still free.
+    fn left(&self, row: usize) -> Vec<f64> {
+        let mut left = self.rows.row(row).to_vec();
+        // Twice: the second time removes what rounding of the first has left.
+        for taken in self.taken.iter().chain(&self.taken) {
+            let share: f64 = left.iter().zip(taken).map(|(a, b)| a * b).sum();
+            left.iter_mut()
+                .zip(taken)
+                .for_each(|(a, b)| *a -= share * b);
+        }
+        left
+    }
+
+    fn take(&mut self, row: usize) {
+        let mut left = self.left(row);
+        let size = length(&left);
+        left.iter_mut().for_each(|x| *x /= size);
+        self.taken.push(left);
+    }
+
+    fn choose(
+        mut self,
+        wanted: &[(usize, String, bool)],
+        first: &[usize],
+        all_wanted: bool,
+    ) -> Result<Vec<usize>, LineariseError> {
+        let free = self.rows.ncols();
+        let mut chosen: Vec<usize> = Vec::new();
+        let of_wanted = wanted.iter().map(|w| (w.0, Some(w)));
+        for (row, asked) in of_wanted.chain(first.iter().map(|&row| (row, None))) {
+            if chosen.contains(&row) {
+                continue;
+            }
+            if length(&self.left(row)) > DEPENDENT_COORDINATE {
+                self.take(row);
+                chosen.push(row);
+            } else if let Some((_, name, _)) = asked.filter(|_| all_wanted) {
+                return Err(self.dependent(name, &chosen));
+            }
+        }
+        let turns_first = |row: &usize| (row % BODY < 3, *row);
+        let mut order: Vec<usize> = (0..self.rows.nrows()).collect();
+        order.sort_by_key(turns_first);
+        while chosen.len() < free {
+            let sizes: Vec<f64> = order.iter().map(|&row| length(&self.left(row))).collect();
+            let largest = sizes.iter().copied().fold(0.0, f64::max);
+            let next = sizes.iter().position(|x| *x >= CHOSEN_PIVOT * largest);
+            let Some(next) = next.filter(|_| largest > DEPENDENT_COORDINATE) else {
+                return Err(LineariseError::Singular);
+            };
+            self.take(order[next]);
+            chosen.push(order[next]);
+        }
+        Ok(chosen)
+    }
+
+    fn dependent(&self, name: &str, chosen: &[usize]) -> LineariseError {
+        let mechanism = self.curves.mechanism();
+        let others = chosen
+            .iter()
+            .map(|row| coordinate(mechanism, row / BODY, row % BODY, false).name);
+        let others: Vec<String> = others.map(|name| format!("`{name}`")).collect();
+        LineariseError::Dependent {
+            name: name.to_owned(),
+            others: if others.is_empty() {
+                "the joints, which hold it".to_owned()
+            } else {
+                listed(&others)
+            },
+        }
+    }
+}
+
+fn length(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}

@@ -1,0 +1,428 @@
+//! Derivatives along curves through a state: velocities and accelerations of the frames of all
+//! bodies.
+
+use linalg::{KeptRowSaddle, Matrix};
+use model::space::{cross, norm};
+use model::{Mechanism, Push, System};
+
+use super::coordinates::Coordinate;
+use super::error::LineariseError;
+use super::frame_row;
+use crate::limits::{LINEARISE_ACCURACY, LINEARISE_STEP, STEADY_ACCELERATION, STEADY_FRACTION};
+use crate::motion::KeptRowMotion;
+use crate::prepare::Prepared;
+
+/// Directions in which the frame of a body moves: three translations and three rotations.
+pub(crate) const BODY: usize = 6;
+
+/// Weights of central differences of orders eight and six, for the distances of one to four steps.
+const ORDER_8: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+const ORDER_6: [f64; 4] = [3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0, 0.0];
+
+/// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances: its
+/// terms of second, fourth and sixth order cancel, and `|x|` has the derivative 1. A corner is
+/// even, so differences do not see it.
+const CORNER: [f64; 4] = [14.0 / 5.0, -7.0 / 5.0, 2.0 / 5.0, -1.0 / 20.0];
+
+/// Derivatives of the velocities and accelerations of all frames, ground axes, and the displacement
+/// to which they belong; `BODY` numbers for each body.
+#[derive(Clone, Debug)]
+pub(crate) struct Derivative {
+    pub(crate) shift: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) acceleration: Vec<f64>,
+}
+
+/// A motion at one state, and curves through it.
+pub(crate) struct Curves<'m> {
+    motion: KeptRowMotion<'m>,
+    prepared: &'m Prepared,
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+    /// Velocities of all frames for velocities of the motion, `BODY` rows for each body, n_v
+    /// columns.
+    pub(crate) frames: Matrix,
+    /// C at the state, all rows.
+    c: Matrix,
+    /// Natural rate of the mechanism (1/s): of its velocities, or of its accelerations.
+    rate: f64,
+    /// The largest acceleration of a body without constraints, in sizes of the mechanism (1/s²).
+    applied: f64,
+    /// The largest derivative of an acceleration, and the largest doubt about one, both without
+    /// dimensions.
+    largest: f64,
+    doubt: f64,
+}
+
+impl<'m> Curves<'m> {
+    pub(crate) fn new(
+        mut motion: KeptRowMotion<'m>,
+        prepared: &'m Prepared,
+        (t, q, v): (f64, &[f64], &[f64]),
+    ) -> Result<Self, LineariseError> {
+        let mechanism = motion.mechanism();
+        let mut a = vec![0.0; v.len()];
+        motion.acceleration(t, q, v, &mut a)?;
+        let c = mechanism.layout().dense(motion.scratch());
+        let size = prepared.assembly.size;
+        let space = mechanism.space();
+        let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0, f64::max);
+        let speed = largest(&mut (0..v.len()).map(|j| v[j].abs() / space.unit(j, size)));
+        let force = &motion.scratch().force;
+        let free = (0..v.len()).filter(|&j| mechanism.mass()[j] > 0.0);
+        let pushed = |j: usize| force[j].abs() / mechanism.mass()[j] / space.unit(j, size);
+        let applied = largest(&mut free.map(pushed));
+        let rate = match speed.max(applied.sqrt()) {
+            rate if rate > 0.0 && rate.is_finite() => rate,
+            _ => 1.0,
+        };
+        let bodies = mechanism.bodies().len();
+        let mut frames = Matrix::zeros(BODY * bodies, v.len());
+        let mut one = vec![0.0; v.len()];
+        for j in 0..v.len() {
+            let body = space.body_of(j);
+            one[j] = 1.0;
+            let moved = mechanism.frames().body(body, q, &one);
+            one[j] = 0.0;
+            for (k, x) in moved.velocity.into_iter().chain(moved.omega).enumerate() {
+                frames[(frame_row(body, k), j)] = x;
+            }
+        }
+        Ok(Self {
+            motion,
+            prepared,
+            t,
+            q: q.to_vec(),
+            v: v.to_vec(),
+            a,
+            frames,
+            c,
+            rate,
+            applied,
+            largest: 0.0,
+            doubt: 0.0,
+        })
+    }
+
+    pub(crate) fn mechanism(&self) -> &'m Mechanism {
+        self.motion.mechanism()
+    }
+
+    pub(crate) fn state(&self) -> (f64, &[f64], &[f64]) {
+        (self.t, &self.q, &self.v)
+    }
+
+    /// Kept rows of Φ and of C.
+    pub(crate) fn kept(&self) -> [&'m [usize]; 2] {
+        let Prepared {
+            position_decision,
+            decision,
+            ..
+        } = self.prepared;
+        [&position_decision.kept, &decision.kept]
+    }
+
+    /// Rows of C at the state.
+    pub(crate) fn rows(&self, rows: &[usize]) -> Matrix {
+        self.c.select_rows(rows)
+    }
+
+    /// Squares of the units of the velocities.
+    pub(crate) fn squared_units(&self) -> Vec<f64> {
+        let unit = |j| self.mechanism().space().unit(j, self.size());
+        (0..self.v.len()).map(|j| unit(j) * unit(j)).collect()
+    }
+
+    /// Size of the mechanism (m).
+    pub(crate) fn size(&self) -> f64 {
+        self.prepared.assembly.size
+    }
+
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.v.iter().all(|v| *v == 0.0)
+    }
+
+    /// Angular velocity of a body at the state.
+    pub(crate) fn omega(&self, body: usize) -> [f64; 3] {
+        let frames = self.mechanism().frames();
+        frames.body(body, &self.q, &self.v).omega
+    }
+
+    /// The largest difference of two orders, as a share of the largest derivative.
+    pub(crate) fn accuracy(&self) -> f64 {
+        if self.largest > 0.0 {
+            self.doubt / self.largest
+        } else {
+            0.0
+        }
+    }
+
+    /// Derivatives along the curve that leaves the state with the displacement `shift` and the
+    /// change of velocities `dv`, n_v each.
+    pub(crate) fn along(
+        &mut self,
+        shift: &[f64],
+        dv: &[f64],
+    ) -> Result<Derivative, LineariseError> {
+        let bodies = self.mechanism().bodies().len();
+        let moved = self.frames.times(shift);
+        let Some(step) = self.step(shift, dv) else {
+            return Ok(Derivative {
+                shift: moved,
+                velocity: vec![0.0; BODY * bodies],
+                acceleration: vec![0.0; BODY * bodies],
+            });
+        };
+        let count = 2 * BODY * bodies;
+        let (mut high, mut low) = (vec![0.0; count], vec![0.0; count]);
+        let mut corner = vec![0.0; count];
+        let here = self.rates_at(0.0, shift, dv)?;
+        for (k, w8) in ORDER_8.into_iter().enumerate() {
+            let distance = (k + 1) as f64 * step;
+            let ahead = self.rates_at(distance, shift, dv)?;
+            let behind = self.rates_at(-distance, shift, dv)?;
+            for i in 0..count {
+                let d = (ahead[i] - behind[i]) / step;
+                let bend = 0.5 * (ahead[i] + behind[i]) - here[i];
+                high[i] += w8 * d;
+                low[i] += ORDER_6[k] * d;
+                corner[i] += CORNER[k] * bend / step;
+            }
+        }
+        for (low, (high, corner)) in low.iter_mut().zip(high.iter().zip(&corner)) {
+            *low = (*low - high).abs().max(corner.abs());
+        }
+        self.judge(&high, &low, (shift, dv))?;
+        let acceleration = high.split_off(BODY * bodies);
+        Ok(Derivative {
+            shift: moved,
+            velocity: high,
+            acceleration,
+        })
+    }
+
+    /// What functions of forces push at the state.
+    pub(crate) fn pushes(&self) -> Vec<Push<'m>> {
+        let mechanism = self.mechanism();
+        let mut s = mechanism.scratch();
+        mechanism.pose(self.t, &self.q, &mut s);
+        mechanism.twist(&self.v, &mut s);
+        mechanism.applied_forces().pushes(&mut s)
+    }
+
+    /// The change of accelerations by forces Q, n_v, and right-hand sides Γ of the kept rows.
+    pub(crate) fn pushed(&self, q: &[f64], gamma: &[f64]) -> Result<Derivative, LineariseError> {
+        let [_, kept] = self.kept();
+        let n = self.v.len();
+        let mut a = vec![0.0; n];
+        let mut saddle = KeptRowSaddle::new(n, kept.len()).map_err(|_| LineariseError::Singular)?;
+        saddle
+            .factor(|k| self.c.row(kept[k]), self.mechanism().mass())
+            .and_then(|()| saddle.motion(q, gamma, &mut a))
+            .map_err(|_| LineariseError::Singular)?;
+        let none = vec![0.0; self.frames.nrows()];
+        Ok(Derivative {
+            shift: none.clone(),
+            velocity: none,
+            acceleration: self.frames.times(&a),
+        })
+    }
+
+    /// The derivatives of the kept rows of `C·v − b`, and of these velocities of frames, along a
+    /// displacement with constant v.
+    pub(crate) fn missed_velocities(&self, shift: &[f64], free: &[Coordinate]) -> Vec<f64> {
+        let [_, kept] = self.kept();
+        let still = vec![0.0; shift.len()];
+        let mut missed = vec![0.0; kept.len() + free.len()];
+        let (of_rows, of_free) = missed.split_at_mut(kept.len());
+        let Some(step) = self.step(shift, &still).filter(|_| !self.is_at_rest()) else {
+            return missed;
+        };
+        let mechanism = self.mechanism();
+        let mut s = mechanism.scratch();
+        for (k, w) in ORDER_8.into_iter().enumerate() {
+            for sign in [1.0, -1.0] {
+                let distance = sign * (k + 1) as f64 * step;
+                let q = mechanism.space().displaced(&self.q, distance, shift);
+                mechanism.pose(self.t, &q, &mut s);
+                mechanism.c(&mut s);
+                mechanism.b(&mut s);
+                for (missed, &i) in of_rows.iter_mut().zip(kept) {
+                    let residual = mechanism.layout().velocity_residual(&s, i, &self.v);
+                    *missed += sign * w * residual / step;
+                }
+                for (missed, c) in of_free.iter_mut().zip(free) {
+                    let moved = mechanism.frames().body(c.body, &q, &self.v);
+                    let velocity = [moved.velocity, moved.omega][c.direction / 3];
+                    *missed += sign * w * velocity[c.direction % 3] / step;
+                }
+            }
+        }
+        missed
+    }
+
+    /// The parameter of the curve that moves the mechanism by a step; `None` if nothing changes.
+    fn step(&self, shift: &[f64], dv: &[f64]) -> Option<f64> {
+        let space = self.mechanism().space();
+        let largest = |x: &[f64]| {
+            let shares = x
+                .iter()
+                .enumerate()
+                .map(|(j, x)| x.abs() / space.unit(j, self.size()));
+            shares.fold(0.0, f64::max)
+        };
+        let way = largest(shift).max(largest(dv) / self.rate);
+        (way > 0.0).then_some(LINEARISE_STEP / way)
+    }
+
+    /// Velocities and accelerations of all frames at a distance along a curve.
+    fn rates_at(&mut self, d: f64, shift: &[f64], dv: &[f64]) -> Result<Vec<f64>, LineariseError> {
+        let mechanism = self.mechanism();
+        let q = mechanism.space().displaced(&self.q, d, shift);
+        let v: Vec<f64> = self.v.iter().zip(dv).map(|(v, w)| v + d * w).collect();
+        let mut a = vec![0.0; v.len()];
+        self.motion.acceleration(self.t, &q, &v, &mut a)?;
+        let mut velocities = Vec::with_capacity(2 * BODY * mechanism.bodies().len());
+        let mut accelerations = Vec::new();
+        for body in 0..mechanism.bodies().len() {
+            let [velocity, acceleration] = frame_rates(mechanism, body, (&q, &v, &a));
+            velocities.extend(velocity);
+            accelerations.extend(acceleration);
+        }
+        velocities.append(&mut accelerations);
+        Ok(velocities)
+    }
+
+    /// Compares derivatives with the doubts about them.
+    fn judge(
+        &mut self,
+        high: &[f64],
+        doubts: &[f64],
+        (shift, dv): (&[f64], &[f64]),
+    ) -> Result<(), LineariseError> {
+        let Some(step) = self.step(shift, dv) else {
+            return Ok(());
+        };
+        // Without dimensions: for a change of the mechanism by its size, or by one radian.
+        let way = LINEARISE_STEP / step;
+        let accelerations = high.len() / 2..high.len();
+        for i in accelerations {
+            let unit = if i % BODY < 3 { self.size() } else { 1.0 };
+            let scale = unit * way * self.rate * self.rate;
+            let found = (high[i] / scale).abs();
+            if !found.is_finite() {
+                return Err(LineariseError::NotSmooth {
+                    time: self.t,
+                    body: self.name_of(i),
+                });
+            }
+            self.largest = self.largest.max(found);
+            let doubt = doubts[i] / scale;
+            self.doubt = self.doubt.max(doubt);
+        }
+        if self.doubt > LINEARISE_ACCURACY * self.largest.max(1.0) {
+            let worst = (high.len() / 2..high.len()).fold(high.len() / 2, |a, b| {
+                if doubts[b] > doubts[a] { b } else { a }
+            });
+            return Err(LineariseError::NotSmooth {
+                time: self.t,
+                body: self.name_of(worst),
+            });
+        }
+        Ok(())
+    }
+
+    fn name_of(&self, row: usize) -> String {
+        let bodies = self.mechanism().bodies();
+        bodies[row / BODY % bodies.len()].name.clone()
+    }
+
+    /// Whether the state is at rest or steady in axes that turn: accelerations are those of the
+    /// turning, and stay so along the motion.
+    pub(crate) fn check_steady(&mut self, turning: [f64; 3]) -> Result<(), LineariseError> {
+        let mechanism = self.mechanism();
+        let (q, v, a) = (self.q.clone(), self.v.clone(), self.a.clone());
+        let accelerations = |body: usize| frame_rates(mechanism, body, (&q, &v, &a))[1];
+        for body in 0..mechanism.bodies().len() {
+            let [velocity, _] = frame_rates(mechanism, body, (&q, &v, &a));
+            let found = accelerations(body);
+            let allowed = STEADY_ACCELERATION * self.applied.max(self.rate * self.rate);
+            self.check_body(body, (velocity, found), turning, allowed, false)?;
+        }
+        if self.is_at_rest() {
+            return Ok(());
+        }
+        // The derivatives along the motion itself.
+        let along = self.along(&v, &a)?;
+        for body in 0..mechanism.bodies().len() {
+            let found = std::array::from_fn(|k| along.acceleration[frame_row(body, k)]);
+            let allowed = STEADY_FRACTION * self.rate.powi(3);
+            self.check_body(body, (accelerations(body), found), turning, allowed, true)?;
+        }
+        (self.largest, self.doubt) = (0.0, 0.0);
+        Ok(())
+    }
+
+    fn check_body(
+        &self,
+        body: usize,
+        (below, found): ([f64; BODY], [f64; BODY]),
+        turning: [f64; 3],
+        allowed: f64,
+        changes: bool,
+    ) -> Result<(), LineariseError> {
+        for part in [0, 3] {
+            let of = |x: [f64; BODY]| [x[part], x[part + 1], x[part + 2]];
+            let turned = cross(turning, of(below));
+            let own = of(found);
+            let left: [f64; 3] = std::array::from_fn(|k| own[k] - turned[k]);
+            let unit = if part == 0 { self.size() } else { 1.0 };
+            let left = norm(&left);
+            if left > allowed * unit {
+                let body = self.mechanism().bodies()[body].name.clone();
+                let time = self.t;
+                return Err(LineariseError::NotSteady {
+                    time,
+                    body,
+                    left,
+                    unit: match (part, changes) {
+                        (0, false) => "m/s²",
+                        (0, true) => "m/s³",
+                        (_, false) => "rad/s²",
+                        (_, true) => "rad/s³",
+                    },
+                    moves: !self.is_at_rest(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Velocity and acceleration of the frame of a body, ground axes: three translations and three
+/// rotations each.
+fn frame_rates(
+    mechanism: &Mechanism,
+    body: usize,
+    (q, v, a): (&[f64], &[f64], &[f64]),
+) -> [[f64; BODY]; 2] {
+    let frames = mechanism.frames();
+    let moved = frames.body(body, q, v);
+    // Accelerations are the same function of a as velocities of v, and the centripetal one.
+    let pushed = frames.body(body, q, a);
+    let space = mechanism.space();
+    let centre = &q[space.coordinates(body)];
+    let mut arm = moved.place;
+    for k in space.forces() {
+        arm[k] -= centre[k];
+    }
+    let inwards = cross(moved.omega, cross(moved.omega, arm));
+    let join = |x: [f64; 3], y: [f64; 3]| [x[0], x[1], x[2], y[0], y[1], y[2]];
+    let acceleration = std::array::from_fn(|k| pushed.velocity[k] + inwards[k]);
+    [
+        join(moved.velocity, moved.omega),
+        join(acceleration, pushed.omega),
+    ]
+}

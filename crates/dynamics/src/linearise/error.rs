@@ -1,0 +1,109 @@
+//! Reasons why a motion cannot be linearised.
+
+use model::codes::Code;
+use model::words::rounded;
+
+use crate::error::MotionFault;
+
+/// Reason why a motion cannot be linearised about a state.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LineariseError {
+    /// The state is neither at rest nor steady.
+    #[error(
+        "at t = {t} s the motion is not steady: body `{body}` {what} {left:.3e} {unit}; {advice}",
+        t = rounded(*time), what = what(unit),
+        advice = if *moves {
+            "follow the turning of the axes in which it is (`--follow BODY.wz`), or choose another time"
+        } else {
+            "describe a start at rest where forces balance, or let dampers bring it there in a run"
+        }
+    )]
+    NotSteady {
+        /// Time (s).
+        time: f64,
+        /// The body.
+        body: String,
+        /// Its acceleration, or the rate of it.
+        left: f64,
+        /// Unit.
+        unit: &'static str,
+        /// Whether the state moves at all.
+        moves: bool,
+    },
+    /// Accelerations have no derivative at this state.
+    #[error(
+        "at t = {t} s the accelerations of body `{body}` have no derivative: a force or a function has a corner there; \
+         linearise beside it, or give it a smooth function", t = rounded(*time))]
+    NotSmooth {
+        /// Time (s).
+        time: f64,
+        /// The body with the largest doubt.
+        body: String,
+    },
+    /// There is no coordinate of this name.
+    #[error("there is no coordinate `{name}`: {hint}")]
+    Coordinate {
+        /// The name.
+        name: String,
+        /// What there is.
+        hint: String,
+    },
+    /// Asked coordinates do not determine the state.
+    #[error("`{name}` is not independent of {others}: leave it out")]
+    Dependent {
+        /// The coordinate.
+        name: String,
+        /// Those that determine it.
+        others: String,
+    },
+    /// The motion depends on a followed coordinate.
+    #[error(
+        "the motion depends on `{name}`: with it the rate of `{state}` changes by {change:.3e}; it cannot be followed"
+    )]
+    NotASymmetry {
+        /// The followed coordinate.
+        name: String,
+        /// A coordinate whose rate changes.
+        state: String,
+        /// By how much, for a change by one.
+        change: f64,
+    },
+    /// The coordinates do not determine the state.
+    #[error(
+        "the independent coordinates do not determine the state: the configuration is singular"
+    )]
+    Singular,
+    /// The equations have no solution there.
+    #[error(transparent)]
+    Fault(#[from] MotionFault),
+}
+
+impl LineariseError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NotSteady { .. } => const { Code::new(220) },
+            Self::NotSmooth { .. } => const { Code::new(221) },
+            Self::Coordinate { .. } | Self::Dependent { .. } => const { Code::new(222) },
+            Self::NotASymmetry { .. } => const { Code::new(223) },
+            Self::Singular => const { Code::new(224) },
+            Self::Fault(fault) => fault.code(),
+        }
+    }
+
+    /// Whether other input may be linearised.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        !matches!(self, Self::Singular | Self::Fault(_))
+    }
+}
+
+fn what(unit: &str) -> &'static str {
+    if unit.ends_with('²') {
+        "accelerates by"
+    } else {
+        "changes its acceleration by"
+    }
+}

@@ -1,0 +1,242 @@
+//! `pfaff linearise`: matrices, eigenvalues and modes of small motions.
+
+use std::path::Path;
+
+use pfaff::dynamics::linearise::{Linearisation, LineariseOptions, Mode};
+use pfaff::model::System;
+use pfaff::report::documents::{LinearisationDocument, ModeDocument};
+use pfaff::report::{
+    Frame, MatrixTable, Recording, RunPage, TableError, modes_table, run_page, write_json,
+};
+use pfaff::{Overrides, Study};
+
+use crate::args::Linearise;
+use crate::console::Console;
+use crate::input::Source;
+use crate::interrupt::Interrupt;
+use crate::output::{Failure, Outcome, columns, count, directory, unwritten};
+use crate::simulate::origin;
+
+/// Modes with pages of their own: more are in the tables only.
+const PAGES: usize = 12;
+
+/// Frames of the page of a mode, over one period.
+const FRAMES: usize = 60;
+
+/// The largest displacement of a mode on its page, as a share of the size of the mechanism or in
+/// radians.
+const AMPLITUDE: f64 = 0.15;
+
+pub(crate) fn run(arguments: &Linearise, console: &Console<'_>) -> Outcome {
+    Interrupt::ends_at_once()?;
+    let source =
+        Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
+    let study = source.study(&Overrides::default(), arguments.resources)?;
+    let options = LineariseOptions {
+        coordinates: arguments.coordinates.clone(),
+        follow: arguments.follow.clone(),
+    };
+    let found = study
+        .linearise(arguments.at_time, &options)
+        .map_err(|e| source.failure(e))?;
+    let modes = modes(&found);
+    let document = LinearisationDocument::new(study.scene.name(), &found, modes.as_deref());
+    let written = match &arguments.out {
+        Some(path) => {
+            let modes = modes.as_deref().unwrap_or_default();
+            write(path, arguments.force, (&study, &found), (modes, &document))?
+        }
+        None => String::new(),
+    };
+    if arguments.json {
+        return console.document(&document);
+    }
+    console.print(&(describe(&document) + &written))
+}
+
+#[cfg(feature = "eigen")]
+fn modes(of: &Linearisation) -> Option<Vec<Mode>> {
+    of.modes()
+}
+
+#[cfg(not(feature = "eigen"))]
+fn modes(_: &Linearisation) -> Option<Vec<Mode>> {
+    None
+}
+
+/// Writes all files; returns what was written, in words.
+fn write(
+    path: &Path,
+    force: bool,
+    (study, found): (&Study, &Linearisation),
+    (modes, document): (&[Mode], &LinearisationDocument),
+) -> Result<String, Failure> {
+    let pages: Vec<String> = (1..=modes.len().min(PAGES))
+        .map(|k| format!("mode-{k}.html"))
+        .collect();
+    let tables = MatrixTable::ALL.map(MatrixTable::file);
+    let own = tables
+        .into_iter()
+        .chain(["modes.csv", "linearisation.json"]);
+    let names: Vec<&str> = own.chain(pages.iter().map(String::as_str)).collect();
+    let place = directory(path, &names, force)?;
+    let put = |name: &str, content: &[u8]| place.write(name, content).map_err(|e| unwritten(&e));
+    let table = |e: TableError| Failure::stopped(e.to_string()).coded(e.code());
+    for matrix in MatrixTable::ALL {
+        if let Some(text) = matrix.write(document, Vec::new()).map_err(table)? {
+            put(matrix.file(), &text)?;
+        }
+    }
+    if document.modes.is_some() {
+        put(
+            "modes.csv",
+            &modes_table(document, Vec::new()).map_err(table)?,
+        )?;
+    }
+    let mut json = Vec::new();
+    write_json(&mut json, document).map_err(|e| Failure::stopped(e.to_string()))?;
+    put("linearisation.json", &json)?;
+    for (k, (name, mode)) in pages.iter().zip(modes).enumerate() {
+        put(name, page(study, found, mode, k + 1).as_bytes())?;
+    }
+    let opens = if pages.is_empty() {
+        ""
+    } else {
+        "; its pages open in any browser"
+    };
+    Ok(format!("written to {}{opens}\n", path.display()))
+}
+
+/// A page on which a mode moves for a period, or for a second if it has none.
+fn page(study: &Study, found: &Linearisation, mode: &Mode, number: usize) -> String {
+    let mechanism = &study.prepared.mechanism;
+    let size = study.prepared.assembly.size;
+    let space = mechanism.space();
+    let most = |shape: &[f64]| {
+        let shares = shape.iter().enumerate();
+        shares.fold(0.0_f64, |a, (j, d)| a.max(d.abs() / space.unit(j, size)))
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let largest = most(&found.shape(mode, 0.0, 1.0)).max(most(&found.shape(mode, quarter, 1.0)));
+    let amplitude = if largest > 0.0 {
+        AMPLITUDE / largest
+    } else {
+        0.0
+    };
+    let period = match mode.value[1] {
+        0.0 => 1.0,
+        rate => std::f64::consts::TAU / rate,
+    };
+    let mut recording = Recording::new(period, FRAMES as f64, 1);
+    for k in 0..=FRAMES {
+        let share = k as f64 / FRAMES as f64;
+        let shape = found.shape(mode, std::f64::consts::TAU * share, amplitude);
+        let q = space.displaced(&found.q, 1.0, &shape);
+        let frame = Frame::at_rest(share * period, &q, mechanism.layout().n_v);
+        recording.frames.push(frame);
+    }
+    let told = format!(
+        "mode {number}: eigenvalue {}; drawn enlarged, as first order has it",
+        value(mode.value)
+    );
+    run_page(&RunPage {
+        mechanism,
+        analysis: None,
+        hints: &[],
+        run: None,
+        recording: &recording,
+        comparisons: &[],
+        drives: &[],
+        origin: &origin(),
+        scene: pfaff::written_scene(&study.scene),
+        options: &[("mode".to_owned(), told.clone())],
+        left_out: &[told],
+        work_precision: None,
+    })
+}
+
+fn describe(d: &LinearisationDocument) -> String {
+    let velocities = d.states.len() - d.positions;
+    let mut text = format!(
+        "{} at t = {} s: {}, {}, {}\n",
+        d.scene,
+        d.time,
+        count(d.positions, "position", "positions"),
+        count(velocities, "velocity", "velocities"),
+        count(d.inputs.len(), "input", "inputs"),
+    );
+    let names: Vec<String> = d
+        .states
+        .iter()
+        .map(|state| format!("{} ({})", state.name, state.unit))
+        .collect();
+    text.push_str(&format!("states: {}\n", names.join(", ")));
+    if !d.inputs.is_empty() {
+        let inputs = d.inputs.iter().map(|i| format!("{}.{}", i.name, i.kind));
+        text.push_str(&format!(
+            "inputs: {}\n",
+            inputs.collect::<Vec<_>>().join(", ")
+        ));
+    }
+    let Some(modes) = &d.modes else {
+        text.push_str("eigenvalues: this program was built without them (feature `eigen`)\n");
+        return text;
+    };
+    let header = [
+        "mode",
+        "eigenvalue (1/s)",
+        "frequency (Hz)",
+        "damping",
+        "moves",
+    ];
+    let rows = modes.iter().enumerate().map(|(k, mode)| {
+        vec![
+            (k + 1).to_string(),
+            value([mode.real, mode.imaginary]),
+            match mode.frequency {
+                0.0 => "–".to_owned(),
+                f => format!("{f:.6}"),
+            },
+            mode.damping_ratio
+                .filter(|_| mode.frequency != 0.0)
+                .map_or("–".to_owned(), |x| format!("{:.4} %", 100.0 * x)),
+            movers(mode, d.positions),
+        ]
+    });
+    let all = std::iter::once(header.map(str::to_owned).to_vec()).chain(rows);
+    text.push('\n');
+    text.push_str(&columns(&all.collect::<Vec<_>>()));
+    let first = match d.stability {
+        Some("stable") => "stable: all small motions decay",
+        Some("unstable") => "unstable: some small motions grow",
+        _ => "first order does not decide: some small motions neither decay nor grow",
+    };
+    text.push_str(&format!("\n{first}\n"));
+    text
+}
+
+/// An eigenvalue, a conjugate pair as one.
+fn value([re, im]: [f64; 2]) -> String {
+    match (re, im) {
+        (0.0, 0.0) => "0".to_owned(),
+        (re, 0.0) => format!("{re:.6}"),
+        (re, im) => format!("{re:.6} ± {im:.6}i"),
+    }
+}
+
+/// The positions that take part most, or velocities if none does.
+fn movers(mode: &ModeDocument, positions: usize) -> String {
+    let size = |z: &[f64; 2]| z[0].hypot(z[1]);
+    let takes_part = |part: &[(String, [f64; 2])]| -> Vec<String> {
+        let largest = part.iter().map(|(_, z)| size(z)).fold(0.0, f64::max);
+        let mut all: Vec<_> = part
+            .iter()
+            .filter(|(_, z)| size(z) > 0.1 * largest)
+            .collect();
+        all.sort_by(|a, b| size(&b.1).total_cmp(&size(&a.1)));
+        all.iter().take(4).map(|(name, _)| name.clone()).collect()
+    };
+    let (places, rates) = mode.shape.0.split_at(positions);
+    let moves = places.iter().any(|(_, z)| size(z) > 0.5);
+    takes_part(if moves { places } else { rates }).join(", ")
+}

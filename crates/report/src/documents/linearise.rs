@@ -1,0 +1,139 @@
+//! A linearised motion: matrices, eigenvalues and modes.
+
+use dynamics::linearise::{Coordinate, Linearisation, Mode, Stability};
+use linalg::Matrix;
+use serde::Serialize;
+
+use super::Named;
+
+/// The document of `linearise --json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct LinearisationDocument {
+    /// Name of the scene.
+    pub scene: String,
+    /// Time of the state (s).
+    pub time: f64,
+    /// The states x: positions, then velocities.
+    pub states: Vec<StateDocument>,
+    /// How many of them are positions.
+    pub positions: usize,
+    /// The inputs u.
+    pub inputs: Vec<InputDocument>,
+    /// A of `ẋ = A·x + B·u`, by rows.
+    pub a: Vec<Vec<f64>>,
+    /// B, by rows.
+    pub b: Vec<Vec<f64>>,
+    /// M, D and K of `M·ÿ + D·ẏ + K·y`; `null` for states that move, for nonholonomic rows and if a
+    /// coordinate is followed.
+    pub second_order: Option<SecondOrderDocument>,
+    /// Difference of two orders of approximation, as a share of the largest derivative.
+    pub accuracy: f64,
+    /// What first order says of small motions; `null` without eigenvalues.
+    pub stability: Option<&'static str>,
+    /// The modes, those that grow fastest first; `null` without eigenvalues.
+    pub modes: Option<Vec<ModeDocument>>,
+}
+
+/// A state.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct StateDocument {
+    /// Body and coordinate.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+/// An input.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct InputDocument {
+    /// The drive or force.
+    pub name: String,
+    /// What of it: `value`, `rate` or `acceleration` of a drive, the function of a force.
+    pub kind: &'static str,
+}
+
+/// Matrices of `M·ÿ + D·ẏ + K·y`, by rows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SecondOrderDocument {
+    /// M.
+    pub mass: Vec<Vec<f64>>,
+    /// D.
+    pub damping: Vec<Vec<f64>>,
+    /// K.
+    pub stiffness: Vec<Vec<f64>>,
+}
+
+/// A mode. Of a conjugate pair the eigenvalue with the positive imaginary part is listed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ModeDocument {
+    /// Real part of the eigenvalue (1/s).
+    pub real: f64,
+    /// Its imaginary part (rad/s).
+    pub imaginary: f64,
+    /// Frequency of the oscillation (Hz).
+    pub frequency: f64,
+    /// −Re λ/|λ|; `null` for λ = 0.
+    pub damping_ratio: Option<f64>,
+    /// Shape: real and imaginary part of each state; the largest position is 1.
+    pub shape: Named<[f64; 2]>,
+}
+
+impl LinearisationDocument {
+    /// The document of a linearised motion of a scene, with its modes if they are known.
+    #[must_use]
+    pub fn new(scene: &str, x: &Linearisation, modes: Option<&[Mode]>) -> Self {
+        let states: Vec<&Coordinate> = x.positions.iter().chain(&x.velocities).collect();
+        let mode = |mode: &Mode| ModeDocument {
+            real: mode.value[0],
+            imaginary: mode.value[1],
+            frequency: mode.value[1] / std::f64::consts::TAU,
+            damping_ratio: mode.damping_ratio(),
+            shape: Named(
+                states
+                    .iter()
+                    .zip(&mode.states)
+                    .map(|(state, z)| (state.name.clone(), *z))
+                    .collect(),
+            ),
+        };
+        Self {
+            scene: scene.to_owned(),
+            time: x.time,
+            positions: x.positions.len(),
+            inputs: x
+                .inputs
+                .iter()
+                .map(|input| InputDocument {
+                    name: input.name.clone(),
+                    kind: input.kind.word(),
+                })
+                .collect(),
+            a: rows(&x.a),
+            b: rows(&x.b),
+            second_order: x.second_order.as_ref().map(|second| SecondOrderDocument {
+                mass: rows(&second.mass),
+                damping: rows(&second.damping),
+                stiffness: rows(&second.stiffness),
+            }),
+            accuracy: x.accuracy,
+            stability: modes.map(|modes| Stability::of(modes).word()),
+            modes: modes.map(|modes| modes.iter().map(mode).collect()),
+            states: states
+                .iter()
+                .map(|state| StateDocument {
+                    name: state.name.clone(),
+                    unit: state.unit,
+                })
+                .collect(),
+        }
+    }
+}
+
+fn rows(m: &Matrix) -> Vec<Vec<f64>> {
+    (0..m.nrows()).map(|i| m.row(i).to_vec()).collect()
+}
