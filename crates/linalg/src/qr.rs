@@ -11,12 +11,14 @@
 //! rank-revealing QR factorization software, ACM TOMS 35 (2008) 12.
 
 mod apply;
+mod basis;
 mod factor;
 #[cfg(test)]
 mod tests;
 
 use crate::Matrix;
 
+pub use basis::RowBasis;
 pub(crate) use factor::{apply, reflect};
 
 /// `A·P = Q·R` with `|R_00| ≥ |R_11| ≥ …`, the columns of the n×m matrix A given as m rows.

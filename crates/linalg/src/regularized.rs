@@ -100,7 +100,9 @@ pub fn least_squares_step(
     check_sign("mu", &[mu])?;
 
     let root: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
-    let mut rows = Matrix::zeros(m, n + m);
+    // Without damping nothing stands beside J.
+    let beside = if mu == 0.0 { 0 } else { m };
+    let mut rows = Matrix::zeros(m, n + beside);
     let mut rhs = vec![0.0; m];
     for i in 0..m {
         let row = rows.row_mut(i);
@@ -111,14 +113,17 @@ pub fn least_squares_step(
         for x in &mut row[..n] {
             *x = powers::scale(*x, e);
         }
-        row[n + i] = mu.sqrt();
+        if let Some(damping) = row.get_mut(n + i) {
+            *damping = mu.sqrt();
+        }
         rhs[i] = -powers::scale(residual[i], e);
     }
 
     // The minimum-norm solution of [S·J·√W, √μ·I]·x = −S·res is x = Q·R⁻ᵀ·Pᵀ·(−S·res).
     let qr = PivotedQr::of_rows(rows);
     let largest = qr.r_diagonal().next().unwrap_or(0.0).abs();
-    for (pivot, &row) in qr.r_diagonal().zip(qr.permutation()) {
+    let pivots = qr.r_diagonal().chain(std::iter::repeat(0.0));
+    for (pivot, &row) in pivots.zip(qr.permutation()) {
         let pivot = pivot.abs();
         if pivot.is_nan() || pivot <= m as f64 * f64::EPSILON * largest {
             return Err(StepError::Dependent {
@@ -129,7 +134,7 @@ pub fn least_squares_step(
             });
         }
     }
-    let mut x = vec![0.0; n + m];
+    let mut x = vec![0.0; n + beside];
     for (x_k, &row) in x.iter_mut().zip(qr.permutation()) {
         *x_k = rhs[row];
     }

@@ -14,8 +14,14 @@ struct Length {
 }
 
 /// Factors the whole matrix; the rows of `a` are the columns that are pivoted.
-pub(super) fn factor(mut a: Matrix) -> PivotedQr {
-    let (m, steps) = (a.nrows(), a.nrows().min(a.ncols()));
+pub(super) fn factor(a: Matrix) -> PivotedQr {
+    let steps = a.nrows().min(a.ncols());
+    factor_leading(a, steps)
+}
+
+/// Factors as many columns as there are steps; Qᵀ times the others is left in the other rows.
+pub(super) fn factor_leading(mut a: Matrix, steps: usize) -> PivotedQr {
+    let m = a.nrows();
     let (mut tau, mut permutation) = (vec![0.0; steps], Vec::from_iter(0..m));
     let length = |j: usize| {
         let exact = kernels::norm(a.row(j));
@@ -75,6 +81,10 @@ pub(crate) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
         return;
     }
     let s = -tau * (y[0] + kernels::dot(&v[1..], &y[1..]));
+    // Sparse rows are orthogonal to most others.
+    if s == 0.0 {
+        return;
+    }
     y[0] += s;
     kernels::axpy(s, &v[1..], &mut y[1..]);
 }
@@ -82,7 +92,7 @@ pub(crate) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
 /// Length of `column[1..]` from that of `column[0..]`, `ℓ² ← ℓ² − R_kj²`; recomputed when the
 /// difference has lost half of its digits since the last exact value.
 fn downdate(length: &mut Length, column: &[f64]) {
-    if length.now == 0.0 {
+    if length.now == 0.0 || column[0] == 0.0 {
         return;
     }
     let ratio = column[0].abs() / length.now;
