@@ -30,7 +30,7 @@ pub use limits::GRADED_MASSES;
 pub use lu::{Determinant, Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};
 pub use qr::{PivotedQr, RowBasis};
-pub use regularized::{StepError, least_squares_step};
+pub use regularized::{DampedRows, StepError, least_squares_step};
 pub use saddle::{KeptRowSaddle, Refinement, SaddleError, mass_spread};
 pub use schur::{SchurSaddle, SchurStructure};
 pub use singular_values::singular_values;

@@ -91,56 +91,85 @@ pub fn least_squares_step(
     weights: &[f64],
     mu: f64,
 ) -> Result<Vec<f64>, StepError> {
-    let (m, n) = (j.nrows(), j.ncols());
-    check("residual", residual, m)?;
-    check("weights", weights, n)?;
-    check("J", j.as_slice(), m * n)?;
-    check("mu", &[mu], 1)?;
-    check_sign("weights", weights)?;
-    check_sign("mu", &[mu])?;
+    check("residual", residual, j.nrows())?;
+    DampedRows::new(j, weights, mu)?.step(residual)
+}
 
-    let root: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
-    // Without damping nothing stands beside J.
-    let beside = if mu == 0.0 { 0 } else { m };
-    let mut rows = Matrix::zeros(m, n + beside);
-    let mut rhs = vec![0.0; m];
-    for i in 0..m {
-        let row = rows.row_mut(i);
-        for l in 0..n {
-            row[l] = j[(i, l)] * root[l];
+/// The factors of [`least_squares_step`], for any number of residuals.
+#[derive(Debug, Clone)]
+pub struct DampedRows {
+    /// Of `[S·J·√W, √μ·I]ᵀ`; without damping nothing stands beside J.
+    qr: PivotedQr,
+    /// √W
+    root: Vec<f64>,
+    /// Exponents of S.
+    scaling: Vec<i32>,
+}
+
+impl DampedRows {
+    /// Factors J with the weights and the damping of [`least_squares_step`].
+    ///
+    /// # Errors
+    /// As [`least_squares_step`].
+    pub fn new(j: &Matrix, weights: &[f64], mu: f64) -> Result<Self, StepError> {
+        let (m, n) = (j.nrows(), j.ncols());
+        check("weights", weights, n)?;
+        check("J", j.as_slice(), m * n)?;
+        check("mu", &[mu], 1)?;
+        check_sign("weights", weights)?;
+        check_sign("mu", &[mu])?;
+
+        let root: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
+        let mut rows = Matrix::zeros(m, n + if mu == 0.0 { 0 } else { m });
+        let mut scaling = vec![0; m];
+        for i in 0..m {
+            let row = rows.row_mut(i);
+            for l in 0..n {
+                row[l] = j[(i, l)] * root[l];
+            }
+            let e = powers::unit_exponent(row);
+            for x in &mut row[..n] {
+                *x = powers::scale(*x, e);
+            }
+            scaling[i] = e;
         }
-        let e = powers::unit_exponent(row);
-        for x in &mut row[..n] {
-            *x = powers::scale(*x, e);
+        let qr = if mu == 0.0 {
+            PivotedQr::of_rows(rows)
+        } else {
+            PivotedQr::of_damped_rows(rows, mu.sqrt())
+        };
+        let largest = qr.r_diagonal().next().unwrap_or(0.0).abs();
+        let pivots = qr.r_diagonal().chain(std::iter::repeat(0.0));
+        for (pivot, &row) in pivots.zip(qr.permutation()) {
+            let pivot = pivot.abs();
+            if pivot.is_nan() || pivot <= m as f64 * f64::EPSILON * largest {
+                return Err(StepError::Dependent {
+                    row,
+                    pivot,
+                    largest,
+                    mu,
+                });
+            }
         }
-        if let Some(damping) = row.get_mut(n + i) {
-            *damping = mu.sqrt();
-        }
-        rhs[i] = -powers::scale(residual[i], e);
+        Ok(Self { qr, root, scaling })
     }
 
-    // The minimum-norm solution of [S·J·√W, √μ·I]·x = −S·res is x = Q·R⁻ᵀ·Pᵀ·(−S·res).
-    let qr = PivotedQr::of_rows(rows);
-    let largest = qr.r_diagonal().next().unwrap_or(0.0).abs();
-    let pivots = qr.r_diagonal().chain(std::iter::repeat(0.0));
-    for (pivot, &row) in pivots.zip(qr.permutation()) {
-        let pivot = pivot.abs();
-        if pivot.is_nan() || pivot <= m as f64 * f64::EPSILON * largest {
-            return Err(StepError::Dependent {
-                row,
-                pivot,
-                largest,
-                mu,
-            });
+    /// The correction for a residual.
+    ///
+    /// # Errors
+    /// [`StepError::Length`], [`StepError::NonFinite`]: bad input.
+    pub fn step(&self, residual: &[f64]) -> Result<Vec<f64>, StepError> {
+        let m = self.scaling.len();
+        check("residual", residual, m)?;
+        // The minimum-norm solution of [S·J·√W, √μ·I]·x = −S·res is x = Q·R⁻ᵀ·Pᵀ·(−S·res).
+        let mut x = vec![0.0; self.qr.dimension()];
+        for (x_k, &row) in x.iter_mut().zip(self.qr.permutation()) {
+            *x_k = -powers::scale(residual[row], self.scaling[row]);
         }
+        self.qr.solve_r_transpose(&mut x[..m]);
+        self.qr.q_mul(&mut x);
+        Ok(self.root.iter().zip(&x).map(|(root, x)| root * x).collect())
     }
-    let mut x = vec![0.0; n + beside];
-    for (x_k, &row) in x.iter_mut().zip(qr.permutation()) {
-        *x_k = rhs[row];
-    }
-    qr.solve_r_transpose(&mut x[..m]);
-    qr.q_mul(&mut x);
-    Ok((0..n).map(|l| root[l] * x[l]).collect())
 }
 
 fn check(argument: &'static str, x: &[f64], expected: usize) -> Result<(), StepError> {

@@ -21,7 +21,7 @@ mod parallel;
 mod velocity;
 pub(crate) mod within;
 
-use linalg::least_squares_step;
+use linalg::DampedRows;
 
 use crate::mechanism::{Mechanism, initialise, unmet_requirement, unmet_rows};
 use crate::system::{Scratch, System};
@@ -265,14 +265,12 @@ fn nearest(
             .zip(&moved)
             .map(|(&r, m)| s.phi[r] + m)
             .collect();
-        let mut step = least_squares_step(&c, &misfit, weights, DAMPING)?;
+        let damped = DampedRows::new(&c, weights, DAMPING)?;
+        let mut step = damped.step(&misfit)?;
         // Damping leaves a small residual; one more step removes it if the rows agree.
         let left = c.times(&step);
         let misfit: Vec<f64> = misfit.iter().zip(&left).map(|(a, b)| a + b).collect();
-        for (a, b) in step
-            .iter_mut()
-            .zip(least_squares_step(&c, &misfit, weights, DAMPING)?)
-        {
+        for (a, b) in step.iter_mut().zip(damped.step(&misfit)?) {
             *a += b;
         }
         q = mechanism.space().displaced(described, 1.0, &step);
