@@ -451,11 +451,15 @@ fn method(name: &str, what: &str, model: &Model, outputs: &[Expr], s: Signature)
     let v = matches!(s, Velocity | Residual | Work).then(|| quote!(v: &[Twist<T>],));
     let a = matches!(s, Residual | Work).then(|| quote!(a: &[Twist<T>],));
     let lambda = matches!(s, Force | Work).then(|| quote!(lambda: &[T],));
+    let range = out_range(outputs.len());
     let body = kernel.into_out();
     let bound = matches!(s, Signature::Wrench).then(|| quote!(where T: Real));
     quote! {
         #[doc = #doc]
-        fn #name(&self, x: &[Pose<T>], #v #a f: &[[T; 3]], #lambda out: &mut [T]) #bound { #body }
+        fn #name(&self, x: &[Pose<T>], #v #a f: &[[T; 3]], #lambda out: &mut [T]) #bound {
+            #range
+            #body
+        }
     }
 }
 
@@ -476,6 +480,7 @@ fn indexed(
         quote!(out[#k] = #e;)
     });
     let statements = &kernel.statements;
+    let range = out_range(entries.last().map_or(0, |(k, _)| k + 1));
     let signature = match scalar {
         Scalar::F64 => quote!(fn #name(&self, out: &mut [f64])),
         Scalar::Generic => {
@@ -484,8 +489,19 @@ fn indexed(
     };
     quote! {
         #[doc = #doc]
-        #signature { #(#statements)* #(#assignments)* }
+        #signature {
+            #range
+            #(#statements)*
+            #(#assignments)*
+        }
     }
+}
+
+/// The statement that states once how many entries of `out` are written, so that this is not asked
+/// again for each entry; nothing for a single one.
+fn out_range(len: usize) -> Option<TokenStream> {
+    let end = parts::index(len);
+    (len > 1).then(|| quote!(let out = &mut out[..#end];))
 }
 
 fn values(block: &Sparse) -> Vec<Expr> {

@@ -29,7 +29,7 @@ use reduce::Followed;
 
 pub use coordinates::Coordinate;
 pub use error::LineariseError;
-pub use inputs::{Input, InputKind};
+pub use inputs::Input;
 pub use modes::{Mode, Stability};
 
 /// What is asked of a linearisation.
@@ -196,7 +196,7 @@ impl Bases {
                     curves.frames[(free[i - kept.len()].row(), j)]
                 }
             });
-            DampedRows::of(&all, &weights, 0.0).map_err(|_| LineariseError::Singular)
+            DampedRows::new(&all, &weights, 0.0).map_err(|_| LineariseError::Singular)
         };
         let [of_phi, of_c] = curves.kept();
         let positions = square(of_phi, &chosen.positions)?;

@@ -80,13 +80,21 @@ impl DdMatrix {
     /// If an index is not below `nrows`.
     #[must_use]
     pub fn select_rows(&self, rows: &[usize]) -> Self {
-        Self::from_fn(rows.len(), self.ncols, |i, j| self[(rows[i], j)])
+        Self {
+            nrows: rows.len(),
+            ncols: self.ncols,
+            data: rows.iter().flat_map(|&i| self.row(i)).copied().collect(),
+        }
     }
 
     /// The entries rounded to `f64`.
     #[must_use]
     pub fn hi(&self) -> Matrix {
-        Matrix::from_fn(self.nrows, self.ncols, |i, j| self[(i, j)].to_f64())
+        let mut hi = Matrix::zeros(self.nrows, self.ncols);
+        for (hi, x) in hi.as_mut_slice().iter_mut().zip(&self.data) {
+            *hi = x.to_f64();
+        }
+        hi
     }
 
     /// `D_r·C·D_c`, exact unless an entry leaves the range.
@@ -100,9 +108,21 @@ impl DdMatrix {
             (scaling.rows.len(), scaling.cols.len()),
             "scaling and matrix differ in shape"
         );
-        Self::from_fn(self.nrows, self.ncols, |i, j| {
-            self[(i, j)].scaled(scaling.rows[i] + scaling.cols[j])
-        })
+        let mut data = Vec::with_capacity(self.data.len());
+        for (i, row) in scaling.rows.iter().enumerate() {
+            let entries = self.row(i).iter().zip(&scaling.cols);
+            data.extend(entries.map(|(x, col)| x.scaled(row + col)));
+        }
+        Self { data, ..*self }
+    }
+
+    /// All entries times 2^exponent.
+    #[must_use]
+    pub fn times_power(&self, exponent: i32) -> Self {
+        Self {
+            data: self.data.iter().map(|x| x.scaled(exponent)).collect(),
+            ..*self
+        }
     }
 }
 

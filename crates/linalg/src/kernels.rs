@@ -1,5 +1,5 @@
-//! The three inner loops of this crate: dot product, `y += s·x`, and a norm that neither overflows
-//! nor underflows.
+//! The inner loops of this crate: dot product, `y += s·x` for one x or two, and a norm that neither
+//! overflows nor underflows.
 //!
 //! Slices only, and a fixed order of summation, so that the same input gives the same bits on every
 //! platform. For the same reason `mul_add` is not used.
@@ -29,6 +29,13 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
 pub fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
     for (a, b) in x.iter().zip(y) {
         *b += s * a;
+    }
+}
+
+/// `z ← z + s·x + t·y` over the shortest length.
+pub fn axpy_both([s, t]: [f64; 2], [x, y]: [&[f64]; 2], z: &mut [f64]) {
+    for ((a, b), c) in x.iter().zip(y).zip(z) {
+        *c += s * a + t * b;
     }
 }
 
@@ -110,6 +117,13 @@ mod tests {
     fn dot_of_seven_entries_by_hand() {
         let x = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
         assert_eq!(dot(&x, &x), 140.0);
+    }
+
+    #[test]
+    fn two_vectors_are_added_at_once() {
+        let mut z = [1.0, 2.0, 3.0];
+        axpy_both([2.0, -1.0], [&[1.0, 2.0, 3.0], &[0.5, 0.5]], &mut z);
+        assert_eq!(z, [2.5, 5.5, 3.0]);
     }
 
     #[test]

@@ -33,7 +33,7 @@ pub use jacobi::{SmallSvd, small_svd};
 pub use limits::GRADED_MASSES;
 pub use lu::{Determinant, Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};
-pub use qr::PivotedQr;
+pub use qr::{PivotedQr, RowBasis};
 pub use regularized::{DampedRows, StepError, least_squares_step};
 pub use saddle::{KeptRowSaddle, Refinement, SaddleError, mass_spread};
 pub use schur::{SchurSaddle, SchurStructure};

@@ -152,7 +152,13 @@ impl Matrix {
 
     /// Aᵀ.
     pub fn transpose(&self) -> Self {
-        Self::from_fn(self.ncols, self.nrows, |i, j| self[(j, i)])
+        let mut transposed = Self::zeros(self.ncols, self.nrows);
+        for i in 0..self.nrows {
+            for (j, x) in self.row(i).iter().enumerate() {
+                transposed.data[j * self.nrows + i] = *x;
+            }
+        }
+        transposed
     }
 
     /// A·B.

@@ -11,13 +11,15 @@
 //! rank-revealing QR factorization software, ACM TOMS 35 (2008) 12.
 
 mod apply;
+mod basis;
 mod factor;
 #[cfg(test)]
 mod tests;
 
 use crate::Matrix;
 
-pub(crate) use factor::{apply, reflect};
+pub use basis::RowBasis;
+pub(crate) use factor::reflect;
 
 /// `A·P = Q·R` with `|R_00| ≥ |R_11| ≥ …`, the columns of the n×m matrix A given as m rows.
 ///
@@ -44,6 +46,12 @@ impl PivotedQr {
     /// storage.
     pub fn of_rows(c: Matrix) -> Self {
         factor::factor(c)
+    }
+
+    /// Factors `[A, δ·I]ᵀ·P = Q·R` for an m×(n+m) matrix that holds A and, beside it, zeros. Only
+    /// the first n rows of Q belong to columns of A in their order; the others are permuted.
+    pub(crate) fn of_damped_rows(beside_zeros: Matrix, damping: f64) -> Self {
+        factor::factor_damped(beside_zeros, damping)
     }
 
     /// Factors `C·P = Q·R`: the *columns* of the m×n matrix `c` are pivoted. Copies.

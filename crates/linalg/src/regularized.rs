@@ -92,25 +92,26 @@ pub fn least_squares_step(
     mu: f64,
 ) -> Result<Vec<f64>, StepError> {
     check("residual", residual, j.nrows())?;
-    DampedRows::of(j, weights, mu)?.step(residual)
+    DampedRows::new(j, weights, mu)?.step(residual)
 }
 
-/// Rows that were factored once for the steps of several residuals; see [`least_squares_step`].
+/// The factors of [`least_squares_step`], for any number of residuals.
+#[derive(Debug, Clone)]
 pub struct DampedRows {
-    /// QR of `[S·J·√W, √μ·I]ᵀ`.
+    /// Of `[S·J·√W, √μ·I]ᵀ`; without damping nothing stands beside J.
     qr: PivotedQr,
-    /// √W.
+    /// √W
     root: Vec<f64>,
     /// Exponents of S.
-    exponents: Vec<i32>,
+    scaling: Vec<i32>,
 }
 
 impl DampedRows {
-    /// Factors the m×n Jacobian j, with n weights and damping μ.
+    /// Factors J with the weights and the damping of [`least_squares_step`].
     ///
     /// # Errors
     /// As [`least_squares_step`].
-    pub fn of(j: &Matrix, weights: &[f64], mu: f64) -> Result<Self, StepError> {
+    pub fn new(j: &Matrix, weights: &[f64], mu: f64) -> Result<Self, StepError> {
         let (m, n) = (j.nrows(), j.ncols());
         check("weights", weights, n)?;
         check("J", j.as_slice(), m * n)?;
@@ -119,22 +120,27 @@ impl DampedRows {
         check_sign("mu", &[mu])?;
 
         let root: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
-        let mut rows = Matrix::zeros(m, n + m);
-        let mut exponents = vec![0; m];
+        let mut rows = Matrix::zeros(m, n + if mu == 0.0 { 0 } else { m });
+        let mut scaling = vec![0; m];
         for i in 0..m {
             let row = rows.row_mut(i);
             for l in 0..n {
                 row[l] = j[(i, l)] * root[l];
             }
-            exponents[i] = powers::unit_exponent(row);
+            let e = powers::unit_exponent(row);
             for x in &mut row[..n] {
-                *x = powers::scale(*x, exponents[i]);
+                *x = powers::scale(*x, e);
             }
-            row[n + i] = mu.sqrt();
+            scaling[i] = e;
         }
-        let qr = PivotedQr::of_rows(rows);
+        let qr = if mu == 0.0 {
+            PivotedQr::of_rows(rows)
+        } else {
+            PivotedQr::of_damped_rows(rows, mu.sqrt())
+        };
         let largest = qr.r_diagonal().next().unwrap_or(0.0).abs();
-        for (pivot, &row) in qr.r_diagonal().zip(qr.permutation()) {
+        let pivots = qr.r_diagonal().chain(std::iter::repeat(0.0));
+        for (pivot, &row) in pivots.zip(qr.permutation()) {
             let pivot = pivot.abs();
             if pivot.is_nan() || pivot <= m as f64 * f64::EPSILON * largest {
                 return Err(StepError::Dependent {
@@ -145,28 +151,24 @@ impl DampedRows {
                 });
             }
         }
-        Ok(Self {
-            qr,
-            root,
-            exponents,
-        })
+        Ok(Self { qr, root, scaling })
     }
 
-    /// The step for a residual of m numbers; allocates.
+    /// The correction for a residual.
     ///
     /// # Errors
     /// [`StepError::Length`], [`StepError::NonFinite`]: bad input.
     pub fn step(&self, residual: &[f64]) -> Result<Vec<f64>, StepError> {
-        let (n, m) = (self.root.len(), self.exponents.len());
+        let m = self.scaling.len();
         check("residual", residual, m)?;
         // The minimum-norm solution of [S·J·√W, √μ·I]·x = −S·res is x = Q·R⁻ᵀ·Pᵀ·(−S·res).
-        let mut x = vec![0.0; n + m];
+        let mut x = vec![0.0; self.qr.dimension()];
         for (x_k, &row) in x.iter_mut().zip(self.qr.permutation()) {
-            *x_k = -powers::scale(residual[row], self.exponents[row]);
+            *x_k = -powers::scale(residual[row], self.scaling[row]);
         }
         self.qr.solve_r_transpose(&mut x[..m]);
         self.qr.q_mul(&mut x);
-        Ok((0..n).map(|l| self.root[l] * x[l]).collect())
+        Ok(self.root.iter().zip(&x).map(|(root, x)| root * x).collect())
     }
 }
 

@@ -75,23 +75,27 @@ fn bidiagonal(mut a: Matrix) -> (Vec<f64>, Vec<f64>) {
         if k + 1 == n {
             break;
         }
-        if tau != 0.0 {
-            // τ·vᵀ·A, row by row.
-            let image = &mut image[k + 1..];
-            image.copy_from_slice(&a.row(k)[k + 1..]);
-            for (v, i) in column[1..].iter().zip(k + 1..m) {
+        // τ·vᵀ·A, row by row.
+        let image = &mut image[k + 1..];
+        image.copy_from_slice(&a.row(k)[k + 1..]);
+        for (v, i) in column[1..].iter().zip(k + 1..m) {
+            if *v != 0.0 {
                 kernels::axpy(*v, &a.row(i)[k + 1..], image);
             }
-            kernels::axpy(-tau, image, &mut a.row_mut(k)[k + 1..]);
-            for (v, i) in column[1..].iter().zip(k + 1..m) {
-                kernels::axpy(-tau * v, image, &mut a.row_mut(i)[k + 1..]);
-            }
         }
-        let tau = qr::reflect(&mut a.row_mut(k)[k + 1..]);
+        kernels::axpy(-tau, image, &mut a.row_mut(k)[k + 1..]);
+        let right = qr::reflect(&mut a.row_mut(k)[k + 1..]);
         f[k] = a[(k, k + 1)];
-        for i in k + 1..m {
-            let (v, row) = a.two_rows_mut(k, i);
-            qr::apply(tau, &v[k + 1..], &mut row[k + 1..]);
+        // Both reflections of a row at once.
+        let along = image[0] + kernels::dot(&a.row(k)[k + 2..], &image[1..]);
+        for (v, i) in column[1..].iter().zip(k + 1..m) {
+            let (u, row) = a.two_rows_mut(k, i);
+            let (u, row) = (&u[k + 2..], &mut row[k + 1..]);
+            let from_left = -tau * v;
+            let own = row[0] + kernels::dot(u, &row[1..]);
+            let from_right = -right * (own + from_left * along);
+            row[0] += from_left * image[0] + from_right;
+            kernels::axpy_both([from_left, from_right], [&image[1..], u], &mut row[1..]);
         }
     }
     (d, f)

@@ -119,6 +119,22 @@ pub const SHARED: f64 = 3.0;
 #[derive(Clone, Copy)]
 pub struct Data<'m>(&'m Mechanism);
 
+/// Derivatives of forces `Cᵀ·λ` with respect to the pose: `∂(Cᵀ·λ)_i/∂x_j`, n_v×n_v, as triplets.
+#[derive(Clone, Debug)]
+pub struct ForceDerivatives(Vec<(usize, usize, f64)>);
+
+impl ForceDerivatives {
+    /// Adds the gradient of `λᵀ·C·v` with respect to the pose to `out`; both have n_v values.
+    ///
+    /// # Panics
+    /// If a slice is too short.
+    pub fn add_power(&self, v: &[f64], out: &mut [f64]) {
+        for &(i, j, d) in &self.0 {
+            out[j] += d * v[i];
+        }
+    }
+}
+
 impl Mechanism {
     /// The numbers stored by its constraints.
     #[must_use]
@@ -275,6 +291,29 @@ impl<'m> Data<'m> {
     /// Adds the gradient of `λᵀ·C·v` with respect to the pose, n_v values along velocity
     /// directions, to `out`.
     pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
+        self.each_force_derivative(s, lambda, |i, j, d| out[j] += d * v[i]);
+    }
+
+    /// The derivatives of the forces `Cᵀ·λ` with respect to the pose, for `λᵀ·C·v` at many
+    /// velocities.
+    #[must_use]
+    pub fn force_derivatives(self, s: &Scratch, lambda: &[f64]) -> ForceDerivatives {
+        let mut all = Vec::new();
+        self.each_force_derivative(s, lambda, |i, j, d| {
+            if d != 0.0 {
+                all.push((i, j, d));
+            }
+        });
+        ForceDerivatives(all)
+    }
+
+    /// Calls `take` for each derivative of `(Cᵀ·λ)_i` with respect to the pose along velocity j.
+    fn each_force_derivative(
+        self,
+        s: &Scratch,
+        lambda: &[f64],
+        mut take: impl FnMut(usize, usize, f64),
+    ) {
         let (mut own, mut storage) = (Vec::new(), Vec::new());
         for c in &self.0.elements.constraints {
             let pattern = c.spec().d_force_dx;
@@ -287,7 +326,7 @@ impl<'m> Data<'m> {
             c.d_force_dx(&s.slots, lambda, &mut own);
             for (&[force, turned], d) in pattern.iter().zip(&own) {
                 if let (Some(i), Some(j)) = (c.site.column(force), c.site.column(turned)) {
-                    out[j] += d * v[i];
+                    take(i, j, *d);
                 }
             }
         }

@@ -6,7 +6,7 @@
 //! exact zero decreases to 1e-32 as well, while a misalignment of the data stays the same. This is
 //! not for motion: it allocates and is a hundred times slower than the kernels in `f64`.
 
-use linalg::{Dd, DdMatrix, StepError, least_squares_step};
+use linalg::{DampedRows, Dd, DdMatrix, StepError};
 
 use crate::element::Bodies;
 use crate::mechanism::Mechanism;
@@ -80,13 +80,18 @@ impl Polished {
             kept.iter().zip(&scale).map(miss).fold(0.0, f64::max)
         };
         let mut phi = extended_phi(mechanism, t, &q);
+        let mut factored = None;
         for _ in 0..CORRECTIONS {
             let least = residual(&phi);
             if least <= ROUNDINGS * Dd::EPSILON {
                 break;
             }
             let missing: Vec<f64> = kept.iter().map(|&i| phi[i].to_f64()).collect();
-            let step = least_squares_step(&c, &missing, &weights, 0.0)?;
+            let rows = match factored.take() {
+                Some(rows) => rows,
+                None => DampedRows::new(&c, &weights, 0.0)?,
+            };
+            let step = factored.insert(rows).step(&missing)?;
             let step: Vec<Dd> = step.into_iter().map(Dd::from).collect();
             let mut moved = q.clone();
             mechanism.space().displace(&mut moved, &step);

@@ -68,7 +68,7 @@ mod uncertainty;
 mod vectors;
 pub mod words;
 
-pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED, explained};
+pub use data::{Data, DataBlock, DataGradients, DataUnit, ForceDerivatives, SHARED, explained};
 pub use description::{
     AnyDescription, Body, BodyRecord, BodyRef, Described, DescribedBody, Description, Drive, Force,
     Joint, Motion, SpatialBody, SpatialDescription,

@@ -275,7 +275,7 @@ fn nearest(
             .zip(&moved)
             .map(|(&r, m)| s.phi[r] + m)
             .collect();
-        let damped = DampedRows::of(&c, weights, DAMPING)?;
+        let damped = DampedRows::new(&c, weights, DAMPING)?;
         let mut step = damped.step(&misfit)?;
         // Damping leaves a small residual; one more step removes it if the rows agree.
         let left = c.times(&step);

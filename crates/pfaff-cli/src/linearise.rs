@@ -172,7 +172,7 @@ fn describe(d: &LinearisationDocument) -> String {
         .collect();
     text.push_str(&format!("states: {}\n", names.join(", ")));
     if !d.inputs.is_empty() {
-        let inputs = d.inputs.iter().map(|i| format!("{}.{}", i.name, i.kind));
+        let inputs = d.inputs.iter().map(|i| format!("{}.{}", i.name, i.what));
         text.push_str(&format!(
             "inputs: {}\n",
             inputs.collect::<Vec<_>>().join(", ")

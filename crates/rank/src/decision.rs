@@ -23,6 +23,7 @@ mod graded;
 mod modular;
 mod outcome;
 mod perturbation;
+mod spectrum;
 #[cfg(test)]
 mod tests;
 mod uncertainty;
@@ -30,13 +31,14 @@ mod within;
 
 use crate::limits::{CLEARANCE, HIDDEN, NEARLY_SINGULAR, NOISE_FACTOR, NOT_ROUNDING};
 use crate::strong_basis::{self, Basis};
-use linalg::{Matrix, PivotedQr, Scaling, kernels, singular_values};
+use linalg::{Matrix, PivotedQr, RowBasis, Scaling, kernels, singular_values};
 
 pub use certificate::{Certificate, Grounds, NearlyRedundant};
 pub use coefficient::{CoefficientReading, Readings};
 pub use exact::certify_exact;
 pub use modular::ExactNullSpace;
 pub use outcome::{Doubt, Evidence, RankDecision, RankError, RankStatus};
+pub use spectrum::Spectrum;
 pub use uncertainty::Uncertainty;
 pub use within::{RankReading, certify_rank, certify_within};
 
@@ -265,12 +267,12 @@ impl Reading {
 
     /// The decision on the rows with the largest pivots, exchanged until no coefficient is large.
     fn with_strong_basis(self, scaling: Scaling, scaled: &Matrix) -> RankDecision {
-        let kept = if self.rank == scaled.nrows() {
-            (0..self.rank).collect()
+        let basis = if self.rank == scaled.nrows() {
+            Basis::whole(self.rank)
         } else {
-            PivotedQr::of_rows(scaled.clone()).permutation()[..self.rank].to_vec()
+            let rows = RowBasis::most_independent(scaled.clone(), self.rank);
+            strong_basis::bounded(scaled, rows).0
         };
-        let basis = strong_basis::bounded(scaled, kept);
         self.with_basis(scaling, basis)
     }
 

@@ -16,9 +16,9 @@ mod weakest;
 pub use circuits::{Circuit, circuits, short_circuits};
 pub use decision::{
     Certificate, CoefficientReading, Doubt, Evidence, ExactNullSpace, Grounds, KeptRowsError,
-    NearlyRedundant, RankDecision, RankError, RankReading, RankStatus, Readings, Uncertainty,
-    certify_exact, certify_rank, certify_within, decide, decide_dropping, decide_keeping,
-    decide_of_rank, dropping_of_rank, promising_rows,
+    NearlyRedundant, RankDecision, RankError, RankReading, RankStatus, Readings, Spectrum,
+    Uncertainty, certify_exact, certify_rank, certify_within, decide, decide_dropping,
+    decide_keeping, decide_of_rank, dropping_of_rank, promising_rows,
 };
 pub use deletions::{
     DeletionError, Limits, Substitutes, count_deletions, deletions, making_unique,

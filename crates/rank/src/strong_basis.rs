@@ -12,7 +12,7 @@
 //! factorization, SIAM J. Sci. Comput. 17 (1996) 848–869, algorithm 4 with f = 2.
 
 use crate::limits::{COEFFICIENT_BOUND, EXCHANGE_ROUNDS};
-use linalg::{Matrix, PivotedQr, kernels};
+use linalg::{Matrix, PivotedQr, RowBasis, kernels};
 
 /// A partition of the rows into a basis K and the rest D.
 pub(crate) struct Basis {
@@ -27,6 +27,33 @@ pub(crate) struct Basis {
 }
 
 impl Basis {
+    /// All other rows in terms of the kept ones: `Tᵀ = R₁₁⁻¹·R₁₂`.
+    pub(crate) fn of(rows: &RowBasis) -> Self {
+        let (kept, dropped) = (rows.kept().to_vec(), rows.dropped().to_vec());
+        let mut t = Matrix::zeros(dropped.len(), kept.len());
+        let mut residual = 0.0_f64;
+        for j in 0..dropped.len() {
+            rows.coefficients(j, t.row_mut(j));
+            residual = residual.max(kernels::norm(rows.outside(j)));
+        }
+        Self {
+            kept,
+            dropped,
+            t,
+            residual,
+        }
+    }
+
+    /// All m rows, which are independent.
+    pub(crate) fn whole(m: usize) -> Self {
+        Self {
+            kept: (0..m).collect(),
+            dropped: Vec::new(),
+            t: Matrix::zeros(0, m),
+            residual: 0.0,
+        }
+    }
+
     /// Sorts lists in any order, with T in the order of the lists.
     pub(crate) fn sorted(kept: &[usize], dropped: &[usize], t: &Matrix, residual: f64) -> Self {
         let ascending = |rows: &[usize]| {
@@ -44,18 +71,18 @@ impl Basis {
     }
 }
 
-/// Improves the basis `kept` of `c` by exchanges until `|T_ji| ≤ 2`.
-pub(crate) fn bounded(c: &Matrix, mut kept: Vec<usize>) -> Basis {
-    let mut basis = express(c, kept);
+/// Improves a basis of the rows of `c` by exchanges until `|T_ji| ≤ 2`; also returns it factored.
+pub(crate) fn bounded(c: &Matrix, mut rows: RowBasis) -> (Basis, RowBasis) {
+    let mut basis = Basis::of(&rows);
     for _ in 0..EXCHANGE_ROUNDS {
         if basis.t.max_abs() <= COEFFICIENT_BOUND {
             break;
         }
         exchange_all(&mut basis.t, &mut basis.kept, &mut basis.dropped);
-        kept = basis.kept;
-        basis = express(c, kept);
+        rows = RowBasis::of_rows(c, basis.kept);
+        basis = Basis::of(&rows);
     }
-    basis
+    (basis, rows)
 }
 
 /// Exchanges rows until `|T_ji| ≤ 2`. T is updated, not computed again, and the lists are no longer
@@ -68,35 +95,6 @@ pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [us
         };
         exchange(t, j, i);
         std::mem::swap(&mut kept[i], &mut dropped[j]);
-    }
-}
-
-/// Expresses all other rows in terms of the rows `kept`, which are independent: `Tᵀ = R₁₁⁻¹·R₁₂`.
-pub(crate) fn express(c: &Matrix, mut kept: Vec<usize>) -> Basis {
-    kept.sort_unstable();
-    let dropped = complement(c.nrows(), &kept);
-    let rank = kept.len();
-    let mut t = Matrix::zeros(dropped.len(), rank);
-    let mut residual = 0.0_f64;
-    if dropped.is_empty() {
-        return Basis {
-            kept,
-            dropped,
-            t,
-            residual,
-        };
-    }
-    let qr = PivotedQr::of_rows(c.select_rows(&kept));
-    let mut y = vec![0.0; c.ncols()];
-    for (j, &row) in dropped.iter().enumerate() {
-        y.copy_from_slice(c.row(row));
-        residual = residual.max(coefficients(&qr, &mut y, t.row_mut(j)));
-    }
-    Basis {
-        kept,
-        dropped,
-        t,
-        residual,
     }
 }
 
@@ -157,9 +155,10 @@ mod tests {
     #[test]
     fn exchanges_until_the_coefficients_are_bounded() {
         let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [100.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
-        let poor = express(&c, vec![0, 2]);
-        assert_eq!(poor.t, Matrix::from_rows(&[[100.0, 1.0]]));
-        let good = bounded(&c, vec![0, 2]);
+        let rows = RowBasis::of_rows(&c, vec![0, 2]);
+        assert_eq!(Basis::of(&rows).t, Matrix::from_rows(&[[100.0, 1.0]]));
+        let (good, rows) = bounded(&c, rows);
+        assert_eq!(rows.kept(), good.kept);
         assert!(good.t.max_abs() <= COEFFICIENT_BOUND);
         assert_eq!(good.kept, [1, 2]);
         assert!(good.residual < 1e-15);
@@ -177,10 +176,11 @@ mod tests {
             [4.0, -1.0, 1.0],
             [2.0, 2.0, 2.0],
         ]);
-        let mut t = express(&c, vec![0, 1, 3]).t; // dropped: 2, 4
+        let express = |kept: &[usize]| Basis::of(&RowBasis::of_rows(&c, kept.to_vec())).t;
+        let mut t = express(&[0, 1, 3]); // dropped: 2, 4
         exchange(&mut t, 1, 0); // keep 4 instead of 0
-        // New order is kept (4, 1, 3), dropped (2, 0); `express` sorts both.
-        let fresh = express(&c, vec![4, 1, 3]).t;
+        // New order is kept (4, 1, 3), dropped (2, 0); a basis sorts both.
+        let fresh = express(&[4, 1, 3]);
         for (j, sorted_j) in [(0, 1), (1, 0)] {
             for (i, sorted_i) in [(0, 2), (1, 0), (2, 1)] {
                 approx::assert_abs_diff_eq!(

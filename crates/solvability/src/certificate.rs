@@ -135,7 +135,7 @@ impl<'a> Rows<'a> {
             nearness,
             has_tolerance,
         } = self.uncertain.read(&question);
-        let mut decision = self.certified(reading).map_err(failed)?;
+        let mut decision = self.certified(&reading).map_err(failed)?;
         if self.places.len() <= TOLERANCE_ROWS {
             self.know_rows(&question, &mut decision, has_tolerance);
         }
@@ -178,9 +178,9 @@ impl<'a> Rows<'a> {
     }
 
     /// The decision for a rank that has been read, with the evidence from double-double.
-    fn certified(&self, reading: RankReading) -> Result<RankDecision, RankError> {
+    fn certified(&self, reading: &RankReading) -> Result<RankDecision, RankError> {
         if let Some(c) = &self.extended {
-            let certified = certify_rank(c, &self.uncertain.uncertainty, reading.clone())?;
+            let certified = certify_rank(c, &self.uncertain.uncertainty, reading)?;
             if let Some(mut decision) = certified {
                 // A force or lever arm that counts as zero is zero within the accuracy of the data
                 // only.

@@ -1,6 +1,6 @@
 //! Inputs: what drives prescribe, and the functions of forces.
 
-use model::System;
+use model::{Push, System};
 
 use super::Bases;
 use super::curve::{Curves, Derivative};
@@ -12,34 +12,9 @@ use super::error::LineariseError;
 pub struct Input {
     /// Name of the drive or of the force.
     pub name: String,
-    /// What of it changes.
-    pub kind: InputKind,
-}
-
-/// What of a drive or a force changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InputKind {
-    /// A function of a force, by its name in the definition.
-    Function(&'static str),
-    /// The prescribed value of the row of a drive (m or rad).
-    Value,
-    /// Its rate.
-    Rate,
-    /// The rate of that.
-    Acceleration,
-}
-
-impl InputKind {
-    /// The word for it.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Function(name) => name,
-            Self::Value => "value",
-            Self::Rate => "rate",
-            Self::Acceleration => "acceleration",
-        }
-    }
+    /// What of it changes: `value`, `rate` or `acceleration` of the row of a drive (m or rad, and
+    /// per second), or a function of a force by its name, with its axis if there are several.
+    pub what: String,
 }
 
 /// The inputs of all forces, and of all drives whose rows are kept, and the derivatives with respect
@@ -59,29 +34,39 @@ pub(crate) fn all(
             if let Some(k) = of_phi.iter().position(|&i| i == row) {
                 let shift = bases.shift_of_row(k)?;
                 let dv = bases.velocity_kept_by(curves, &shift)?;
-                found.push((InputKind::Value, curves.along(&shift, &dv)?));
+                found.push(("value", curves.along(&shift, &dv)?));
             }
             if let Some(k) = of_c.iter().position(|&i| i == row) {
                 let dv = bases.velocity_of_row(k)?;
-                found.push((InputKind::Rate, curves.along(&still, &dv)?));
+                found.push(("rate", curves.along(&still, &dv)?));
                 let mut gamma = vec![0.0; of_c.len()];
                 gamma[k] = 1.0;
-                found.push((InputKind::Acceleration, curves.pushed(&still, &gamma)?));
+                found.push(("acceleration", curves.pushed(&still, &gamma)?));
             }
         }
-        for (kind, column) in found {
+        for (what, column) in found {
             inputs.push(Input {
                 name: group.name.clone(),
-                kind,
+                what: what.to_owned(),
             });
             columns.push(column);
         }
     }
     let none = vec![0.0; of_c.len()];
-    for push in curves.pushes() {
+    let pushes = curves.pushes();
+    for (k, push) in pushes.iter().enumerate() {
+        let same = |other: &&Push<'_>| (other.name, other.function) == (push.name, push.function);
+        let what = match pushes.iter().filter(same).count() {
+            1 => push.function.to_owned(),
+            _ => {
+                let before = pushes[..k].iter().filter(same).count();
+                let axis = ["x", "y", "z"].get(before).copied().unwrap_or("more");
+                format!("{}.{axis}", push.function)
+            }
+        };
         inputs.push(Input {
             name: push.name.to_owned(),
-            kind: InputKind::Function(push.function),
+            what,
         });
         columns.push(curves.pushed(&push.q, &none)?);
     }

@@ -96,6 +96,7 @@ impl<T: Ring> Element<T> for Angle {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..2];
         out[0] = -1.0;
         out[1] = 1.0;
     }

@@ -75,6 +75,7 @@ impl<T: Real> ForceElement<T> for BodyPointForce {
     }
     /// Entries of Q. Operations: 10 mul, 5 add.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let s_x = T::from(self.s[0]);
@@ -91,6 +92,7 @@ impl<T: Real> ForceElement<T> for BodyPointForce {
     }
     /// ∂Q/∂x. Operations: 4 mul, 2 add, 1 neg.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let force_0 = f[0][0];

@@ -200,6 +200,7 @@ impl<T: Real> ForceElement<T> for Bushing {
     }
     /// Entries of Q. Operations: 38 mul, 36 add, 2 neg.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let angle_i = x[0].angle;
@@ -257,6 +258,7 @@ impl<T: Real> ForceElement<T> for Bushing {
     }
     /// ∂Q/∂x. Operations: 94 mul, 76 add, 14 neg.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -373,6 +375,7 @@ impl<T: Real> ForceElement<T> for Bushing {
     }
     /// ∂Q/∂v. Operations: 44 mul, 23 add, 9 neg.
     fn dq_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;

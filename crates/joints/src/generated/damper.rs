@@ -170,6 +170,7 @@ impl<T: Real> ForceElement<T> for Damper {
     }
     /// Entries of Q. Operations: 28 mul, 20 add, 3 neg, 2 call.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -212,6 +213,7 @@ impl<T: Real> ForceElement<T> for Damper {
     }
     /// ∂Q/∂x. Operations: 106 mul, 60 add, 14 neg, 2 call.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -330,6 +332,7 @@ impl<T: Real> ForceElement<T> for Damper {
     }
     /// ∂Q/∂v. Operations: 31 mul, 13 add, 9 neg, 2 call.
     fn dq_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;

@@ -222,6 +222,7 @@ impl<T: Ring> Element<T> for Distance {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 20 mul, 12 add, 3 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -294,6 +295,7 @@ impl<T: Ring> Element<T> for Distance {
     where
         T: Real,
     {
+        let out = &mut out[..2];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -333,6 +335,7 @@ impl<T: Ring> Element<T> for Distance {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 32 mul, 17 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..5];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -373,6 +376,7 @@ impl<T: Ring> Element<T> for Distance {
 impl<T: Ring> Derivatives<T> for Distance {
     /// ∂(Cᵀλ)/∂x. Operations: 34 mul, 17 add, 7 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..28];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -449,6 +453,7 @@ impl<T: Ring> Derivatives<T> for Distance {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -522,6 +527,7 @@ impl<T: Ring> Derivatives<T> for Distance {
     }
     /// ∂Γ/∂v. Operations: 28 mul, 22 add, 3 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -566,6 +572,7 @@ impl<T: Ring> Derivatives<T> for Distance {
     }
     /// ∂(C·v − b)/∂x. Operations: 28 mul, 22 add, 3 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -618,6 +625,7 @@ impl<T: Ring> Derivatives<T> for Distance {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..5];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -914,6 +922,7 @@ impl<T: Ring> Element<T> for DistanceLengthDrive {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 20 mul, 12 add, 3 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -998,6 +1007,7 @@ impl<T: Ring> Element<T> for DistanceLengthDrive {
     where
         T: Real,
     {
+        let out = &mut out[..2];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1042,6 +1052,7 @@ impl<T: Ring> Element<T> for DistanceLengthDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 32 mul, 18 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..5];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1084,6 +1095,7 @@ impl<T: Ring> Element<T> for DistanceLengthDrive {
 impl<T: Ring> Derivatives<T> for DistanceLengthDrive {
     /// ∂(Cᵀλ)/∂x. Operations: 34 mul, 17 add, 7 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..28];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1160,6 +1172,7 @@ impl<T: Ring> Derivatives<T> for DistanceLengthDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1233,6 +1246,7 @@ impl<T: Ring> Derivatives<T> for DistanceLengthDrive {
     }
     /// ∂Γ/∂v. Operations: 28 mul, 22 add, 3 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1277,6 +1291,7 @@ impl<T: Ring> Derivatives<T> for DistanceLengthDrive {
     }
     /// ∂(C·v − b)/∂x. Operations: 28 mul, 22 add, 3 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1329,6 +1344,7 @@ impl<T: Ring> Derivatives<T> for DistanceLengthDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..5];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;

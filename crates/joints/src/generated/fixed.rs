@@ -161,6 +161,7 @@ impl<T: Ring> Element<T> for Fixed {
     }
     /// Φ. Operations: 8 mul, 14 add, 1 neg.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let angle_i = x[0].angle;
@@ -188,6 +189,7 @@ impl<T: Ring> Element<T> for Fixed {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..10];
         out[0] = 1.0;
         out[2] = -1.0;
         out[4] = 1.0;
@@ -197,6 +199,7 @@ impl<T: Ring> Element<T> for Fixed {
     }
     /// Varying entries of C. Operations: 8 mul, 6 add, 2 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..8];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let cos_j = x[1].cos;
@@ -219,6 +222,7 @@ impl<T: Ring> Element<T> for Fixed {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 14 mul, 8 add.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -246,6 +250,7 @@ impl<T: Ring> Element<T> for Fixed {
     where
         T: Real,
     {
+        let out = &mut out[..5];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let s_i_x = T::from(self.s_i[0]);
@@ -281,6 +286,7 @@ impl<T: Ring> Element<T> for Fixed {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 8 mul, 4 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..7];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let cos_j = x[1].cos;
@@ -304,6 +310,7 @@ impl<T: Ring> Element<T> for Fixed {
 impl<T: Ring> Derivatives<T> for Fixed {
     /// ∂(Cᵀλ)/∂x. Operations: 12 mul, 8 add, 1 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let cos_j = x[1].cos;
@@ -333,6 +340,7 @@ impl<T: Ring> Derivatives<T> for Fixed {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -362,6 +370,7 @@ impl<T: Ring> Derivatives<T> for Fixed {
     }
     /// ∂Γ/∂v. Operations: 16 mul, 6 add, 2 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -385,6 +394,7 @@ impl<T: Ring> Derivatives<T> for Fixed {
     }
     /// ∂(C·v − b)/∂x. Operations: 12 mul, 6 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -416,6 +426,7 @@ impl<T: Ring> Derivatives<T> for Fixed {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..7];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;

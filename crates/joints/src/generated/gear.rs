@@ -122,6 +122,7 @@ impl<T: Ring> Element<T> for Gear {
     }
     /// Constant entries of C. Operations: 1 add, 1 neg.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..3];
         let ratio = self.ratio;
         out[0] = -ratio;
         out[1] = 1.0;
@@ -156,6 +157,7 @@ impl<T: Ring> Element<T> for Gear {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 1 mul, 1 add, 2 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..2];
         let angle_i = x[0].angle;
         let angle_carrier = x[2].angle;
         let lambda_0 = lambda[0];
@@ -191,6 +193,7 @@ impl<T: Ring> Derivatives<T> for Gear {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..2];
         let alpha_i = a[0].omega;
         let alpha_carrier = a[2].omega;
         let lambda_0 = lambda[0];

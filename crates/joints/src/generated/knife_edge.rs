@@ -103,6 +103,7 @@ impl<T: Ring> Element<T> for KnifeEdge {
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Constant entries of C. Operations: 2 mul, 1 add.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..3];
         let s_x = self.s[0];
         let s_y = self.s[1];
         let normal_local_x = self.normal.xy()[0];
@@ -111,6 +112,7 @@ impl<T: Ring> Element<T> for KnifeEdge {
     }
     /// Varying entries of C. Operations: 4 mul, 2 add.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let normal_local_x = T::from(self.normal.xy()[0]);
@@ -138,6 +140,7 @@ impl<T: Ring> Element<T> for KnifeEdge {
     where
         T: Real,
     {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let normal_local_x = T::from(self.normal.xy()[0]);
@@ -174,6 +177,7 @@ impl<T: Ring> Element<T> for KnifeEdge {
     }
     /// ∂(λᵀΦ)/∂p. Operations: none.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..4];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
         out[2] = T::from(0.0);
@@ -185,6 +189,7 @@ impl<T: Ring> Element<T> for KnifeEdge {
 impl<T: Ring> Derivatives<T> for KnifeEdge {
     /// ∂(Cᵀλ)/∂x. Operations: 6 mul, 2 add, 1 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let normal_local_x = T::from(self.normal.xy()[0]);
@@ -220,6 +225,7 @@ impl<T: Ring> Derivatives<T> for KnifeEdge {
     }
     /// ∂Γ/∂v. Operations: 8 mul, 3 add, 1 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;
@@ -255,6 +261,7 @@ impl<T: Ring> Derivatives<T> for KnifeEdge {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;

@@ -389,6 +389,7 @@ impl<T: Ring> Element<T> for Mesh {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 27 mul, 20 add, 4 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..7];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -482,6 +483,7 @@ impl<T: Ring> Element<T> for Mesh {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let cos_carrier = x[2].cos;
         let sin_carrier = x[2].sin;
         let share = T::from(self.share);
@@ -515,6 +517,7 @@ impl<T: Ring> Element<T> for Mesh {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 50 mul, 28 add, 5 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let angle_i = x[0].angle;
@@ -575,6 +578,7 @@ impl<T: Ring> Element<T> for Mesh {
 impl<T: Ring> Derivatives<T> for Mesh {
     /// ∂(Cᵀλ)/∂x. Operations: 24 mul, 15 add, 5 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..15];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -634,6 +638,7 @@ impl<T: Ring> Derivatives<T> for Mesh {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..7];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -715,6 +720,7 @@ impl<T: Ring> Derivatives<T> for Mesh {
     }
     /// ∂Γ/∂v. Operations: 46 mul, 35 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..7];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -774,6 +780,7 @@ impl<T: Ring> Derivatives<T> for Mesh {
     }
     /// ∂(C·v − b)/∂x. Operations: 40 mul, 27 add, 4 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..7];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -837,6 +844,7 @@ impl<T: Ring> Derivatives<T> for Mesh {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;

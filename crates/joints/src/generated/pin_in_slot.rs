@@ -190,6 +190,7 @@ impl<T: Ring> Element<T> for PinInSlot {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 12 mul, 10 add, 2 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -254,6 +255,7 @@ impl<T: Ring> Element<T> for PinInSlot {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -298,6 +300,7 @@ impl<T: Ring> Element<T> for PinInSlot {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 22 mul, 14 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -332,6 +335,7 @@ impl<T: Ring> Element<T> for PinInSlot {
 impl<T: Ring> Derivatives<T> for PinInSlot {
     /// ∂(Cᵀλ)/∂x. Operations: 16 mul, 10 add, 3 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -377,6 +381,7 @@ impl<T: Ring> Derivatives<T> for PinInSlot {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -433,6 +438,7 @@ impl<T: Ring> Derivatives<T> for PinInSlot {
     }
     /// ∂Γ/∂v. Operations: 26 mul, 24 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -475,6 +481,7 @@ impl<T: Ring> Derivatives<T> for PinInSlot {
     }
     /// ∂(C·v − b)/∂x. Operations: 22 mul, 18 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -520,6 +527,7 @@ impl<T: Ring> Derivatives<T> for PinInSlot {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -787,6 +795,7 @@ impl<T: Ring> Element<T> for PinInSlotDisplacementDrive {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 12 mul, 10 add, 4 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -857,6 +866,7 @@ impl<T: Ring> Element<T> for PinInSlotDisplacementDrive {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -903,6 +913,7 @@ impl<T: Ring> Element<T> for PinInSlotDisplacementDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 22 mul, 14 add, 5 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..7];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -938,6 +949,7 @@ impl<T: Ring> Element<T> for PinInSlotDisplacementDrive {
 impl<T: Ring> Derivatives<T> for PinInSlotDisplacementDrive {
     /// ∂(Cᵀλ)/∂x. Operations: 16 mul, 10 add, 3 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -983,6 +995,7 @@ impl<T: Ring> Derivatives<T> for PinInSlotDisplacementDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1039,6 +1052,7 @@ impl<T: Ring> Derivatives<T> for PinInSlotDisplacementDrive {
     }
     /// ∂Γ/∂v. Operations: 26 mul, 24 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1081,6 +1095,7 @@ impl<T: Ring> Derivatives<T> for PinInSlotDisplacementDrive {
     }
     /// ∂(C·v − b)/∂x. Operations: 22 mul, 18 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1126,6 +1141,7 @@ impl<T: Ring> Derivatives<T> for PinInSlotDisplacementDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..7];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1335,6 +1351,7 @@ impl<T: Ring> Element<T> for PinInSlotAngleDrive {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..2];
         out[0] = -1.0;
         out[1] = 1.0;
     }
@@ -1378,6 +1395,7 @@ impl<T: Ring> Element<T> for PinInSlotAngleDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 1 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..7];
         let lambda_0 = lambda[0];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
@@ -1416,6 +1434,7 @@ impl<T: Ring> Derivatives<T> for PinInSlotAngleDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..7];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
         out[2] = T::from(0.0);

@@ -75,6 +75,7 @@ impl<T: Real> ForceElement<T> for PointForce {
     }
     /// Entries of Q. Operations: 6 mul, 3 add, 1 neg.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let s_x = T::from(self.s[0]);

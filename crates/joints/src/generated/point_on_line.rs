@@ -125,6 +125,7 @@ impl<T: Ring> Element<T> for PointOnLine {
     }
     /// Constant entries of C. Operations: 1 neg.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..2];
         let line_along_x = self.line.along().xy()[0];
         let line_along_y = self.line.along().xy()[1];
         out[0] = -line_along_y;
@@ -132,6 +133,7 @@ impl<T: Ring> Element<T> for PointOnLine {
     }
     /// Varying entries of C. Operations: 6 mul, 3 add.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let s_x = T::from(self.s[0]);
@@ -162,6 +164,7 @@ impl<T: Ring> Element<T> for PointOnLine {
     where
         T: Real,
     {
+        let out = &mut out[..2];
         let line_along_x = T::from(self.line.along().xy()[0]);
         let line_along_y = T::from(self.line.along().xy()[1]);
         out[0] = line_along_y;
@@ -186,6 +189,7 @@ impl<T: Ring> Element<T> for PointOnLine {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 14 mul, 8 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -282,6 +286,7 @@ impl<T: Ring> Derivatives<T> for PointOnLine {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let a_i_x = a[0].x;

@@ -229,6 +229,7 @@ impl<T: Ring> Element<T> for RackAndPinion {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 12 mul, 12 add, 3 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -295,6 +296,7 @@ impl<T: Ring> Element<T> for RackAndPinion {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -342,6 +344,7 @@ impl<T: Ring> Element<T> for RackAndPinion {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 21 mul, 13 add, 4 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..8];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let angle_i = x[0].angle;
@@ -378,6 +381,7 @@ impl<T: Ring> Element<T> for RackAndPinion {
 impl<T: Ring> Derivatives<T> for RackAndPinion {
     /// ∂(Cᵀλ)/∂x. Operations: 16 mul, 10 add, 3 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -423,6 +427,7 @@ impl<T: Ring> Derivatives<T> for RackAndPinion {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -479,6 +484,7 @@ impl<T: Ring> Derivatives<T> for RackAndPinion {
     }
     /// ∂Γ/∂v. Operations: 26 mul, 24 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -521,6 +527,7 @@ impl<T: Ring> Derivatives<T> for RackAndPinion {
     }
     /// ∂(C·v − b)/∂x. Operations: 22 mul, 18 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -566,6 +573,7 @@ impl<T: Ring> Derivatives<T> for RackAndPinion {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..8];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;

@@ -127,6 +127,7 @@ impl<T: Ring> Element<T> for Revolute {
     }
     /// Φ. Operations: 8 mul, 10 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -148,6 +149,7 @@ impl<T: Ring> Element<T> for Revolute {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..7];
         out[0] = 1.0;
         out[2] = -1.0;
         out[4] = 1.0;
@@ -155,6 +157,7 @@ impl<T: Ring> Element<T> for Revolute {
     }
     /// Varying entries of C. Operations: 8 mul, 4 add, 2 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..8];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let cos_j = x[1].cos;
@@ -174,6 +177,7 @@ impl<T: Ring> Element<T> for Revolute {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 14 mul, 6 add.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -198,6 +202,7 @@ impl<T: Ring> Element<T> for Revolute {
     where
         T: Real,
     {
+        let out = &mut out[..2];
         out[0] = T::from(-1.0);
         out[1] = T::from(-1.0);
     }
@@ -220,6 +225,7 @@ impl<T: Ring> Element<T> for Revolute {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 8 mul, 4 add, 2 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let cos_j = x[1].cos;
@@ -237,6 +243,7 @@ impl<T: Ring> Element<T> for Revolute {
 impl<T: Ring> Derivatives<T> for Revolute {
     /// ∂(Cᵀλ)/∂x. Operations: 12 mul, 6 add, 1 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let cos_j = x[1].cos;
@@ -263,6 +270,7 @@ impl<T: Ring> Derivatives<T> for Revolute {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -288,6 +296,7 @@ impl<T: Ring> Derivatives<T> for Revolute {
     }
     /// ∂Γ/∂v. Operations: 16 mul, 4 add, 2 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -309,6 +318,7 @@ impl<T: Ring> Derivatives<T> for Revolute {
     }
     /// ∂(C·v − b)/∂x. Operations: 12 mul, 4 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -338,6 +348,7 @@ impl<T: Ring> Derivatives<T> for Revolute {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let omega_i = v[0].omega;
@@ -479,6 +490,7 @@ impl<T: Ring> Element<T> for RevoluteAngleDrive {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..2];
         out[0] = -1.0;
         out[1] = 1.0;
     }
@@ -522,6 +534,7 @@ impl<T: Ring> Element<T> for RevoluteAngleDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 1 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..5];
         let lambda_0 = lambda[0];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
@@ -558,6 +571,7 @@ impl<T: Ring> Derivatives<T> for RevoluteAngleDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..5];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
         out[2] = T::from(0.0);

@@ -130,6 +130,7 @@ impl<T: Ring> Element<T> for Rolling {
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Constant entries of C. Operations: 2 mul, 1 add, 1 neg.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..4];
         let s_x = self.s[0];
         let s_y = self.s[1];
         let direction_local_x = self.direction.xy()[0];
@@ -140,6 +141,7 @@ impl<T: Ring> Element<T> for Rolling {
     }
     /// Varying entries of C. Operations: 4 mul, 2 add.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let direction_local_x = T::from(self.direction.xy()[0]);
@@ -167,6 +169,7 @@ impl<T: Ring> Element<T> for Rolling {
     where
         T: Real,
     {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let direction_local_x = T::from(self.direction.xy()[0]);
@@ -195,6 +198,7 @@ impl<T: Ring> Element<T> for Rolling {
     }
     /// ∂(λᵀΦ)/∂p. Operations: none.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..5];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
         out[2] = T::from(0.0);
@@ -207,6 +211,7 @@ impl<T: Ring> Element<T> for Rolling {
 impl<T: Ring> Derivatives<T> for Rolling {
     /// ∂(Cᵀλ)/∂x. Operations: 6 mul, 2 add, 1 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let direction_local_x = T::from(self.direction.xy()[0]);
@@ -242,6 +247,7 @@ impl<T: Ring> Derivatives<T> for Rolling {
     }
     /// ∂Γ/∂v. Operations: 8 mul, 3 add, 1 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;
@@ -277,6 +283,7 @@ impl<T: Ring> Derivatives<T> for Rolling {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..5];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;

@@ -221,6 +221,7 @@ impl<T: Real> ForceElement<T> for SpringDamper {
     }
     /// Entries of Q. Operations: 28 mul, 22 add, 3 neg, 2 call.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -268,6 +269,7 @@ impl<T: Real> ForceElement<T> for SpringDamper {
     }
     /// ∂Q/∂x. Operations: 84 mul, 57 add, 14 neg, 2 call.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -386,6 +388,7 @@ impl<T: Real> ForceElement<T> for SpringDamper {
     }
     /// ∂Q/∂v. Operations: 31 mul, 13 add, 9 neg, 2 call.
     fn dq_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;

@@ -62,6 +62,7 @@ impl<T: Real> ForceElement<T> for TorqueBetween {
     }
     /// Entries of Q. Operations: 1 neg.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let torque = f[0][0];
         out[0] = -torque;
         out[1] = torque;

@@ -97,6 +97,7 @@ impl<T: Real> ForceElement<T> for TorsionSpringDamper {
     }
     /// Entries of Q. Operations: 2 mul, 4 add, 1 neg.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let angle_i = x[0].angle;
         let omega_i = v[0].omega;
         let angle_j = x[1].angle;
@@ -111,6 +112,7 @@ impl<T: Real> ForceElement<T> for TorsionSpringDamper {
     }
     /// ∂Q/∂x. Operations: 1 neg.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let stiffness = T::from(self.stiffness);
         let t0 = -stiffness;
         out[0] = t0;
@@ -120,6 +122,7 @@ impl<T: Real> ForceElement<T> for TorsionSpringDamper {
     }
     /// ∂Q/∂v. Operations: 1 neg.
     fn dq_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let damping = T::from(self.damping);
         let t0 = -damping;
         out[0] = t0;

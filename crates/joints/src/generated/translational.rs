@@ -171,6 +171,7 @@ impl<T: Ring> Element<T> for Translational {
     }
     /// Φ. Operations: 12 mul, 13 add, 1 neg.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let angle_i = x[0].angle;
@@ -198,11 +199,13 @@ impl<T: Ring> Element<T> for Translational {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..8];
         out[6] = -1.0;
         out[7] = 1.0;
     }
     /// Varying entries of C. Operations: 12 mul, 10 add, 2 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -230,6 +233,7 @@ impl<T: Ring> Element<T> for Translational {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 25 mul, 19 add, 1 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -268,6 +272,7 @@ impl<T: Ring> Element<T> for Translational {
     where
         T: Real,
     {
+        let out = &mut out[..4];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -313,6 +318,7 @@ impl<T: Ring> Element<T> for Translational {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 22 mul, 14 add, 4 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..7];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -349,6 +355,7 @@ impl<T: Ring> Element<T> for Translational {
 impl<T: Ring> Derivatives<T> for Translational {
     /// ∂(Cᵀλ)/∂x. Operations: 16 mul, 10 add, 3 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -394,6 +401,7 @@ impl<T: Ring> Derivatives<T> for Translational {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -450,6 +458,7 @@ impl<T: Ring> Derivatives<T> for Translational {
     }
     /// ∂Γ/∂v. Operations: 26 mul, 24 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -492,6 +501,7 @@ impl<T: Ring> Derivatives<T> for Translational {
     }
     /// ∂(C·v − b)/∂x. Operations: 22 mul, 18 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -537,6 +547,7 @@ impl<T: Ring> Derivatives<T> for Translational {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..7];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -816,6 +827,7 @@ impl<T: Ring> Element<T> for TranslationalDisplacementDrive {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 12 mul, 10 add, 4 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -886,6 +898,7 @@ impl<T: Ring> Element<T> for TranslationalDisplacementDrive {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -932,6 +945,7 @@ impl<T: Ring> Element<T> for TranslationalDisplacementDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 22 mul, 14 add, 5 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..8];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -968,6 +982,7 @@ impl<T: Ring> Element<T> for TranslationalDisplacementDrive {
 impl<T: Ring> Derivatives<T> for TranslationalDisplacementDrive {
     /// ∂(Cᵀλ)/∂x. Operations: 16 mul, 10 add, 3 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1013,6 +1028,7 @@ impl<T: Ring> Derivatives<T> for TranslationalDisplacementDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1069,6 +1085,7 @@ impl<T: Ring> Derivatives<T> for TranslationalDisplacementDrive {
     }
     /// ∂Γ/∂v. Operations: 26 mul, 24 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1111,6 +1128,7 @@ impl<T: Ring> Derivatives<T> for TranslationalDisplacementDrive {
     }
     /// ∂(C·v − b)/∂x. Operations: 22 mul, 18 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;
@@ -1156,6 +1174,7 @@ impl<T: Ring> Derivatives<T> for TranslationalDisplacementDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..8];
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
         let cos_i = x[0].cos;

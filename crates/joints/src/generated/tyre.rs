@@ -104,6 +104,7 @@ impl<T: Real> ForceElement<T> for Tyre {
     }
     /// Entries of Q. Operations: 28 mul, 12 add, 3 neg, 3 div, 1 call.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;
@@ -130,6 +131,7 @@ impl<T: Real> ForceElement<T> for Tyre {
     }
     /// ∂Q/∂x. Operations: 41 mul, 17 add, 1 neg, 8 div, 2 call.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;
@@ -161,6 +163,7 @@ impl<T: Real> ForceElement<T> for Tyre {
     }
     /// ∂Q/∂v. Operations: 45 mul, 15 add, 9 neg, 6 div, 2 call.
     fn dq_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..9];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;

@@ -113,6 +113,7 @@ impl<T: Ring> Element<T> for Velocity {
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Constant entries of C. Operations: 2 mul, 1 add.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..3];
         let s_x = self.s[0];
         let s_y = self.s[1];
         let direction_local_x = self.direction.xy()[0];
@@ -121,6 +122,7 @@ impl<T: Ring> Element<T> for Velocity {
     }
     /// Varying entries of C. Operations: 4 mul, 2 add.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let direction_local_x = T::from(self.direction.xy()[0]);
@@ -152,6 +154,7 @@ impl<T: Ring> Element<T> for Velocity {
     where
         T: Real,
     {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let direction_local_x = T::from(self.direction.xy()[0]);
@@ -180,6 +183,7 @@ impl<T: Ring> Element<T> for Velocity {
     }
     /// ∂(λᵀΦ)/∂p. Operations: none.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..4];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
         out[2] = T::from(0.0);
@@ -191,6 +195,7 @@ impl<T: Ring> Element<T> for Velocity {
 impl<T: Ring> Derivatives<T> for Velocity {
     /// ∂(Cᵀλ)/∂x. Operations: 6 mul, 2 add, 1 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..2];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let direction_local_x = T::from(self.direction.xy()[0]);
@@ -226,6 +231,7 @@ impl<T: Ring> Derivatives<T> for Velocity {
     }
     /// ∂Γ/∂v. Operations: 8 mul, 3 add, 1 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;
@@ -261,6 +267,7 @@ impl<T: Ring> Derivatives<T> for Velocity {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..4];
         let cos_i = x[0].cos;
         let sin_i = x[0].sin;
         let v_i_x = v[0].x;

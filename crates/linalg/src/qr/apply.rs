@@ -57,7 +57,9 @@ impl PivotedQr {
             let column = self.factors.row(k);
             x[k] /= column[k];
             let x_k = x[k];
-            kernels::axpy(-x_k, &column[..k], &mut x[..k]);
+            if x_k != 0.0 {
+                kernels::axpy(-x_k, &column[..k], &mut x[..k]);
+            }
         }
     }
 
@@ -67,9 +69,14 @@ impl PivotedQr {
     /// If `x` is longer than [`PivotedQr::steps`].
     pub fn solve_r_transpose(&self, x: &mut [f64]) {
         self.assert_leading(x);
-        for k in 0..x.len() {
+        self.solve_r_transpose_from(0, x);
+    }
+
+    /// The same for x whose entries before `first` are zero.
+    fn solve_r_transpose_from(&self, first: usize, x: &mut [f64]) {
+        for k in first..x.len() {
             let column = self.factors.row(k);
-            x[k] = (x[k] - kernels::dot(&column[..k], &x[..k])) / column[k];
+            x[k] = (x[k] - kernels::dot(&column[first..k], &x[first..k])) / column[k];
         }
     }
 
@@ -86,27 +93,25 @@ impl PivotedQr {
         );
     }
 
-    /// `C⁺` (n×r) of independent rows C (r×n, r ≤ n) factored by [`PivotedQr::of_rows`]:
-    /// `C⁺ = Q·R⁻ᵀ·Pᵀ`, so that `C⁺·b` is the smallest solution of `C·x = b`.
+    /// `(C⁺)ᵀ` (r×n) of independent rows C (r×n, r ≤ n) factored by [`PivotedQr::of_rows`]:
+    /// `C⁺ = Q·R⁻ᵀ·Pᵀ`, so that `C⁺·b` is the smallest solution of `C·x = b`. Row i is `C⁺·e_i`.
     ///
     /// ```
     /// use linalg::{Matrix, PivotedQr};
-    /// let inverse = PivotedQr::of_rows(Matrix::from_rows(&[[3.0, 4.0]])).pseudo_inverse();
-    /// assert!((inverse[(0, 0)] - 0.12).abs() < 1e-16 && (inverse[(1, 0)] - 0.16).abs() < 1e-16);
+    /// let qr = PivotedQr::of_rows(Matrix::from_rows(&[[3.0, 4.0]]));
+    /// let inverse = qr.transposed_pseudo_inverse();
+    /// assert!((inverse[(0, 0)] - 0.12).abs() < 1e-16 && (inverse[(0, 1)] - 0.16).abs() < 1e-16);
     /// ```
     #[must_use]
-    pub fn pseudo_inverse(&self) -> Matrix {
+    pub fn transposed_pseudo_inverse(&self) -> Matrix {
         let (n, r) = (self.dimension(), self.steps());
-        let mut inverse = Matrix::zeros(n, r);
-        let mut x = vec![0.0; n];
+        let mut inverse = Matrix::zeros(r, n);
         for (k, &row) in self.permutation().iter().take(r).enumerate() {
-            x.fill(0.0);
+            let x = inverse.row_mut(row);
+            // R⁻ᵀ·e_k is zero before entry k.
             x[k] = 1.0;
-            self.solve_r_transpose(&mut x[..r]);
-            self.q_mul(&mut x);
-            for (i, x) in x.iter().enumerate() {
-                inverse[(i, row)] = *x;
-            }
+            self.solve_r_transpose_from(k, &mut x[..r]);
+            self.q_mul(x);
         }
         inverse
     }

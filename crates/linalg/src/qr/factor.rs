@@ -13,26 +13,65 @@ struct Length {
     exact: f64,
 }
 
+impl Length {
+    /// Of these entries, and of one of size `beside`.
+    fn of(entries: &[f64], beside: f64) -> Self {
+        let own = kernels::norm(entries);
+        let exact = if beside == 0.0 {
+            own
+        } else {
+            own.hypot(beside)
+        };
+        Self { now: exact, exact }
+    }
+}
+
 /// Factors the whole matrix; the rows of `a` are the columns that are pivoted.
-pub(super) fn factor(mut a: Matrix) -> PivotedQr {
-    let (m, steps) = (a.nrows(), a.nrows().min(a.ncols()));
+pub(super) fn factor(a: Matrix) -> PivotedQr {
+    let steps = a.nrows().min(a.ncols());
+    factor_leading(a, steps)
+}
+
+/// Factors as many columns as there are steps; Qᵀ times the others is left in the other rows.
+pub(super) fn factor_leading(a: Matrix, steps: usize) -> PivotedQr {
+    let n = a.ncols();
+    factor_with(a, steps, 0.0, |_, _| n)
+}
+
+/// Factors columns with δ·I below them, for which there are zeros at their ends. The entry δ of a
+/// column stands in a row of its own, which no other column meets before it is the pivot: it is
+/// written only then, in the first row that is still free. So reflections end there.
+pub(super) fn factor_damped(a: Matrix, damping: f64) -> PivotedQr {
+    let (m, n) = (a.nrows(), a.ncols() - a.nrows());
+    factor_with(a, m, damping, |k, column| {
+        column[n + k] = damping;
+        n + k + 1
+    })
+}
+
+/// The factorisation. `begin` completes the column that becomes number k and returns where it
+/// ends; before that it has an entry of size `beside` that is not in the matrix.
+fn factor_with(
+    mut a: Matrix,
+    steps: usize,
+    beside: f64,
+    begin: impl Fn(usize, &mut [f64]) -> usize,
+) -> PivotedQr {
+    let m = a.nrows();
     let (mut tau, mut permutation) = (vec![0.0; steps], Vec::from_iter(0..m));
-    let length = |j: usize| {
-        let exact = kernels::norm(a.row(j));
-        Length { now: exact, exact }
-    };
-    let mut lengths: Vec<Length> = (0..m).map(length).collect();
+    let mut lengths: Vec<Length> = (0..m).map(|j| Length::of(a.row(j), beside)).collect();
     for k in 0..steps {
         let pivot = longest(&lengths, k);
         a.swap_rows(k, pivot);
         permutation.swap(k, pivot);
         lengths.swap(k, pivot);
 
-        tau[k] = reflect(&mut a.row_mut(k)[k..]);
+        let end = begin(k, a.row_mut(k));
+        tau[k] = reflect(&mut a.row_mut(k)[k..end]);
         for j in k + 1..m {
             let (v, column) = a.two_rows_mut(k, j);
-            apply(tau[k], &v[k..], &mut column[k..]);
-            downdate(&mut lengths[j], &column[k..]);
+            apply(tau[k], &v[k..end], &mut column[k..end]);
+            downdate(&mut lengths[j], &column[k..end], beside);
         }
     }
     PivotedQr {
@@ -70,27 +109,30 @@ pub(crate) fn reflect(x: &mut [f64]) -> f64 {
 }
 
 /// `y ← (I − τ·v·vᵀ)·y` with `v_0 = 1` (the stored entry 0 of `v` is R's).
-pub(crate) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
+pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
     if tau == 0.0 {
         return;
     }
     let s = -tau * (y[0] + kernels::dot(&v[1..], &y[1..]));
+    // Sparse rows are orthogonal to most others.
+    if s == 0.0 {
+        return;
+    }
     y[0] += s;
     kernels::axpy(s, &v[1..], &mut y[1..]);
 }
 
 /// Length of `column[1..]` from that of `column[0..]`, `ℓ² ← ℓ² − R_kj²`; recomputed when the
 /// difference has lost half of its digits since the last exact value.
-fn downdate(length: &mut Length, column: &[f64]) {
-    if length.now == 0.0 {
+fn downdate(length: &mut Length, column: &[f64], beside: f64) {
+    if length.now == 0.0 || column[0] == 0.0 {
         return;
     }
     let ratio = column[0].abs() / length.now;
     let left = ((1.0 - ratio) * (1.0 + ratio)).max(0.0);
     let against_exact = left * (length.now / length.exact).powi(2);
     if against_exact <= DOWNDATE_LIMIT {
-        let exact = kernels::norm(&column[1..]);
-        *length = Length { now: exact, exact };
+        *length = Length::of(&column[1..], beside);
     } else {
         length.now *= left.sqrt();
     }

@@ -42,6 +42,35 @@ proptest! {
         approx::assert_abs_diff_eq!(back, permuted, epsilon = BACKWARD);
     }
 
+    /// `C_D = T·C_K + S`, whether the rows are chosen by the factorisation or given.
+    #[test]
+    fn other_rows_are_combinations_of_a_basis(c in any_matrix(), share in 0.0..1.0_f64) {
+        let r = (share * (c.nrows().min(c.ncols()) + 1) as f64) as usize;
+        let chosen = RowBasis::most_independent(c.clone(), r);
+        let mut first = PivotedQr::of_rows(c.clone()).permutation()[..r].to_vec();
+        first.sort_unstable();
+        prop_assert_eq!(chosen.kept(), &first[..]);
+        let given = RowBasis::of_rows(&c, first.clone());
+        let smallest = given.factored().r_diagonal().fold(f64::INFINITY, |a, r| a.min(r.abs()));
+        for basis in [chosen, given] {
+            let qr = basis.factored();
+            let kept = c.select_rows(basis.kept());
+            let permuted = kept.select_rows(qr.permutation()).transpose();
+            approx::assert_abs_diff_eq!(
+                qr.q_columns(0..r).product(&qr.r()), permuted, epsilon = BACKWARD);
+            let rest = qr.q_columns(r..qr.dimension());
+            let mut t = vec![0.0; r];
+            for (j, &row) in basis.dropped().iter().enumerate() {
+                basis.coefficients(j, &mut t);
+                let known = kept.transpose_times(&t);
+                let outside = rest.times(basis.outside(j));
+                for ((c, a), b) in c.row(row).iter().zip(known).zip(outside) {
+                    prop_assert!((c - (a + b)).abs() <= BACKWARD / smallest.min(1.0));
+                }
+            }
+        }
+    }
+
     #[test]
     fn diagonal_falls_and_dominates_what_remains(c in any_matrix()) {
         let r = PivotedQr::of_rows(c).r();

@@ -103,7 +103,8 @@ impl KeptRowSaddle {
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
-        self.free.factor(&self.lu, row, mass)?;
+        let below = self.lu.known_below(&self.order);
+        self.free.factor((&self.lu, below), row, mass)?;
         self.is_factored = true;
         Ok(())
     }

@@ -2,6 +2,7 @@
 //! `Nᵀ·M·N`, with a Cholesky factorisation without square roots.
 
 use super::error::SaddleError;
+use super::fill::Lists;
 use super::lu::TallLu;
 use crate::kernels::{axpy, dot, max_abs};
 
@@ -12,6 +13,8 @@ pub(super) struct FreeMotions {
     basis: Vec<f64>,
     /// diag(M) in the order of P.
     pub(super) mass: Vec<f64>,
+    /// Scratch: a row of the basis times its masses, r values.
+    weighted: Vec<f64>,
     /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
     reduced_mass: Vec<f64>,
     /// Smallest fraction of a diagonal entry of NᵀMN that remained after elimination, infinite for
@@ -27,6 +30,7 @@ impl FreeMotions {
         Self {
             basis: vec![0.0; most],
             mass: vec![0.0; n],
+            weighted: vec![0.0; rows],
             reduced_mass: vec![0.0; n * n],
             mass_ratio: f64::INFINITY,
         }
@@ -37,22 +41,23 @@ impl FreeMotions {
         &self.basis[c * r..(c + 1) * r]
     }
 
-    /// Basis and factors for these rows and masses.
+    /// Basis and factors for these rows and masses. `below` lists where columns of L can be other
+    /// than zero, if that is known.
     pub(super) fn factor<'c>(
         &mut self,
-        lu: &TallLu,
+        (lu, below): (&TallLu, Option<&Lists>),
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
         for (m, &coordinate) in self.mass.iter_mut().zip(&lu.permutation) {
             *m = mass[coordinate];
         }
-        self.fill_basis(lu);
+        self.fill_basis(lu, below);
         self.factor_reduced_mass(lu, row)
     }
 
     /// Solves `L₁ᵀ·Y = −L₂ᵀ` column by column.
-    fn fill_basis(&mut self, lu: &TallLu) {
+    fn fill_basis(&mut self, lu: &TallLu, below: Option<&Lists>) {
         let (n, r) = (lu.n, lu.r);
         if r == 0 {
             return;
@@ -60,7 +65,13 @@ impl FreeMotions {
         for (c, y) in self.basis[..(n - r) * r].chunks_exact_mut(r).enumerate() {
             for t in (0..r).rev() {
                 let l_t = lu.row(t);
-                y[t] = -l_t[r + c] - dot(&l_t[t + 1..r], &y[t + 1..r]);
+                y[t] = match below {
+                    Some(below) => {
+                        let own = below.of(t).iter().take_while(|&&i| i < r);
+                        own.fold(-l_t[r + c], |y_t, &i| y_t - l_t[i] * y[i])
+                    }
+                    None => -l_t[r + c] - dot(&l_t[t + 1..r], &y[t + 1..r]),
+                };
             }
         }
     }
@@ -81,16 +92,14 @@ impl FreeMotions {
         self.mass_ratio = f64::INFINITY;
         for i in 0..k {
             let y_i = &self.basis[i * r..(i + 1) * r];
+            for ((w, y), m) in self.weighted.iter_mut().zip(y_i).zip(&self.mass) {
+                *w = y * m;
+            }
             let (above, rest) = self.reduced_mass.split_at_mut(i * k);
             let l_i = &mut rest[..k];
             for j in 0..=i {
                 let y_j = &self.basis[j * r..(j + 1) * r];
-                l_i[j] = y_i
-                    .iter()
-                    .zip(y_j)
-                    .zip(&self.mass)
-                    .map(|((a, b), m)| a * m * b)
-                    .sum();
+                l_i[j] = dot(&self.weighted[..r], y_j);
             }
             l_i[i] += self.mass[r + i];
             let size = l_i[i];

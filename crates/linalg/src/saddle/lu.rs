@@ -2,6 +2,7 @@
 //! `L = [L₁; L₂]` unit lower trapezoidal.
 
 use super::error::{SaddleError, check_finite, check_length};
+use super::fill::Lists;
 use super::order::Order;
 use crate::kernels::{axpy, dot, max_abs};
 use crate::limits::CANDIDATE;
@@ -77,6 +78,13 @@ impl TallLu {
         &self.factors[j * self.n..(j + 1) * self.n]
     }
 
+    /// Where the columns of L can be other than zero below the diagonal, as long as all rows are
+    /// solved for the coordinates of the order.
+    pub(super) fn known_below<'o>(&self, order: &'o Order) -> Option<&'o Lists> {
+        let is_known = self.is_in_order && self.r == self.used.len();
+        is_known.then_some(&order.fill.lower)
+    }
+
     /// Computes the next column of U and of L from a row of C: gather, eliminate with the rows
     /// before, pivot. `graded` contains the masses if they affect which coordinate is solved for.
     pub(super) fn eliminate(
@@ -107,8 +115,11 @@ impl TallLu {
         let below = if row == j && self.is_in_order {
             for &k in order.fill.upper.of(j) {
                 let (u_kj, l_k) = (x[k], &before[k * n..(k + 1) * n]);
-                for &i in order.fill.lower.of(k) {
-                    x[i] -= u_kj * l_k[i];
+                // Entries of a joint along the axes of the ground are often zero.
+                if u_kj != 0.0 {
+                    for &i in order.fill.lower.of(k) {
+                        x[i] -= u_kj * l_k[i];
+                    }
                 }
             }
             Some(order.fill.lower.of(j))

@@ -8,11 +8,11 @@
 //! 3.1 for γ_n.
 
 use crate::limits::BOUND_SLACK;
-use linalg::{Matrix, PivotedQr, kernels};
+use linalg::{Matrix, kernels};
 
-/// Lower bound on σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n matrix `a`;
-/// 0 if nothing can be proved.
-pub(super) fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
+/// Lower bound on σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n matrix `a`,
+/// for a right inverse X that is given as its r columns; 0 if nothing can be proved with it.
+pub(super) fn smallest_singular_value(a: &Matrix, x: &Matrix, perturbation: f64) -> f64 {
     let (r, n) = (a.nrows(), a.ncols());
     if r == 0 {
         return f64::INFINITY;
@@ -20,8 +20,6 @@ pub(super) fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
     if r > n {
         return 0.0;
     }
-    // Rows: the columns of X.
-    let x = PivotedQr::of_rows(a.clone()).pseudo_inverse().transpose();
     let e = Matrix::from_fn(r, r, |i, l| {
         f64::from(u8::from(i == l)) - kernels::dot(a.row(i), x.row(l))
     });
@@ -40,7 +38,14 @@ pub(super) fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use linalg::PivotedQr;
+
     use super::*;
+
+    fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
+        let x = PivotedQr::of_rows(a.clone()).transposed_pseudo_inverse();
+        super::smallest_singular_value(a, &x, perturbation)
+    }
 
     #[test]
     fn bounds_are_below_and_near_the_truth() {

@@ -4,8 +4,8 @@
 //! equivalently the rows D of a left null space basis Z form a nonsingular block.
 
 use super::{RankDecision, RankError, Uncertainty, read, required};
-use crate::strong_basis::{self, complement};
-use linalg::{Matrix, singular_values};
+use crate::strong_basis::{Basis, complement};
+use linalg::{Matrix, RowBasis, singular_values};
 
 /// Reason why a choice of rows is not admissible.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -141,7 +141,11 @@ fn decide_partition(
             required,
         });
     }
-    let basis = strong_basis::express(&scaled, kept);
+    let basis = if kept.len() == c.nrows() {
+        Basis::whole(c.nrows())
+    } else {
+        Basis::of(&RowBasis::of_rows(&scaled, kept))
+    };
     Ok(reading.with_basis(scaling, basis))
 }
 

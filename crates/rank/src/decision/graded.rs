@@ -8,17 +8,21 @@
 //! to the caller.
 
 use super::bound;
+use super::spectrum::Spectrum;
 use crate::limits::{CORRECTIONS_MAX, LEVEL_SPREAD};
 use crate::strong_basis;
-use linalg::{Dd, DdMatrix, Matrix, PivotedQr, kernels, powers, singular_values};
+use linalg::{Dd, DdMatrix, Matrix, PivotedQr, RowBasis, kernels, powers, singular_values};
 
 /// The rows of one level.
 struct Level {
     /// Independent rows, numbered in the whole matrix.
     kept: Vec<usize>,
-    /// S of these rows times 2^exponent, of size one.
+    /// S of these rows times 2^exponent, of size one, and their factors.
     rows: Matrix,
+    factored: PivotedQr,
     exponent: i32,
+    /// `(A⁺)ᵀ` of the rows A of all levels up to this one, each of size one.
+    inverse: Matrix,
     /// Coefficients in S of all rows that remained when the level began, and the numbers of these
     /// rows: row `left[j]` of C is `coefficients_j·C_before` + `S_j`.
     coefficients: DdMatrix,
@@ -49,16 +53,18 @@ pub(super) struct Graded {
 impl Graded {
     /// Removes levels from the equilibrated matrix `c` while a singular value is above `floor`.
     pub(super) fn new(c: &DdMatrix, floor: f64) -> Self {
-        Self::up_to(c, floor, c.ncols())
+        Self::up_to(c, floor, c.ncols(), None)
     }
 
     /// Removes levels until `rank` rows are kept, however small they are; fewer if no non-zero row
-    /// remains.
-    pub(super) fn of_rank(c: &DdMatrix, rank: usize) -> Self {
-        Self::up_to(c, 0.0, rank.min(c.ncols()))
+    /// remains. `read` is the matrix in `f64` from which the rank was read, or one near it.
+    pub(super) fn of_rank(c: &DdMatrix, rank: usize, read: &Spectrum) -> Self {
+        let first = read.of_neighbour(&c.hi());
+        Self::up_to(c, 0.0, rank.min(c.ncols()), first)
     }
 
-    fn up_to(c: &DdMatrix, floor: f64, most: usize) -> Self {
+    /// The singular values of `c` are computed unless they are known.
+    fn up_to(c: &DdMatrix, floor: f64, most: usize, mut known: Option<&[f64]>) -> Self {
         let m = c.nrows();
         let mut g = Self {
             levels: Vec::new(),
@@ -71,8 +77,11 @@ impl Graded {
         let (mut growth, mut error) = (1.0, 0.0);
         loop {
             let exponent = powers::unit_exponent(g.outside.hi().as_slice());
-            let normal = power(&g.outside, exponent);
-            let sigma = g.readings(exponent);
+            let normal = g.outside.times_power(exponent);
+            let sigma = match known.take() {
+                Some(known) => known.to_vec(),
+                None => g.readings(exponent),
+            };
             let significant = sigma
                 .iter()
                 .filter(|&&s| s > floor && s >= LEVEL_SPREAD * sigma[0])
@@ -85,8 +94,11 @@ impl Graded {
             let step = Step::new(&normal, significant);
             let rows_of = |local: &[usize]| local.iter().map(|&i| g.left[i]).collect::<Vec<_>>();
             let (kept, left) = (rows_of(&step.kept), rows_of(&step.dropped));
+            let rows = normal.select_rows(&step.kept).hi();
             g.levels.push(Level {
-                rows: normal.select_rows(&step.kept).hi(),
+                inverse: g.inverse_with(&rows, &step.factored),
+                factored: step.factored.clone(),
+                rows,
                 exponent,
                 coefficients: g.coefficients.select_rows(&step.kept),
                 before: g.kept.clone(),
@@ -99,7 +111,7 @@ impl Graded {
             error = error * (1.0 + step.t.hi().frobenius_norm())
                 + step.error * powers::scale(1.0, -exponent);
             g.coefficients = step.coefficients(&g.coefficients);
-            g.outside = power(&step.outside, -exponent);
+            g.outside = step.outside.times_power(-exponent);
             g.left = left;
             g.kept.extend(kept);
         }
@@ -108,7 +120,7 @@ impl Graded {
     /// Singular values of C that belong to the remainder: those of S in an orthonormal basis of the
     /// combinations `[−T, I]` that produced it.
     fn readings(&self, exponent: i32) -> Vec<f64> {
-        let mut s = power(&self.outside, exponent).hi();
+        let mut s = self.outside.times_power(exponent).hi();
         let count = s.nrows().min(s.ncols().saturating_sub(self.kept.len()));
         if !self.kept.is_empty() && !self.left.is_empty() {
             let w = Matrix::from_fn(
@@ -156,22 +168,53 @@ impl Graded {
             .fold(0.0, f64::max)
     }
 
+    /// The rows of all levels so far and of one more, each of size one.
+    fn stacked(&self, levels: usize, last: &Matrix) -> Matrix {
+        let before = self.levels[..levels].iter().map(|level| &level.rows);
+        let all: Vec<&Matrix> = before.chain([last]).collect();
+        let rows = all
+            .iter()
+            .flat_map(|rows| (0..rows.nrows()).map(|i| rows.row(i)));
+        let rows: Vec<&[f64]> = rows.collect();
+        Matrix::from_fn(rows.len(), last.ncols(), |i, j| rows[i][j])
+    }
+
+    /// `(A⁺)ᵀ` of the rows A of all levels so far and of one more, which has been factored.
+    fn inverse_with(&self, rows: &Matrix, factored: &PivotedQr) -> Matrix {
+        match self.levels.len() {
+            0 => factored.transposed_pseudo_inverse(),
+            n => PivotedQr::of_rows(self.stacked(n, rows)).transposed_pseudo_inverse(),
+        }
+    }
+
+    /// `(C_K⁺)ᵀ` of the rows `kept` of C, ascending, if they are those of a single level.
+    pub(super) fn inverse_of(&self, kept: &[usize]) -> Option<Matrix> {
+        let [level] = &self.levels[..] else {
+            return None;
+        };
+        if level.kept != kept {
+            return None;
+        }
+        let mut inverse = level.inverse.clone();
+        for x in inverse.as_mut_slice() {
+            *x = powers::scale(*x, level.exponent);
+        }
+        Some(inverse)
+    }
+
     /// Proved lower bounds, one for each level: on σ_r of C for the number r of rows kept up to
     /// this level.
     pub(super) fn bounds(&self) -> Vec<(usize, f64)> {
-        let n = self.outside.ncols();
-        let mut rows: Vec<f64> = Vec::new();
         let (mut count, mut perturbation, mut smallest) = (0, 0.0_f64, f64::INFINITY);
         let mut found = Vec::new();
-        for level in &self.levels {
+        for (before, level) in self.levels.iter().enumerate() {
             let size = powers::scale(1.0, -level.exponent);
-            rows.extend_from_slice(level.rows.as_slice());
             count += level.kept.len();
             smallest = smallest.min(size);
             // Errors of rounding S to f64, and of S itself.
             perturbation += f64::EPSILON * level.rows.frobenius_norm() + level.error / size;
-            let stacked = Matrix::from_fn(count, n, |i, j| rows[i * n + j]);
-            let sigma = bound::smallest_singular_value(&stacked, perturbation);
+            let stacked = self.stacked(before, &level.rows);
+            let sigma = bound::smallest_singular_value(&stacked, &level.inverse, perturbation);
             found.push((count, sigma * smallest / level.growth));
         }
         found
@@ -184,7 +227,7 @@ impl Graded {
         let level = self.levels.last()?;
         // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; practically any start has a component along
         // the smallest direction.
-        let qr = PivotedQr::of_rows(level.rows.clone());
+        let qr = &level.factored;
         let mut y: Vec<f64> = (0..level.kept.len())
             .map(|i| 1.0 + i as f64 / 7.0)
             .collect();
@@ -216,15 +259,13 @@ impl Graded {
     }
 }
 
-fn power(a: &DdMatrix, exponent: i32) -> DdMatrix {
-    DdMatrix::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].scaled(exponent))
-}
-
 /// One level: the dependent rows of a matrix scaled to unit size, expressed in its independent
 /// rows.
 struct Step {
     kept: Vec<usize>,
     dropped: Vec<usize>,
+    /// `S_K`
+    factored: PivotedQr,
     t: DdMatrix,
     /// `S_D − T·S_K`.
     outside: DdMatrix,
@@ -235,9 +276,8 @@ struct Step {
 impl Step {
     fn new(s: &DdMatrix, rank: usize) -> Self {
         let leading = s.hi();
-        let qr = PivotedQr::of_rows(leading.clone());
-        let basis = strong_basis::bounded(&leading, qr.permutation()[..rank].to_vec());
-        let qr = PivotedQr::of_rows(leading.select_rows(&basis.kept));
+        let rows = RowBasis::most_independent(leading.clone(), rank);
+        let (basis, rows) = strong_basis::bounded(&leading, rows);
         let mut t = DdMatrix::from(&basis.t);
         let (s_kept, s_dropped) = (s.select_rows(&basis.kept), s.select_rows(&basis.dropped));
         let mut outside = residual(&s_dropped, &t, &s_kept);
@@ -246,7 +286,7 @@ impl Step {
             let mut largest = 0.0_f64;
             for j in 0..basis.dropped.len() {
                 let mut y: Vec<f64> = outside.row(j).iter().map(|x| x.to_f64()).collect();
-                strong_basis::coefficients(&qr, &mut y, &mut correction);
+                strong_basis::coefficients(rows.factored(), &mut y, &mut correction);
                 for (t, &x) in t.row_mut(j).iter_mut().zip(&correction) {
                     *t += Dd::from(x);
                     largest = largest.max(x.abs());
@@ -264,6 +304,7 @@ impl Step {
                 + f64::MIN_POSITIVE,
             kept: basis.kept,
             dropped: basis.dropped,
+            factored: rows.into_factored(),
             t,
             outside,
         }

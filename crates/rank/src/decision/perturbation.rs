@@ -6,15 +6,23 @@ use super::{RankDecision, Uncertainty};
 use linalg::{Matrix, PivotedQr, kernels};
 
 /// Bounds on the norms of the rows of `δ[−T̃, I]`, m values, to first order in the uncertainty of
-/// the entries: `|δT| ≤ (U_D + |T|·U_K)·|C_K⁺|`, all equilibrated.
-pub(super) fn row_noise(decision: &RankDecision, c: &Matrix, known: Uncertainty<'_>) -> Vec<f64> {
+/// the entries: `|δT| ≤ (U_D + |T|·U_K)·|C_K⁺|`, all equilibrated. `inverse` is `(C_K⁺)ᵀ` if it is
+/// known.
+pub(super) fn row_noise(
+    decision: &RankDecision,
+    c: &Matrix,
+    known: Uncertainty<'_>,
+    inverse: Option<Matrix>,
+) -> Vec<f64> {
     let mut noise = vec![0.0; c.nrows()];
     if decision.redundancy == 0 {
         return noise;
     }
     let u = known.of_entries(&decision.scaling);
-    let kept = decision.scaling.apply(c).select_rows(&decision.kept);
-    let inverse = PivotedQr::of_rows(kept).pseudo_inverse().transpose();
+    let inverse = inverse.unwrap_or_else(|| {
+        let kept = decision.scaling.apply(c).select_rows(&decision.kept);
+        PivotedQr::of_rows(kept).transposed_pseudo_inverse()
+    });
     for (j, &dropped) in decision.dropped.iter().enumerate() {
         let mut moved = u.row(dropped).to_vec();
         for (i, &kept) in decision.kept.iter().enumerate() {

@@ -9,8 +9,8 @@ use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::Graded;
 use super::perturbation;
 use super::{
-    Doubt, Evidence, RankDecision, RankError, RankStatus, Reading, Uncertainty, check_finite, gap,
-    projected,
+    Doubt, Evidence, RankDecision, RankError, RankStatus, Reading, Spectrum, Uncertainty,
+    check_finite, gap, projected,
 };
 use crate::limits::{CLEAR_OF_DATA, HIDDEN, NEARLY_REDUNDANT, NOISE_FACTOR, VANISHES};
 use crate::strong_basis::{self, Basis};
@@ -121,6 +121,8 @@ pub struct RankReading {
     pub status: RankStatus,
     /// The scaling under which it was read.
     pub scaling: Scaling,
+    /// The equilibrated matrix from which it was read.
+    pub matrix: Spectrum,
     /// Uncertainty of all entries together: a singular value below it counts as zero.
     pub noise: f64,
     /// Lower limit of the non-zero singular values; a matrix with one below it does not have this
@@ -140,13 +142,13 @@ pub struct RankReading {
 pub fn certify_rank(
     c: &DdMatrix,
     uncertainty: &linalg::Matrix,
-    reading: RankReading,
+    reading: &RankReading,
 ) -> Result<Option<RankDecision>, RankError> {
     let leading = c.hi();
     check_finite(&leading)?;
     let known = Uncertainty::Entries(uncertainty);
     let spread = known.equilibrated(&leading, &reading.scaling)?;
-    let graded = Graded::of_rank(&c.scaled(&reading.scaling), reading.rank);
+    let graded = Graded::of_rank(&c.scaled(&reading.scaling), reading.rank, &reading.matrix);
     let (m, n) = (c.nrows(), c.ncols());
     let sigma = graded.singular_values(m.min(n));
     let least = reading.rank.checked_sub(1).map(|r| sigma[r]);
@@ -155,7 +157,7 @@ pub fn certify_rank(
     }
     let sigma_next = sigma.get(reading.rank).copied().unwrap_or(0.0);
     let found = Found {
-        scaling: reading.scaling,
+        scaling: reading.scaling.clone(),
         status: reading.status,
         tolerance: reading.noise,
         uncertainty: spread.largest,
@@ -224,7 +226,8 @@ impl Found {
             sigma: sigma_r,
             direction: projected(&decision, graded.smallest_direction().unwrap_or_default()),
         });
-        let row_noise = perturbation::row_noise(&decision, leading, known);
+        let inverse = graded.inverse_of(&decision.kept);
+        let row_noise = perturbation::row_noise(&decision, leading, known, inverse);
         decision.evidence.certificate = Some(Certificate {
             rank_at_least,
             sigma_bound,

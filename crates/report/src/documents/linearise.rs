@@ -52,7 +52,7 @@ pub struct InputDocument {
     /// The drive or force.
     pub name: String,
     /// What of it: `value`, `rate` or `acceleration` of a drive, the function of a force.
-    pub kind: &'static str,
+    pub what: String,
 }
 
 /// Matrices of `M·ÿ + D·ẏ + K·y`, by rows.
@@ -110,7 +110,7 @@ impl LinearisationDocument {
                 .iter()
                 .map(|input| InputDocument {
                     name: input.name.clone(),
-                    kind: input.kind.word(),
+                    what: input.what.clone(),
                 })
                 .collect(),
             a: rows(&x.a),

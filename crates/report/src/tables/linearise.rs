@@ -63,7 +63,7 @@ impl MatrixTable {
             Self::B => of
                 .inputs
                 .iter()
-                .map(|input| format!("{}.{}", input.name, input.kind))
+                .map(|input| format!("{}.{}", input.name, input.what))
                 .collect(),
             _ => states().take(of.positions).collect(),
         };

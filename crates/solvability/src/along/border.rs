@@ -9,6 +9,9 @@ pub(super) struct Border {
     kept: Vec<usize>,
     /// Rows: the basis vectors.
     frame: Matrix,
+    /// The factors of the kept rows; `None` if there are more of them than motions.
+    saddle: Option<KeptRowSaddle>,
+    units: Vec<f64>,
     /// The determinant at that instant.
     reference: Determinant,
 }
@@ -19,6 +22,8 @@ impl Border {
         let mut border = Self {
             kept: kept.to_vec(),
             frame: null_space(c, kept),
+            saddle: KeptRowSaddle::new(c.ncols(), kept.len()).ok(),
+            units: vec![1.0; c.ncols()],
             reference: Determinant::ZERO,
         };
         border.reference = border.determinant(c);
@@ -27,15 +32,22 @@ impl Border {
 
     /// The determinant at another instant, relative to its value at the first instant. Zero if the
     /// rows are dependent to working precision.
-    pub(super) fn value(&self, c: &Matrix) -> f64 {
+    pub(super) fn value(&mut self, c: &Matrix) -> f64 {
         let now = self.determinant(c);
         now.sign * self.reference.sign * (now.log - self.reference.log).exp()
     }
 
     /// Overlap of the fixed basis with the null space of the same rows at another instant, as a
-    /// volume: 1 if the null space has not rotated.
-    pub(super) fn overlap(&self, c: &Matrix) -> f64 {
-        let common = self.frame.product(&null_space(c, &self.kept).transpose());
+    /// volume: 1 if the null space has not rotated. `there` is fixed at that instant, with C `c`.
+    pub(super) fn overlap(&self, there: &Self, c: &Matrix) -> f64 {
+        let turned;
+        let other = if self.kept == there.kept {
+            &there.frame
+        } else {
+            turned = null_space(c, &self.kept);
+            &turned
+        };
+        let common = self.frame.product(&other.transpose());
         let mut lu = Lu::new(common.nrows());
         match lu.factor(|i, j| common[(i, j)]) {
             Ok(()) => lu.determinant().value().abs(),
@@ -43,13 +55,14 @@ impl Border {
         }
     }
 
-    fn determinant(&self, c: &Matrix) -> Determinant {
-        let (n, rows) = (c.ncols(), self.kept.len());
-        let bordered = KeptRowSaddle::new(n, rows).and_then(|mut saddle| {
-            saddle.factor(|k| c.row(self.kept[k]), &vec![1.0; n])?;
-            Ok(saddle.bordered(self.frame.as_slice()))
-        });
-        bordered.unwrap_or(Determinant::ZERO)
+    fn determinant(&mut self, c: &Matrix) -> Determinant {
+        let Some(saddle) = &mut self.saddle else {
+            return Determinant::ZERO;
+        };
+        match saddle.factor(|k| c.row(self.kept[k]), &self.units) {
+            Ok(()) => saddle.bordered(self.frame.as_slice()),
+            Err(_) => Determinant::ZERO,
+        }
     }
 }
 
@@ -68,15 +81,17 @@ mod tests {
     #[test]
     fn a_turning_row() {
         let c = |angle: f64| Matrix::from_rows(&[[angle.cos(), angle.sin()]]);
-        let border = Border::new(&c(0.4), &[0]);
+        let mut border = Border::new(&c(0.4), &[0]);
         for angle in [0.4, 1.0, 1.9, 2.5, 4.0] {
             let expected = (angle - 0.4_f64).cos();
             assert!((border.value(&c(angle)) - expected).abs() < 1e-15);
-            assert!((border.overlap(&c(angle)) - expected.abs()).abs() < 1e-15);
+            let there = Border::new(&c(angle), &[0]);
+            let overlap = border.overlap(&there, &c(angle));
+            assert!((overlap - expected.abs()).abs() < 1e-15);
         }
         // Two rows that become parallel: the determinant is the sine of their angle.
         let c = |angle: f64| Matrix::from_rows(&[[1.0, 0.0], [angle.cos(), angle.sin()]]);
-        let border = Border::new(&c(0.5), &[0, 1]);
+        let mut border = Border::new(&c(0.5), &[0, 1]);
         assert!((border.value(&c(-0.25)) + 0.25_f64.sin() / 0.5_f64.sin()).abs() < 1e-15);
         assert_eq!(border.value(&c(0.0)), 0.0);
     }

@@ -120,7 +120,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
         if BENT * distance(&a.matrix, &b.matrix) < a.sigma.max(b.sigma) {
             continue;
         }
-        let border = Border::new(&a.matrix, &a.kept);
+        let mut border = Border::new(&a.matrix, &a.kept);
         let value = border.value(&b.matrix);
         if value < 0.0 {
             let at = |t: f64| -> Result<f64, AlongError> {
@@ -135,12 +135,19 @@ fn sign_changes<F: FnMut(f64) -> State>(
                 continue;
             }
         }
+        if halvings == 0 {
+            continue;
+        }
         // The same in the other direction: rows and frame of b.
-        let back = Border::new(&b.matrix, &b.kept);
+        let mut back = Border::new(&b.matrix, &b.kept);
+        let overlaps = |border: &Border, back: &Border| {
+            let there = border.overlap(back, &b.matrix);
+            there.min(back.overlap(border, &a.matrix))
+        };
         let doubtful = value < MAY_PASS
             || back.value(&a.matrix) < MAY_PASS
-            || border.overlap(&b.matrix).min(back.overlap(&a.matrix)) < OVERLAP;
-        if halvings > 0 && doubtful {
+            || overlaps(&border, &back) < OVERLAP;
+        if doubtful {
             let t = 0.5 * (a.t + b.t);
             let point = path.at(t)?;
             let decision = path.decide(&point, 0.0)?;

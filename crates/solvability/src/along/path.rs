@@ -3,6 +3,8 @@
 use crate::error::AnalysisError;
 use crate::limits::{REGULAR_SAMPLE, ROWS_MAX};
 use crate::pose::{dimensionless, evaluated, uncertainty};
+use std::cell::OnceCell;
+
 use linalg::{Matrix, Scaling};
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, Scratch, System};
@@ -36,9 +38,10 @@ pub(super) struct Point {
     pub(super) q: Vec<f64>,
     pub(super) v: Vec<f64>,
     pub(super) s: Scratch,
-    /// C without dimensions; `known` holds the accuracy of its entries.
+    /// C without dimensions.
     pub(super) c: Matrix,
-    known: Matrix,
+    /// The accuracy of its entries, once it has been asked for.
+    known: OnceCell<Matrix>,
 }
 
 /// A point at which the rank has been determined.
@@ -135,15 +138,20 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
             .map_err(|source| AlongError::OffConstraints { time: t, source })?;
         let s = evaluated(self.mechanism, t, &q);
         let c = dimensionless(self.mechanism, &s, self.size);
-        let known = uncertainty(self.mechanism, &s, self.size);
         Ok(Point {
             t,
             q,
             v,
             s,
             c,
-            known,
+            known: OnceCell::new(),
         })
+    }
+
+    /// The accuracy of the entries of C at a point.
+    fn known<'p>(&self, p: &'p Point) -> &'p Matrix {
+        p.known
+            .get_or_init(|| uncertainty(self.mechanism, &p.s, self.size))
     }
 
     /// Length that makes C dimensionless.
@@ -157,13 +165,13 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         let layout = self.mechanism.layout();
         if distance == 0.0 && self.mechanism.has_tolerances() && layout.rows() <= ROWS_MAX {
             let at = (&p.s, p.q.as_slice(), self.size);
-            let rows = Rows::of_matrix(self.mechanism, at, &p.c, &p.known);
+            let rows = Rows::of_matrix(self.mechanism, at, &p.c, self.known(p));
             return Ok(rows.decide()?);
         }
         let decision = match distance {
-            0.0 => rank::decide(&p.c, &p.known),
+            0.0 => rank::decide(&p.c, self.known(p)),
             _ => {
-                let mut known = p.known.clone();
+                let mut known = self.known(p).clone();
                 let entries = known.as_mut_slice().iter_mut();
                 entries.for_each(|known| *known += distance);
                 rank::decide(&p.c, &known)
@@ -202,7 +210,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     /// reactions.
     pub(super) fn judged(&self, p: &Point, decision: RankDecision) -> Result<Analysis, AlongError> {
         let pose = (&p.s, &p.q[..], self.size);
-        let rows = Rows::of_matrix(self.mechanism, pose, &p.c, &p.known);
+        let rows = Rows::of_matrix(self.mechanism, pose, &p.c, self.known(p));
         let judged = reaction_verdicts(self.mechanism, &p.s, &rows, decision, Detail::Verdicts)?;
         Ok(Analysis::of(self.mechanism, p.t, &p.q, vec![judged]))
     }

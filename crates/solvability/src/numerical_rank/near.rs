@@ -6,7 +6,7 @@
 //! dropped rows are independent in general: these are kept again, one rank after the other.
 
 use crate::limits::{CLEAR_ENTRY, CURVED, PAIRS, WALKED};
-use linalg::{Matrix, PivotedQr, Scaling};
+use linalg::{Matrix, Scaling};
 use model::{DataBlock, Scratch, System};
 
 use super::cone::{Equation, least_change};
@@ -159,17 +159,28 @@ impl Question<'_> {
     /// Examines the rank `lower` on the rows that are most independent at this pose. Returns `None`
     /// if its distance is above `limit` (m).
     fn lower(&self, lower: usize, limit: f64) -> Option<Lower<'_>> {
-        let (scaled, _) = self.uniform(self.s);
-        let order = PivotedQr::of_rows(scaled);
-        self.lower_of(order.permutation()[..lower].to_vec(), limit)
+        let (scaled, scaling) = self.uniform(self.s);
+        let candidate = Candidate::of_rank(&scaled, lower);
+        self.examined(scaled, scaling, candidate, limit)
     }
 
     /// Examines the rank with only these rows kept.
     fn lower_of(&self, kept: Vec<usize>, limit: f64) -> Option<Lower<'_>> {
-        let stated = self.tolerance();
-        let tolerance = stated.map(|stated| stated.metres);
         let (scaled, scaling) = self.uniform(self.s);
         let candidate = Candidate::of_rows(&scaled, kept);
+        self.examined(scaled, scaling, candidate, limit)
+    }
+
+    /// Examines the rank of a candidate for C with one unit for all lengths.
+    fn examined(
+        &self,
+        scaled: Matrix,
+        scaling: Scaling,
+        candidate: Candidate,
+        limit: f64,
+    ) -> Option<Lower<'_>> {
+        let stated = self.tolerance();
+        let tolerance = stated.map(|stated| stated.metres);
         if candidate.weakest() > CLEAR_ENTRY {
             return None;
         }

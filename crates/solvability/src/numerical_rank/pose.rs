@@ -8,8 +8,8 @@
 //! rows contradict each other within a tolerance and the start distributes the residual among them.
 
 use crate::limits::{HOLONOMIC, RESOLVED};
-use linalg::{Matrix, PivotedQr, Scaling, small_svd};
-use model::{Mechanism, Scratch, System};
+use linalg::{Matrix, PivotedQr, RowBasis, Scaling, kernels, small_svd};
+use model::{ForceDerivatives, Mechanism, Scratch, System};
 
 use super::follow::Followed;
 
@@ -56,37 +56,38 @@ impl Candidate {
 
     /// Keeps the most independent rows, as many as the rank.
     pub(super) fn of_rank(scaled: &Matrix, rank: usize) -> Self {
-        let qr = PivotedQr::of_rows(scaled.clone());
-        Self::of_rows(scaled, qr.permutation()[..rank].to_vec())
+        Self::of(RowBasis::most_independent(scaled.clone(), rank))
     }
 
     /// Keeps these rows.
-    pub(super) fn of_rows(scaled: &Matrix, mut kept: Vec<usize>) -> Self {
-        kept.sort_unstable();
-        let (m, n, r) = (scaled.nrows(), scaled.ncols(), kept.len());
-        let qr = PivotedQr::of_rows(scaled.select_rows(&kept));
-        let dropped: Vec<usize> = (0..m).filter(|i| kept.binary_search(i).is_err()).collect();
-        let mut u = Matrix::zeros(dropped.len(), m);
+    pub(super) fn of_rows(scaled: &Matrix, kept: Vec<usize>) -> Self {
+        Self::of(RowBasis::of_rows(scaled, kept))
+    }
+
+    /// Keeps the rows of a basis.
+    pub(super) fn of(rows: RowBasis) -> Self {
+        let (kept, dropped) = (rows.kept().to_vec(), rows.dropped());
+        let (n, r) = (rows.factored().dimension(), kept.len());
+        let mut u = Matrix::zeros(dropped.len(), r + dropped.len());
         let mut rest = Matrix::zeros(dropped.len(), n - r);
-        let mut y = vec![0.0; n];
+        let mut t = vec![0.0; r];
         for (j, &row) in dropped.iter().enumerate() {
-            y.copy_from_slice(scaled.row(row));
-            qr.q_transpose_mul(&mut y);
-            rest.row_mut(j).copy_from_slice(&y[r..]);
-            qr.solve_r(&mut y[..r]);
+            rows.coefficients(j, &mut t);
+            rest.row_mut(j).copy_from_slice(rows.outside(j));
             u[(j, row)] = 1.0;
-            for (t, &k) in y[..r].iter().zip(qr.permutation()) {
-                u[(j, kept[k])] = -t;
+            for (t, &k) in t.iter().zip(&kept) {
+                u[(j, k)] = -t;
             }
             let size = u.row(j).iter().map(|x| x * x).sum::<f64>().sqrt();
             u.row_mut(j).iter_mut().for_each(|x| *x /= size);
             rest.row_mut(j).iter_mut().for_each(|x| *x /= size);
         }
-        let v = qr.q_columns(r..n);
+        let factored = rows.into_factored();
+        let v = factored.q_columns(r..n);
         let svd = small_svd(&rest);
         Self {
             kept,
-            factored: qr,
+            factored,
             left: complete(&svd.u, &svd.sigma).transpose().product(&u),
             right: complete(&svd.v, &svd.sigma)
                 .transpose()
@@ -98,16 +99,11 @@ impl Candidate {
 
 /// The other rows of a scaled C, the most independent of the kept ones first.
 pub(super) fn most_independent_of(scaled: &Matrix, kept: &[usize]) -> Vec<usize> {
-    let own = PivotedQr::of_rows(scaled.select_rows(kept));
-    let others: Vec<usize> = (0..scaled.nrows())
-        .filter(|row| !kept.contains(row))
-        .collect();
+    let own = RowBasis::of_rows(scaled, kept.to_vec());
+    let others = own.dropped();
     let mut rest = Matrix::zeros(others.len(), scaled.ncols() - kept.len());
-    let mut y = vec![0.0; scaled.ncols()];
-    for (j, &row) in others.iter().enumerate() {
-        y.copy_from_slice(scaled.row(row));
-        own.q_transpose_mul(&mut y);
-        rest.row_mut(j).copy_from_slice(&y[kept.len()..]);
+    for j in 0..others.len() {
+        rest.row_mut(j).copy_from_slice(own.outside(j));
     }
     let rest = PivotedQr::of_rows(rest);
     rest.permutation().iter().map(|&j| others[j]).collect()
@@ -147,6 +143,25 @@ pub(super) struct Gradient {
     pub(super) pose: Vec<f64>,
     /// Change of the entry if the pose is moved onto the kept rows, with the data fixed.
     pub(super) onto_kept: f64,
+}
+
+impl Gradient {
+    /// The gradient of a sum of entries with these weights.
+    pub(super) fn sum(entries: &[Self], weights: &[f64]) -> Self {
+        let total = |of: &dyn Fn(&Self) -> &[f64]| {
+            let mut total = vec![0.0; entries.first().map_or(0, |entry| of(entry).len())];
+            for (entry, weight) in entries.iter().zip(weights) {
+                kernels::axpy(*weight, of(entry), &mut total);
+            }
+            total
+        };
+        let onto_kept = entries.iter().zip(weights).map(|(e, w)| e.onto_kept * w);
+        Self {
+            data: total(&|entry| &entry.data),
+            pose: total(&|entry| &entry.pose),
+            onto_kept: onto_kept.sum(),
+        }
+    }
 }
 
 impl<'a> Pose<'a> {
@@ -248,19 +263,28 @@ impl<'a> Pose<'a> {
 
     /// The gradient of `uᵀ·C·v` (scaled); u has one entry for each analysed row.
     pub(super) fn gradient_between(&self, u: &[f64], v: &[f64]) -> Gradient {
-        let scaled =
-            |x: &[f64], by: &[f64]| -> Vec<f64> { x.iter().zip(by).map(|(x, f)| x * f).collect() };
+        self.gradient_at(&self.forces(u), v)
+    }
+
+    /// The forces `Cᵀ·u` of weights of the analysed rows.
+    pub(super) fn forces(&self, u: &[f64]) -> Forces {
         let u = self.spread(u);
-        let v = scaled(v, &self.columns);
+        Forces {
+            derivatives: self.mechanism.data().force_derivatives(self.s, &u),
+            u,
+        }
+    }
+
+    /// Like [`Self::gradient_between`], for forces that meet several velocities.
+    pub(super) fn gradient_at(&self, forces: &Forces, v: &[f64]) -> Gradient {
+        let v: Vec<f64> = v.iter().zip(&self.columns).map(|(x, f)| x * f).collect();
         let mut data = vec![0.0; self.mechanism.data().count()];
         self.mechanism
             .data()
-            .add_power(self.s, &u, &v, 1.0, &mut data);
+            .add_power(self.s, &forces.u, &v, 1.0, &mut data);
         let mut turned = vec![0.0; v.len()];
-        self.mechanism
-            .data()
-            .add_power_by_pose(self.s, &u, &v, &mut turned);
-        let (lambda, pose) = self.positions.split(&turned, u.len());
+        forces.derivatives.add_power(&v, &mut turned);
+        let (lambda, pose) = self.positions.split(&turned, forces.u.len());
         self.mechanism
             .data()
             .add_phi(self.s, &lambda, -1.0, &mut data);
@@ -275,6 +299,12 @@ impl<'a> Pose<'a> {
             onto_kept,
         }
     }
+}
+
+/// Weights of all rows of the mechanism, and how their forces on the bodies change with the pose.
+pub(super) struct Forces {
+    u: Vec<f64>,
+    derivatives: ForceDerivatives,
 }
 
 #[cfg(test)]

@@ -5,8 +5,7 @@
 //! for the lower rank?
 
 use crate::limits::{CLEAR_OF_NOISE, CLEAR_OF_ROUNDING, CONFIRMED, NEAR_TOLD};
-use linalg::singular_values;
-use rank::{Doubt, Grounds, RankReading, RankStatus};
+use rank::{Doubt, Grounds, RankReading, RankStatus, Spectrum};
 
 use super::UncertainMatrix;
 use super::near::{Certainty, Nearness};
@@ -26,8 +25,8 @@ impl UncertainMatrix {
     pub(crate) fn read(&self, question: &Question<'_>) -> Reading {
         let (m, n) = (self.c.nrows(), self.c.ncols());
         let scaling = self.scaling();
-        let scaled = scaling.apply(&self.c);
-        let sigma = singular_values(&scaled);
+        let scaled = Spectrum::of(scaling.apply(&self.c));
+        let sigma = scaled.values();
         let rounding = rank::NOISE_FACTOR * f64::EPSILON * (m as f64 * n as f64).sqrt();
         let noise = scaling
             .apply(&self.uncertainty)
@@ -39,7 +38,7 @@ impl UncertainMatrix {
         let (mut rank, mut status) = (upper, RankStatus::Decided);
         // Search for the least rank that the data allow.
         for lower in clear..upper {
-            let share = question.share_of_rounding(&scaled, &scaling, lower);
+            let share = question.share_of_rounding(scaled.matrix(), &scaling, lower);
             if share.high < (1.0 / rank::BEYOND_DOUBT) {
                 rank = lower;
                 break;
@@ -95,19 +94,20 @@ impl UncertainMatrix {
         }
         // A redundancy within a tolerance refers to lengths in one common unit: a short lever must
         // not be scaled up to size one.
-        let (scaling, sigma) = match grounds {
+        let (scaling, scaled) = match grounds {
             Grounds::WithinTolerance => {
                 let (scaled, scaling) = question.uniform(question.s);
-                (scaling, singular_values(&scaled))
+                (scaling, Spectrum::of(scaled))
             }
-            _ => (scaling, sigma),
+            _ => (scaling, scaled),
         };
-        let sigma_r = rank.checked_sub(1).map(|r| sigma[r]);
+        let sigma_r = rank.checked_sub(1).map(|r| scaled.values()[r]);
         Reading {
             rank: RankReading {
                 rank,
                 status,
                 scaling,
+                matrix: scaled,
                 noise,
                 // A value that is not zero is the same in double-double, apart from the rounding in
                 // `f64`.

@@ -11,7 +11,7 @@ use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
 use rank::RankDecision;
 
 use super::cone::{Bounds, Equation, least_change};
-use super::pose::{Candidate, Pose};
+use super::pose::{Candidate, Forces, Gradient, Pose};
 
 /// A mechanism at a pose, with the rows that are analysed.
 pub(crate) struct Question<'a> {
@@ -132,8 +132,10 @@ impl Question<'_> {
         let matrices = (scaled, &dimensions, scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data().blocks(self.s);
-        let bases = [rank::orthonormal(decision), single(decision)].map(|z| z.transpose());
-        let [z, _] = &bases;
+        let z = rank::orthonormal(decision).transpose();
+        let forces: Vec<Forces> = (0..z.nrows()).map(|k| pose.forces(z.row(k))).collect();
+        // The single dependencies in this basis; gradients are linear in them.
+        let single = single(decision).transpose().product(&z.transpose());
         let mut known = vec![0.0; scaled.nrows()];
         for &i in asked {
             // C⁺·e_i, as the smallest solution of the kept rows of C·y = e_i − Z·Zᵀ·e_i.
@@ -145,8 +147,7 @@ impl Question<'_> {
             }
             factored.solve_r_transpose(&mut y[..kept.len()]);
             factored.q_mul(&mut y);
-            let of_vector = |z: &[f64]| {
-                let gradient = pose.gradient_between(z, &y);
+            let change = |gradient: &Gradient| {
                 let changes = blocks
                     .iter()
                     .map(|b| b.change(&gradient.data, b.known_to()));
@@ -154,10 +155,11 @@ impl Question<'_> {
                 let by_start = by_start.iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
                 changes.chain(by_start).sum::<f64>()
             };
-            let of_rows = |z: &Matrix| (0..z.nrows()).map(|k| of_vector(z.row(k))).collect();
-            let [all, each]: [Vec<f64>; 2] = bases.each_ref().map(of_rows);
-            let all = all.into_iter().fold(0.0, f64::hypot);
-            known[i] = each.into_iter().fold(all, f64::max);
+            let at_y = |forces| pose.gradient_at(forces, &y);
+            let gradients: Vec<Gradient> = forces.iter().map(at_y).collect();
+            let all = gradients.iter().map(change).fold(0.0, f64::hypot);
+            let each = (0..single.nrows()).map(|j| Gradient::sum(&gradients, single.row(j)));
+            known[i] = each.map(|gradient| change(&gradient)).fold(all, f64::max);
         }
         known
     }

@@ -21,7 +21,7 @@ struct Fundamental {
     t: Vec<f64>,
     /// The dependency `e_s − Σ t_k·e_k`, one value for each row.
     z: Vec<f64>,
-    /// `C_K⁺`
+    /// `(C_K⁺)ᵀ`
     inverse: Matrix,
 }
 
@@ -54,8 +54,8 @@ impl Fundamental {
         if qr.r_diagonal().any(|r| r == 0.0) {
             return None;
         }
-        let inverse = qr.pseudo_inverse();
-        let t = inverse.transpose_times(scaled.row(largest));
+        let inverse = qr.transposed_pseudo_inverse();
+        let t = inverse.times(scaled.row(largest));
         let mut z = vec![0.0; scaled.nrows()];
         z[largest] = 1.0;
         for (&row, t) in kept.iter().zip(&t) {
@@ -86,8 +86,7 @@ impl Question<'_> {
                 return true;
             };
             (0..of.kept.len()).any(|k| {
-                let column: Vec<f64> = (0..scaled.ncols()).map(|j| of.inverse[(j, k)]).collect();
-                let gradient = pose.gradient_between(&of.z, &column).data;
+                let gradient = pose.gradient_between(&of.z, of.inverse.row(k)).data;
                 let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
                 let rounding = decision
                     .row_rounding(of.kept[k])

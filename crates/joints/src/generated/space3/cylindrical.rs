@@ -418,6 +418,7 @@ impl<T: Ring> Element<T, Space3> for Cylindrical {
     }
     /// Φ. Operations: 48 mul, 41 add, 2 neg.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -484,6 +485,7 @@ impl<T: Ring> Element<T, Space3> for Cylindrical {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 132 mul, 93 add, 16 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -606,6 +608,7 @@ impl<T: Ring> Element<T, Space3> for Cylindrical {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 228 mul, 173 add, 2 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -757,6 +760,7 @@ impl<T: Ring> Element<T, Space3> for Cylindrical {
     where
         T: Real,
     {
+        let out = &mut out[..18];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -901,6 +905,7 @@ impl<T: Ring> Element<T, Space3> for Cylindrical {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 138 mul, 93 add, 6 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1011,6 +1016,7 @@ impl<T: Ring> Element<T, Space3> for Cylindrical {
 impl<T: Ring> Derivatives<T, Space3> for Cylindrical {
     /// ∂(Cᵀλ)/∂x. Operations: 612 mul, 390 add, 31 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..72];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1382,6 +1388,7 @@ impl<T: Ring> Derivatives<T, Space3> for Cylindrical {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..36];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1670,6 +1677,7 @@ impl<T: Ring> Derivatives<T, Space3> for Cylindrical {
     }
     /// ∂Γ/∂v. Operations: 357 mul, 321 add, 20 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1967,6 +1975,7 @@ impl<T: Ring> Derivatives<T, Space3> for Cylindrical {
     }
     /// ∂(C·v − b)/∂x. Operations: 297 mul, 222 add, 16 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2161,6 +2170,7 @@ impl<T: Ring> Derivatives<T, Space3> for Cylindrical {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2947,6 +2957,7 @@ impl<T: Ring> Element<T, Space3> for CylindricalDisplacementDrive {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 54 mul, 45 add, 6 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3116,6 +3127,7 @@ impl<T: Ring> Element<T, Space3> for CylindricalDisplacementDrive {
     where
         T: Real,
     {
+        let out = &mut out[..6];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3214,6 +3226,7 @@ impl<T: Ring> Element<T, Space3> for CylindricalDisplacementDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 51 mul, 36 add, 6 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..13];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3286,6 +3299,7 @@ impl<T: Ring> Element<T, Space3> for CylindricalDisplacementDrive {
 impl<T: Ring> Derivatives<T, Space3> for CylindricalDisplacementDrive {
     /// ∂(Cᵀλ)/∂x. Operations: 222 mul, 117 add, 31 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..72];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3489,6 +3503,7 @@ impl<T: Ring> Derivatives<T, Space3> for CylindricalDisplacementDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3648,6 +3663,7 @@ impl<T: Ring> Derivatives<T, Space3> for CylindricalDisplacementDrive {
     }
     /// ∂Γ/∂v. Operations: 156 mul, 141 add, 6 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3795,6 +3811,7 @@ impl<T: Ring> Derivatives<T, Space3> for CylindricalDisplacementDrive {
     }
     /// ∂(C·v − b)/∂x. Operations: 129 mul, 102 add, 6 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3911,6 +3928,7 @@ impl<T: Ring> Derivatives<T, Space3> for CylindricalDisplacementDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..13];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -4420,6 +4438,7 @@ impl<T: Ring> Element<T, Space3> for CylindricalAngleDrive {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 114 mul, 66 add, 2 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -4654,6 +4673,7 @@ impl<T: Ring> Element<T, Space3> for CylindricalAngleDrive {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -4784,6 +4804,7 @@ impl<T: Ring> Element<T, Space3> for CylindricalAngleDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 133 mul, 73 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..13];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -4891,6 +4912,7 @@ impl<T: Ring> Element<T, Space3> for CylindricalAngleDrive {
 impl<T: Ring> Derivatives<T, Space3> for CylindricalAngleDrive {
     /// ∂(Cᵀλ)/∂x. Operations: 495 mul, 255 add, 22 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -5176,6 +5198,7 @@ impl<T: Ring> Derivatives<T, Space3> for CylindricalAngleDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -5416,6 +5439,7 @@ impl<T: Ring> Derivatives<T, Space3> for CylindricalAngleDrive {
     }
     /// ∂Γ/∂v. Operations: 291 mul, 234 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -5614,6 +5638,7 @@ impl<T: Ring> Derivatives<T, Space3> for CylindricalAngleDrive {
     }
     /// ∂(C·v − b)/∂x. Operations: 270 mul, 171 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -5766,6 +5791,7 @@ impl<T: Ring> Derivatives<T, Space3> for CylindricalAngleDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..13];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

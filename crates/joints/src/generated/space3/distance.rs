@@ -403,6 +403,7 @@ impl<T: Ring> Element<T, Space3> for Distance {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 66 mul, 51 add, 5 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -581,6 +582,7 @@ impl<T: Ring> Element<T, Space3> for Distance {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -654,6 +656,7 @@ impl<T: Ring> Element<T, Space3> for Distance {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 57 mul, 49 add, 1 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..7];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -733,6 +736,7 @@ impl<T: Ring> Element<T, Space3> for Distance {
 impl<T: Ring> Derivatives<T, Space3> for Distance {
     /// ∂(Cᵀλ)/∂x. Operations: 296 mul, 129 add, 39 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..120];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1009,6 +1013,7 @@ impl<T: Ring> Derivatives<T, Space3> for Distance {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1196,6 +1201,7 @@ impl<T: Ring> Derivatives<T, Space3> for Distance {
     }
     /// ∂Γ/∂v. Operations: 189 mul, 168 add, 6 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1357,6 +1363,7 @@ impl<T: Ring> Derivatives<T, Space3> for Distance {
     }
     /// ∂(C·v − b)/∂x. Operations: 168 mul, 132 add, 6 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1492,6 +1499,7 @@ impl<T: Ring> Derivatives<T, Space3> for Distance {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..7];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2088,6 +2096,7 @@ impl<T: Ring> Element<T, Space3> for DistanceLengthDrive {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 90 mul, 51 add, 6 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2289,6 +2298,7 @@ impl<T: Ring> Element<T, Space3> for DistanceLengthDrive {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2367,6 +2377,7 @@ impl<T: Ring> Element<T, Space3> for DistanceLengthDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 57 mul, 38 add, 4 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..7];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2435,6 +2446,7 @@ impl<T: Ring> Element<T, Space3> for DistanceLengthDrive {
 impl<T: Ring> Derivatives<T, Space3> for DistanceLengthDrive {
     /// ∂(Cᵀλ)/∂x. Operations: 263 mul, 159 add, 33 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..120];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2780,6 +2792,7 @@ impl<T: Ring> Derivatives<T, Space3> for DistanceLengthDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3168,6 +3181,7 @@ impl<T: Ring> Derivatives<T, Space3> for DistanceLengthDrive {
     }
     /// ∂Γ/∂v. Operations: 252 mul, 198 add, 6 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3376,6 +3390,7 @@ impl<T: Ring> Derivatives<T, Space3> for DistanceLengthDrive {
     }
     /// ∂(C·v − b)/∂x. Operations: 234 mul, 162 add, 6 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3559,6 +3574,7 @@ impl<T: Ring> Derivatives<T, Space3> for DistanceLengthDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..7];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];

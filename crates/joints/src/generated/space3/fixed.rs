@@ -353,6 +353,7 @@ impl<T: Ring> Element<T, Space3> for Fixed {
     }
     /// Φ. Operations: 63 mul, 51 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -431,6 +432,7 @@ impl<T: Ring> Element<T, Space3> for Fixed {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..21];
         out[0] = 1.0;
         out[4] = -1.0;
         out[8] = 1.0;
@@ -440,6 +442,7 @@ impl<T: Ring> Element<T, Space3> for Fixed {
     }
     /// Varying entries of C. Operations: 144 mul, 84 add, 15 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..42];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -553,6 +556,7 @@ impl<T: Ring> Element<T, Space3> for Fixed {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 225 mul, 150 add, 6 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -693,6 +697,7 @@ impl<T: Ring> Element<T, Space3> for Fixed {
     where
         T: Real,
     {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -792,6 +797,7 @@ impl<T: Ring> Element<T, Space3> for Fixed {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 144 mul, 90 add, 5 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -895,6 +901,7 @@ impl<T: Ring> Element<T, Space3> for Fixed {
 impl<T: Ring> Derivatives<T, Space3> for Fixed {
     /// ∂(Cᵀλ)/∂x. Operations: 540 mul, 336 add, 22 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1181,6 +1188,7 @@ impl<T: Ring> Derivatives<T, Space3> for Fixed {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1442,6 +1450,7 @@ impl<T: Ring> Derivatives<T, Space3> for Fixed {
     }
     /// ∂Γ/∂v. Operations: 342 mul, 294 add, 21 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1718,6 +1727,7 @@ impl<T: Ring> Derivatives<T, Space3> for Fixed {
     }
     /// ∂(C·v − b)/∂x. Operations: 288 mul, 186 add, 15 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1890,6 +1900,7 @@ impl<T: Ring> Derivatives<T, Space3> for Fixed {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

@@ -125,6 +125,7 @@ impl<T: Ring> Element<T, Space3> for KnifeEdge {
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Constant entries of C. Operations: 6 mul, 3 add, 1 neg.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..6];
         let s_x = self.s[0];
         let s_y = self.s[1];
         let s_z = self.s[2];
@@ -137,6 +138,7 @@ impl<T: Ring> Element<T, Space3> for KnifeEdge {
     }
     /// Varying entries of C. Operations: 9 mul, 6 add.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -199,6 +201,7 @@ impl<T: Ring> Element<T, Space3> for KnifeEdge {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -270,6 +273,7 @@ impl<T: Ring> Element<T, Space3> for KnifeEdge {
     }
     /// ∂(λᵀΦ)/∂p. Operations: none.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..6];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
         out[2] = T::from(0.0);
@@ -283,6 +287,7 @@ impl<T: Ring> Element<T, Space3> for KnifeEdge {
 impl<T: Ring> Derivatives<T, Space3> for KnifeEdge {
     /// ∂(Cᵀλ)/∂x. Operations: 27 mul, 9 add, 6 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..9];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -315,6 +320,7 @@ impl<T: Ring> Derivatives<T, Space3> for KnifeEdge {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -360,6 +366,7 @@ impl<T: Ring> Derivatives<T, Space3> for KnifeEdge {
     }
     /// ∂Γ/∂v. Operations: 54 mul, 48 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -414,6 +421,7 @@ impl<T: Ring> Derivatives<T, Space3> for KnifeEdge {
     }
     /// ∂(C·v − b)/∂x. Operations: 27 mul, 21 add, 1 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -458,6 +466,7 @@ impl<T: Ring> Derivatives<T, Space3> for KnifeEdge {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

@@ -243,6 +243,7 @@ impl<T: Ring> Element<T, Space3> for Orientation {
     }
     /// Φ. Operations: 45 mul, 30 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -302,6 +303,7 @@ impl<T: Ring> Element<T, Space3> for Orientation {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 108 mul, 66 add, 6 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -391,6 +393,7 @@ impl<T: Ring> Element<T, Space3> for Orientation {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 183 mul, 123 add, 3 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -507,6 +510,7 @@ impl<T: Ring> Element<T, Space3> for Orientation {
     where
         T: Real,
     {
+        let out = &mut out[..9];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -588,6 +592,7 @@ impl<T: Ring> Element<T, Space3> for Orientation {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 126 mul, 78 add, 2 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -682,6 +687,7 @@ impl<T: Ring> Element<T, Space3> for Orientation {
 impl<T: Ring> Derivatives<T, Space3> for Orientation {
     /// ∂(Cᵀλ)/∂x. Operations: 504 mul, 300 add, 16 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -946,6 +952,7 @@ impl<T: Ring> Derivatives<T, Space3> for Orientation {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1165,6 +1172,7 @@ impl<T: Ring> Derivatives<T, Space3> for Orientation {
     }
     /// ∂Γ/∂v. Operations: 270 mul, 234 add, 12 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1372,6 +1380,7 @@ impl<T: Ring> Derivatives<T, Space3> for Orientation {
     }
     /// ∂(C·v − b)/∂x. Operations: 240 mul, 162 add, 6 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1514,6 +1523,7 @@ impl<T: Ring> Derivatives<T, Space3> for Orientation {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

@@ -205,6 +205,7 @@ impl<T: Ring> Element<T, Space3> for Parallel {
     }
     /// Φ. Operations: 24 mul, 16 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -248,6 +249,7 @@ impl<T: Ring> Element<T, Space3> for Parallel {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 78 mul, 48 add, 4 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -319,6 +321,7 @@ impl<T: Ring> Element<T, Space3> for Parallel {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 108 mul, 72 add, 2 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -401,6 +404,7 @@ impl<T: Ring> Element<T, Space3> for Parallel {
     where
         T: Real,
     {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -464,6 +468,7 @@ impl<T: Ring> Element<T, Space3> for Parallel {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 90 mul, 54 add, 2 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -539,6 +544,7 @@ impl<T: Ring> Element<T, Space3> for Parallel {
 impl<T: Ring> Derivatives<T, Space3> for Parallel {
     /// ∂(Cᵀλ)/∂x. Operations: 345 mul, 195 add, 16 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -731,6 +737,7 @@ impl<T: Ring> Derivatives<T, Space3> for Parallel {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -899,6 +906,7 @@ impl<T: Ring> Derivatives<T, Space3> for Parallel {
     }
     /// ∂Γ/∂v. Operations: 195 mul, 168 add, 8 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1055,6 +1063,7 @@ impl<T: Ring> Derivatives<T, Space3> for Parallel {
     }
     /// ∂(C·v − b)/∂x. Operations: 174 mul, 117 add, 4 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1167,6 +1176,7 @@ impl<T: Ring> Derivatives<T, Space3> for Parallel {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

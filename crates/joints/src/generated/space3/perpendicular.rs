@@ -236,6 +236,7 @@ impl<T: Ring> Element<T, Space3> for Perpendicular {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 48 mul, 30 add, 2 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -358,6 +359,7 @@ impl<T: Ring> Element<T, Space3> for Perpendicular {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -412,6 +414,7 @@ impl<T: Ring> Element<T, Space3> for Perpendicular {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 42 mul, 24 add.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -465,6 +468,7 @@ impl<T: Ring> Element<T, Space3> for Perpendicular {
 impl<T: Ring> Derivatives<T, Space3> for Perpendicular {
     /// ∂(Cᵀλ)/∂x. Operations: 210 mul, 102 add, 16 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -602,6 +606,7 @@ impl<T: Ring> Derivatives<T, Space3> for Perpendicular {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -719,6 +724,7 @@ impl<T: Ring> Derivatives<T, Space3> for Perpendicular {
     }
     /// ∂Γ/∂v. Operations: 120 mul, 102 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -823,6 +829,7 @@ impl<T: Ring> Derivatives<T, Space3> for Perpendicular {
     }
     /// ∂(C·v − b)/∂x. Operations: 108 mul, 72 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -906,6 +913,7 @@ impl<T: Ring> Derivatives<T, Space3> for Perpendicular {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

@@ -333,6 +333,7 @@ impl<T: Ring> Element<T, Space3> for Planar {
     }
     /// Φ. Operations: 45 mul, 39 add, 1 neg.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -402,6 +403,7 @@ impl<T: Ring> Element<T, Space3> for Planar {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 132 mul, 93 add, 10 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -521,6 +523,7 @@ impl<T: Ring> Element<T, Space3> for Planar {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 216 mul, 157 add, 2 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -668,6 +671,7 @@ impl<T: Ring> Element<T, Space3> for Planar {
     where
         T: Real,
     {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -794,6 +798,7 @@ impl<T: Ring> Element<T, Space3> for Planar {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 141 mul, 93 add, 6 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -912,6 +917,7 @@ impl<T: Ring> Element<T, Space3> for Planar {
 impl<T: Ring> Derivatives<T, Space3> for Planar {
     /// ∂(Cᵀλ)/∂x. Operations: 579 mul, 354 add, 25 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..72];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1273,6 +1279,7 @@ impl<T: Ring> Derivatives<T, Space3> for Planar {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..24];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1567,6 +1574,7 @@ impl<T: Ring> Derivatives<T, Space3> for Planar {
     }
     /// ∂Γ/∂v. Operations: 351 mul, 309 add, 14 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1845,6 +1853,7 @@ impl<T: Ring> Derivatives<T, Space3> for Planar {
     }
     /// ∂(C·v − b)/∂x. Operations: 303 mul, 219 add, 10 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2048,6 +2057,7 @@ impl<T: Ring> Derivatives<T, Space3> for Planar {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];

@@ -309,6 +309,7 @@ impl<T: Ring> Element<T, Space3> for PointOnLine {
     }
     /// Φ. Operations: 24 mul, 25 add, 2 neg.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -361,6 +362,7 @@ impl<T: Ring> Element<T, Space3> for PointOnLine {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 90 mul, 69 add, 12 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -459,6 +461,7 @@ impl<T: Ring> Element<T, Space3> for PointOnLine {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 144 mul, 113 add.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..2];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -574,6 +577,7 @@ impl<T: Ring> Element<T, Space3> for PointOnLine {
     where
         T: Real,
     {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -694,6 +698,7 @@ impl<T: Ring> Element<T, Space3> for PointOnLine {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 84 mul, 60 add, 5 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..9];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -781,6 +786,7 @@ impl<T: Ring> Element<T, Space3> for PointOnLine {
 impl<T: Ring> Derivatives<T, Space3> for PointOnLine {
     /// ∂(Cᵀλ)/∂x. Operations: 369 mul, 225 add, 31 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..72];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1048,6 +1054,7 @@ impl<T: Ring> Derivatives<T, Space3> for PointOnLine {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..24];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1267,6 +1274,7 @@ impl<T: Ring> Derivatives<T, Space3> for PointOnLine {
     }
     /// ∂Γ/∂v. Operations: 252 mul, 225 add, 12 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1483,6 +1491,7 @@ impl<T: Ring> Derivatives<T, Space3> for PointOnLine {
     }
     /// ∂(C·v − b)/∂x. Operations: 207 mul, 159 add, 12 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1638,6 +1647,7 @@ impl<T: Ring> Derivatives<T, Space3> for PointOnLine {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..9];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];

@@ -297,6 +297,7 @@ impl<T: Ring> Element<T, Space3> for PointOnPlane {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 54 mul, 45 add, 6 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -461,6 +462,7 @@ impl<T: Ring> Element<T, Space3> for PointOnPlane {
     where
         T: Real,
     {
+        let out = &mut out[..6];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -557,6 +559,7 @@ impl<T: Ring> Element<T, Space3> for PointOnPlane {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 45 mul, 33 add, 6 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..9];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -622,6 +625,7 @@ impl<T: Ring> Element<T, Space3> for PointOnPlane {
 impl<T: Ring> Derivatives<T, Space3> for PointOnPlane {
     /// ∂(Cᵀλ)/∂x. Operations: 222 mul, 117 add, 31 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..72];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -825,6 +829,7 @@ impl<T: Ring> Derivatives<T, Space3> for PointOnPlane {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -984,6 +989,7 @@ impl<T: Ring> Derivatives<T, Space3> for PointOnPlane {
     }
     /// ∂Γ/∂v. Operations: 156 mul, 141 add, 6 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1131,6 +1137,7 @@ impl<T: Ring> Derivatives<T, Space3> for PointOnPlane {
     }
     /// ∂(C·v − b)/∂x. Operations: 129 mul, 102 add, 6 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1247,6 +1254,7 @@ impl<T: Ring> Derivatives<T, Space3> for PointOnPlane {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..9];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];

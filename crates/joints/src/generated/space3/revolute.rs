@@ -340,6 +340,7 @@ impl<T: Ring> Element<T, Space3> for Revolute {
     }
     /// Φ. Operations: 42 mul, 37 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..5];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -402,6 +403,7 @@ impl<T: Ring> Element<T, Space3> for Revolute {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..21];
         out[0] = 1.0;
         out[4] = -1.0;
         out[8] = 1.0;
@@ -411,6 +413,7 @@ impl<T: Ring> Element<T, Space3> for Revolute {
     }
     /// Varying entries of C. Operations: 114 mul, 66 add, 13 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -506,6 +509,7 @@ impl<T: Ring> Element<T, Space3> for Revolute {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 150 mul, 99 add, 5 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..5];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -612,6 +616,7 @@ impl<T: Ring> Element<T, Space3> for Revolute {
     where
         T: Real,
     {
+        let out = &mut out[..9];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -693,6 +698,7 @@ impl<T: Ring> Element<T, Space3> for Revolute {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 108 mul, 66 add, 5 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -777,6 +783,7 @@ impl<T: Ring> Element<T, Space3> for Revolute {
 impl<T: Ring> Derivatives<T, Space3> for Revolute {
     /// ∂(Cᵀλ)/∂x. Operations: 393 mul, 237 add, 22 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -996,6 +1003,7 @@ impl<T: Ring> Derivatives<T, Space3> for Revolute {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..30];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1206,6 +1214,7 @@ impl<T: Ring> Derivatives<T, Space3> for Revolute {
     }
     /// ∂Γ/∂v. Operations: 267 mul, 228 add, 17 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..30];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1429,6 +1438,7 @@ impl<T: Ring> Derivatives<T, Space3> for Revolute {
     }
     /// ∂(C·v − b)/∂x. Operations: 222 mul, 141 add, 13 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..30];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1571,6 +1581,7 @@ impl<T: Ring> Derivatives<T, Space3> for Revolute {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -2153,6 +2164,7 @@ impl<T: Ring> Element<T, Space3> for RevoluteAngleDrive {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 114 mul, 66 add, 2 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -2387,6 +2399,7 @@ impl<T: Ring> Element<T, Space3> for RevoluteAngleDrive {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -2517,6 +2530,7 @@ impl<T: Ring> Element<T, Space3> for RevoluteAngleDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 133 mul, 73 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..13];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -2624,6 +2638,7 @@ impl<T: Ring> Element<T, Space3> for RevoluteAngleDrive {
 impl<T: Ring> Derivatives<T, Space3> for RevoluteAngleDrive {
     /// ∂(Cᵀλ)/∂x. Operations: 495 mul, 255 add, 22 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -2909,6 +2924,7 @@ impl<T: Ring> Derivatives<T, Space3> for RevoluteAngleDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -3149,6 +3165,7 @@ impl<T: Ring> Derivatives<T, Space3> for RevoluteAngleDrive {
     }
     /// ∂Γ/∂v. Operations: 291 mul, 234 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -3347,6 +3364,7 @@ impl<T: Ring> Derivatives<T, Space3> for RevoluteAngleDrive {
     }
     /// ∂(C·v − b)/∂x. Operations: 270 mul, 171 add, 2 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -3499,6 +3517,7 @@ impl<T: Ring> Derivatives<T, Space3> for RevoluteAngleDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..13];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

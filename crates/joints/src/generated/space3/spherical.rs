@@ -212,6 +212,7 @@ impl<T: Ring> Element<T, Space3> for Spherical {
     }
     /// Φ. Operations: 18 mul, 21 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -254,6 +255,7 @@ impl<T: Ring> Element<T, Space3> for Spherical {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..21];
         out[0] = 1.0;
         out[4] = -1.0;
         out[8] = 1.0;
@@ -263,6 +265,7 @@ impl<T: Ring> Element<T, Space3> for Spherical {
     }
     /// Varying entries of C. Operations: 36 mul, 18 add, 9 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -310,6 +313,7 @@ impl<T: Ring> Element<T, Space3> for Spherical {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 42 mul, 27 add, 3 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -364,6 +368,7 @@ impl<T: Ring> Element<T, Space3> for Spherical {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         out[0] = T::from(-1.0);
         out[1] = T::from(-1.0);
         out[2] = T::from(-1.0);
@@ -397,6 +402,7 @@ impl<T: Ring> Element<T, Space3> for Spherical {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 18 mul, 12 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -431,6 +437,7 @@ impl<T: Ring> Element<T, Space3> for Spherical {
 impl<T: Ring> Derivatives<T, Space3> for Spherical {
     /// ∂(Cᵀλ)/∂x. Operations: 36 mul, 18 add, 9 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -498,6 +505,7 @@ impl<T: Ring> Derivatives<T, Space3> for Spherical {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -573,6 +581,7 @@ impl<T: Ring> Derivatives<T, Space3> for Spherical {
     }
     /// ∂Γ/∂v. Operations: 72 mul, 60 add, 9 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -666,6 +675,7 @@ impl<T: Ring> Derivatives<T, Space3> for Spherical {
     }
     /// ∂(C·v − b)/∂x. Operations: 48 mul, 24 add, 9 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -731,6 +741,7 @@ impl<T: Ring> Derivatives<T, Space3> for Spherical {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

@@ -479,6 +479,7 @@ impl<T: Real> ForceElement<T, Space3> for SpringDamper {
     }
     /// Entries of Q. Operations: 85 mul, 72 add, 7 neg, 2 call.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -580,6 +581,7 @@ impl<T: Real> ForceElement<T, Space3> for SpringDamper {
     }
     /// ∂Q/∂x. Operations: 509 mul, 339 add, 59 neg, 2 call.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..144];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1017,6 +1019,7 @@ impl<T: Real> ForceElement<T, Space3> for SpringDamper {
     }
     /// ∂Q/∂v. Operations: 112 mul, 53 add, 37 neg, 2 call.
     fn dq_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..144];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];

@@ -62,6 +62,7 @@ impl<T: Real> ForceElement<T, Space3> for Torque {
     }
     /// Entries of Q. Operations: 9 mul, 6 add.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -80,6 +81,7 @@ impl<T: Real> ForceElement<T, Space3> for Torque {
     }
     /// ∂Q/∂x. Operations: 9 mul, 6 add, 3 neg.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

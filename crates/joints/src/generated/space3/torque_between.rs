@@ -75,6 +75,7 @@ impl<T: Real> ForceElement<T, Space3> for TorqueBetween {
     }
     /// Entries of Q. Operations: 18 mul, 12 add, 3 neg.
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -105,6 +106,7 @@ impl<T: Real> ForceElement<T, Space3> for TorqueBetween {
     }
     /// ∂Q/∂x. Operations: 18 mul, 12 add, 6 neg.
     fn dq_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

@@ -431,6 +431,7 @@ impl<T: Ring> Element<T, Space3> for Translational {
     }
     /// Φ. Operations: 69 mul, 55 add, 2 neg.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..5];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -513,6 +514,7 @@ impl<T: Ring> Element<T, Space3> for Translational {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 162 mul, 111 add, 18 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..42];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -653,6 +655,7 @@ impl<T: Ring> Element<T, Space3> for Translational {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 303 mul, 224 add, 3 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..5];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -837,6 +840,7 @@ impl<T: Ring> Element<T, Space3> for Translational {
     where
         T: Real,
     {
+        let out = &mut out[..21];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -999,6 +1003,7 @@ impl<T: Ring> Element<T, Space3> for Translational {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 174 mul, 117 add, 6 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1128,6 +1133,7 @@ impl<T: Ring> Element<T, Space3> for Translational {
 impl<T: Ring> Derivatives<T, Space3> for Translational {
     /// ∂(Cᵀλ)/∂x. Operations: 759 mul, 489 add, 31 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..72];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1563,6 +1569,7 @@ impl<T: Ring> Derivatives<T, Space3> for Translational {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..42];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1902,6 +1909,7 @@ impl<T: Ring> Derivatives<T, Space3> for Translational {
     }
     /// ∂Γ/∂v. Operations: 432 mul, 387 add, 24 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..42];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2247,6 +2255,7 @@ impl<T: Ring> Derivatives<T, Space3> for Translational {
     }
     /// ∂(C·v − b)/∂x. Operations: 363 mul, 267 add, 18 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..42];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2471,6 +2480,7 @@ impl<T: Ring> Derivatives<T, Space3> for Translational {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3344,6 +3354,7 @@ impl<T: Ring> Element<T, Space3> for TranslationalDisplacementDrive {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 54 mul, 45 add, 6 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3513,6 +3524,7 @@ impl<T: Ring> Element<T, Space3> for TranslationalDisplacementDrive {
     where
         T: Real,
     {
+        let out = &mut out[..6];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3611,6 +3623,7 @@ impl<T: Ring> Element<T, Space3> for TranslationalDisplacementDrive {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 51 mul, 36 add, 6 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..13];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3683,6 +3696,7 @@ impl<T: Ring> Element<T, Space3> for TranslationalDisplacementDrive {
 impl<T: Ring> Derivatives<T, Space3> for TranslationalDisplacementDrive {
     /// ∂(Cᵀλ)/∂x. Operations: 222 mul, 117 add, 31 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..72];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -3886,6 +3900,7 @@ impl<T: Ring> Derivatives<T, Space3> for TranslationalDisplacementDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -4045,6 +4060,7 @@ impl<T: Ring> Derivatives<T, Space3> for TranslationalDisplacementDrive {
     }
     /// ∂Γ/∂v. Operations: 156 mul, 141 add, 6 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -4192,6 +4208,7 @@ impl<T: Ring> Derivatives<T, Space3> for TranslationalDisplacementDrive {
     }
     /// ∂(C·v − b)/∂x. Operations: 129 mul, 102 add, 6 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..12];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -4308,6 +4325,7 @@ impl<T: Ring> Derivatives<T, Space3> for TranslationalDisplacementDrive {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..13];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];

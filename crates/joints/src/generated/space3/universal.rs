@@ -326,6 +326,7 @@ impl<T: Ring> Element<T, Space3> for Universal {
     }
     /// Φ. Operations: 39 mul, 35 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -386,6 +387,7 @@ impl<T: Ring> Element<T, Space3> for Universal {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..21];
         out[0] = 1.0;
         out[4] = -1.0;
         out[8] = 1.0;
@@ -395,6 +397,7 @@ impl<T: Ring> Element<T, Space3> for Universal {
     }
     /// Varying entries of C. Operations: 84 mul, 48 add, 11 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..30];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -472,6 +475,7 @@ impl<T: Ring> Element<T, Space3> for Universal {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 129 mul, 84 add, 4 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -565,6 +569,7 @@ impl<T: Ring> Element<T, Space3> for Universal {
     where
         T: Real,
     {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -637,6 +642,7 @@ impl<T: Ring> Element<T, Space3> for Universal {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 60 mul, 36 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -699,6 +705,7 @@ impl<T: Ring> Element<T, Space3> for Universal {
 impl<T: Ring> Derivatives<T, Space3> for Universal {
     /// ∂(Cᵀλ)/∂x. Operations: 246 mul, 138 add, 22 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -857,6 +864,7 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..24];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1016,6 +1024,7 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
     }
     /// ∂Γ/∂v. Operations: 192 mul, 162 add, 13 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1187,6 +1196,7 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
     }
     /// ∂(C·v − b)/∂x. Operations: 156 mul, 96 add, 11 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1300,6 +1310,7 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..12];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

@@ -135,6 +135,7 @@ impl<T: Ring> Element<T, Space3> for Velocity {
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Constant entries of C. Operations: 6 mul, 3 add, 1 neg.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..6];
         let s_x = self.s[0];
         let s_y = self.s[1];
         let s_z = self.s[2];
@@ -147,6 +148,7 @@ impl<T: Ring> Element<T, Space3> for Velocity {
     }
     /// Varying entries of C. Operations: 9 mul, 6 add.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -215,6 +217,7 @@ impl<T: Ring> Element<T, Space3> for Velocity {
     where
         T: Real,
     {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -266,6 +269,7 @@ impl<T: Ring> Element<T, Space3> for Velocity {
     }
     /// ∂(λᵀΦ)/∂p. Operations: none.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..6];
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
         out[2] = T::from(0.0);
@@ -279,6 +283,7 @@ impl<T: Ring> Element<T, Space3> for Velocity {
 impl<T: Ring> Derivatives<T, Space3> for Velocity {
     /// ∂(Cᵀλ)/∂x. Operations: 27 mul, 9 add, 6 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..9];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -320,6 +325,7 @@ impl<T: Ring> Derivatives<T, Space3> for Velocity {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -365,6 +371,7 @@ impl<T: Ring> Derivatives<T, Space3> for Velocity {
     }
     /// ∂Γ/∂v. Operations: 54 mul, 48 add, 4 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -422,6 +429,7 @@ impl<T: Ring> Derivatives<T, Space3> for Velocity {
     }
     /// ∂(C·v − b)/∂x. Operations: 27 mul, 21 add, 1 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -466,6 +474,7 @@ impl<T: Ring> Derivatives<T, Space3> for Velocity {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

@@ -408,6 +408,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
     fn c_constant(&self, out: &mut [f64]) {}
     /// Varying entries of C. Operations: 174 mul, 91 add, 7 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -517,6 +518,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 207 mul, 139 add, 1 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -654,6 +656,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
     where
         T: Real,
     {
+        let out = &mut out[..18];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -792,6 +795,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
     }
     /// Coefficients of the named component. Operations: 48 mul, 32 add, 1 neg.
     fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -895,6 +899,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 78 mul, 34 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..13];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -972,6 +977,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
 impl<T: Ring> Derivatives<T, Space3> for Wheel {
     /// ∂(Cᵀλ)/∂x. Operations: 658 mul, 460 add, 9 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1393,6 +1399,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..18];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -1822,6 +1829,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
     }
     /// ∂Γ/∂v. Operations: 553 mul, 375 add, 8 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2126,6 +2134,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
     }
     /// ∂(C·v − b)/∂x. Operations: 415 mul, 264 add, 9 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2369,6 +2378,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..13];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];

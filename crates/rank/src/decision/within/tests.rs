@@ -70,12 +70,13 @@ fn a_lower_rank_within_the_data_is_not_exact() {
             rank,
             status: RankStatus::Decided,
             scaling: scaling.clone(),
+            matrix: Spectrum::of(scaling.apply(&rows)),
             noise: 0.0,
             separation: 0.0,
             grounds,
         };
         let c = DdMatrix::from(&rows);
-        certify_rank(&c, &Matrix::zeros(1, 2), reading)
+        certify_rank(&c, &Matrix::zeros(1, 2), &reading)
             .unwrap()
             .unwrap()
     };
