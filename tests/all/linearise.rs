@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use linalg::{Matrix, eigenpairs};
 use model::Registry;
-use pfaff::dynamics::linearise::{Linearisation, LineariseError, LineariseOptions};
+use pfaff::dynamics::linearise::{Linearisation, LineariseError, LineariseOptions, Stability};
 use pfaff::{Overrides, Study, StudyError};
 
 fn study(text: &str) -> Study {
@@ -214,6 +214,83 @@ drive = [{ name = \"bumper\", joint = \"rail\", type = \"displacement\", force =
         matches!(refused, LineariseError::NotSmooth { ref body, .. } if body == "mass"),
         "{refused}"
     );
+}
+
+/// A rod on a pin, hanging or standing, with or without a damper.
+#[test]
+fn what_first_order_says_of_stability() {
+    let scene = |y: f64, damping: f64| {
+        format!(
+            "
+scene = {{ name = \"rod\", space = \"plane\", gravity = [0.0, -9.81] }}
+body = [{{ name = \"rod\", mass = 2.0, inertia = 0.5, position = [0.0, {y:?}] }}]
+joint = [{{ name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"rod\"], at = [0.0, 0.0] }}]
+force = [{{ name = \"oil\", type = \"torsion-spring-damper\", bodies = [\"ground\", \"rod\"], stiffness = 0.0, damping = {damping:?} }}]
+"
+        )
+    };
+    let said = |y, damping| {
+        let modes = linearised(&scene(y, damping)).modes().expect("converges");
+        Stability::of(&modes)
+    };
+    assert_eq!(said(-1.5, 0.3), Stability::Stable);
+    assert_eq!(said(-1.5, 0.0), Stability::Marginal);
+    assert_eq!(said(1.5, 0.3), Stability::Unstable);
+    let modes = linearised(&scene(-1.5, 0.3)).modes().expect("converges");
+    let [mode] = &modes[..] else {
+        panic!("{modes:?}")
+    };
+    // (J + m·l²)·ÿ + d·ẏ + m·g·l·y = 0
+    let (mass, stiffness): (f64, f64) = (5.0, 2.0 * 9.81 * 1.5);
+    let natural = (stiffness / mass).sqrt();
+    assert!((mode.natural_frequency() - natural).abs() < 1e-11);
+    let ratio = mode.damping_ratio().expect("not zero");
+    assert!(
+        (ratio - 0.3 / (2.0 * mass * natural)).abs() < 1e-12,
+        "{ratio}"
+    );
+}
+
+/// A pendulum of mass m with its mass centre l below a cart on a rail, which a drive moves:
+/// `(J + m·l²)·φ̈ = −m·g·l·φ − m·l·ẍ`, and a force on the bob along x gives `l/(J + m·l²)`.
+#[test]
+fn drives_and_forces_are_inputs() {
+    let text = "
+scene = { name = \"cart\", space = \"plane\", gravity = [0.0, -9.81] }
+body = [
+  { name = \"cart\", mass = 3.0, inertia = 1.0 },
+  { name = \"rod\", mass = 2.0, inertia = 0.5, position = [0.0, -1.5] },
+]
+joint = [
+  { name = \"rail\", type = \"translational\", bodies = [\"ground\", \"cart\"], at = [0.0, 0.0], axis = [1.0, 0.0] },
+  { name = \"pin\", type = \"revolute\", bodies = [\"cart\", \"rod\"], at = [0.0, 0.0] },
+]
+drive = [{ name = \"motor\", joint = \"rail\", type = \"displacement\", motion = { type = \"polynomial\", coefficients = [0.0] } }]
+force = [{ name = \"push\", type = \"point-force\", body = \"rod\", point = [0.0, 0.0], force = [0.0, 0.0] }]
+";
+    let x = linearised(text);
+    let names: Vec<String> = x
+        .inputs
+        .iter()
+        .map(|i| format!("{}.{}", i.name, i.what))
+        .collect();
+    let expected = [
+        ("motor.value", 0.0),
+        ("motor.rate", 0.0),
+        ("motor.acceleration", -2.0 * 1.5 / 5.0),
+        ("push.force.x", 1.5 / 5.0),
+        ("push.force.y", 0.0),
+    ];
+    assert_eq!(names, expected.map(|(name, _)| name));
+    assert_eq!([x.positions.len(), x.velocities.len()], [1, 1]);
+    for (k, (name, rate)) in expected.iter().enumerate() {
+        assert!(x.b[(0, k)].abs() < 1e-13, "{name}");
+        assert!(
+            (x.b[(1, k)] - rate).abs() < 1e-12,
+            "{name}: {}",
+            x.b[(1, k)]
+        );
+    }
 }
 
 /// The benchmark bicycle: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A. L. Schwab, Linearized

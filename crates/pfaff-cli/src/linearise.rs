@@ -6,7 +6,7 @@ use pfaff::dynamics::linearise::{Linearisation, LineariseOptions, Mode};
 use pfaff::model::System;
 use pfaff::report::documents::{LinearisationDocument, ModeDocument};
 use pfaff::report::{
-    Frame, MatrixTable, Recording, RunPage, TableError, modes_table, run_page, write_json,
+    Frame, MatrixTable, Recording, RunPage, Shows, TableError, modes_table, run_page, write_json,
 };
 use pfaff::{Overrides, Study};
 
@@ -20,8 +20,11 @@ use crate::simulate::origin;
 /// Modes with pages of their own: more are in the tables only.
 const PAGES: usize = 12;
 
-/// Frames of the page of a mode, over one period.
-const FRAMES: usize = 60;
+/// Frames of the page of a mode in one period.
+const FRAMES: usize = 40;
+
+/// Periods of the page of a mode.
+const PERIODS: usize = 8;
 
 /// The largest displacement of a mode on its page, as a share of the size of the mechanism or in
 /// radians.
@@ -128,7 +131,7 @@ fn page(study: &Study, found: &Linearisation, mode: &Mode, number: usize) -> Str
         rate => std::f64::consts::TAU / rate,
     };
     let mut recording = Recording::new(period, FRAMES as f64, 1);
-    for k in 0..=FRAMES {
+    for k in 0..=PERIODS * FRAMES {
         let share = k as f64 / FRAMES as f64;
         let shape = found.shape(mode, std::f64::consts::TAU * share, amplitude);
         let q = space.displaced(&found.q, 1.0, &shape);
@@ -136,21 +139,23 @@ fn page(study: &Study, found: &Linearisation, mode: &Mode, number: usize) -> Str
         recording.frames.push(frame);
     }
     let told = format!(
-        "mode {number}: eigenvalue {}; drawn enlarged, as first order has it",
+        "Mode {number} of small motions about t = {} s, with eigenvalue {} (1/s): drawn enlarged, and \
+         without decay or growth",
+        found.time,
         value(mode.value)
     );
     run_page(&RunPage {
         mechanism,
         analysis: None,
         hints: &[],
-        run: None,
+        shows: Shows::Mode(&told),
         recording: &recording,
         comparisons: &[],
         drives: &[],
         origin: &origin(),
         scene: pfaff::written_scene(&study.scene),
-        options: &[("mode".to_owned(), told.clone())],
-        left_out: &[told],
+        options: &[],
+        left_out: &[],
         work_precision: None,
     })
 }

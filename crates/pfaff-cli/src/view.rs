@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use pfaff::model::System;
 use pfaff::report::documents::ViewDocument;
 use pfaff::report::figures::{Labels, Marking, labelled_mechanism};
-use pfaff::report::{FileError, Frame, Recording, RunPage, is_ours, replace_file, run_page};
+use pfaff::report::{FileError, Frame, Recording, RunPage, Shows, is_ours, replace_file, run_page};
 
 use crate::args::View;
 use crate::console::Console;
@@ -94,7 +94,7 @@ fn page(start: &Start) -> String {
         mechanism: &start.mechanism,
         analysis: Some(&start.document),
         hints: &[],
-        run: None,
+        shows: Shows::Start,
         recording: &recording,
         comparisons: &[],
         drives: &[],

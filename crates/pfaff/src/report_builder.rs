@@ -8,7 +8,7 @@ use model::{Mechanism, Reaction, System};
 use rank::Limits;
 use report::documents::MakeUniqueDocument;
 use report::{
-    AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, WrittenScene,
+    AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, Shows, WrittenScene,
     numbers_per_row, run_page,
 };
 use scene::{Scene, Units, WithUnit};
@@ -119,7 +119,7 @@ impl<'a> ReportBuilder<'a> {
             mechanism,
             analysis: Some(&analysis),
             hints: &hints,
-            run: Some(run),
+            shows: Shows::Run(run),
             recording: &self.recording,
             comparisons: &comparisons,
             drives: &self.drives(),

@@ -22,7 +22,7 @@ mod verdicts;
 use model::Mechanism;
 
 pub use comparison::{ComparedChoice, Comparison, Freedom};
-pub use run_page::{DriveCurve, Origin, RunPage, WrittenScene};
+pub use run_page::{DriveCurve, Origin, RunPage, Shows, WrittenScene};
 
 /// Numbers in a row of a recording, including those that a page shows of it.
 #[must_use]

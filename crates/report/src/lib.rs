@@ -28,7 +28,7 @@ pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, wr
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile, is_ours, replace_file};
 pub use html::{
-    ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, WrittenScene,
+    ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, Shows, WrittenScene,
     numbers_per_row, run_page,
 };
 pub use recording::{Frame, Recording};

@@ -19,6 +19,7 @@ mod fragile;
 mod freedoms;
 mod language;
 mod library;
+mod linearise;
 mod man;
 mod new;
 mod own_joint;

@@ -238,7 +238,7 @@ impl<'a> Data<'a> {
                 .into_iter()
                 .filter_map(|si| Some((si, page.scene.unit(si)?)))
                 .collect(),
-            events: page.run.map_or(&[], |run| &run.events),
+            events: page.run().map_or(&[], |run| &run.events),
         }
     }
 }

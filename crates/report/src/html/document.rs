@@ -4,7 +4,7 @@
 use model::SpaceKind;
 
 use super::data::{Cast, Data};
-use super::run_page::RunPage;
+use super::run_page::{RunPage, Shows};
 use super::{inputs, verdicts};
 use crate::documents::{FreedomsDocument, RunDocument};
 use crate::figures::LOOKS;
@@ -36,13 +36,15 @@ pub(super) fn document(page: &RunPage<'_>) -> String {
     open(&mut out, page);
     head(&mut out, page);
     motion(&mut out, page);
-    verdicts::section(&mut out, page);
-    if let Some(run) = page.run {
+    if !matches!(page.shows, Shows::Mode(_)) {
+        verdicts::section(&mut out, page);
+    }
+    if let Some(run) = page.run() {
         curves(&mut out, page, run);
     }
     inputs::section(&mut out, page, &cast);
     out.push_str("</main>\n");
-    if page.run.is_some() {
+    if page.moves() {
         transport(&mut out);
     }
     close(&mut out, page, &cast);
@@ -70,15 +72,15 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         format_args!(
             "<header>\n<div class=\"head\"><div><p class=\"kicker\">{}</p>\n<h1>{}</h1></div>\n\
              <button id=\"theme\" type=\"button\">Dark</button></div>\n",
-            if page.run.is_some() {
-                "Motion and reactions"
-            } else {
-                "The start"
+            match page.shows {
+                Shows::Run(_) => "Motion and reactions",
+                Shows::Mode(_) => "A small motion",
+                Shows::Start => "The start",
             },
             safe(page.mechanism.name())
         ),
     );
-    if let Some(run) = page.run.filter(|run| run.partial) {
+    if let Some(run) = page.run().filter(|run| run.partial) {
         let why = run.error.as_deref().unwrap_or("it was interrupted");
         add(
             out,
@@ -114,8 +116,14 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         }
         out.push_str("</ul>\n");
     }
-    tiles(out, page);
-    let of_run = match page.run {
+    let verdicts = match page.shows {
+        Shows::Mode(_) => "",
+        _ => {
+            tiles(out, page);
+            "<a href=\"#verdicts\">Verdicts</a> "
+        }
+    };
+    let of_run = match page.run() {
         Some(_) => {
             "<a href=\"#reactions\">Reactions</a> <a href=\"#curves\">Curves and checks</a> "
         }
@@ -124,7 +132,7 @@ fn head(out: &mut String, page: &RunPage<'_>) {
     add(
         out,
         format_args!(
-            "<nav aria-label=\"Sections\"><a href=\"#motion\">{}</a> <a href=\"#verdicts\">Verdicts</a> {of_run}\
+            "<nav aria-label=\"Sections\"><a href=\"#motion\">{}</a> {verdicts}{of_run}\
              <a href=\"#inputs\">Inputs and versions</a></nav>\n</header>\n<main>\n",
             picture_title(page)
         ),
@@ -132,7 +140,7 @@ fn head(out: &mut String, page: &RunPage<'_>) {
 }
 
 fn picture_title(page: &RunPage<'_>) -> &'static str {
-    if page.run.is_some() {
+    if page.moves() {
         "Motion"
     } else {
         "Picture"
@@ -141,6 +149,9 @@ fn picture_title(page: &RunPage<'_>) -> &'static str {
 
 /// One or two sentences with the main result.
 fn answer(page: &RunPage<'_>) -> String {
+    if let Shows::Mode(words) = page.shows {
+        return safe(words);
+    }
     let all = page.verdicts();
     let of = |word: &str| -> Vec<&str> {
         let of_it = all.iter().filter(|(_, verdict, _)| *verdict == word);
@@ -283,7 +294,7 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
         0 => {}
         n => tiles.push((n.to_string(), "of them fragile")),
     }
-    if let Some(run) = page.run {
+    if let Some(run) = page.run() {
         tiles.push((format!("{} s", run.t_end), "of motion"));
         tiles.push((short(run.max_position_residual), "largest |Φ|"));
         tiles.push((short(run.energy_balance), "energy balance"));
@@ -339,7 +350,7 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
     out.push_str(
         "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div></fieldset>\n",
     );
-    if page.run.is_some() {
+    if page.run().is_some() {
         out.push_str(OF_RUN);
     }
     out.push_str(
@@ -347,7 +358,7 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
          <p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
          are unknown. Drag to move, Ctrl and wheel to zoom",
     );
-    if page.run.is_some() {
+    if page.run().is_some() {
         out.push_str(", click a joint for its reaction, a body for its trace");
     }
     out.push_str(".</p>\n</section>\n");
@@ -377,7 +388,7 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
             row(&MARK.replace("VERDICT", verdict), words);
         }
     }
-    if page.run.is_some() {
+    if page.run().is_some() {
         row(ARROW, "determined part, on the first body");
     }
     if !page.comparisons.is_empty() {

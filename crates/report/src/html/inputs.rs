@@ -23,7 +23,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
         pair(out, &safe(what), &safe(value));
     }
     out.push_str("</dl>\n");
-    if let Some(run) = page.run {
+    if let Some(run) = page.run() {
         of_run(out, run);
     }
     if let Some(text) = page.scene.text {
@@ -161,7 +161,7 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
             page.drives.len()
         ));
     }
-    if page.run.is_some() {
+    if page.run().is_some() {
         told.push(format!(
         "Each curve is rounded to 1/{} of its range; between rows the picture follows cubics through positions and velocities.",
         data::levels()

@@ -14,8 +14,8 @@ pub struct RunPage<'a> {
     pub analysis: Option<&'a AnalysisDocument>,
     /// Deletions that would make non-unique reactions unique.
     pub hints: &'a [MakeUniqueDocument],
-    /// Numbers of the run; `None` for the page of a start alone.
-    pub run: Option<&'a RunDocument>,
+    /// What it shows.
+    pub shows: Shows<'a>,
     /// Its rows.
     pub recording: &'a Recording,
     /// Non-unique reactions for several choices.
@@ -32,6 +32,17 @@ pub struct RunPage<'a> {
     pub left_out: &'a [String],
     /// Error against run time, as an SVG figure, if there is one.
     pub work_precision: Option<&'a str>,
+}
+
+/// What a page shows.
+#[derive(Clone, Copy)]
+pub enum Shows<'a> {
+    /// A start alone.
+    Start,
+    /// A run, with its numbers.
+    Run(&'a RunDocument),
+    /// A mode of small motions, with a sentence about it.
+    Mode(&'a str),
 }
 
 /// What a page tells of the text of a scene.
@@ -59,15 +70,28 @@ impl WrittenScene<'_> {
 }
 
 impl RunPage<'_> {
+    /// The numbers of the run, if it shows one.
+    pub(super) fn run(&self) -> Option<&RunDocument> {
+        match self.shows {
+            Shows::Run(run) => Some(run),
+            Shows::Start | Shows::Mode(_) => None,
+        }
+    }
+
+    /// Whether the picture moves.
+    pub(super) fn moves(&self) -> bool {
+        !matches!(self.shows, Shows::Start)
+    }
+
     /// The free motions at the start.
     pub(super) fn freedoms(&self) -> Option<&FreedomsDocument> {
-        let of_run = self.run.map(|run| &run.freedoms);
+        let of_run = self.run().map(|run| &run.freedoms);
         of_run.or(self.analysis.map(|a| &a.ranks.freedoms))
     }
 
     /// Joints and drives at the start: name, verdict, and whether they are fragile.
     pub(super) fn verdicts(&self) -> Vec<(&str, &'static str, bool)> {
-        match (self.run, self.analysis) {
+        match (self.run(), self.analysis) {
             (Some(run), _) => {
                 let all = run.reactions.0.iter();
                 all.map(|(name, r)| (name.as_str(), r.verdict.verdict, r.data.fragile))

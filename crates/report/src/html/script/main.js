@@ -376,7 +376,11 @@ function start() {
   setUpOptions(picture);
   placeNamesAtRest(picture);
   showSymbols();
-  if (byId("play")) setUpRun(picture, handlers);
+  if (byId("arrows")) setUpRun(picture, handlers);
+  else if (byId("play")) {
+    setUpTransport();
+    setUpKeys();
+  }
   clock.listeners.push((t) => picture.moveTo(t), (t) => charts.forEach((chart) => chart.moveTo(t)));
   clock.set(tFirst);
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();

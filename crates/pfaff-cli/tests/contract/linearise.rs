@@ -1,0 +1,96 @@
+//! `pfaff linearise`: words, documents, files, refusals.
+
+use serde_json::Value;
+
+use super::{Folder, pfaff, stderr, stdout, with_scene};
+
+/// A rod of 2 kg, 1.5 m below its pin, with a damper: `5·ÿ + 0.3·ẏ + 29.43·y = push`.
+const ROD: &str = r#"
+scene = { name = "rod", space = "plane", gravity = [0.0, -9.81] }
+body = [{ name = "rod", mass = 2.0, inertia = 0.5, position = [0.0, -1.5] }]
+joint = [{ name = "pin", type = "revolute", bodies = ["ground", "rod"], at = [0.0, 0.0] }]
+force = [
+    { name = "oil", type = "torsion-spring-damper", bodies = ["ground", "rod"], stiffness = 0.0, damping = 0.3 },
+    { name = "push", type = "torque", body = "rod", torque = 0.0 },
+]
+"#;
+
+#[test]
+fn a_rod_is_linearised_in_words_documents_and_files() {
+    let output = with_scene(&["linearise", "-"], ROD);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = stdout(&output);
+    for words in [
+        "rod at t = 0 s: 1 position, 1 velocity, 1 input",
+        "states: rod.angle (rad), rod.omega (rad/s)",
+        "inputs: push.torque",
+        "-0.030000 ± 2.425922i",
+        "stable: all small motions decay",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let folder = Folder::new("linearised");
+    let out = folder.path("modes");
+    let output = with_scene(&["linearise", "-", "--out", &out, "--json"], ROD);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("one document");
+    let number = |at: &str| d.pointer(at).and_then(Value::as_f64).expect("a number");
+    assert!((number("/second_order/stiffness/0/0") - 29.43).abs() < 1e-11);
+    assert!((number("/a/1/0") + 29.43 / 5.0).abs() < 1e-12);
+    assert!((number("/b/1/0") - 0.2).abs() < 1e-14);
+    assert!((number("/modes/0/real") + 0.03).abs() < 1e-12);
+    assert_eq!(d["stability"], "stable");
+    let read = |name: &str| {
+        let path = std::path::Path::new(&out).join(name);
+        std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"))
+    };
+    assert!(read("a.csv").starts_with("A,rod.angle,rod.omega\nrod.angle,"));
+    assert!(read("b.csv").starts_with("B,push.torque\nrod.angle,0\n"));
+    assert!(read("k.csv").starts_with("K,rod.angle\nrod.angle,29.4"));
+    assert!(read("modes.csv").starts_with("mode,real,imaginary,frequency,damping_ratio,"));
+    assert!(read("mode-1.html").contains("mode 1: eigenvalue -0.030000 ± 2.425922i"));
+    assert_eq!(read("linearisation.json"), stdout(&output));
+    // The same again replaces its own files.
+    let again = with_scene(&["linearise", "-", "--out", &out], ROD);
+    assert_eq!(again.status.code(), Some(0), "{}", stderr(&again));
+}
+
+#[test]
+fn what_cannot_be_linearised_is_refused_with_its_code() {
+    let aside = ROD.replace("[0.0, -1.5]", "[0.1, -1.5]");
+    for (arguments, scene, code, words) in [
+        (
+            &["linearise", "-"][..],
+            aside.as_str(),
+            "P0220",
+            "body `rod` accelerates by",
+        ),
+        (
+            &["linearise", "-", "--coordinates", "rod.y"],
+            ROD,
+            "P0222",
+            "`rod.y` is not independent",
+        ),
+        (
+            &["linearise", "-", "--coordinates", "bar.x"],
+            ROD,
+            "P0222",
+            "there is no body `bar`",
+        ),
+        (
+            &["linearise", "-", "--follow", "rod.angle"],
+            ROD,
+            "P0223",
+            "the motion depends on `rod.angle`",
+        ),
+    ] {
+        let output = with_scene(arguments, scene);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let text = stderr(&output);
+        assert!(
+            text.contains(code) && text.contains(words),
+            "{arguments:?}: {text}"
+        );
+    }
+    assert_eq!(pfaff(&["linearise"]).status.code(), Some(2));
+}
