@@ -4,6 +4,7 @@ mod adams;
 mod catalogue;
 mod drifts;
 mod motion;
+mod rolling;
 mod second_order;
 mod starts;
 mod verdicts;
