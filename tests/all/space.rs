@@ -6,5 +6,6 @@ mod drifts;
 mod motion;
 mod rolling;
 mod second_order;
+mod shafts;
 mod starts;
 mod verdicts;

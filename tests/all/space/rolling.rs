@@ -1,4 +1,4 @@
-//! Wheels with a tube, read from scenes: tori roll as Newton's and Euler's equations say.
+//! Wheels with a tube and balls, read from scenes: they roll as Newton's and Euler's equations say.
 
 use std::ops::ControlFlow;
 
@@ -140,6 +140,51 @@ fn a_leaning_torus_rolls_steadily() {
         let force = [inwards * out[0], inwards * out[1], mass * GRAVITY];
         close(&row.reaction.force, &force, "force of the contact");
         close(&row.reaction.torque, &[0.0; 3], "moment about the contact");
+    }
+}
+
+/// A ball on a slope, at first rolling across it and spinning about its normal: it falls with
+/// g·sin α·m·r²/(J + m·r²), keeps its velocity across and its spin, and the slope carries the rest of
+/// the weight at the contact.
+#[test]
+fn a_ball_rolls_down_a_slope() {
+    let (mass, moment, radius, slope) = (3.0, 0.5, 0.4, 0.3_f64);
+    let (sin, cos) = slope.sin_cos();
+    let (normal, down) = ([sin, 0.0, cos], [cos, 0.0, -sin]);
+    let (across, spin) = (0.7, 2.0);
+    // A velocity V along the plane goes with ω = n × V/r, and n × y is −x' along the slope.
+    let turning = [0, 1, 2].map(|k| spin * normal[k] - across / radius * down[k]);
+    let scene = format!(
+        "scene = {{ name = \"slope\", space = \"spatial\", gravity = [0, 0, -{GRAVITY}] }}\n\
+         body = [{{ name = \"ball\", mass = {mass}, inertia = [{moment}, {moment}, {moment}], \
+         position = [{}, 0, {}], velocity = [0, {across}, 0], angular_velocity = {turning:?} }}]\n\
+         joint = [{{ name = \"contact\", type = \"ball\", body = \"ball\", point = [0, 0, 0], radius = {radius}, \
+         plane = {{ point = [0, 0, 0], normal = [{sin}, 0, {cos}] }} }}]\n",
+        radius * sin,
+        radius * cos,
+    );
+    let along = GRAVITY * sin / (1.0 + moment / (mass * radius * radius));
+    for row in moved(&scene, 1.0) {
+        let (speed, way) = (along * row.t, 0.5 * along * row.t * row.t);
+        let fallen = [0, 1, 2].map(|k| radius * normal[k] + way * down[k]);
+        close(
+            &row.q[..3],
+            &[fallen[0], across * row.t, fallen[2]],
+            "place",
+        );
+        let velocity = [speed * down[0], across, speed * down[2]];
+        close(&row.v[..3], &velocity, "velocity");
+        let pose = Pose::new([0.0; 3], [row.q[3], row.q[4], row.q[5], row.q[6]]);
+        let omega = pose.direction_to_global([row.v[3], row.v[4], row.v[5]]);
+        // n × x' = y
+        let expected = [turning[0], speed / radius, turning[2]];
+        close(&omega, &expected, "turning");
+        let [pressure, friction] = [mass * GRAVITY * cos, mass * (GRAVITY * sin - along)];
+        let force = [0, 1, 2].map(|k| pressure * normal[k] - friction * down[k]);
+        close(&row.reaction.force, &force, "force of the contact");
+        close(&row.reaction.torque, &[0.0; 3], "moment about the contact");
+        let component = row.reaction.component.expect("N");
+        close(&[component], &[pressure], "N");
     }
 }
 

@@ -97,6 +97,14 @@ fn every_type_is_read_and_built() {
             format!("{wheel}\nplane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}"),
         ),
         ("wheel", format!("{wheel}\ntube = 0.1")),
+        (
+            "ball",
+            "body = \"c\"\npoint = [0, 0, 0.3]\nradius = 0.3".to_owned(),
+        ),
+        (
+            "constant-velocity",
+            format!("{AB}{place}\naxes = {{ a = [1, 0, 0], b = [1, 1, 0] }}"),
+        ),
     ];
     let forces = [
         (
@@ -127,7 +135,10 @@ fn every_type_is_read_and_built() {
         .iter()
         .map(|j| j.element.spec().rows.len())
         .collect();
-    assert_eq!(rows, [3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 3, 3, 3]);
+    assert_eq!(
+        rows,
+        [3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 3, 3, 3, 3, 4]
+    );
     assert_eq!(d.forces.len(), forces.len());
     assert!(Mechanism::build(&d).is_ok());
     let registry = Registry::standard();
@@ -286,6 +297,7 @@ fn a_joint_between_markers_has_their_places_and_axes() {
         ("orientation", [false, false]),
         ("parallel", [true, false]),
         ("universal", [true, true]),
+        ("constant-velocity", [false, true]),
         ("perpendicular", [true, true]),
         ("planar", [true, false]),
         ("point-on-line", [true, true]),

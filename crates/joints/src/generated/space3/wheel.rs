@@ -362,10 +362,12 @@ impl Definition<Space3> for Wheel {
         self.s = [numbers[0], numbers[1], numbers[2]];
         self.axis = Direction::from_data([numbers[3], numbers[4], numbers[5]]);
         self.radius = numbers[6];
-        self.plane = GroundPlane::from_data(
-            [numbers[7], numbers[8], numbers[9]],
-            [numbers[10], numbers[11], numbers[12]],
-        );
+        self.plane = self
+            .plane
+            .with_data(
+                [numbers[7], numbers[8], numbers[9]],
+                [numbers[10], numbers[11], numbers[12]],
+            );
         self.tube = self.tube.map(|_| numbers[13]);
         self.tube_0 = numbers[13];
         self.inverse = {
