@@ -309,7 +309,8 @@ fn a_joint_between_markers_has_their_places_and_axes() {
             r: pose.to_global(body.centre),
             ..pose
         };
-        let element = &d.joints[0].element;
+        let mut element = d.joints[0].element.clone();
+        element.initialise(&[Pose::GROUND, pose]);
         let phi = |second: Pose| {
             let mut out = vec![0.0; element.spec().rows.len()];
             element.phi(&[Pose::GROUND, second], &[], &mut out);
