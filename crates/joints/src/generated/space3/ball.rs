@@ -238,6 +238,7 @@ impl<T: Ring> Element<T, Space3> for Ball {
     }
     /// Constant entries of C. Operations: 6 mul, 3 add, 1 neg.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..15];
         let plane_normal_x = self.plane.normal().xyz()[0];
         let plane_normal_y = self.plane.normal().xyz()[1];
         let plane_normal_z = self.plane.normal().xyz()[2];
@@ -256,6 +257,7 @@ impl<T: Ring> Element<T, Space3> for Ball {
     }
     /// Varying entries of C. Operations: 93 mul, 57 add, 7 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -324,6 +326,7 @@ impl<T: Ring> Element<T, Space3> for Ball {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 36 mul, 21 add, 3 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -365,6 +368,7 @@ impl<T: Ring> Element<T, Space3> for Ball {
     where
         T: Real,
     {
+        let out = &mut out[..9];
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
@@ -383,6 +387,7 @@ impl<T: Ring> Element<T, Space3> for Ball {
     }
     /// Coefficients of the named component. Operations: 15 mul, 9 add, 3 neg.
     fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..3];
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
@@ -435,6 +440,7 @@ impl<T: Ring> Element<T, Space3> for Ball {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 27 mul, 18 add, 4 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..10];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -483,6 +489,7 @@ impl<T: Ring> Element<T, Space3> for Ball {
 impl<T: Ring> Derivatives<T, Space3> for Ball {
     /// ∂(Cᵀλ)/∂x. Operations: 126 mul, 81 add, 3 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..9];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -577,6 +584,7 @@ impl<T: Ring> Derivatives<T, Space3> for Ball {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..9];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -662,6 +670,7 @@ impl<T: Ring> Derivatives<T, Space3> for Ball {
     }
     /// ∂Γ/∂v. Operations: 69 mul, 51 add, 3 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..9];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -734,6 +743,7 @@ impl<T: Ring> Derivatives<T, Space3> for Ball {
     }
     /// ∂(C·v − b)/∂x. Operations: 117 mul, 69 add, 5 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..9];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -821,6 +831,7 @@ impl<T: Ring> Derivatives<T, Space3> for Ball {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..10];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

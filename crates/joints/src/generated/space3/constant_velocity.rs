@@ -511,6 +511,7 @@ impl<T: Ring> Element<T, Space3> for ConstantVelocity {
     }
     /// Φ. Operations: 68 mul, 56 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -590,6 +591,7 @@ impl<T: Ring> Element<T, Space3> for ConstantVelocity {
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
+        let out = &mut out[..21];
         out[0] = 1.0;
         out[4] = -1.0;
         out[8] = 1.0;
@@ -599,6 +601,7 @@ impl<T: Ring> Element<T, Space3> for ConstantVelocity {
     }
     /// Varying entries of C. Operations: 168 mul, 108 add, 12 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..30];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -732,6 +735,7 @@ impl<T: Ring> Element<T, Space3> for ConstantVelocity {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Γ. Operations: 236 mul, 162 add, 4 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..4];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -880,6 +884,7 @@ impl<T: Ring> Element<T, Space3> for ConstantVelocity {
     where
         T: Real,
     {
+        let out = &mut out[..6];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -984,6 +989,7 @@ impl<T: Ring> Element<T, Space3> for ConstantVelocity {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 170 mul, 112 add, 7 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..14];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1117,6 +1123,7 @@ impl<T: Ring> Element<T, Space3> for ConstantVelocity {
 impl<T: Ring> Derivatives<T, Space3> for ConstantVelocity {
     /// ∂(Cᵀλ)/∂x. Operations: 612 mul, 396 add, 18 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1505,6 +1512,7 @@ impl<T: Ring> Derivatives<T, Space3> for ConstantVelocity {
         f: &[[T; 3]],
         out: &mut [T],
     ) {
+        let out = &mut out[..24];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1798,6 +1806,7 @@ impl<T: Ring> Derivatives<T, Space3> for ConstantVelocity {
     }
     /// ∂Γ/∂v. Operations: 384 mul, 342 add, 12 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -2109,6 +2118,7 @@ impl<T: Ring> Derivatives<T, Space3> for ConstantVelocity {
     }
     /// ∂(C·v − b)/∂x. Operations: 324 mul, 222 add, 12 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..24];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -2308,6 +2318,7 @@ impl<T: Ring> Derivatives<T, Space3> for ConstantVelocity {
         lambda: &[T],
         out: &mut [T],
     ) {
+        let out = &mut out[..14];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];

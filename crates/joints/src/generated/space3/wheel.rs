@@ -938,7 +938,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 76 mul, 35 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        let out = &mut out[..13];
+        let out = &mut out[..14];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2422,7 +2422,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         lambda: &[T],
         out: &mut [T],
     ) {
-        let out = &mut out[..13];
+        let out = &mut out[..14];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
