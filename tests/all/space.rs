@@ -4,6 +4,8 @@ mod adams;
 mod catalogue;
 mod drifts;
 mod motion;
+mod rolling;
 mod second_order;
+mod shafts;
 mod starts;
 mod verdicts;

@@ -74,7 +74,10 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
             ParamKind::Point(slot) => push(name, Shape::Point(slot.clone()), values),
             ParamKind::Direction(slot) => push(name, Shape::Direction(slot.clone()), values),
             ParamKind::Axes { slot, .. } => push(name, Shape::Axes(slot.clone()), values),
-            ParamKind::GroundPlane => push(name, Shape::Plane, values),
+            ParamKind::GroundPlane => {
+                // The direction along it stays.
+                push(name, Shape::Plane, &values[..6]);
+            }
             ParamKind::GroundLine => {
                 let (start, along) = model.inputs.line(&name);
                 push(name, Shape::Line, &[start, along].concat());

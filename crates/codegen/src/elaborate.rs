@@ -192,7 +192,8 @@ impl<'a> Scope<'a> {
                 let values = self.model.inputs.values(&name);
                 Value::Plane {
                     start: values[..3].to_vec(),
-                    normal: values[3..].to_vec(),
+                    normal: values[3..6].to_vec(),
+                    along: values[6..].to_vec(),
                 }
             }
             ParamKind::Numbers(units) => Value::List(

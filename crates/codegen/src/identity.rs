@@ -127,10 +127,11 @@ fn value(inputs: &Inputs, name: &str, source: &Source, point: u64) -> f64 {
         }
         Source::Parameter { access } if access.contains(".xyz()") || access.contains(".uvw()") => {
             let axes = rotation(point, access.split('.').nth(1).unwrap_or_default());
-            let row = if access.contains(".uvw()") {
-                index(access, 1)
-            } else {
-                0
+            // A direction along a plane is across its normal.
+            let row = match () {
+                () if access.contains(".uvw()") => index(access, 1),
+                () if access.contains(".along()") => 1,
+                () => 0,
             };
             axes[row][index(access, 0)]
         }

@@ -16,6 +16,9 @@ pub const AWKWARD_CASES: usize = 25;
 /// relative error then means nothing; several side by side have a size.
 pub(crate) const MOTIONS: usize = 4;
 
+/// Coordinates of ordinary poses are within ± this number.
+const REACH: f64 = 2.0;
+
 /// Special property of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -132,11 +135,13 @@ impl<S: Bodies> Case<S> {
         self.kind == Kind::Ordinary && self.index.is_multiple_of(4)
     }
 
-    /// The case with an ordinary start, drawn anew.
+    /// The case with an ordinary start, drawn anew, of a larger space with every attempt: a wheel
+    /// has to be above a plane that may be out of reach.
     pub(crate) fn with_another_start(&self, attempt: u64) -> Self {
         let mut random = Random(attempt ^ ((self.index as u64) << 32));
+        let reach = REACH * (1.0 + attempt as f64 / 50.0);
         Self {
-            start: poses::<S>(self.x.len(), Kind::Ordinary, &mut random),
+            start: poses_within::<S>(self.x.len(), Kind::Ordinary, reach, &mut random),
             ..self.clone()
         }
     }
@@ -232,10 +237,11 @@ fn argument<S: Bodies>(parameter: &Parameter, kind: Kind, random: &mut Random) -
 }
 
 fn number(unit: Unit, random: &mut Random) -> f64 {
-    if unit.may_be_negative() {
-        random.within(3.0)
-    } else {
-        random.within(5.0).abs()
+    match unit {
+        // Less than the reach of poses: a body may have to be farther from a plane than this.
+        Unit::Radius => random.within(1.0).abs(),
+        unit if unit.may_be_negative() => random.within(3.0),
+        _ => random.within(5.0).abs(),
     }
 }
 
@@ -247,11 +253,20 @@ fn vector<S: Bodies>(reach: f64, random: &mut Random) -> [f64; 3] {
 }
 
 fn poses<S: Bodies>(n: usize, kind: Kind, random: &mut Random) -> Vec<S::Pose<f64>> {
+    let reach = if kind == Kind::FarApart { 1e3 } else { REACH };
+    poses_within::<S>(n, kind, reach, random)
+}
+
+fn poses_within<S: Bodies>(
+    n: usize,
+    kind: Kind,
+    reach: f64,
+    random: &mut Random,
+) -> Vec<S::Pose<f64>> {
     let base = match kind {
         Kind::FarTogether => 1e3,
         _ => 0.0,
     };
-    let reach = if kind == Kind::FarApart { 1e3 } else { 2.0 };
     let first = S::draw(kind, base, reach, random);
     (0..n)
         .map(|slot| match kind {

@@ -196,7 +196,7 @@ pub(crate) struct Oracle {
 }
 
 impl Oracle {
-    /// A block that vanishes does so in every dual part, too.
+    /// A block that vanishes does so in every dual part, too, unless by terms that cancel.
     pub(crate) const DUAL_NUMBERS: Self = Self {
         reference: Reference::DualNumbers,
         tolerance: DUAL_TOLERANCE,
@@ -209,6 +209,14 @@ impl Oracle {
         tolerance: DIFFERENCE_TOLERANCE,
         floor: 1.0,
     };
+
+    /// The same with a floor that is at least this.
+    pub(crate) fn with_floor(self, floor: f64) -> Self {
+        Self {
+            floor: self.floor.max(floor),
+            ..self
+        }
+    }
 
     /// An identity between terms of the size `floor`.
     pub(crate) fn identity(floor: f64) -> Self {

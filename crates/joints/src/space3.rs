@@ -246,6 +246,7 @@ impl Axes {
 pub struct GroundPlane {
     point: [f64; 3],
     normal: Direction,
+    along: Direction,
 }
 
 impl GroundPlane {
@@ -253,26 +254,30 @@ impl GroundPlane {
     pub const Z: Self = Self {
         point: [0.0; 3],
         normal: Direction::Z,
+        along: Direction::X,
     };
 
     /// The plane through a point across a vector; `None` if the vector is zero or not finite.
     #[must_use]
     pub fn new(point: impl Into<[f64; 3]>, normal: impl Into<[f64; 3]>) -> Option<Self> {
         let normal = Direction::new(normal)?;
+        let [along, ..] = Axes::new(normal.xyz(), None)?.uvw();
         Some(Self {
             point: point.into(),
             normal,
+            along: Direction(along),
         })
     }
 
-    /// Sets point and normal as returned by `Definition::data`, without normalisation; see
-    /// [`Direction::from_data`].
+    /// Sets point and normal as returned by `Definition::data`, without normalisation, see
+    /// [`Direction::from_data`]; the direction along the plane stays.
     #[doc(hidden)]
     #[must_use]
-    pub fn from_data(point: [f64; 3], normal: [f64; 3]) -> Self {
+    pub fn with_data(self, point: [f64; 3], normal: [f64; 3]) -> Self {
         Self {
             point,
             normal: Direction::from_data(normal),
+            ..self
         }
     }
 
@@ -286,6 +291,13 @@ impl GroundPlane {
     #[must_use]
     pub fn normal(&self) -> Direction {
         self.normal
+    }
+
+    /// A unit vector along it: the coordinate axis that lies least along the normal, made
+    /// orthogonal to it; x for the plane z = 0.
+    #[must_use]
+    pub fn along(&self) -> Direction {
+        self.along
     }
 }
 

@@ -188,6 +188,8 @@ fn list(units: &[Unit]) -> String {
 pub enum Unit {
     /// m
     Length,
+    /// m, not negative
+    Radius,
     /// rad
     Angle,
     /// 1
@@ -220,19 +222,26 @@ impl Unit {
     pub fn may_be_negative(self) -> bool {
         !matches!(
             self,
-            Self::Stiffness
+            Self::Radius
+                | Self::Stiffness
                 | Self::TorsionStiffness
                 | Self::Damping
                 | Self::TorsionDamping
                 | Self::CorneringStiffness
         )
     }
+
+    /// Whether it is the unit of lengths.
+    #[must_use]
+    pub fn is_length(self) -> bool {
+        matches!(self, Self::Length | Self::Radius)
+    }
 }
 
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Length => "m",
+            Self::Length | Self::Radius => "m",
             Self::Angle => "rad",
             Self::Ratio => "1",
             Self::Velocity => "m/s",

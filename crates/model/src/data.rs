@@ -8,7 +8,7 @@ mod gradients;
 
 use std::ops::Range;
 
-use joints::spec::{DatumShape, Unit};
+use joints::spec::DatumShape;
 
 use crate::element::{OwnRates, PlacedConstraint};
 use crate::mechanism::Mechanism;
@@ -213,7 +213,7 @@ impl<'m> Data<'m> {
                         blocks.push(block(0, 2, DataUnit::Length, false));
                         blocks.push(block(2, 2, DataUnit::Angle, true));
                     }
-                    DatumShape::Number(Unit::Length) | DatumShape::Kept(Unit::Length) => {
+                    DatumShape::Number(unit) | DatumShape::Kept(unit) if unit.is_length() => {
                         blocks.push(block(0, 1, DataUnit::Length, false));
                     }
                     DatumShape::Number(_) | DatumShape::Kept(_) => {
@@ -345,7 +345,7 @@ impl<'m> Data<'m> {
                 DatumShape::Point { .. } | DatumShape::KeptVector { .. } | DatumShape::Line => {
                     Some(at[0].hypot(at[1]))
                 }
-                DatumShape::Number(Unit::Length) | DatumShape::Kept(Unit::Length) => {
+                DatumShape::Number(unit) | DatumShape::Kept(unit) if unit.is_length() => {
                     Some(at[0].abs())
                 }
                 _ => None,

@@ -119,7 +119,7 @@ impl fmt::Display for Dimension {
 impl From<Unit> for Dimension {
     fn from(unit: Unit) -> Self {
         Self(match unit {
-            Unit::Length => return Self::LENGTH,
+            Unit::Length | Unit::Radius => return Self::LENGTH,
             Unit::Angle => return Self::ANGLE,
             Unit::Ratio => return Self::NONE,
             Unit::Velocity => return Self::VELOCITY,
@@ -144,6 +144,7 @@ mod tests {
     fn units_are_written_as_definitions_write_them() {
         for unit in [
             Unit::Length,
+            Unit::Radius,
             Unit::Angle,
             Unit::Ratio,
             Unit::Velocity,

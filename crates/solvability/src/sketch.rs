@@ -156,6 +156,8 @@ impl Sketch {
             s: [0.0; 3],
             axis,
             radius,
+            tube: None,
+            tube_0: 0.0,
             plane: GroundPlane::Z,
             inverse: 0.0,
         };

@@ -434,6 +434,8 @@ fn cars() {
                 s: [0.0; 3],
                 axis,
                 radius: 0.3,
+                tube: None,
+                tube_0: 0.0,
                 plane: GroundPlane::Z,
                 inverse: 0.0,
             };

@@ -30,11 +30,12 @@ const FUNCTIONS: [(&str, usize); 11] = [
 const PLANE: [(&str, usize); 4] = [("angle", 1), ("start", 1), ("along", 1), ("perp", 1)];
 
 /// Names of the functions of space.
-const SPACE3: [(&str, usize); 5] = [
+const SPACE3: [(&str, usize); 6] = [
     ("angle", 2),
     ("spin", 1),
     ("cross", 2),
     ("start", 1),
+    ("along", 1),
     ("normal", 1),
 ];
 
@@ -109,10 +110,17 @@ impl<'a> Scope<'a> {
                     let components = if function == "start" { start } else { along };
                     Ok(Value::Vector(Vector::new(Frame::Ground, components)))
                 }
-                Value::Plane { start, .. } if function == "start" => {
-                    Ok(Value::Vector(Vector::new(Frame::Ground, start)))
+                Value::Plane { start, along, .. } => {
+                    let components = if function == "start" { start } else { along };
+                    Ok(Value::Vector(Vector::new(Frame::Ground, components)))
                 }
-                other => Err(wrong(args[0], "a line", &other)),
+                other => {
+                    let expected = match self.definition.space {
+                        Space::Plane => "a line",
+                        Space::Space3 => "a plane",
+                    };
+                    Err(wrong(args[0], expected, &other))
+                }
             },
             "normal" => match self.value(args[0])? {
                 Value::Plane { normal, .. } => {

@@ -223,7 +223,11 @@ impl Inputs {
                     let access = format!("{name}.normal().xyz()[{k}]");
                     (format!("{name}_normal_{axis}"), access)
                 });
-                let numbers: Vec<_> = point.chain(normal).collect();
+                let along = AXES.iter().enumerate().map(|(k, axis)| {
+                    let access = format!("{name}.along().xyz()[{k}]");
+                    (format!("{name}_along_{axis}"), access)
+                });
+                let numbers: Vec<_> = point.chain(normal).chain(along).collect();
                 self.add_numbers(g, &numbers)
             }
             ParamKind::Number(_) if optional => Vec::new(),

@@ -43,6 +43,7 @@ pub(crate) enum Value {
     Plane {
         start: Components,
         normal: Components,
+        along: Components,
     },
     List(Vec<Value>),
 }
@@ -76,7 +77,11 @@ impl Value {
             Self::Axes { axes, .. } => axes.concat(),
             Self::Angle { sin, cos } => vec![*sin, *cos],
             Self::Line { start, along } => start.iter().chain(along).copied().collect(),
-            Self::Plane { start, normal } => start.iter().chain(normal).copied().collect(),
+            Self::Plane {
+                start,
+                normal,
+                along,
+            } => [&start[..], normal, along].concat(),
             Self::List(values) => values.iter().flat_map(Self::scalars).collect(),
         }
     }

@@ -99,7 +99,7 @@ fn write(datum: &Datum, number: &[TokenStream]) -> TokenStream {
             quote!(self.#field = Line::from_data([#x, #y], [#along_x, #along_y]);)
         }
         (Shape::Plane, [x, y, z, normal @ ..]) => {
-            quote!(self.#field = GroundPlane::from_data([#x, #y, #z], [#(#normal),*]);)
+            quote!(self.#field = self.#field.with_data([#x, #y, #z], [#(#normal),*]);)
         }
         (Shape::Number(_, Some(k)), [x]) => {
             let k = index(*k);

@@ -13,8 +13,9 @@ mod kw {
 }
 
 /// Units that a parameter may have: the variants of `joints::spec::Unit` except `PerLength`.
-pub const UNITS: [&str; 12] = [
+pub const UNITS: [&str; 13] = [
     "Length",
+    "Radius",
     "Angle",
     "Ratio",
     "Velocity",

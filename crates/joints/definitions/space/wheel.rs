@@ -1,32 +1,35 @@
 joint! { space Wheel(i) {
-    /// A wheel rolls without slip on a plane of the ground: of the circle of `radius` about point `s` across `axis` the
-    /// lowest point lies in the plane and has no velocity along the track (axis × up) and across it. With the height h of
-    /// the centre above the plane and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows
-    /// of velocities are multiplied by the height of the centre over the radius, so that no quotient is needed; arms are
-    /// those of a wheel that touches.
+    /// A wheel rolls without slip on a plane of the ground: a tube of radius `tube` bent round the circle of `radius` about
+    /// point `s` across `axis`, without `tube` this circle alone. Its lowest point, `tube` below that of the circle, lies in
+    /// the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the
+    /// plane, less `tube`, and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of
+    /// velocities are multiplied by h over the radius, so that no quotient is needed; arms are those of a wheel that
+    /// touches.
     params {
         /// The centre of the wheel.
         s: Point in i,
         /// The axis of the wheel.
         axis: Direction in i,
-        /// Radius of the circle that touches the plane.
-        radius: Length,
+        /// Radius of the circle that touches the plane, or of the centre circle of the tube.
+        radius: Radius,
+        /// Radius of the tube round this circle (the cross-section of a tyre); 0 if it is not given.
+        tube: Radius = 0.0,
         /// The plane, its normal towards the side of the wheel.
         plane: GroundPlane,
     }
     let n = normal(plane);
     let a = direction(i, axis);
     let centre = point(i, s);
-    let h = dot(n, centre - start(plane));
+    let h = dot(n, centre - start(plane)) - tube;
     let k = dot(n, a);
     let steep = 1.0 - k * k;
     let along = cross(a, n);
     let across = cross(n, along);
     initial { inverse: PerLength = 1.0 / radius }
-    let turned = cross(spin(i), (a * k - n) * (radius * radius));
-    require "the radius is not zero": radius * radius > 0.0;
+    let turned = cross(spin(i), (a * k - n) * (radius * radius) - n * (h * tube));
+    require "the radius is not zero": radius > 0.0;
     require "the wheel does not lie flat": steep > 0.000001;
-    require "the wheel is on the side of the normal of its plane": h > 0.0;
+    require "the wheel is on the side of the normal of its plane, its centre farther off than `tube`": h > 0.0;
     rows: [contact, longitudinal, lateral];
     phi: (h * h - radius * radius * steep) * (inverse * 0.5);
     psi: [
@@ -34,5 +37,5 @@ joint! { space Wheel(i) {
         (h * dot(across, velocity(centre)) + dot(across, turned)) * inverse,
     ];
     component N: n;
-    place: centre - (n - a * k) * (radius / norm(n - a * k));
+    place: centre - (n - a * k) * (radius / norm(n - a * k)) - n * tube;
 } }

@@ -163,6 +163,8 @@ impl RollingDisk {
             s: [0.0; 3],
             axis: Direction::Z,
             radius: Self::RADIUS,
+            tube: None,
+            tube_0: 0.0,
             plane: GroundPlane::Z,
             inverse: 0.0,
         };

@@ -96,6 +96,15 @@ fn every_type_is_read_and_built() {
             "wheel",
             format!("{wheel}\nplane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}"),
         ),
+        ("wheel", format!("{wheel}\ntube = 0.1")),
+        (
+            "ball",
+            "body = \"c\"\npoint = [0, 0, 0.3]\nradius = 0.3".to_owned(),
+        ),
+        (
+            "constant-velocity",
+            format!("{AB}{place}\naxes = {{ a = [1, 0, 0], b = [1, 1, 0] }}"),
+        ),
     ];
     let forces = [
         (
@@ -126,7 +135,10 @@ fn every_type_is_read_and_built() {
         .iter()
         .map(|j| j.element.spec().rows.len())
         .collect();
-    assert_eq!(rows, [3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 3, 3]);
+    assert_eq!(
+        rows,
+        [3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 3, 3, 3, 3, 4]
+    );
     assert_eq!(d.forces.len(), forces.len());
     assert!(Mechanism::build(&d).is_ok());
     let registry = Registry::standard();
@@ -285,6 +297,7 @@ fn a_joint_between_markers_has_their_places_and_axes() {
         ("orientation", [false, false]),
         ("parallel", [true, false]),
         ("universal", [true, true]),
+        ("constant-velocity", [false, true]),
         ("perpendicular", [true, true]),
         ("planar", [true, false]),
         ("point-on-line", [true, true]),
@@ -296,7 +309,8 @@ fn a_joint_between_markers_has_their_places_and_axes() {
             r: pose.to_global(body.centre),
             ..pose
         };
-        let element = &d.joints[0].element;
+        let mut element = d.joints[0].element.clone();
+        element.initialise(&[Pose::GROUND, pose]);
         let phi = |second: Pose| {
             let mut out = vec![0.0; element.spec().rows.len()];
             element.phi(&[Pose::GROUND, second], &[], &mut out);
@@ -509,6 +523,24 @@ fn the_other_space_is_named() {
                 "type = «\"pin-in-slot\"»",
                 "joint `J` has the unknown type `pin-in-slot`",
                 "`pin-in-slot` belongs to `space = \"plane\"`",
+            ),
+            (
+                "radius = 0.5",
+                "radius = 0.5\ntube = «-0.1»",
+                "joint `W`: `tube` is -0.1, need a number ≥ 0",
+                "may not be negative",
+            ),
+            (
+                "radius = 0.5",
+                "radius = 0.5\ntube = «nan»",
+                "joint `W`: `tube` is NaN, need a finite number up to 1e60",
+                "not a usable number",
+            ),
+            (
+                "radius = 0.5",
+                "radius = «-0.5»",
+                "joint `W`: `radius` is -0.5, need a number ≥ 0",
+                "may not be negative",
             ),
             (
                 "type = \"wheel\"",

@@ -4,8 +4,14 @@ use crate::space::Space3;
 use crate::visitor::Visitor;
 
 #[rustfmt::skip]
+pub mod ball;
+pub use ball::*;
+#[rustfmt::skip]
 pub mod body_point_force;
 pub use body_point_force::*;
+#[rustfmt::skip]
+pub mod constant_velocity;
+pub use constant_velocity::*;
 #[rustfmt::skip]
 pub mod cylindrical;
 pub use cylindrical::*;
@@ -68,6 +74,8 @@ pub mod wheel;
 pub use wheel::*;
 /// Shows all spatial constraints to a visitor, in alphabetical order.
 pub fn constraints<V: Visitor<Space3>>(visitor: &mut V) {
+    visitor.constraint::<Ball>();
+    visitor.constraint::<ConstantVelocity>();
     visitor.constraint::<Cylindrical>();
     visitor.constraint::<Distance>();
     visitor.constraint::<Fixed>();

@@ -11,21 +11,26 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// A wheel rolls without slip on a plane of the ground: of the circle of `radius` about point `s` across `axis` the
-/// lowest point lies in the plane and has no velocity along the track (axis × up) and across it. With the height h of
-/// the centre above the plane and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows
-/// of velocities are multiplied by the height of the centre over the radius, so that no quotient is needed; arms are
-/// those of a wheel that touches.
+/// A wheel rolls without slip on a plane of the ground: a tube of radius `tube` bent round the circle of `radius` about
+/// point `s` across `axis`, without `tube` this circle alone. Its lowest point, `tube` below that of the circle, lies in
+/// the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the
+/// plane, less `tube`, and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of
+/// velocities are multiplied by h over the radius, so that no quotient is needed; arms are those of a wheel that
+/// touches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wheel {
     /// The centre of the wheel. Point in the frame of the body (m).
     pub s: [f64; 3],
     /// The axis of the wheel. Unit vector in the frame of the body.
     pub axis: Direction,
-    /// Radius of the circle that touches the plane. Unit: [`Unit::Length`].
+    /// Radius of the circle that touches the plane, or of the centre circle of the tube. Unit: [`Unit::Radius`].
     pub radius: f64,
+    /// Radius of the tube round this circle (the cross-section of a tyre); 0 if it is not given. Unit: [`Unit::Radius`].
+    pub tube: Option<f64>,
     /// The plane, its normal towards the side of the wheel. Plane of the ground, z = 0 unless it is given.
     pub plane: GroundPlane,
+    /// `tube`, or its value at the assembled start; set by `initialise`.
+    pub tube_0: f64,
     /// Kept from the assembled start; set by `initialise`.
     pub inverse: f64,
 }
@@ -36,8 +41,8 @@ impl Constraint<Space3> for Wheel {
             name: "Wheel",
             scene_type: "wheel",
             variant: None,
-            doc: "A wheel rolls without slip on a plane of the ground: of the circle of `radius` about point `s` across `axis` the lowest point lies in the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the plane and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of velocities are multiplied by the height of the centre over the radius, so that no quotient is needed; arms are those of a wheel that touches.",
-            text: "joint! { space Wheel(i) {\n    /// A wheel rolls without slip on a plane of the ground: of the circle of `radius` about point `s` across `axis` the\n    /// lowest point lies in the plane and has no velocity along the track (axis × up) and across it. With the height h of\n    /// the centre above the plane and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows\n    /// of velocities are multiplied by the height of the centre over the radius, so that no quotient is needed; arms are\n    /// those of a wheel that touches.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane.\n        radius: Length,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let centre = point(i, s);\n    let h = dot(n, centre - start(plane));\n    let k = dot(n, a);\n    let steep = 1.0 - k * k;\n    let along = cross(a, n);\n    let across = cross(n, along);\n    initial { inverse: PerLength = 1.0 / radius }\n    let turned = cross(spin(i), (a * k - n) * (radius * radius));\n    require \"the radius is not zero\": radius * radius > 0.0;\n    require \"the wheel does not lie flat\": steep > 0.000001;\n    require \"the wheel is on the side of the normal of its plane\": h > 0.0;\n    rows: [contact, longitudinal, lateral];\n    phi: (h * h - radius * radius * steep) * (inverse * 0.5);\n    psi: [\n        (h * dot(along, velocity(centre)) + dot(along, turned)) * inverse,\n        (h * dot(across, velocity(centre)) + dot(across, turned)) * inverse,\n    ];\n    component N: n;\n    place: centre - (n - a * k) * (radius / norm(n - a * k));\n} }",
+            doc: "A wheel rolls without slip on a plane of the ground: a tube of radius `tube` bent round the circle of `radius` about point `s` across `axis`, without `tube` this circle alone. Its lowest point, `tube` below that of the circle, lies in the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the plane, less `tube`, and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of velocities are multiplied by h over the radius, so that no quotient is needed; arms are those of a wheel that touches.",
+            text: "joint! { space Wheel(i) {\n    /// A wheel rolls without slip on a plane of the ground: a tube of radius `tube` bent round the circle of `radius` about\n    /// point `s` across `axis`, without `tube` this circle alone. Its lowest point, `tube` below that of the circle, lies in\n    /// the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the\n    /// plane, less `tube`, and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of\n    /// velocities are multiplied by h over the radius, so that no quotient is needed; arms are those of a wheel that\n    /// touches.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane, or of the centre circle of the tube.\n        radius: Radius,\n        /// Radius of the tube round this circle (the cross-section of a tyre); 0 if it is not given.\n        tube: Radius = 0.0,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let centre = point(i, s);\n    let h = dot(n, centre - start(plane)) - tube;\n    let k = dot(n, a);\n    let steep = 1.0 - k * k;\n    let along = cross(a, n);\n    let across = cross(n, along);\n    initial { inverse: PerLength = 1.0 / radius }\n    let turned = cross(spin(i), (a * k - n) * (radius * radius) - n * (h * tube));\n    require \"the radius is not zero\": radius > 0.0;\n    require \"the wheel does not lie flat\": steep > 0.000001;\n    require \"the wheel is on the side of the normal of its plane, its centre farther off than `tube`\": h > 0.0;\n    rows: [contact, longitudinal, lateral];\n    phi: (h * h - radius * radius * steep) * (inverse * 0.5);\n    psi: [\n        (h * dot(along, velocity(centre)) + dot(along, turned)) * inverse,\n        (h * dot(across, velocity(centre)) + dot(across, turned)) * inverse,\n    ];\n    component N: n;\n    place: centre - (n - a * k) * (radius / norm(n - a * k)) - n * tube;\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
@@ -52,8 +57,13 @@ impl Constraint<Space3> for Wheel {
                 ),
                 Parameter::required(
                     "radius",
-                    Shape::Numbers(&[Unit::Length]),
-                    "Radius of the circle that touches the plane.",
+                    Shape::Numbers(&[Unit::Radius]),
+                    "Radius of the circle that touches the plane, or of the centre circle of the tube.",
+                ),
+                Parameter::optional(
+                    "tube",
+                    Shape::Numbers(&[Unit::Radius]),
+                    "Radius of the tube round this circle (the cross-section of a tyre); 0 if it is not given.",
                 ),
                 Parameter::optional(
                     "plane",
@@ -65,7 +75,7 @@ impl Constraint<Space3> for Wheel {
             requirements: &[
                 "the radius is not zero",
                 "the wheel does not lie flat",
-                "the wheel is on the side of the normal of its plane",
+                "the wheel is on the side of the normal of its plane, its centre farther off than `tube`",
             ],
         },
         role: Role::Joint,
@@ -221,8 +231,9 @@ impl Constraint<Space3> for Wheel {
         data: &[
             Datum::new("s", DatumShape::Point { slot: 0 }, 0, 3),
             Datum::new("axis", DatumShape::Direction { slot: 0 }, 3, 3),
-            Datum::new("radius", DatumShape::Number(Unit::Length), 6, 1),
+            Datum::new("radius", DatumShape::Number(Unit::Radius), 6, 1),
             Datum::new("plane", DatumShape::Plane, 7, 6),
+            Datum::new("tube", DatumShape::Number(Unit::Radius), 13, 1),
         ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
@@ -230,12 +241,15 @@ impl Constraint<Space3> for Wheel {
         let s = reader.point3()?;
         let axis = reader.direction3()?;
         let [radius] = reader.numbers()?;
+        let tube = reader.optional_number()?;
         let plane = reader.ground_plane()?;
         Ok(Self {
             s,
             axis,
             radius,
+            tube,
             plane,
+            tube_0: 0.0,
             inverse: 0.0,
         })
     }
@@ -250,6 +264,7 @@ impl Constraint<Space3> for Wheel {
 #[allow(unused_variables)]
 impl Definition<Space3> for Wheel {
     fn initialise(&mut self, x: &[Pose]) {
+        self.tube_0 = self.tube.unwrap_or(0.0);
         self.inverse = {
             let radius = self.radius;
             1.0 / radius
@@ -259,7 +274,7 @@ impl Definition<Space3> for Wheel {
         match k {
             0 => {
                 let radius = self.radius;
-                radius * radius > 0.0
+                radius > 0.0
             }
             1 => {
                 let rot_i_xx = x[0].rot[0][0];
@@ -309,12 +324,14 @@ impl Definition<Space3> for Wheel {
                 let plane_normal_x = self.plane.normal().xyz()[0];
                 let plane_normal_y = self.plane.normal().xyz()[1];
                 let plane_normal_z = self.plane.normal().xyz()[2];
+                let tube_0 = self.tube_0;
                 let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
                 let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
                 let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-                plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-                    + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-                    + plane_normal_z * (r_i_z - plane_point_z + arm_i_z) > 0.0
+                -(tube_0
+                    - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                        + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                        + plane_normal_z * (r_i_z - plane_point_z + arm_i_z))) > 0.0
             }
             _ => true,
         }
@@ -339,15 +356,20 @@ impl Definition<Space3> for Wheel {
         out[10] = self.plane.normal().xyz()[0];
         out[11] = self.plane.normal().xyz()[1];
         out[12] = self.plane.normal().xyz()[2];
+        out[13] = self.tube_0;
     }
     fn set_data(&mut self, numbers: &[f64]) {
         self.s = [numbers[0], numbers[1], numbers[2]];
         self.axis = Direction::from_data([numbers[3], numbers[4], numbers[5]]);
         self.radius = numbers[6];
-        self.plane = GroundPlane::from_data(
-            [numbers[7], numbers[8], numbers[9]],
-            [numbers[10], numbers[11], numbers[12]],
-        );
+        self.plane = self
+            .plane
+            .with_data(
+                [numbers[7], numbers[8], numbers[9]],
+                [numbers[10], numbers[11], numbers[12]],
+            );
+        self.tube = self.tube.map(|_| numbers[13]);
+        self.tube_0 = numbers[13];
         self.inverse = {
             let radius = self.radius;
             1.0 / radius
@@ -360,7 +382,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
     fn spec(&self) -> &'static ConstraintSpec {
         &Self::SPEC
     }
-    /// Φ. Operations: 30 mul, 24 add.
+    /// Φ. Operations: 30 mul, 25 add.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
@@ -387,6 +409,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
@@ -398,15 +421,16 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
+        let t0 = tube_0
+            - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                + plane_normal_z * (r_i_z - plane_point_z + arm_i_z));
         out[0] = T::from(0.5)
-            * (inverse * (radius * radius * (k * k - T::from(1.0)) + h * h));
+            * (inverse * (radius * radius * (k * k - T::from(1.0)) + t0 * t0));
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {}
-    /// Varying entries of C. Operations: 174 mul, 91 add, 7 neg.
+    /// Varying entries of C. Operations: 171 mul, 93 add, 9 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..18];
         let r_i_x = x[0].r[0];
@@ -434,17 +458,19 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
-        let t0 = radius * radius;
-        let t1 = rot_i_xz * plane_normal_x + rot_i_yz * plane_normal_y
+        let t0 = tube_0
+            - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                + plane_normal_z * (r_i_z - plane_point_z + arm_i_z));
+        let t1 = radius * radius;
+        let t2 = rot_i_xz * plane_normal_x + rot_i_yz * plane_normal_y
             + rot_i_zz * plane_normal_z;
-        let t2 = rot_i_xy * plane_normal_x + rot_i_yy * plane_normal_y
+        let t3 = rot_i_xy * plane_normal_x + rot_i_yy * plane_normal_y
             + rot_i_zy * plane_normal_z;
         let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
@@ -453,70 +479,71 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
         let k = plane_normal_x * a_x + plane_normal_y * a_y + plane_normal_z * a_z;
-        let t3 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
+        let t4 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
             + rot_i_zx * plane_normal_z;
-        let t4 = inverse * h;
-        let t5 = plane_normal_y * a_z - plane_normal_z * a_y;
+        let t5 = inverse * t0;
+        let t6 = plane_normal_y * a_z - plane_normal_z * a_y;
         let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
-        let t6 = plane_normal_x * a_y - plane_normal_y * a_x;
-        let t7 = plane_normal_y - a_y * k;
-        let t8 = plane_normal_x - a_x * k;
-        let t9 = rot_i_xx * t7 - rot_i_yx * t8;
-        let t10 = plane_normal_z - a_z * k;
-        let t11 = rot_i_xx * t10 - rot_i_zx * t8;
-        let t12 = rot_i_yx * t10 - rot_i_zx * t7;
-        let t13 = rot_i_xz * t5 - rot_i_yz * along_y + rot_i_zz * t6;
-        let t14 = rot_i_xy * t5 - rot_i_yy * along_y + rot_i_zy * t6;
-        let t15 = rot_i_xy * t7 - rot_i_yy * t8;
-        let t16 = rot_i_xy * t10 - rot_i_zy * t8;
-        let t17 = rot_i_yy * t10 - rot_i_zy * t7;
-        let t18 = rot_i_xx * t5 - rot_i_yx * along_y + rot_i_zx * t6;
-        let t19 = rot_i_xz * t7 - rot_i_yz * t8;
-        let t20 = rot_i_xz * t10 - rot_i_zz * t8;
-        let t21 = rot_i_yz * t10 - rot_i_zz * t7;
-        let t22 = plane_normal_y * t6 + plane_normal_z * along_y;
-        let across_y = plane_normal_x * t6 - plane_normal_z * t5;
-        let across_z = plane_normal_x * along_y + plane_normal_y * t5;
-        let t23 = rot_i_xz * t22 - rot_i_yz * across_y - rot_i_zz * across_z;
-        let t24 = rot_i_xy * t22 - rot_i_yy * across_y - rot_i_zy * across_z;
-        let t25 = rot_i_xx * t22 - rot_i_yx * across_y - rot_i_zx * across_z;
-        out[0] = plane_normal_x * inverse * h;
-        out[1] = plane_normal_y * inverse * h;
-        out[2] = plane_normal_z * inverse * h;
+        let t7 = plane_normal_x * a_y - plane_normal_y * a_x;
+        let t8 = rot_i_xz * t6 - rot_i_yz * along_y + rot_i_zz * t7;
+        let t9 = rot_i_xy * t6 - rot_i_yy * along_y + rot_i_zy * t7;
+        let t10 = t1 - tube_0 * t0;
+        let t11 = t1 * a_y * k - plane_normal_y * t10;
+        let t12 = t1 * a_x * k - plane_normal_x * t10;
+        let t13 = rot_i_xx * t11 - rot_i_yx * t12;
+        let t14 = t1 * a_z * k - plane_normal_z * t10;
+        let t15 = rot_i_xx * t14 - rot_i_zx * t12;
+        let t16 = rot_i_yx * t14 - rot_i_zx * t11;
+        let t17 = rot_i_xx * t6 - rot_i_yx * along_y + rot_i_zx * t7;
+        let t18 = rot_i_xy * t11 - rot_i_yy * t12;
+        let t19 = rot_i_xy * t14 - rot_i_zy * t12;
+        let t20 = rot_i_yy * t14 - rot_i_zy * t11;
+        let t21 = rot_i_xz * t11 - rot_i_yz * t12;
+        let t22 = rot_i_xz * t14 - rot_i_zz * t12;
+        let t23 = rot_i_yz * t14 - rot_i_zz * t11;
+        let t24 = plane_normal_y * t7 + plane_normal_z * along_y;
+        let across_y = plane_normal_x * t7 - plane_normal_z * t6;
+        let across_z = plane_normal_x * along_y + plane_normal_y * t6;
+        let t25 = rot_i_xz * t24 - rot_i_yz * across_y - rot_i_zz * across_z;
+        let t26 = rot_i_xy * t24 - rot_i_yy * across_y - rot_i_zy * across_z;
+        let t27 = rot_i_xx * t24 - rot_i_yx * across_y - rot_i_zx * across_z;
+        out[0] = -(plane_normal_x * inverse * t0);
+        out[1] = -(plane_normal_y * inverse * t0);
+        out[2] = -(plane_normal_z * inverse * t0);
         out[3] = inverse
-            * (t0 * (axis_local_y * t1 - axis_local_z * t2) * k
-                + (s_y * t1 - s_z * t2) * h);
+            * (t1 * (axis_local_y * t2 - axis_local_z * t3) * k
+                - t0 * (s_y * t2 - s_z * t3));
         out[4] = -(inverse
-            * (t0 * (axis_local_x * t1 - axis_local_z * t3) * k
-                + (s_x * t1 - s_z * t3) * h));
+            * (t1 * (axis_local_x * t2 - axis_local_z * t4) * k
+                - t0 * (s_x * t2 - s_z * t4)));
         out[5] = inverse
-            * (t0 * (axis_local_x * t2 - axis_local_y * t3) * k
-                + (s_x * t2 - s_y * t3) * h);
-        out[6] = -(t4 * t5);
-        out[7] = inverse * along_y * h;
-        out[8] = -(inverse * t6 * h);
+            * (t1 * (axis_local_x * t3 - axis_local_y * t4) * k
+                - t0 * (s_x * t3 - s_y * t4));
+        out[6] = t5 * t6;
+        out[7] = -(t5 * along_y);
+        out[8] = t5 * t7;
         out[9] = inverse
-            * (t0 * (t9 * t6 + t11 * along_y + t12 * t5) - (s_y * t13 - s_z * t14) * h);
-        out[10] = inverse
-            * (t0 * (t15 * t6 + t16 * along_y + t17 * t5) + (s_x * t13 - s_z * t18) * h);
+            * (t0 * (s_y * t8 - s_z * t9) - (t13 * t7 + t15 * along_y + t16 * t6));
+        out[10] = -(inverse
+            * (t0 * (s_x * t8 - s_z * t17) + (t18 * t7 + t19 * along_y + t20 * t6)));
         out[11] = inverse
-            * (t0 * (t19 * t6 + t20 * along_y + t21 * t5) - (s_x * t14 - s_y * t18) * h);
-        out[12] = -(t4 * t22);
-        out[13] = inverse * across_y * h;
-        out[14] = inverse * across_z * h;
-        out[15] = -(inverse
-            * (t0 * (t9 * across_z - t11 * across_y - t12 * t22)
-                + (s_y * t23 - s_z * t24) * h));
+            * (t0 * (s_x * t9 - s_y * t17) - (t21 * t7 + t22 * along_y + t23 * t6));
+        out[12] = t5 * t24;
+        out[13] = -(t5 * across_y);
+        out[14] = -(t5 * across_z);
+        out[15] = inverse
+            * (t0 * (s_y * t25 - s_z * t26)
+                + (t13 * across_z - t15 * across_y - t16 * t24));
         out[16] = -(inverse
-            * (t0 * (t15 * across_z - t16 * across_y - t17 * t22)
-                - (s_x * t23 - s_z * t25) * h));
-        out[17] = -(inverse
-            * (t0 * (t19 * across_z - t20 * across_y - t21 * t22)
-                + (s_x * t24 - s_y * t25) * h));
+            * (t0 * (s_x * t25 - s_z * t27)
+                - (t18 * across_z - t19 * across_y - t20 * t24)));
+        out[17] = inverse
+            * (t0 * (s_x * t26 - s_y * t27)
+                + (t21 * across_z - t22 * across_y - t23 * t24));
     }
     /// b. Operations: none.
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
-    /// Γ. Operations: 207 mul, 139 add, 1 neg.
+    /// Γ. Operations: 221 mul, 144 add, 3 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..3];
         let r_i_x = x[0].r[0];
@@ -550,6 +577,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let t0 = radius * radius;
         let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
@@ -569,60 +597,65 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let t8 = rot_i_yx * t4 - rot_i_yy * t2 + rot_i_yz * t1;
         let t9 = rot_i_zx * t4 - rot_i_zy * t2 + rot_i_zz * t1;
         let t10 = plane_normal_x * t7 + plane_normal_y * t8 + plane_normal_z * t9;
-        let t11 = omega_i_x * s_y - omega_i_y * s_x;
-        let t12 = omega_i_x * s_z - omega_i_z * s_x;
-        let t13 = omega_i_y * t11 + omega_i_z * t12;
-        let t14 = omega_i_y * s_z - omega_i_z * s_y;
-        let t15 = omega_i_x * t11 - omega_i_z * t14;
-        let t16 = omega_i_x * t12 + omega_i_y * t14;
-        let t17 = rot_i_xx * t13 - rot_i_xy * t15 - rot_i_xz * t16;
-        let t18 = rot_i_yx * t13 - rot_i_yy * t15 - rot_i_yz * t16;
-        let t19 = rot_i_zx * t13 - rot_i_zy * t15 - rot_i_zz * t16;
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
-        let t20 = rot_i_xx * t14 - rot_i_xy * t12 + rot_i_xz * t11;
-        let t21 = rot_i_yx * t14 - rot_i_yy * t12 + rot_i_yz * t11;
-        let t22 = rot_i_zx * t14 - rot_i_zy * t12 + rot_i_zz * t11;
-        let t23 = v_i_x * plane_normal_x + v_i_y * plane_normal_y
+        let t11 = tube_0
+            - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                + plane_normal_z * (r_i_z - plane_point_z + arm_i_z));
+        let t12 = omega_i_x * s_y - omega_i_y * s_x;
+        let t13 = omega_i_x * s_z - omega_i_z * s_x;
+        let t14 = omega_i_y * t12 + omega_i_z * t13;
+        let t15 = omega_i_y * s_z - omega_i_z * s_y;
+        let t16 = omega_i_x * t12 - omega_i_z * t15;
+        let t17 = omega_i_x * t13 + omega_i_y * t15;
+        let t18 = rot_i_xx * t14 - rot_i_xy * t16 - rot_i_xz * t17;
+        let t19 = rot_i_yx * t14 - rot_i_yy * t16 - rot_i_yz * t17;
+        let t20 = rot_i_zx * t14 - rot_i_zy * t16 - rot_i_zz * t17;
+        let t21 = rot_i_xx * t15 - rot_i_xy * t13 + rot_i_xz * t12;
+        let t22 = rot_i_yx * t15 - rot_i_yy * t13 + rot_i_yz * t12;
+        let t23 = rot_i_zx * t15 - rot_i_zy * t13 + rot_i_zz * t12;
+        let t24 = v_i_x * plane_normal_x + v_i_y * plane_normal_y
             + v_i_z * plane_normal_z
-            + (plane_normal_x * t20 + plane_normal_y * t21 + plane_normal_z * t22);
-        let t24 = plane_normal_x * a_y - plane_normal_y * a_x;
-        let t25 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
-        let t26 = axis_local_x * t10 + t4 * k;
-        let t27 = axis_local_y * t10 - t2 * k;
-        let t28 = axis_local_z * t10 + t1 * k;
-        let t29 = rot_i_yx * t26 + rot_i_yy * t27 + rot_i_yz * t28;
-        let t30 = rot_i_xx * t26 + rot_i_xy * t27 + rot_i_xz * t28;
-        let t31 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
-        let t32 = t25 * t29 - t30 * t31;
-        let t33 = plane_normal_x * t8 - plane_normal_y * t7;
-        let t34 = plane_normal_x - a_x * k;
-        let t35 = plane_normal_y - a_y * k;
-        let t36 = t34 * t31 - t35 * t25;
+            + (plane_normal_x * t21 + plane_normal_y * t22 + plane_normal_z * t23);
+        let t25 = v_i_x + t21;
+        let t26 = plane_normal_y * t9 - plane_normal_z * t8;
+        let t27 = v_i_y + t22;
+        let t28 = plane_normal_x * t9 - plane_normal_z * t7;
+        let t29 = v_i_z + t23;
+        let t30 = plane_normal_x * t8 - plane_normal_y * t7;
+        let t31 = plane_normal_y * a_z - plane_normal_z * a_y;
         let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
-        let t37 = rot_i_zx * t26 + rot_i_zy * t27 + rot_i_zz * t28;
-        let t38 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
-        let t39 = t25 * t37 - t30 * t38;
-        let t40 = plane_normal_x * t9 - plane_normal_z * t7;
-        let t41 = plane_normal_z - a_z * k;
-        let t42 = t34 * t38 - t41 * t25;
-        let t43 = plane_normal_y * a_z - plane_normal_z * a_y;
-        let t44 = t31 * t37 - t29 * t38;
-        let t45 = plane_normal_y * t9 - plane_normal_z * t8;
-        let t46 = t35 * t38 - t41 * t31;
-        let t47 = v_i_x + t20;
-        let t48 = v_i_y + t21;
-        let t49 = v_i_z + t22;
-        let across_y = plane_normal_x * t24 - plane_normal_z * t43;
-        let t50 = plane_normal_x * t33 - plane_normal_z * t45;
-        let across_z = plane_normal_x * along_y + plane_normal_y * t43;
-        let t51 = plane_normal_x * t40 + plane_normal_y * t45;
-        let t52 = plane_normal_y * t24 + plane_normal_z * along_y;
-        let t53 = plane_normal_y * t33 + plane_normal_z * t40;
+        let t32 = plane_normal_x * a_y - plane_normal_y * a_x;
+        let t33 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
+        let t34 = axis_local_x * t10 + t4 * k;
+        let t35 = axis_local_y * t10 - t2 * k;
+        let t36 = axis_local_z * t10 + t1 * k;
+        let t37 = t0 * (rot_i_yx * t34 + rot_i_yy * t35 + rot_i_yz * t36)
+            - plane_normal_y * tube_0 * t24;
+        let t38 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
+        let t39 = t0 * (rot_i_xx * t34 + rot_i_xy * t35 + rot_i_xz * t36)
+            - plane_normal_x * tube_0 * t24;
+        let t40 = t33 * t37 - t38 * t39;
+        let t41 = t0 - tube_0 * t11;
+        let t42 = t0 * a_y * k - plane_normal_y * t41;
+        let t43 = t0 * a_x * k - plane_normal_x * t41;
+        let turned_z = t33 * t42 - t38 * t43;
+        let t44 = t0 * (rot_i_zx * t34 + rot_i_zy * t35 + rot_i_zz * t36)
+            - plane_normal_z * tube_0 * t24;
+        let t45 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
+        let t46 = t33 * t44 - t45 * t39;
+        let t47 = t0 * a_z * k - plane_normal_z * t41;
+        let t48 = t33 * t47 - t45 * t43;
+        let t49 = t38 * t44 - t45 * t37;
+        let turned_x = t38 * t47 - t45 * t42;
+        let t50 = plane_normal_y * t30 + plane_normal_z * t28;
+        let t51 = plane_normal_x * t30 - plane_normal_z * t26;
+        let t52 = plane_normal_x * t28 + plane_normal_y * t26;
+        let t53 = plane_normal_y * t32 + plane_normal_z * along_y;
+        let across_y = plane_normal_x * t32 - plane_normal_z * t31;
+        let across_z = plane_normal_x * along_y + plane_normal_y * t31;
         out[0] = -(inverse
             * (t0
                 * (k
@@ -632,26 +665,25 @@ impl<T: Ring> Element<T, Space3> for Wheel {
                         + plane_normal_z
                             * (rot_i_zx * t3 - rot_i_zy * t5 - rot_i_zz * t6))
                     + t10 * t10)
-                + ((plane_normal_x * t17 + plane_normal_y * t18 + plane_normal_z * t19)
-                    * h + t23 * t23)));
-        out[1] = inverse
-            * (t0
-                * (t24 * t32 + t33 * t36 + (along_y * t39 + t40 * t42)
-                    + (t43 * t44 + t45 * t46))
-                + (h
-                    * (t47 * t45 - t48 * t40 + t49 * t33
-                        + (t17 * t43 - t18 * along_y + t19 * t24))
-                    + (t47 * t43 - t48 * along_y + t49 * t24) * t23));
-        out[2] = inverse
-            * (t0
-                * (across_y * t39 + t50 * t42 - (across_z * t32 + t51 * t36)
-                    + (t52 * t44 + t53 * t46))
-                + (h
-                    * (t47 * t53 - t48 * t50 - t49 * t51
-                        + (t17 * t52 - t18 * across_y - t19 * across_z))
-                    + (t47 * t52 - t48 * across_y - t49 * across_z) * t23));
+                - (t11
+                    * (plane_normal_x * t18 + plane_normal_y * t19
+                        + plane_normal_z * t20) - t24 * t24)));
+        out[1] = -(inverse
+            * (t11
+                * (t25 * t26 - t27 * t28 + t29 * t30
+                    + (t18 * t31 - t19 * along_y + t20 * t32))
+                - (t25 * t31 - t27 * along_y + t29 * t32) * t24
+                - (t32 * t40 + t30 * turned_z + (along_y * t46 + t28 * t48)
+                    + (t31 * t49 + t26 * turned_x))));
+        out[2] = -(inverse
+            * (t11
+                * (t25 * t50 - t27 * t51 - t29 * t52
+                    + (t18 * t53 - t19 * across_y - t20 * across_z))
+                - (t25 * t53 - t27 * across_y - t29 * across_z) * t24
+                - (across_y * t46 + t51 * t48 - (across_z * t40 + t52 * turned_z)
+                    + (t53 * t49 + t50 * turned_x))));
     }
-    /// Entries of the wrench map. Operations: 249 mul, 141 add, 11 neg, 6 div, 1 call.
+    /// Entries of the wrench map. Operations: 252 mul, 149 add, 7 neg, 6 div, 1 call.
     fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T])
     where
         T: Real,
@@ -682,118 +714,121 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
-        let t0 = inverse * h;
+        let t0 = tube_0
+            - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                + plane_normal_z * (r_i_z - plane_point_z + arm_i_z));
+        let t1 = inverse * t0;
         let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
         let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let t1 = plane_normal_y * a_z - plane_normal_z * a_y;
+        let t2 = plane_normal_y * a_z - plane_normal_z * a_y;
         let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
-        let t2 = plane_normal_x * a_y - plane_normal_y * a_x;
+        let t3 = plane_normal_x * a_y - plane_normal_y * a_x;
         let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
-        let t3 = plane_normal_y * t2 + plane_normal_z * along_y;
-        let across_y = plane_normal_x * t2 - plane_normal_z * t1;
-        let across_z = plane_normal_x * along_y + plane_normal_y * t1;
+        let t4 = plane_normal_y * t3 + plane_normal_z * along_y;
+        let across_y = plane_normal_x * t3 - plane_normal_z * t2;
+        let across_z = plane_normal_x * along_y + plane_normal_y * t2;
         let k = plane_normal_x * a_x + plane_normal_y * a_y + plane_normal_z * a_z;
-        let t4 = plane_normal_x - a_x * k;
-        let t5 = plane_normal_y - a_y * k;
-        let t6 = plane_normal_z - a_z * k;
-        let t7 = (t4 * t4 + t5 * t5 + t6 * t6).sqrt();
-        let t8 = s_x + axis_local_x * radius * k / t7;
-        let t9 = s_y + axis_local_y * radius * k / t7;
-        let t10 = s_z + axis_local_z * radius * k / t7;
-        let t11 = radius * plane_normal_z / t7
-            - (rot_i_zx * t8 + rot_i_zy * t9 + rot_i_zz * t10);
-        let t12 = radius * plane_normal_y / t7
-            - (rot_i_yx * t8 + rot_i_yy * t9 + rot_i_yz * t10);
-        let t13 = radius * radius;
-        let t14 = rot_i_xz * plane_normal_x + rot_i_yz * plane_normal_y
+        let t5 = plane_normal_x - a_x * k;
+        let t6 = plane_normal_y - a_y * k;
+        let t7 = plane_normal_z - a_z * k;
+        let t8 = (t5 * t5 + t6 * t6 + t7 * t7).sqrt();
+        let t9 = s_x + axis_local_x * radius * k / t8;
+        let t10 = s_y + axis_local_y * radius * k / t8;
+        let t11 = s_z + axis_local_z * radius * k / t8;
+        let t12 = radius * plane_normal_z / t8 + plane_normal_z * tube_0
+            - (rot_i_zx * t9 + rot_i_zy * t10 + rot_i_zz * t11);
+        let t13 = radius * plane_normal_y / t8 + plane_normal_y * tube_0
+            - (rot_i_yx * t9 + rot_i_yy * t10 + rot_i_yz * t11);
+        let t14 = radius * radius;
+        let t15 = rot_i_xz * plane_normal_x + rot_i_yz * plane_normal_y
             + rot_i_zz * plane_normal_z;
-        let t15 = rot_i_xy * plane_normal_x + rot_i_yy * plane_normal_y
+        let t16 = rot_i_xy * plane_normal_x + rot_i_yy * plane_normal_y
             + rot_i_zy * plane_normal_z;
-        let t16 = t13 * (axis_local_y * t14 - axis_local_z * t15) * k
-            + (s_y * t14 - s_z * t15) * h;
-        let t17 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
+        let t17 = t14 * (axis_local_y * t15 - axis_local_z * t16) * k
+            - t0 * (s_y * t15 - s_z * t16);
+        let t18 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
             + rot_i_zx * plane_normal_z;
-        let t18 = t13 * (axis_local_x * t14 - axis_local_z * t17) * k
-            + (s_x * t14 - s_z * t17) * h;
-        let t19 = t13 * (axis_local_x * t15 - axis_local_y * t17) * k
-            + (s_x * t15 - s_y * t17) * h;
-        let t20 = rot_i_xx * t5 - rot_i_yx * t4;
-        let t21 = rot_i_xx * t6 - rot_i_zx * t4;
-        let t22 = rot_i_yx * t6 - rot_i_zx * t5;
-        let t23 = rot_i_xz * t1 - rot_i_yz * along_y + rot_i_zz * t2;
-        let t24 = rot_i_xy * t1 - rot_i_yy * along_y + rot_i_zy * t2;
-        let t25 = t13 * (t20 * t2 + t21 * along_y + t22 * t1)
-            - (s_y * t23 - s_z * t24) * h;
-        let t26 = rot_i_xy * t5 - rot_i_yy * t4;
-        let t27 = rot_i_xy * t6 - rot_i_zy * t4;
-        let t28 = rot_i_yy * t6 - rot_i_zy * t5;
-        let t29 = rot_i_xx * t1 - rot_i_yx * along_y + rot_i_zx * t2;
-        let t30 = t13 * (t26 * t2 + t27 * along_y + t28 * t1)
-            + (s_x * t23 - s_z * t29) * h;
-        let t31 = rot_i_xz * t5 - rot_i_yz * t4;
-        let t32 = rot_i_xz * t6 - rot_i_zz * t4;
-        let t33 = rot_i_yz * t6 - rot_i_zz * t5;
-        let t34 = t13 * (t31 * t2 + t32 * along_y + t33 * t1)
-            - (s_x * t24 - s_y * t29) * h;
-        let t35 = rot_i_xz * t3 - rot_i_yz * across_y - rot_i_zz * across_z;
-        let t36 = rot_i_xy * t3 - rot_i_yy * across_y - rot_i_zy * across_z;
-        let t37 = t13 * (t20 * across_z - t21 * across_y - t22 * t3)
-            + (s_y * t35 - s_z * t36) * h;
-        let t38 = rot_i_xx * t3 - rot_i_yx * across_y - rot_i_zx * across_z;
-        let t39 = t13 * (t26 * across_z - t27 * across_y - t28 * t3)
-            - (s_x * t35 - s_z * t38) * h;
-        let t40 = t13 * (t31 * across_z - t32 * across_y - t33 * t3)
-            + (s_x * t36 - s_y * t38) * h;
-        let t41 = radius * plane_normal_x / t7
-            - (rot_i_xx * t8 + rot_i_xy * t9 + rot_i_xz * t10);
-        out[0] = -(plane_normal_x * inverse * h);
-        out[1] = t0 * t1;
-        out[2] = t0 * t3;
-        out[3] = -(plane_normal_y * inverse * h);
-        out[4] = -(inverse * along_y * h);
-        out[5] = -(inverse * across_y * h);
-        out[6] = -(plane_normal_z * inverse * h);
-        out[7] = inverse * t2 * h;
-        out[8] = -(inverse * across_z * h);
-        out[9] = inverse
-            * (h * (plane_normal_y * t11 - plane_normal_z * t12)
-                - (rot_i_xx * t16 - rot_i_xy * t18 + rot_i_xz * t19));
-        out[10] = inverse
-            * (h * (t12 * t2 + t11 * along_y)
-                - (rot_i_xx * t25 + rot_i_xy * t30 + rot_i_xz * t34));
-        out[11] = -(inverse
-            * (h * (t12 * across_z - t11 * across_y)
-                - (rot_i_xx * t37 + rot_i_xy * t39 + rot_i_xz * t40)));
-        out[12] = -(inverse
-            * ((plane_normal_x * t11 - plane_normal_z * t41) * h
-                + (rot_i_yx * t16 - rot_i_yy * t18 + rot_i_yz * t19)));
-        out[13] = -(inverse
-            * (h * (t41 * t2 - t11 * t1)
-                + (rot_i_yx * t25 + rot_i_yy * t30 + rot_i_yz * t34)));
-        out[14] = inverse
-            * (h * (t41 * across_z + t11 * t3)
-                + (rot_i_yx * t37 + rot_i_yy * t39 + rot_i_yz * t40));
-        out[15] = inverse
-            * ((plane_normal_x * t12 - plane_normal_y * t41) * h
-                - (rot_i_zx * t16 - rot_i_zy * t18 + rot_i_zz * t19));
-        out[16] = -(inverse
-            * (h * (t41 * along_y + t12 * t1)
-                + (rot_i_zx * t25 + rot_i_zy * t30 + rot_i_zz * t34)));
-        out[17] = -(inverse
-            * (h * (t41 * across_y + t12 * t3)
-                - (rot_i_zx * t37 + rot_i_zy * t39 + rot_i_zz * t40)));
+        let t19 = t14 * (axis_local_x * t15 - axis_local_z * t18) * k
+            - t0 * (s_x * t15 - s_z * t18);
+        let t20 = t14 * (axis_local_x * t16 - axis_local_y * t18) * k
+            - t0 * (s_x * t16 - s_y * t18);
+        let t21 = rot_i_xz * t2 - rot_i_yz * along_y + rot_i_zz * t3;
+        let t22 = rot_i_xy * t2 - rot_i_yy * along_y + rot_i_zy * t3;
+        let t23 = t14 - tube_0 * t0;
+        let t24 = t14 * a_y * k - plane_normal_y * t23;
+        let t25 = t14 * a_x * k - plane_normal_x * t23;
+        let t26 = rot_i_xx * t24 - rot_i_yx * t25;
+        let t27 = t14 * a_z * k - plane_normal_z * t23;
+        let t28 = rot_i_xx * t27 - rot_i_zx * t25;
+        let t29 = rot_i_yx * t27 - rot_i_zx * t24;
+        let t30 = t0 * (s_y * t21 - s_z * t22) - (t26 * t3 + t28 * along_y + t29 * t2);
+        let t31 = rot_i_xx * t2 - rot_i_yx * along_y + rot_i_zx * t3;
+        let t32 = rot_i_xy * t24 - rot_i_yy * t25;
+        let t33 = rot_i_xy * t27 - rot_i_zy * t25;
+        let t34 = rot_i_yy * t27 - rot_i_zy * t24;
+        let t35 = t0 * (s_x * t21 - s_z * t31) + (t32 * t3 + t33 * along_y + t34 * t2);
+        let t36 = rot_i_xz * t24 - rot_i_yz * t25;
+        let t37 = rot_i_xz * t27 - rot_i_zz * t25;
+        let t38 = rot_i_yz * t27 - rot_i_zz * t24;
+        let t39 = t0 * (s_x * t22 - s_y * t31) - (t36 * t3 + t37 * along_y + t38 * t2);
+        let t40 = rot_i_xz * t4 - rot_i_yz * across_y - rot_i_zz * across_z;
+        let t41 = rot_i_xy * t4 - rot_i_yy * across_y - rot_i_zy * across_z;
+        let t42 = t0 * (s_y * t40 - s_z * t41)
+            + (t26 * across_z - t28 * across_y - t29 * t4);
+        let t43 = rot_i_xx * t4 - rot_i_yx * across_y - rot_i_zx * across_z;
+        let t44 = t0 * (s_x * t40 - s_z * t43)
+            - (t32 * across_z - t33 * across_y - t34 * t4);
+        let t45 = t0 * (s_x * t41 - s_y * t43)
+            + (t36 * across_z - t37 * across_y - t38 * t4);
+        let t46 = radius * plane_normal_x / t8 + plane_normal_x * tube_0
+            - (rot_i_xx * t9 + rot_i_xy * t10 + rot_i_xz * t11);
+        out[0] = plane_normal_x * inverse * t0;
+        out[1] = -(t1 * t2);
+        out[2] = -(t1 * t4);
+        out[3] = plane_normal_y * inverse * t0;
+        out[4] = t1 * along_y;
+        out[5] = t1 * across_y;
+        out[6] = plane_normal_z * inverse * t0;
+        out[7] = -(t1 * t3);
+        out[8] = t1 * across_z;
+        out[9] = -(inverse
+            * (t0 * (plane_normal_y * t12 - plane_normal_z * t13)
+                + (rot_i_xx * t17 - rot_i_xy * t19 + rot_i_xz * t20)));
+        out[10] = -(inverse
+            * (t0 * (t13 * t3 + t12 * along_y)
+                + (rot_i_xx * t30 - rot_i_xy * t35 + rot_i_xz * t39)));
+        out[11] = inverse
+            * (t0 * (t13 * across_z - t12 * across_y)
+                - (rot_i_xx * t42 - rot_i_xy * t44 + rot_i_xz * t45));
+        out[12] = inverse
+            * (t0 * (plane_normal_x * t12 - plane_normal_z * t46)
+                - (rot_i_yx * t17 - rot_i_yy * t19 + rot_i_yz * t20));
+        out[13] = inverse
+            * (t0 * (t46 * t3 - t12 * t2)
+                - (rot_i_yx * t30 - rot_i_yy * t35 + rot_i_yz * t39));
+        out[14] = -(inverse
+            * (t0 * (t46 * across_z + t12 * t4)
+                + (rot_i_yx * t42 - rot_i_yy * t44 + rot_i_yz * t45)));
+        out[15] = -(inverse
+            * (t0 * (plane_normal_x * t13 - plane_normal_y * t46)
+                + (rot_i_zx * t17 - rot_i_zy * t19 + rot_i_zz * t20)));
+        out[16] = inverse
+            * (t0 * (t46 * along_y + t13 * t2)
+                - (rot_i_zx * t30 - rot_i_zy * t35 + rot_i_zz * t39));
+        out[17] = inverse
+            * (t0 * (t46 * across_y + t13 * t4)
+                - (rot_i_zx * t42 - rot_i_zy * t44 + rot_i_zz * t45));
     }
-    /// Coefficients of the named component. Operations: 48 mul, 32 add, 1 neg.
+    /// Coefficients of the named component. Operations: 46 mul, 33 add, 2 neg.
     fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..3];
         let r_i_x = x[0].r[0];
@@ -820,34 +855,37 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
+        let t0 = inverse
+            * (tube_0
+                - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                    + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                    + plane_normal_z * (r_i_z - plane_point_z + arm_i_z)));
         let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
         let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let t0 = plane_normal_y * a_z - plane_normal_z * a_y;
+        let t1 = plane_normal_y * a_z - plane_normal_z * a_y;
         let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
         let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
-        let t1 = plane_normal_x * a_y - plane_normal_y * a_x;
-        let across_y = plane_normal_x * t1 - plane_normal_z * t0;
-        let across_z = plane_normal_x * along_y + plane_normal_y * t0;
-        out[0] = -(inverse * h
+        let t2 = plane_normal_x * a_y - plane_normal_y * a_x;
+        let across_y = plane_normal_x * t2 - plane_normal_z * t1;
+        let across_z = plane_normal_x * along_y + plane_normal_y * t1;
+        out[0] = t0
             * (plane_normal_x * plane_normal_x + plane_normal_y * plane_normal_y
-                + plane_normal_z * plane_normal_z));
-        out[1] = inverse
-            * (plane_normal_x * t0 - plane_normal_y * along_y + plane_normal_z * t1) * h;
-        out[2] = inverse
-            * (plane_normal_x * (plane_normal_y * t1 + plane_normal_z * along_y)
-                - plane_normal_y * across_y - plane_normal_z * across_z) * h;
+                + plane_normal_z * plane_normal_z);
+        out[1] = -(t0
+            * (plane_normal_x * t1 - plane_normal_y * along_y + plane_normal_z * t2));
+        out[2] = -(t0
+            * (plane_normal_x * (plane_normal_y * t2 + plane_normal_z * along_y)
+                - plane_normal_y * across_y - plane_normal_z * across_z));
     }
-    /// The place of the reaction. Operations: 36 mul, 28 add, 6 div, 1 call.
+    /// The place of the reaction. Operations: 39 mul, 31 add, 6 div, 1 call.
     fn place(&self, x: &[Pose<T>]) -> [T; 3]
     where
         T: Real,
@@ -874,6 +912,7 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
         let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
@@ -889,17 +928,17 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let t5 = s_y + axis_local_y * radius * k / t3;
         let t6 = s_z + axis_local_z * radius * k / t3;
         [
-            r_i_x - radius * plane_normal_x / t3
-                + (rot_i_xx * t4 + rot_i_xy * t5 + rot_i_xz * t6),
-            r_i_y - radius * plane_normal_y / t3
-                + (rot_i_yx * t4 + rot_i_yy * t5 + rot_i_yz * t6),
-            r_i_z - radius * plane_normal_z / t3
-                + (rot_i_zx * t4 + rot_i_zy * t5 + rot_i_zz * t6),
+            rot_i_xx * t4 + rot_i_xy * t5 + rot_i_xz * t6
+                - (plane_normal_x * tube_0 - (r_i_x - radius * plane_normal_x / t3)),
+            rot_i_yx * t4 + rot_i_yy * t5 + rot_i_yz * t6
+                - (plane_normal_y * tube_0 - (r_i_y - radius * plane_normal_y / t3)),
+            rot_i_zx * t4 + rot_i_zy * t5 + rot_i_zz * t6
+                - (plane_normal_z * tube_0 - (r_i_z - radius * plane_normal_z / t3)),
         ]
     }
-    /// ∂(λᵀΦ)/∂p. Operations: 78 mul, 34 add, 3 neg.
+    /// ∂(λᵀΦ)/∂p. Operations: 76 mul, 35 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        let out = &mut out[..13];
+        let out = &mut out[..14];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -926,27 +965,30 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
         let lambda_0 = lambda[0];
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let d_inverse_d_radius = T::from({
             let radius = self.radius;
             -(1.0 / (radius * radius))
         });
         let t0 = lambda_0 * inverse;
-        let t1 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
-            + rot_i_zx * plane_normal_z;
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
-        let t2 = r_i_x - plane_point_x + arm_i_x;
+        let t1 = r_i_x - plane_point_x + arm_i_x;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
-        let t3 = r_i_y - plane_point_y + arm_i_y;
+        let t2 = r_i_y - plane_point_y + arm_i_y;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let t4 = r_i_z - plane_point_z + arm_i_z;
-        let h = plane_normal_x * t2 + plane_normal_y * t3 + plane_normal_z * t4;
-        let t5 = rot_i_xy * plane_normal_x + rot_i_yy * plane_normal_y
+        let t3 = r_i_z - plane_point_z + arm_i_z;
+        let t4 = tube_0
+            - (plane_normal_x * t1 + plane_normal_y * t2 + plane_normal_z * t3);
+        let t5 = t0 * t4;
+        let t6 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
+            + rot_i_zx * plane_normal_z;
+        let t7 = rot_i_xy * plane_normal_x + rot_i_yy * plane_normal_y
             + rot_i_zy * plane_normal_z;
-        let t6 = rot_i_xz * plane_normal_x + rot_i_yz * plane_normal_y
+        let t8 = rot_i_xz * plane_normal_x + rot_i_yz * plane_normal_y
             + rot_i_zz * plane_normal_z;
-        let t7 = radius * radius;
-        let t8 = t7 * lambda_0 * inverse;
+        let t9 = radius * radius;
+        let t10 = t9 * lambda_0 * inverse;
         let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
         let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
@@ -954,28 +996,29 @@ impl<T: Ring> Element<T, Space3> for Wheel {
         let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
         let k = plane_normal_x * a_x + plane_normal_y * a_y + plane_normal_z * a_z;
-        let t9 = k * k - T::from(1.0);
-        out[0] = t0 * t1 * h;
-        out[1] = t0 * t5 * h;
-        out[2] = t0 * t6 * h;
-        out[3] = t8 * t1 * k;
-        out[4] = t8 * t5 * k;
-        out[5] = t8 * t6 * k;
+        let t11 = k * k - T::from(1.0);
+        out[0] = -(t5 * t6);
+        out[1] = -(t5 * t7);
+        out[2] = -(t5 * t8);
+        out[3] = t10 * t6 * k;
+        out[4] = t10 * t7 * k;
+        out[5] = t10 * t8 * k;
         out[6] = lambda_0
-            * (radius * inverse * t9
-                + T::from(0.5) * (d_inverse_d_radius * (t7 * t9 + h * h)));
-        out[7] = -(plane_normal_x * lambda_0 * inverse * h);
-        out[8] = -(plane_normal_y * lambda_0 * inverse * h);
-        out[9] = -(plane_normal_z * lambda_0 * inverse * h);
-        out[10] = t0 * (t7 * a_x * k + h * t2);
-        out[11] = t0 * (t7 * a_y * k + h * t3);
-        out[12] = t0 * (t7 * a_z * k + h * t4);
+            * (radius * inverse * t11
+                + T::from(0.5) * (d_inverse_d_radius * (t9 * t11 + t4 * t4)));
+        out[7] = plane_normal_x * lambda_0 * inverse * t4;
+        out[8] = plane_normal_y * lambda_0 * inverse * t4;
+        out[9] = plane_normal_z * lambda_0 * inverse * t4;
+        out[10] = t0 * (t9 * a_x * k - t4 * t1);
+        out[11] = t0 * (t9 * a_y * k - t4 * t2);
+        out[12] = t0 * (t9 * a_z * k - t4 * t3);
+        out[13] = t5;
     }
 }
 #[allow(unused_variables)]
 #[allow(clippy::too_many_arguments)]
 impl<T: Ring> Derivatives<T, Space3> for Wheel {
-    /// ∂(Cᵀλ)/∂x. Operations: 658 mul, 460 add, 9 neg.
+    /// ∂(Cᵀλ)/∂x. Operations: 713 mul, 498 add, 11 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
         let out = &mut out[..36];
         let r_i_x = x[0].r[0];
@@ -1006,6 +1049,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let lambda_0 = lambda[0];
         let lambda_1 = lambda[1];
         let lambda_2 = lambda[2];
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let t0 = plane_normal_x * inverse;
         let t1 = rot_i_zx * axis_local_x;
@@ -1027,370 +1071,362 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let t13 = plane_normal_x * lambda_0 - (lambda_1 * t7 + lambda_2 * t12);
         let t14 = plane_normal_y * inverse;
         let t15 = plane_normal_z * inverse;
-        let t16 = rot_i_xz * plane_normal_x + rot_i_yz * plane_normal_y
-            + rot_i_zz * plane_normal_z;
-        let t17 = s_y * t16;
-        let t18 = rot_i_xy * plane_normal_x + rot_i_yy * plane_normal_y
-            + rot_i_zy * plane_normal_z;
-        let t19 = s_z * t18;
-        let t20 = t17 - t19;
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
-        let t21 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
-        let t22 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
-        let t23 = plane_normal_y * t21 - plane_normal_z * t22;
-        let t24 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
-        let t25 = plane_normal_x * t22 - plane_normal_y * t24;
-        let t26 = plane_normal_x * t21 - plane_normal_z * t24;
-        let t27 = plane_normal_y * t25 + plane_normal_z * t26;
-        let t28 = s_x * t16;
-        let t29 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
+        let t16 = tube_0
+            - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                + plane_normal_z * (r_i_z - plane_point_z + arm_i_z));
+        let t17 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t18 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t19 = plane_normal_y * t17 - plane_normal_z * t18;
+        let t20 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t21 = plane_normal_x * t18 - plane_normal_y * t20;
+        let t22 = plane_normal_x * t17 - plane_normal_z * t20;
+        let t23 = plane_normal_y * t21 + plane_normal_z * t22;
+        let t24 = rot_i_xz * plane_normal_x + rot_i_yz * plane_normal_y
+            + rot_i_zz * plane_normal_z;
+        let t25 = rot_i_xy * plane_normal_x + rot_i_yy * plane_normal_y
+            + rot_i_zy * plane_normal_z;
+        let t26 = s_y * t24 - s_z * t25;
+        let t27 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t28 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t29 = plane_normal_y * t27 - plane_normal_z * t28;
+        let t30 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t31 = plane_normal_x * t28 - plane_normal_y * t30;
+        let t32 = plane_normal_x * t27 - plane_normal_z * t30;
+        let t33 = plane_normal_y * t31 + plane_normal_z * t32;
+        let t34 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
             + rot_i_zx * plane_normal_z;
-        let t30 = s_z * t29;
-        let t31 = t28 - t30;
-        let t32 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
-        let t33 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
-        let t34 = plane_normal_y * t32 - plane_normal_z * t33;
-        let t35 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
-        let t36 = plane_normal_x * t33 - plane_normal_y * t35;
-        let t37 = plane_normal_x * t32 - plane_normal_z * t35;
-        let t38 = plane_normal_y * t36 + plane_normal_z * t37;
-        let t39 = s_x * t18;
-        let t40 = s_y * t29;
-        let t41 = t39 - t40;
-        let t42 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
-        let t43 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
-        let t44 = plane_normal_y * t42 - plane_normal_z * t43;
-        let t45 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
-        let t46 = plane_normal_x * t43 - plane_normal_y * t45;
-        let t47 = plane_normal_x * t42 - plane_normal_z * t45;
-        let t48 = plane_normal_y * t46 + plane_normal_z * t47;
+        let t35 = s_x * t24 - s_z * t34;
+        let t36 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t37 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t38 = plane_normal_y * t36 - plane_normal_z * t37;
+        let t39 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t40 = plane_normal_x * t37 - plane_normal_y * t39;
+        let t41 = plane_normal_x * t36 - plane_normal_z * t39;
+        let t42 = plane_normal_y * t40 + plane_normal_z * t41;
+        let t43 = s_x * t25 - s_y * t34;
         let across_y = plane_normal_x * t11 - plane_normal_z * t7;
-        let t49 = plane_normal_y * lambda_0 + (lambda_1 * along_y + lambda_2 * across_y);
-        let t50 = plane_normal_x * t25 - plane_normal_z * t23;
-        let t51 = plane_normal_x * t36 - plane_normal_z * t34;
-        let t52 = plane_normal_x * t46 - plane_normal_z * t44;
+        let t44 = plane_normal_y * lambda_0 + (lambda_1 * along_y + lambda_2 * across_y);
+        let t45 = plane_normal_x * t21 - plane_normal_z * t19;
+        let t46 = plane_normal_x * t31 - plane_normal_z * t29;
+        let t47 = plane_normal_x * t40 - plane_normal_z * t38;
         let across_z = plane_normal_x * along_y + plane_normal_y * t7;
-        let t53 = plane_normal_z * lambda_0 - (lambda_1 * t11 - lambda_2 * across_z);
-        let t54 = plane_normal_x * t26 + plane_normal_y * t23;
-        let t55 = plane_normal_x * t37 + plane_normal_y * t34;
-        let t56 = plane_normal_x * t47 + plane_normal_y * t44;
-        let t57 = rot_i_xz * t7 - rot_i_yz * along_y + rot_i_zz * t11;
-        let t58 = s_y * t57;
-        let t59 = rot_i_xy * t7 - rot_i_yy * along_y + rot_i_zy * t11;
-        let t60 = s_z * t59;
-        let t61 = t58 - t60;
-        let t62 = rot_i_xz * t12 - rot_i_yz * across_y - rot_i_zz * across_z;
-        let t63 = s_y * t62;
-        let t64 = rot_i_xy * t12 - rot_i_yy * across_y - rot_i_zy * across_z;
-        let t65 = s_z * t64;
-        let t66 = t63 - t65;
-        let t67 = lambda_0 * t20 - (lambda_1 * t61 + lambda_2 * t66);
-        let t68 = radius * radius;
-        let t69 = axis_local_y * t18;
-        let t70 = axis_local_z * t16;
+        let t48 = plane_normal_z * lambda_0 - (lambda_1 * t11 - lambda_2 * across_z);
+        let t49 = plane_normal_x * t22 + plane_normal_y * t19;
+        let t50 = plane_normal_x * t32 + plane_normal_y * t29;
+        let t51 = plane_normal_x * t41 + plane_normal_y * t38;
+        let t52 = rot_i_xx * plane_normal_y - rot_i_yx * plane_normal_x;
+        let t53 = rot_i_xx * plane_normal_z - rot_i_zx * plane_normal_x;
+        let t54 = rot_i_yx * plane_normal_z - rot_i_zx * plane_normal_y;
+        let t55 = rot_i_xz * t7 - rot_i_yz * along_y + rot_i_zz * t11;
+        let t56 = s_y * t55;
+        let t57 = rot_i_xy * t7 - rot_i_yy * along_y + rot_i_zy * t11;
+        let t58 = s_z * t57;
+        let t59 = t56 - t58;
+        let t60 = rot_i_xz * t12 - rot_i_yz * across_y - rot_i_zz * across_z;
+        let t61 = s_y * t60;
+        let t62 = rot_i_xy * t12 - rot_i_yy * across_y - rot_i_zy * across_z;
+        let t63 = s_z * t62;
+        let t64 = t61 - t63;
+        let t65 = lambda_0 * t26
+            + (lambda_1 * (tube_0 * (t52 * t11 + t53 * along_y + t54 * t7) - t59)
+                - lambda_2
+                    * (tube_0 * (t52 * across_z - t53 * across_y - t54 * t12) + t64));
+        let t66 = radius * radius;
+        let t67 = axis_local_y * t25;
+        let t68 = axis_local_z * t24;
         let k = plane_normal_x * a_x + plane_normal_y * a_y + plane_normal_z * a_z;
-        let t71 = axis_local_y * t16;
-        let t72 = axis_local_z * t18;
-        let t73 = t71 - t72;
-        let t74 = s_y * t18;
-        let t75 = s_z * t16;
-        let t76 = plane_normal_y - a_y * k;
-        let t77 = rot_i_xx * t76;
-        let t78 = plane_normal_x - a_x * k;
-        let t79 = rot_i_yx * t78;
-        let t80 = t77 - t79;
-        let t81 = axis_local_z * k;
-        let t82 = axis_local_y * t73 - t81;
-        let t83 = axis_local_y * k;
-        let t84 = t83 + axis_local_z * t73;
-        let t85 = t4 * t73 + rot_i_yy * t82 + rot_i_yz * t84;
-        let t86 = t8 * t73 + rot_i_xy * t82 + rot_i_xz * t84;
-        let t87 = rot_i_xx * t85 - rot_i_yx * t86;
-        let t88 = plane_normal_z - a_z * k;
-        let t89 = rot_i_xx * t88;
-        let t90 = rot_i_zx * t78;
-        let t91 = t89 - t90;
-        let t92 = t1 * t73 + rot_i_zy * t82 + rot_i_zz * t84;
-        let t93 = rot_i_xx * t92 - rot_i_zx * t86;
-        let t94 = rot_i_yx * t88;
-        let t95 = rot_i_zx * t76;
-        let t96 = t94 - t95;
-        let t97 = rot_i_yx * t92 - rot_i_zx * t85;
-        let t98 = s_y * t59;
-        let t99 = s_z * t57;
-        let t100 = rot_i_xy * s_z - rot_i_xz * s_y;
-        let t101 = rot_i_yy * s_z - rot_i_yz * s_y;
-        let t102 = rot_i_zy * s_z - rot_i_zz * s_y;
-        let t103 = s_y * t64;
-        let t104 = s_z * t62;
-        let t105 = axis_local_y * t29;
-        let t106 = axis_local_x * t16;
-        let t107 = axis_local_z * t29;
-        let t108 = t106 - t107;
-        let t109 = t108 * t73;
-        let t110 = t31 * t20;
-        let t111 = axis_local_x * t108 - t81;
-        let t112 = axis_local_x * k;
-        let t113 = t112 + axis_local_z * t108;
-        let t114 = rot_i_yx * t111 + t5 * t108 + rot_i_yz * t113;
-        let t115 = rot_i_xz * t76;
-        let t116 = rot_i_xx * t111 + t9 * t108 + rot_i_xz * t113;
-        let t117 = rot_i_yz * t78;
-        let t118 = rot_i_xx * t114 - t115 - (rot_i_yx * t116 - t117);
-        let t119 = rot_i_zx * t111 + t2 * t108 + rot_i_zz * t113;
-        let t120 = rot_i_xz * t88;
-        let t121 = rot_i_zz * t78;
-        let t122 = rot_i_xx * t119 - t120 - (rot_i_zx * t116 - t121);
-        let t123 = rot_i_yz * t88;
-        let t124 = rot_i_zz * t76;
-        let t125 = rot_i_yx * t119 - t123 - (rot_i_zx * t114 - t124);
-        let t126 = rot_i_xx * t7 - rot_i_yx * along_y + rot_i_zx * t11;
-        let t127 = s_y * t126;
-        let t128 = rot_i_xx * t12 - rot_i_yx * across_y - rot_i_zx * across_z;
-        let t129 = s_y * t128;
-        let t130 = axis_local_x * t18;
-        let t131 = t130 - t105;
-        let t132 = t131 * t73;
-        let t133 = t41 * t20;
-        let t134 = axis_local_x * t131 - t83;
-        let t135 = t112 + axis_local_y * t131;
-        let t136 = rot_i_yx * t134 + rot_i_yy * t135 + t6 * t131;
-        let t137 = rot_i_xy * t76;
-        let t138 = rot_i_xx * t134 + rot_i_xy * t135 + t10 * t131;
-        let t139 = rot_i_yy * t78;
-        let t140 = rot_i_xx * t136 - t137 - (rot_i_yx * t138 - t139);
-        let t141 = rot_i_zx * t134 + rot_i_zy * t135 + t3 * t131;
-        let t142 = rot_i_xy * t88;
-        let t143 = rot_i_zy * t78;
-        let t144 = rot_i_xx * t141 - t142 - (rot_i_zx * t138 - t143);
-        let t145 = rot_i_yy * t88;
-        let t146 = rot_i_zy * t76;
-        let t147 = rot_i_yx * t141 - t145 - (rot_i_zx * t136 - t146);
-        let t148 = s_z * t126;
-        let t149 = s_z * t128;
-        let t150 = s_x * t57;
-        let t151 = t150 - t148;
-        let t152 = s_x * t62;
-        let t153 = t152 - t149;
-        let t154 = lambda_0 * t31 - (lambda_1 * t151 + lambda_2 * t153);
-        let t155 = t137 - t139;
-        let t156 = rot_i_xy * t85 - t115 - (rot_i_yy * t86 - t117);
-        let t157 = t142 - t143;
-        let t158 = rot_i_xy * t92 - t120 - (rot_i_zy * t86 - t121);
-        let t159 = t145 - t146;
-        let t160 = rot_i_yy * t92 - t123 - (rot_i_zy * t85 - t124);
-        let t161 = s_x * t59;
-        let t162 = rot_i_xx * s_z - rot_i_xz * s_x;
-        let t163 = rot_i_yx * s_z - rot_i_yz * s_x;
-        let t164 = rot_i_zx * s_z - rot_i_zz * s_x;
-        let t165 = s_x * t64;
-        let t166 = axis_local_x * t29;
-        let t167 = s_x * t29;
-        let t168 = rot_i_xy * t114 - rot_i_yy * t116;
-        let t169 = rot_i_xy * t119 - rot_i_zy * t116;
-        let t170 = rot_i_yy * t119 - rot_i_zy * t114;
-        let t171 = s_x * t126;
-        let t172 = s_x * t128;
-        let t173 = t131 * t108;
-        let t174 = t41 * t31;
-        let t175 = t77 + rot_i_xy * t136 - (t79 + rot_i_yy * t138);
-        let t176 = t89 + rot_i_xy * t141 - (t90 + rot_i_zy * t138);
-        let t177 = t94 + rot_i_yy * t141 - (t95 + rot_i_zy * t136);
-        let t178 = t161 - t127;
-        let t179 = t165 - t129;
-        let t180 = lambda_0 * t41 - (lambda_1 * t178 + lambda_2 * t179);
-        let t181 = t115 - t117;
-        let t182 = t137 + rot_i_xz * t85 - (t139 + rot_i_yz * t86);
-        let t183 = t120 - t121;
-        let t184 = t142 + rot_i_xz * t92 - (t143 + rot_i_zz * t86);
-        let t185 = t123 - t124;
-        let t186 = t145 + rot_i_yz * t92 - (t146 + rot_i_zz * t85);
-        let t187 = rot_i_xx * s_y - rot_i_xy * s_x;
-        let t188 = rot_i_yx * s_y - rot_i_yy * s_x;
-        let t189 = rot_i_zx * s_y - rot_i_zy * s_x;
-        let t190 = t77 + rot_i_xz * t114 - (t79 + rot_i_yz * t116);
-        let t191 = t89 + rot_i_xz * t119 - (t90 + rot_i_zz * t116);
-        let t192 = t94 + rot_i_yz * t119 - (t95 + rot_i_zz * t114);
-        let t193 = rot_i_xz * t136 - rot_i_yz * t138;
-        let t194 = rot_i_xz * t141 - rot_i_zz * t138;
-        let t195 = rot_i_yz * t141 - rot_i_zz * t136;
+        let t69 = axis_local_y * t24;
+        let t70 = axis_local_z * t25;
+        let t71 = t69 - t70;
+        let t72 = s_y * t25;
+        let t73 = s_z * t24;
+        let t74 = s_y * t57;
+        let t75 = s_z * t55;
+        let t76 = rot_i_xy * s_z - rot_i_xz * s_y;
+        let t77 = rot_i_yy * s_z - rot_i_yz * s_y;
+        let t78 = rot_i_zy * s_z - rot_i_zz * s_y;
+        let t79 = t66 - tube_0 * t16;
+        let t80 = t66 * a_y * k - plane_normal_y * t79;
+        let t81 = rot_i_xx * t80;
+        let t82 = t66 * a_x * k - plane_normal_x * t79;
+        let t83 = rot_i_yx * t82;
+        let t84 = t81 - t83;
+        let t85 = axis_local_z * k;
+        let t86 = axis_local_y * t71 - t85;
+        let t87 = axis_local_y * k;
+        let t88 = t87 + axis_local_z * t71;
+        let t89 = plane_normal_y * tube_0;
+        let t90 = t66 * (t4 * t71 + rot_i_yy * t86 + rot_i_yz * t88) - t89 * t26;
+        let t91 = plane_normal_x * tube_0;
+        let t92 = t66 * (t8 * t71 + rot_i_xy * t86 + rot_i_xz * t88) - t91 * t26;
+        let t93 = rot_i_xx * t90 - rot_i_yx * t92;
+        let t94 = t66 * a_z * k - plane_normal_z * t79;
+        let t95 = rot_i_xx * t94;
+        let t96 = rot_i_zx * t82;
+        let t97 = t95 - t96;
+        let t98 = plane_normal_z * tube_0;
+        let t99 = t66 * (t1 * t71 + rot_i_zy * t86 + rot_i_zz * t88) - t98 * t26;
+        let t100 = rot_i_xx * t99 - rot_i_zx * t92;
+        let t101 = rot_i_yx * t94;
+        let t102 = rot_i_zx * t80;
+        let t103 = t101 - t102;
+        let t104 = rot_i_yx * t99 - rot_i_zx * t90;
+        let t105 = s_y * t62;
+        let t106 = s_z * t60;
+        let t107 = axis_local_y * t34;
+        let t108 = axis_local_x * t24;
+        let t109 = axis_local_z * t34;
+        let t110 = t108 - t109;
+        let t111 = t110 * t71;
+        let t112 = s_y * t16;
+        let t113 = t35 * t26;
+        let t114 = rot_i_xx * t7 - rot_i_yx * along_y + rot_i_zx * t11;
+        let t115 = s_y * t114;
+        let t116 = axis_local_x * t110 - t85;
+        let t117 = axis_local_x * k;
+        let t118 = t117 + axis_local_z * t110;
+        let t119 = t66 * (rot_i_yx * t116 + t5 * t110 + rot_i_yz * t118) - t89 * t35;
+        let t120 = rot_i_xz * t80;
+        let t121 = t66 * (rot_i_xx * t116 + t9 * t110 + rot_i_xz * t118) - t91 * t35;
+        let t122 = rot_i_yz * t82;
+        let t123 = rot_i_xx * t119 + t120 - (rot_i_yx * t121 + t122);
+        let t124 = t66 * (rot_i_zx * t116 + t2 * t110 + rot_i_zz * t118) - t98 * t35;
+        let t125 = rot_i_xz * t94;
+        let t126 = rot_i_zz * t82;
+        let t127 = rot_i_xx * t124 + t125 - (rot_i_zx * t121 + t126);
+        let t128 = rot_i_yz * t94;
+        let t129 = rot_i_zz * t80;
+        let t130 = rot_i_yx * t124 + t128 - (rot_i_zx * t119 + t129);
+        let t131 = rot_i_xx * t12 - rot_i_yx * across_y - rot_i_zx * across_z;
+        let t132 = s_y * t131;
+        let t133 = axis_local_x * t25;
+        let t134 = t133 - t107;
+        let t135 = t134 * t71;
+        let t136 = s_z * t16;
+        let t137 = t43 * t26;
+        let t138 = s_z * t114;
+        let t139 = axis_local_x * t134 - t87;
+        let t140 = t117 + axis_local_y * t134;
+        let t141 = t66 * (rot_i_yx * t139 + rot_i_yy * t140 + t6 * t134) - t89 * t43;
+        let t142 = rot_i_xy * t80;
+        let t143 = t66 * (rot_i_xx * t139 + rot_i_xy * t140 + t10 * t134) - t91 * t43;
+        let t144 = rot_i_yy * t82;
+        let t145 = rot_i_xx * t141 + t142 - (rot_i_yx * t143 + t144);
+        let t146 = t66 * (rot_i_zx * t139 + rot_i_zy * t140 + t3 * t134) - t98 * t43;
+        let t147 = rot_i_xy * t94;
+        let t148 = rot_i_zy * t82;
+        let t149 = rot_i_xx * t146 + t147 - (rot_i_zx * t143 + t148);
+        let t150 = rot_i_yy * t94;
+        let t151 = rot_i_zy * t80;
+        let t152 = rot_i_yx * t146 + t150 - (rot_i_zx * t141 + t151);
+        let t153 = s_z * t131;
+        let t154 = rot_i_xy * plane_normal_y - rot_i_yy * plane_normal_x;
+        let t155 = rot_i_xy * plane_normal_z - rot_i_zy * plane_normal_x;
+        let t156 = rot_i_yy * plane_normal_z - rot_i_zy * plane_normal_y;
+        let t157 = s_x * t55;
+        let t158 = t157 - t138;
+        let t159 = s_x * t60;
+        let t160 = t159 - t153;
+        let t161 = lambda_0 * t35
+            - (lambda_1 * (tube_0 * (t154 * t11 + t155 * along_y + t156 * t7) + t158)
+                - lambda_2
+                    * (tube_0 * (t154 * across_z - t155 * across_y - t156 * t12)
+                        - t160));
+        let t162 = s_x * t16;
+        let t163 = s_x * t57;
+        let t164 = rot_i_xx * s_z - rot_i_xz * s_x;
+        let t165 = rot_i_yx * s_z - rot_i_yz * s_x;
+        let t166 = rot_i_zx * s_z - rot_i_zz * s_x;
+        let t167 = t142 - t144;
+        let t168 = rot_i_xy * t90 + t120 - (rot_i_yy * t92 + t122);
+        let t169 = t147 - t148;
+        let t170 = rot_i_xy * t99 + t125 - (rot_i_zy * t92 + t126);
+        let t171 = t150 - t151;
+        let t172 = rot_i_yy * t99 + t128 - (rot_i_zy * t90 + t129);
+        let t173 = s_x * t62;
+        let t174 = axis_local_x * t34;
+        let t175 = s_x * t34;
+        let t176 = s_x * t114;
+        let t177 = rot_i_xy * t119 - rot_i_yy * t121;
+        let t178 = rot_i_xy * t124 - rot_i_zy * t121;
+        let t179 = rot_i_yy * t124 - rot_i_zy * t119;
+        let t180 = s_x * t131;
+        let t181 = t134 * t110;
+        let t182 = t43 * t35;
+        let t183 = t81 - rot_i_xy * t141 - (t83 - rot_i_yy * t143);
+        let t184 = t95 - rot_i_xy * t146 - (t96 - rot_i_zy * t143);
+        let t185 = t101 - rot_i_yy * t146 - (t102 - rot_i_zy * t141);
+        let t186 = rot_i_xz * plane_normal_y - rot_i_yz * plane_normal_x;
+        let t187 = rot_i_xz * plane_normal_z - rot_i_zz * plane_normal_x;
+        let t188 = rot_i_yz * plane_normal_z - rot_i_zz * plane_normal_y;
+        let t189 = t163 - t115;
+        let t190 = t173 - t132;
+        let t191 = lambda_0 * t43
+            + (lambda_1 * (tube_0 * (t186 * t11 + t187 * along_y + t188 * t7) - t189)
+                - lambda_2
+                    * (tube_0 * (t186 * across_z - t187 * across_y - t188 * t12)
+                        + t190));
+        let t192 = rot_i_xx * s_y - rot_i_xy * s_x;
+        let t193 = rot_i_yx * s_y - rot_i_yy * s_x;
+        let t194 = rot_i_zx * s_y - rot_i_zy * s_x;
+        let t195 = t120 - t122;
+        let t196 = t142 - rot_i_xz * t90 - (t144 - rot_i_yz * t92);
+        let t197 = t125 - t126;
+        let t198 = t147 - rot_i_xz * t99 - (t148 - rot_i_zz * t92);
+        let t199 = t128 - t129;
+        let t200 = t150 - rot_i_yz * t99 - (t151 - rot_i_zz * t90);
+        let t201 = t81 - rot_i_xz * t119 - (t83 - rot_i_yz * t121);
+        let t202 = t95 - rot_i_xz * t124 - (t96 - rot_i_zz * t121);
+        let t203 = t101 - rot_i_yz * t124 - (t102 - rot_i_zz * t119);
+        let t204 = rot_i_xz * t141 - rot_i_yz * t143;
+        let t205 = rot_i_xz * t146 - rot_i_zz * t143;
+        let t206 = rot_i_yz * t146 - rot_i_zz * t141;
         out[0] = t0 * t13;
         out[1] = t14 * t13;
         out[2] = t15 * t13;
-        out[3] = inverse * (t20 * t13 + h * (lambda_1 * t23 + lambda_2 * t27));
-        out[4] = -(inverse * (t31 * t13 + h * (lambda_1 * t34 + lambda_2 * t38)));
-        out[5] = inverse * (t41 * t13 + h * (lambda_1 * t44 + lambda_2 * t48));
-        out[6] = t0 * t49;
-        out[7] = t14 * t49;
-        out[8] = t15 * t49;
-        out[9] = inverse * (t20 * t49 - h * (lambda_1 * t26 + lambda_2 * t50));
-        out[10] = -(inverse * (t31 * t49 - h * (lambda_1 * t37 + lambda_2 * t51)));
-        out[11] = inverse * (t41 * t49 - h * (lambda_1 * t47 + lambda_2 * t52));
-        out[12] = t0 * t53;
-        out[13] = t14 * t53;
-        out[14] = t15 * t53;
-        out[15] = inverse * (t20 * t53 + h * (lambda_1 * t25 - lambda_2 * t54));
-        out[16] = -(inverse * (t31 * t53 + h * (lambda_1 * t36 - lambda_2 * t55)));
-        out[17] = inverse * (t41 * t53 + h * (lambda_1 * t46 - lambda_2 * t56));
-        out[18] = t0 * t67;
-        out[19] = t14 * t67;
-        out[20] = t15 * t67;
+        out[3] = -(inverse * (t16 * (lambda_1 * t19 + lambda_2 * t23) - t26 * t13));
+        out[4] = inverse * (t16 * (lambda_1 * t29 + lambda_2 * t33) - t35 * t13);
+        out[5] = -(inverse * (t16 * (lambda_1 * t38 + lambda_2 * t42) - t43 * t13));
+        out[6] = t0 * t44;
+        out[7] = t14 * t44;
+        out[8] = t15 * t44;
+        out[9] = inverse * (t16 * (lambda_1 * t22 + lambda_2 * t45) + t26 * t44);
+        out[10] = -(inverse * (t16 * (lambda_1 * t32 + lambda_2 * t46) + t35 * t44));
+        out[11] = inverse * (t16 * (lambda_1 * t41 + lambda_2 * t47) + t43 * t44);
+        out[12] = t0 * t48;
+        out[13] = t14 * t48;
+        out[14] = t15 * t48;
+        out[15] = -(inverse * (t16 * (lambda_1 * t21 - lambda_2 * t49) - t26 * t48));
+        out[16] = inverse * (t16 * (lambda_1 * t31 - lambda_2 * t50) - t35 * t48);
+        out[17] = -(inverse * (t16 * (lambda_1 * t40 - lambda_2 * t51) - t43 * t48));
+        out[18] = t0 * t65;
+        out[19] = t14 * t65;
+        out[20] = t15 * t65;
         out[21] = -(inverse
             * (lambda_0
-                * (t68 * ((t69 + t70) * k - t73 * t73) + ((t74 + t75) * h - t20 * t20))
+                * (t66 * ((t67 + t68) * k - t71 * t71) - (t16 * (t72 + t73) + t26 * t26))
                 + (lambda_1
-                    * (t68
-                        * (t80 * t25 + t87 * t11 + (t91 * t26 + t93 * along_y)
-                            + (t96 * t23 + t97 * t7))
-                        + (t20 * t61
-                            - h * (t98 + t99 - (t100 * t23 - t101 * t26 + t102 * t25))))
-                    - lambda_2
-                        * (t68
-                            * (t80 * t54 + t87 * across_z - (t91 * t50 + t93 * across_y)
-                                - (t96 * t27 + t97 * t12))
-                            - (t20 * t66
-                                - h
-                                    * (t103 + t104
-                                        - (t100 * t27 - t101 * t50 - t102 * t54)))))));
+                    * (t16 * (t74 + t75 - (t76 * t19 - t77 * t22 + t78 * t21))
+                        + t26 * t59
+                        - (t84 * t21 - t93 * t11 + (t97 * t22 - t100 * along_y)
+                            + (t103 * t19 - t104 * t7)))
+                    + lambda_2
+                        * (t16 * (t105 + t106 - (t76 * t23 - t77 * t45 - t78 * t49))
+                            + t26 * t64
+                            + (t84 * t49 - t93 * across_z - (t97 * t45 - t100 * across_y)
+                                - (t103 * t23 - t104 * t12))))));
         out[22] = inverse
-            * (lambda_0 * (t68 * (t105 * k - t109) + (t40 * h - t110))
+            * (lambda_0 * (t66 * (t107 * k - t111) - (t112 * t34 + t113))
                 + (lambda_1
-                    * (t68
-                        * (t80 * t36 + t11 * t118 + (t91 * t37 + along_y * t122)
-                            + (t96 * t34 + t7 * t125))
-                        + (t31 * t61
-                            - (t127 - (t100 * t34 - t101 * t37 + t102 * t36)) * h))
-                    - lambda_2
-                        * (t68
-                            * (t80 * t55 + across_z * t118
-                                - (t91 * t51 + across_y * t122) - (t96 * t38 + t12 * t125))
-                            - (t31 * t66
-                                - (t129 - (t100 * t38 - t101 * t51 - t102 * t55)) * h))));
+                    * (t16 * (t115 - (t76 * t29 - t77 * t32 + t78 * t31)) + t35 * t59
+                        - (t84 * t31 - t11 * t123 + (t97 * t32 - along_y * t127)
+                            + (t103 * t29 - t7 * t130)))
+                    + lambda_2
+                        * (t16 * (t132 - (t76 * t33 - t77 * t46 - t78 * t50)) + t35 * t64
+                            + (t84 * t50 - across_z * t123
+                                - (t97 * t46 - across_y * t127)
+                                - (t103 * t33 - t12 * t130)))));
         out[23] = inverse
-            * (lambda_0 * (t68 * (t107 * k + t132) + (t30 * h + t133))
-                - (lambda_1
-                    * (t68
-                        * (t80 * t46 + t11 * t140 + (t91 * t47 + along_y * t144)
-                            + (t96 * t44 + t7 * t147))
-                        + (t41 * t61
-                            + (t148 + (t100 * t44 - t101 * t47 + t102 * t46)) * h))
-                    - lambda_2
-                        * (t68
-                            * (t80 * t56 + across_z * t140
-                                - (t91 * t52 + across_y * t144) - (t96 * t48 + t12 * t147))
-                            - (t41 * t66
-                                + (t149 + (t100 * t48 - t101 * t52 - t102 * t56)) * h))));
-        out[24] = -(t0 * t154);
-        out[25] = -(t14 * t154);
-        out[26] = -(t15 * t154);
+            * (lambda_0 * (t66 * (t109 * k + t135) - (t136 * t34 - t137))
+                + (lambda_1
+                    * (t16 * (t138 + (t76 * t38 - t77 * t41 + t78 * t40)) - t43 * t59
+                        + (t84 * t40 - t11 * t145 + (t97 * t41 - along_y * t149)
+                            + (t103 * t38 - t7 * t152)))
+                    + lambda_2
+                        * (t16 * (t153 + (t76 * t42 - t77 * t47 - t78 * t51)) - t43 * t64
+                            - (t84 * t51 - across_z * t145
+                                - (t97 * t47 - across_y * t149)
+                                - (t103 * t42 - t12 * t152)))));
+        out[24] = -(t0 * t161);
+        out[25] = -(t14 * t161);
+        out[26] = -(t15 * t161);
         out[27] = inverse
-            * (lambda_0 * (t68 * (t130 * k - t109) + (t39 * h - t110))
-                - (lambda_1
-                    * (t68
-                        * (t155 * t25 + t11 * t156 + (t157 * t26 + along_y * t158)
-                            + (t159 * t23 + t7 * t160))
-                        + ((t161 - (t162 * t23 - t163 * t26 + t164 * t25)) * h
-                            - t151 * t20))
-                    - lambda_2
-                        * (t68
-                            * (t155 * t54 + across_z * t156
-                                - (t157 * t50 + across_y * t158)
-                                - (t159 * t27 + t12 * t160))
-                            - ((t165 - (t162 * t27 - t163 * t50 - t164 * t54)) * h
-                                - t153 * t20))));
+            * (lambda_0 * (t66 * (t133 * k - t111) - (t162 * t25 + t113))
+                + (lambda_1
+                    * (t16 * (t163 - (t164 * t19 - t165 * t22 + t166 * t21)) + t158 * t26
+                        + (t167 * t21 - t11 * t168 + (t169 * t22 - along_y * t170)
+                            + (t171 * t19 - t7 * t172)))
+                    + lambda_2
+                        * (t16 * (t173 - (t164 * t23 - t165 * t45 - t166 * t49))
+                            + t160 * t26
+                            - (t167 * t49 - across_z * t168
+                                - (t169 * t45 - across_y * t170)
+                                - (t171 * t23 - t12 * t172)))));
         out[28] = -(inverse
             * (lambda_0
-                * (t68 * ((t166 + t70) * k - t108 * t108)
-                    + ((t167 + t75) * h - t31 * t31))
-                - (lambda_1
-                    * (t68
-                        * (t155 * t36 + t168 * t11 + (t157 * t37 + t169 * along_y)
-                            + (t159 * t34 + t170 * t7))
-                        - (t31 * t151
-                            - h * (t171 + t99 - (t162 * t34 - t163 * t37 + t164 * t36))))
-                    - lambda_2
-                        * (t68
-                            * (t155 * t55 + t168 * across_z
-                                - (t157 * t51 + t169 * across_y)
-                                - (t159 * t38 + t170 * t12))
-                            + (t31 * t153
-                                - h
-                                    * (t172 + t104
-                                        - (t162 * t38 - t163 * t51 - t164 * t55)))))));
-        out[29] = inverse
-            * (lambda_0 * (t68 * (t72 * k - t173) + (t19 * h - t174))
-                - (lambda_1
-                    * (t68
-                        * (t155 * t46 + t11 * t175 + (t157 * t47 + along_y * t176)
-                            + (t159 * t44 + t7 * t177))
-                        - (t41 * t151
-                            - (t60 - (t162 * t44 - t163 * t47 + t164 * t46)) * h))
-                    - lambda_2
-                        * (t68
-                            * (t155 * t56 + across_z * t175
-                                - (t157 * t52 + across_y * t176)
-                                - (t159 * t48 + t12 * t177))
-                            + (t41 * t153
-                                - (t65 - (t162 * t48 - t163 * t52 - t164 * t56)) * h))));
-        out[30] = t0 * t180;
-        out[31] = t14 * t180;
-        out[32] = t15 * t180;
-        out[33] = inverse
-            * (lambda_0 * (t68 * (t106 * k + t132) + (t28 * h + t133))
-                - (lambda_1
-                    * (t68
-                        * (t181 * t25 + t11 * t182 + (t183 * t26 + along_y * t184)
-                            + (t185 * t23 + t7 * t186))
-                        + (t178 * t20
-                            + (t150 + (t187 * t23 - t188 * t26 + t189 * t25)) * h))
-                    - lambda_2
-                        * (t68
-                            * (t181 * t54 + across_z * t182
-                                - (t183 * t50 + across_y * t184)
-                                - (t185 * t27 + t12 * t186))
-                            - (t179 * t20
-                                + (t152 + (t187 * t27 - t188 * t50 - t189 * t54)) * h))));
-        out[34] = inverse
-            * (lambda_0 * (t68 * (t71 * k - t173) + (t17 * h - t174))
+                * (t66 * ((t174 + t68) * k - t110 * t110)
+                    - (t16 * (t175 + t73) + t35 * t35))
                 + (lambda_1
-                    * (t68
-                        * (t181 * t36 + t11 * t190 + (t183 * t37 + along_y * t191)
-                            + (t185 * t34 + t7 * t192))
-                        + (t178 * t31
-                            - (t58 - (t187 * t34 - t188 * t37 + t189 * t36)) * h))
-                    - lambda_2
-                        * (t68
-                            * (t181 * t55 + across_z * t190
-                                - (t183 * t51 + across_y * t191)
-                                - (t185 * t38 + t12 * t192))
-                            - (t179 * t31
-                                - (t63 - (t187 * t38 - t188 * t51 - t189 * t55)) * h))));
+                    * (t16 * (t176 + t75 - (t164 * t29 - t165 * t32 + t166 * t31))
+                        + t35 * t158
+                        + (t167 * t31 - t177 * t11 + (t169 * t32 - t178 * along_y)
+                            + (t171 * t29 - t179 * t7)))
+                    + lambda_2
+                        * (t16 * (t180 + t106 - (t164 * t33 - t165 * t46 - t166 * t50))
+                            + t35 * t160
+                            - (t167 * t50 - t177 * across_z
+                                - (t169 * t46 - t178 * across_y)
+                                - (t171 * t33 - t179 * t12))))));
+        out[29] = inverse
+            * (lambda_0 * (t66 * (t70 * k - t181) - (t136 * t25 + t182))
+                + (lambda_1
+                    * (t16 * (t58 - (t164 * t38 - t165 * t41 + t166 * t40)) + t43 * t158
+                        + (t167 * t40 + t11 * t183 + (t169 * t41 + along_y * t184)
+                            + (t171 * t38 + t7 * t185)))
+                    + lambda_2
+                        * (t16 * (t63 - (t164 * t42 - t165 * t47 - t166 * t51))
+                            + t43 * t160
+                            - (t167 * t51 + across_z * t183
+                                - (t169 * t47 + across_y * t184)
+                                - (t171 * t42 + t12 * t185)))));
+        out[30] = t0 * t191;
+        out[31] = t14 * t191;
+        out[32] = t15 * t191;
+        out[33] = inverse
+            * (lambda_0 * (t66 * (t108 * k + t135) - (t162 * t24 - t137))
+                + (lambda_1
+                    * (t16 * (t157 + (t192 * t19 - t193 * t22 + t194 * t21)) - t189 * t26
+                        + (t195 * t21 + t11 * t196 + (t197 * t22 + along_y * t198)
+                            + (t199 * t19 + t7 * t200)))
+                    + lambda_2
+                        * (t16 * (t159 + (t192 * t23 - t193 * t45 - t194 * t49))
+                            - t190 * t26
+                            - (t195 * t49 + across_z * t196
+                                - (t197 * t45 + across_y * t198)
+                                - (t199 * t23 + t12 * t200)))));
+        out[34] = inverse
+            * (lambda_0 * (t66 * (t69 * k - t181) - (t112 * t24 + t182))
+                + (lambda_1
+                    * (t16 * (t56 - (t192 * t29 - t193 * t32 + t194 * t31)) + t189 * t35
+                        - (t195 * t31 + t11 * t201 + (t197 * t32 + along_y * t202)
+                            + (t199 * t29 + t7 * t203)))
+                    + lambda_2
+                        * (t16 * (t61 - (t192 * t33 - t193 * t46 - t194 * t50))
+                            + t190 * t35
+                            + (t195 * t50 + across_z * t201
+                                - (t197 * t46 + across_y * t202)
+                                - (t199 * t33 + t12 * t203)))));
         out[35] = -(inverse
             * (lambda_0
-                * (t68 * ((t166 + t69) * k - t131 * t131)
-                    + ((t167 + t74) * h - t41 * t41))
+                * (t66 * ((t174 + t67) * k - t134 * t134)
+                    - (t16 * (t175 + t72) + t43 * t43))
                 + (lambda_1
-                    * (t68
-                        * (t181 * t46 + t193 * t11 + (t183 * t47 + t194 * along_y)
-                            + (t185 * t44 + t195 * t7))
-                        + (t41 * t178
-                            - h * (t171 + t98 - (t187 * t44 - t188 * t47 + t189 * t46))))
-                    - lambda_2
-                        * (t68
-                            * (t181 * t56 + t193 * across_z
-                                - (t183 * t52 + t194 * across_y)
-                                - (t185 * t48 + t195 * t12))
-                            - (t41 * t179
-                                - h
-                                    * (t172 + t103
-                                        - (t187 * t48 - t188 * t52 - t189 * t56)))))));
+                    * (t16 * (t176 + t74 - (t192 * t38 - t193 * t41 + t194 * t40))
+                        + t43 * t189
+                        - (t195 * t40 - t204 * t11 + (t197 * t41 - t205 * along_y)
+                            + (t199 * t38 - t206 * t7)))
+                    + lambda_2
+                        * (t16 * (t180 + t105 - (t192 * t42 - t193 * t47 - t194 * t51))
+                            + t43 * t190
+                            + (t195 * t51 - t204 * across_z
+                                - (t197 * t47 - t205 * across_y)
+                                - (t199 * t42 - t206 * t12))))));
     }
-    /// ∂(C·a − Γ)/∂x. Operations: 889 mul, 623 add, 9 neg.
+    /// ∂(C·a − Γ)/∂x. Operations: 961 mul, 664 add, 8 neg.
     fn d_residual_dx(
         &self,
         x: &[Pose<T>],
@@ -1437,6 +1473,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let t0 = plane_normal_x * inverse;
         let t1 = omega_i_x * s_y - omega_i_y * s_x;
@@ -1496,213 +1533,238 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let t42 = v_i_x * plane_normal_x + v_i_y * plane_normal_y
             + v_i_z * plane_normal_z
             + (plane_normal_x * t39 + plane_normal_y * t40 + plane_normal_z * t41);
-        let t43 = s_y * t22 - s_z * t21;
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
-        let t44 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
+        let t43 = tube_0
+            - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                + plane_normal_z * (r_i_z - plane_point_z + arm_i_z));
+        let t44 = s_y * t22 - s_z * t21;
+        let t45 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
             + rot_i_zx * plane_normal_z;
-        let t45 = t44 * t16 - t22 * t14;
-        let t46 = axis_local_x * t22 - axis_local_z * t44;
-        let t47 = t44 * t1 - t22 * t4;
-        let t48 = s_x * t22 - s_z * t44;
-        let t49 = t44 * t15 + t21 * t14;
-        let t50 = axis_local_x * t21 - axis_local_y * t44;
-        let t51 = t44 * t2 + t21 * t4;
-        let t52 = s_x * t21 - s_y * t44;
-        let t53 = plane_normal_y * a_z - plane_normal_z * a_y;
+        let t46 = t45 * t16 - t22 * t14;
+        let t47 = axis_local_x * t22 - axis_local_z * t45;
+        let t48 = t45 * t1 - t22 * t4;
+        let t49 = s_x * t22 - s_z * t45;
+        let t50 = t45 * t15 + t21 * t14;
+        let t51 = axis_local_x * t21 - axis_local_y * t45;
+        let t52 = t45 * t2 + t21 * t4;
+        let t53 = s_x * t21 - s_y * t45;
+        let t54 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
+        let t55 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
+        let t56 = plane_normal_x * t54 - plane_normal_y * t55;
+        let t57 = plane_normal_x * t18 - plane_normal_y * t17;
+        let t58 = rot_i_yx * alpha_i_x + rot_i_yy * alpha_i_y + rot_i_yz * alpha_i_z;
+        let t59 = rot_i_xx * alpha_i_x + rot_i_xy * alpha_i_y + rot_i_xz * alpha_i_z;
+        let t60 = plane_normal_x * t58 - plane_normal_y * t59;
+        let t61 = plane_normal_x * a_y - plane_normal_y * a_x;
+        let t62 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
+        let t63 = plane_normal_x * t62 - plane_normal_z * t55;
+        let t64 = plane_normal_x * t19 - plane_normal_z * t17;
+        let t65 = rot_i_zx * alpha_i_x + rot_i_zy * alpha_i_y + rot_i_zz * alpha_i_z;
+        let t66 = plane_normal_x * t65 - plane_normal_z * t59;
         let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
-        let t54 = plane_normal_x * a_y - plane_normal_y * a_x;
-        let t55 = v_i_x + t39;
-        let t56 = plane_normal_y * t19 - plane_normal_z * t18;
-        let t57 = v_i_y + t40;
-        let t58 = plane_normal_x * t19 - plane_normal_z * t17;
-        let t59 = v_i_z + t41;
-        let t60 = plane_normal_x * t18 - plane_normal_y * t17;
-        let t61 = a_i_x * t53 - a_i_y * along_y + a_i_z * t54
-            + (t55 * t56 - t57 * t58 + t59 * t60) + (t7 * t53 - t8 * along_y + t9 * t54);
-        let t62 = plane_normal_x - a_x * k;
-        let t63 = rot_i_yy * alpha_i_z - rot_i_yz * alpha_i_y;
-        let t64 = axis_local_z * k;
-        let t65 = axis_local_y * t24 - t64;
-        let t66 = axis_local_y * k;
-        let t67 = t66 + axis_local_z * t24;
-        let t68 = t29 * t24 + rot_i_xy * t65 + rot_i_xz * t67;
-        let t69 = rot_i_yx * alpha_i_x + rot_i_yy * alpha_i_y + rot_i_yz * alpha_i_z;
-        let t70 = axis_local_x * t20 + t14 * k;
-        let t71 = axis_local_y * t20 - t15 * k;
-        let t72 = axis_local_z * t20 + t16 * k;
-        let t73 = rot_i_xx * t70 + rot_i_xy * t71 + rot_i_xz * t72;
-        let t74 = rot_i_yy * omega_i_z - rot_i_yz * omega_i_y;
-        let t75 = axis_local_x * t23 - t14 * t24;
-        let t76 = axis_local_y * t23 + t15 * t24 + t72;
-        let t77 = t71 - (axis_local_z * t23 - t16 * t24);
-        let t78 = rot_i_xx * t75 + rot_i_xy * t76 - rot_i_xz * t77;
-        let t79 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
-        let t80 = plane_normal_y - a_y * k;
-        let t81 = rot_i_xy * alpha_i_z - rot_i_xz * alpha_i_y;
-        let t82 = rot_i_xx * alpha_i_x + rot_i_xy * alpha_i_y + rot_i_xz * alpha_i_z;
-        let t83 = t32 * t24 + rot_i_yy * t65 + rot_i_yz * t67;
-        let t84 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
-        let t85 = rot_i_yx * t75 + rot_i_yy * t76 - rot_i_yz * t77;
-        let t86 = rot_i_xy * omega_i_z - rot_i_xz * omega_i_y;
-        let t87 = rot_i_yx * t70 + rot_i_yy * t71 + rot_i_yz * t72;
-        let t88 = t62 * t63 + t68 * t69 - (t73 * t74 + t78 * t79)
-            - (t80 * t81 + t82 * t83 - (t84 * t85 + t86 * t87));
-        let t89 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
-        let t90 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
-        let t91 = plane_normal_x * t89 - plane_normal_y * t90;
-        let t92 = t62 * t69 - t73 * t79 - (t80 * t82 - t84 * t87);
-        let t93 = t62 * t74 + t68 * t79 - (t80 * t86 + t84 * t83);
-        let t94 = rot_i_yy * t16 + rot_i_yz * t15;
-        let t95 = rot_i_xy * t16 + rot_i_xz * t15;
-        let t96 = plane_normal_x * t94 - plane_normal_y * t95;
-        let t97 = t62 * t79 - t80 * t84;
-        let t98 = rot_i_zy * alpha_i_z - rot_i_zz * alpha_i_y;
-        let t99 = rot_i_zx * alpha_i_x + rot_i_zy * alpha_i_y + rot_i_zz * alpha_i_z;
-        let t100 = rot_i_zy * omega_i_z - rot_i_zz * omega_i_y;
-        let t101 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
-        let t102 = plane_normal_z - a_z * k;
-        let t103 = t35 * t24 + rot_i_zy * t65 + rot_i_zz * t67;
-        let t104 = rot_i_zx * t75 + rot_i_zy * t76 - rot_i_zz * t77;
-        let t105 = rot_i_zx * t70 + rot_i_zy * t71 + rot_i_zz * t72;
-        let t106 = t62 * t98 + t68 * t99 - (t73 * t100 + t78 * t101)
-            - (t102 * t81 + t82 * t103 - (t84 * t104 + t86 * t105));
-        let t107 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
-        let t108 = plane_normal_x * t107 - plane_normal_z * t90;
-        let t109 = t62 * t99 - t73 * t101 - (t102 * t82 - t84 * t105);
-        let t110 = t62 * t100 + t68 * t101 - (t102 * t86 + t84 * t103);
-        let t111 = rot_i_zy * t16 + rot_i_zz * t15;
-        let t112 = plane_normal_x * t111 - plane_normal_z * t95;
-        let t113 = t62 * t101 - t102 * t84;
-        let t114 = t80 * t98 + t83 * t99 - (t87 * t100 + t85 * t101)
-            - (t102 * t63 + t69 * t103 - (t79 * t104 + t74 * t105));
-        let t115 = plane_normal_y * t107 - plane_normal_z * t89;
-        let t116 = t80 * t99 - t87 * t101 - (t102 * t69 - t79 * t105);
-        let t117 = t80 * t100 + t83 * t101 - (t102 * t74 + t79 * t103);
-        let t118 = plane_normal_y * t111 - plane_normal_z * t94;
-        let t119 = t80 * t101 - t102 * t79;
-        let t120 = rot_i_xy * t56 - rot_i_yy * t58 + rot_i_zy * t60;
-        let t121 = rot_i_xz * t56 - rot_i_yz * t58 + rot_i_zz * t60;
-        let t122 = rot_i_xy * t53 - rot_i_yy * along_y + rot_i_zy * t54;
-        let t123 = rot_i_xz * t53 - rot_i_yz * along_y + rot_i_zz * t54;
-        let t124 = t55 * t53 - t57 * along_y + t59 * t54;
-        let t125 = rot_i_yx * alpha_i_z - rot_i_yz * alpha_i_x;
-        let t126 = axis_local_x * t46 - t64;
-        let t127 = axis_local_x * k;
-        let t128 = t127 + axis_local_z * t46;
-        let t129 = rot_i_xx * t126 + t30 * t46 + rot_i_xz * t128;
-        let t130 = rot_i_yx * omega_i_z - rot_i_yz * omega_i_x;
-        let t131 = axis_local_x * t45 - t14 * t46 + t72;
-        let t132 = axis_local_y * t45 + t15 * t46;
-        let t133 = t70 - (axis_local_z * t45 - t16 * t46);
-        let t134 = rot_i_xx * t131 + rot_i_xy * t132 - rot_i_xz * t133;
-        let t135 = rot_i_xx * alpha_i_z - rot_i_xz * alpha_i_x;
-        let t136 = rot_i_yx * t126 + t33 * t46 + rot_i_yz * t128;
-        let t137 = rot_i_yx * t131 + rot_i_yy * t132 - rot_i_yz * t133;
-        let t138 = rot_i_xx * omega_i_z - rot_i_xz * omega_i_x;
-        let t139 = t62 * t125 + t129 * t69 - (t73 * t130 + t134 * t79)
-            - (t80 * t135 + t82 * t136 - (t84 * t137 + t138 * t87));
-        let t140 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
-        let t141 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
-        let t142 = plane_normal_x * t140 - plane_normal_y * t141;
-        let t143 = rot_i_yx * t16 - rot_i_yz * t14;
+        let t67 = plane_normal_y * t62 - plane_normal_z * t54;
+        let t68 = plane_normal_y * t19 - plane_normal_z * t18;
+        let t69 = plane_normal_y * t65 - plane_normal_z * t58;
+        let t70 = plane_normal_y * a_z - plane_normal_z * a_y;
+        let t71 = v_i_x + t39;
+        let t72 = v_i_y + t40;
+        let t73 = v_i_z + t41;
+        let t74 = a_i_x * t70 - a_i_y * along_y + a_i_z * t61
+            + (t71 * t68 - t72 * t64 + t73 * t57) + (t7 * t70 - t8 * along_y + t9 * t61);
+        let t75 = tube_0
+            * (t56 * t57 + t60 * t61 + (t63 * t64 + t66 * along_y)
+                + (t67 * t68 + t69 * t70)) + t74;
+        let t76 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t77 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t78 = plane_normal_y * t76 - plane_normal_z * t77;
+        let t79 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t80 = plane_normal_x * t76 - plane_normal_z * t79;
+        let t81 = plane_normal_x * t77 - plane_normal_y * t79;
+        let t82 = rot_i_zy * t16 + rot_i_zz * t15;
+        let t83 = rot_i_yy * t16 + rot_i_yz * t15;
+        let t84 = plane_normal_y * t82 - plane_normal_z * t83;
+        let t85 = rot_i_xy * t16 + rot_i_xz * t15;
+        let t86 = plane_normal_x * t82 - plane_normal_z * t85;
+        let t87 = plane_normal_x * t83 - plane_normal_y * t85;
+        let t88 = rot_i_xy * t68 - rot_i_yy * t64 + rot_i_zy * t57;
+        let t89 = rot_i_xz * t68 - rot_i_yz * t64 + rot_i_zz * t57;
+        let t90 = rot_i_xy * t70 - rot_i_yy * along_y + rot_i_zy * t61;
+        let t91 = rot_i_xz * t70 - rot_i_yz * along_y + rot_i_zz * t61;
+        let t92 = t71 * t70 - t72 * along_y + t73 * t61;
+        let t93 = axis_local_x * t23 - t14 * t24;
+        let t94 = axis_local_z * t20 + t16 * k;
+        let t95 = axis_local_y * t23 + t15 * t24 + t94;
+        let t96 = axis_local_y * t20 - t15 * k;
+        let t97 = t96 - (axis_local_z * t23 - t16 * t24);
+        let t98 = plane_normal_y * tube_0;
+        let t99 = t13 * (rot_i_yx * t93 + rot_i_yy * t95 - rot_i_yz * t97) - t98 * t38;
+        let t100 = rot_i_xy * omega_i_z - rot_i_xz * omega_i_y;
+        let t101 = axis_local_x * t20 + t14 * k;
+        let t102 = t13 * (rot_i_yx * t101 + rot_i_yy * t96 + rot_i_yz * t94) - t98 * t42;
+        let t103 = axis_local_z * k;
+        let t104 = axis_local_y * t24 - t103;
+        let t105 = axis_local_y * k;
+        let t106 = t105 + axis_local_z * t24;
+        let t107 = t13 * (t32 * t24 + rot_i_yy * t104 + rot_i_yz * t106) - t98 * t44;
+        let t108 = rot_i_xy * alpha_i_z - rot_i_xz * alpha_i_y;
+        let t109 = t13 - tube_0 * t43;
+        let t110 = t13 * a_y * k - plane_normal_y * t109;
+        let t111 = plane_normal_x * tube_0;
+        let t112 = t13 * (rot_i_xx * t93 + rot_i_xy * t95 - rot_i_xz * t97) - t111 * t38;
+        let t113 = rot_i_yy * omega_i_z - rot_i_yz * omega_i_y;
+        let t114 = t13 * (rot_i_xx * t101 + rot_i_xy * t96 + rot_i_xz * t94)
+            - t111 * t42;
+        let t115 = t13 * (t29 * t24 + rot_i_xy * t104 + rot_i_xz * t106) - t111 * t44;
+        let t116 = rot_i_yy * alpha_i_z - rot_i_yz * alpha_i_y;
+        let t117 = t13 * a_x * k - plane_normal_x * t109;
+        let t118 = t55 * t99 + t100 * t102 - (t59 * t107 - t108 * t110)
+            - (t54 * t112 + t113 * t114 - (t58 * t115 - t116 * t117));
+        let t119 = t55 * t102 + t59 * t110 - (t54 * t114 + t58 * t117);
+        let t120 = t55 * t107 - t100 * t110 - (t54 * t115 - t113 * t117);
+        let turned_z = t55 * t110 - t54 * t117;
+        let t121 = plane_normal_z * tube_0;
+        let t122 = t13 * (rot_i_zx * t93 + rot_i_zy * t95 - rot_i_zz * t97) - t121 * t38;
+        let t123 = t13 * (rot_i_zx * t101 + rot_i_zy * t96 + rot_i_zz * t94)
+            - t121 * t42;
+        let t124 = t13 * (t35 * t24 + rot_i_zy * t104 + rot_i_zz * t106) - t121 * t44;
+        let t125 = t13 * a_z * k - plane_normal_z * t109;
+        let t126 = rot_i_zy * omega_i_z - rot_i_zz * omega_i_y;
+        let t127 = rot_i_zy * alpha_i_z - rot_i_zz * alpha_i_y;
+        let t128 = t55 * t122 + t100 * t123 - (t59 * t124 - t108 * t125)
+            - (t62 * t112 + t126 * t114 - (t65 * t115 - t127 * t117));
+        let t129 = t55 * t123 + t59 * t125 - (t62 * t114 + t65 * t117);
+        let t130 = t55 * t124 - t100 * t125 - (t62 * t115 - t126 * t117);
+        let t131 = t55 * t125 - t62 * t117;
+        let t132 = t54 * t122 + t113 * t123 - (t58 * t124 - t116 * t125)
+            - (t62 * t99 + t126 * t102 - (t65 * t107 - t127 * t110));
+        let t133 = t54 * t123 + t58 * t125 - (t62 * t102 + t65 * t110);
+        let t134 = t54 * t124 - t113 * t125 - (t62 * t107 - t126 * t110);
+        let turned_x = t54 * t125 - t62 * t110;
+        let t135 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t136 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t137 = plane_normal_y * t135 - plane_normal_z * t136;
+        let t138 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t139 = plane_normal_x * t135 - plane_normal_z * t138;
+        let t140 = plane_normal_x * t136 - plane_normal_y * t138;
+        let t141 = rot_i_zx * t16 - rot_i_zz * t14;
+        let t142 = rot_i_yx * t16 - rot_i_yz * t14;
+        let t143 = plane_normal_y * t141 - plane_normal_z * t142;
         let t144 = rot_i_xx * t16 - rot_i_xz * t14;
-        let t145 = plane_normal_x * t143 - plane_normal_y * t144;
-        let t146 = t62 * t130 + t129 * t79 - (t80 * t138 + t84 * t136);
-        let t147 = rot_i_zx * alpha_i_z - rot_i_zz * alpha_i_x;
-        let t148 = rot_i_zx * omega_i_z - rot_i_zz * omega_i_x;
-        let t149 = rot_i_zx * t126 + t36 * t46 + rot_i_zz * t128;
-        let t150 = rot_i_zx * t131 + rot_i_zy * t132 - rot_i_zz * t133;
-        let t151 = t62 * t147 + t129 * t99 - (t73 * t148 + t134 * t101)
-            - (t102 * t135 + t82 * t149 - (t84 * t150 + t138 * t105));
-        let t152 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
-        let t153 = plane_normal_x * t152 - plane_normal_z * t141;
-        let t154 = rot_i_zx * t16 - rot_i_zz * t14;
-        let t155 = plane_normal_x * t154 - plane_normal_z * t144;
-        let t156 = t62 * t148 + t129 * t101 - (t102 * t138 + t84 * t149);
-        let t157 = t80 * t147 + t136 * t99 - (t87 * t148 + t137 * t101)
-            - (t102 * t125 + t69 * t149 - (t79 * t150 + t130 * t105));
-        let t158 = plane_normal_y * t152 - plane_normal_z * t140;
-        let t159 = plane_normal_y * t154 - plane_normal_z * t143;
-        let t160 = t80 * t148 + t136 * t101 - (t102 * t130 + t79 * t149);
-        let t161 = rot_i_xx * t56 - rot_i_yx * t58 + rot_i_zx * t60;
-        let t162 = rot_i_xx * t53 - rot_i_yx * along_y + rot_i_zx * t54;
-        let t163 = rot_i_yx * alpha_i_y - rot_i_yy * alpha_i_x;
-        let t164 = axis_local_x * t50 - t66;
-        let t165 = t127 + axis_local_y * t50;
-        let t166 = rot_i_xx * t164 + rot_i_xy * t165 + t31 * t50;
-        let t167 = rot_i_yx * omega_i_y - rot_i_yy * omega_i_x;
-        let t168 = axis_local_x * t49 + t14 * t50 - t71;
-        let t169 = t70 + (axis_local_y * t49 - t15 * t50);
-        let t170 = axis_local_z * t49 + t16 * t50;
-        let t171 = rot_i_xx * t168 + rot_i_xy * t169 + rot_i_xz * t170;
-        let t172 = rot_i_xx * alpha_i_y - rot_i_xy * alpha_i_x;
-        let t173 = rot_i_yx * t164 + rot_i_yy * t165 + t34 * t50;
-        let t174 = rot_i_yx * t168 + rot_i_yy * t169 + rot_i_yz * t170;
-        let t175 = rot_i_xx * omega_i_y - rot_i_xy * omega_i_x;
-        let t176 = t62 * t163 + t166 * t69 - (t73 * t167 - t171 * t79)
-            - (t80 * t172 + t82 * t173 + (t84 * t174 - t175 * t87));
-        let t177 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
-        let t178 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
-        let t179 = plane_normal_x * t177 - plane_normal_y * t178;
+        let t145 = plane_normal_x * t141 - plane_normal_z * t144;
+        let t146 = plane_normal_x * t142 - plane_normal_y * t144;
+        let t147 = rot_i_xx * t68 - rot_i_yx * t64 + rot_i_zx * t57;
+        let t148 = rot_i_xx * t70 - rot_i_yx * along_y + rot_i_zx * t61;
+        let t149 = axis_local_x * t46 - t14 * t47 + t94;
+        let t150 = axis_local_y * t46 + t15 * t47;
+        let t151 = t101 - (axis_local_z * t46 - t16 * t47);
+        let t152 = t13 * (rot_i_yx * t149 + rot_i_yy * t150 - rot_i_yz * t151)
+            - t98 * t48;
+        let t153 = rot_i_xx * omega_i_z - rot_i_xz * omega_i_x;
+        let t154 = axis_local_x * t47 - t103;
+        let t155 = axis_local_x * k;
+        let t156 = t155 + axis_local_z * t47;
+        let t157 = t13 * (rot_i_yx * t154 + t33 * t47 + rot_i_yz * t156) - t98 * t49;
+        let t158 = rot_i_xx * alpha_i_z - rot_i_xz * alpha_i_x;
+        let t159 = t13 * (rot_i_xx * t149 + rot_i_xy * t150 - rot_i_xz * t151)
+            - t111 * t48;
+        let t160 = rot_i_yx * omega_i_z - rot_i_yz * omega_i_x;
+        let t161 = t13 * (rot_i_xx * t154 + t30 * t47 + rot_i_xz * t156) - t111 * t49;
+        let t162 = rot_i_yx * alpha_i_z - rot_i_yz * alpha_i_x;
+        let t163 = t55 * t152 + t153 * t102 - (t59 * t157 - t158 * t110)
+            - (t54 * t159 + t160 * t114 - (t58 * t161 - t162 * t117));
+        let t164 = t55 * t157 - t153 * t110 - (t54 * t161 - t160 * t117);
+        let t165 = t13 * (rot_i_zx * t149 + rot_i_zy * t150 - rot_i_zz * t151)
+            - t121 * t48;
+        let t166 = t13 * (rot_i_zx * t154 + t36 * t47 + rot_i_zz * t156) - t121 * t49;
+        let t167 = rot_i_zx * omega_i_z - rot_i_zz * omega_i_x;
+        let t168 = rot_i_zx * alpha_i_z - rot_i_zz * alpha_i_x;
+        let t169 = t55 * t165 + t153 * t123 - (t59 * t166 - t158 * t125)
+            - (t62 * t159 + t167 * t114 - (t65 * t161 - t168 * t117));
+        let t170 = t55 * t166 - t153 * t125 - (t62 * t161 - t167 * t117);
+        let t171 = t54 * t165 + t160 * t123 - (t58 * t166 - t162 * t125)
+            - (t62 * t152 + t167 * t102 - (t65 * t157 - t168 * t110));
+        let t172 = t54 * t166 - t160 * t125 - (t62 * t157 - t167 * t110);
+        let t173 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t174 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t175 = plane_normal_y * t173 - plane_normal_z * t174;
+        let t176 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t177 = plane_normal_x * t173 - plane_normal_z * t176;
+        let t178 = plane_normal_x * t174 - plane_normal_y * t176;
+        let t179 = rot_i_zx * t15 + rot_i_zy * t14;
         let t180 = rot_i_yx * t15 + rot_i_yy * t14;
-        let t181 = rot_i_xx * t15 + rot_i_xy * t14;
-        let t182 = plane_normal_x * t180 - plane_normal_y * t181;
-        let t183 = t62 * t167 + t166 * t79 - (t80 * t175 + t84 * t173);
-        let t184 = rot_i_zx * alpha_i_y - rot_i_zy * alpha_i_x;
-        let t185 = rot_i_zx * omega_i_y - rot_i_zy * omega_i_x;
-        let t186 = rot_i_zx * t164 + rot_i_zy * t165 + t37 * t50;
-        let t187 = rot_i_zx * t168 + rot_i_zy * t169 + rot_i_zz * t170;
-        let t188 = t62 * t184 + t166 * t99 - (t73 * t185 - t171 * t101)
-            - (t102 * t172 + t82 * t186 + (t84 * t187 - t175 * t105));
-        let t189 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
-        let t190 = plane_normal_x * t189 - plane_normal_z * t178;
-        let t191 = rot_i_zx * t15 + rot_i_zy * t14;
-        let t192 = plane_normal_x * t191 - plane_normal_z * t181;
-        let t193 = t62 * t185 + t166 * t101 - (t102 * t175 + t84 * t186);
-        let t194 = t80 * t184 + t173 * t99 - (t87 * t185 - t174 * t101)
-            - (t102 * t163 + t69 * t186 + (t79 * t187 - t167 * t105));
-        let t195 = plane_normal_y * t189 - plane_normal_z * t177;
-        let t196 = plane_normal_y * t191 - plane_normal_z * t180;
-        let t197 = t80 * t185 + t173 * t101 - (t102 * t167 + t79 * t186);
-        let t198 = plane_normal_y * t54 + plane_normal_z * along_y;
-        let across_y = plane_normal_x * t54 - plane_normal_z * t53;
-        let across_z = plane_normal_x * along_y + plane_normal_y * t53;
-        let t199 = plane_normal_y * t60 + plane_normal_z * t58;
-        let t200 = plane_normal_x * t60 - plane_normal_z * t56;
-        let t201 = plane_normal_x * t58 + plane_normal_y * t56;
-        let t202 = a_i_x * t198 - a_i_y * across_y - a_i_z * across_z
-            + (t55 * t199 - t57 * t200 - t59 * t201)
-            + (t7 * t198 - t8 * across_y - t9 * across_z);
-        let t203 = plane_normal_x * t91 - plane_normal_z * t115;
-        let t204 = plane_normal_x * t96 - plane_normal_z * t118;
-        let t205 = plane_normal_x * t108 + plane_normal_y * t115;
-        let t206 = plane_normal_x * t112 + plane_normal_y * t118;
-        let t207 = plane_normal_y * t91 + plane_normal_z * t108;
-        let t208 = plane_normal_y * t96 + plane_normal_z * t112;
-        let t209 = rot_i_xy * t199 - rot_i_yy * t200 - rot_i_zy * t201;
-        let t210 = rot_i_xz * t199 - rot_i_yz * t200 - rot_i_zz * t201;
-        let t211 = rot_i_xy * t198 - rot_i_yy * across_y - rot_i_zy * across_z;
-        let t212 = rot_i_xz * t198 - rot_i_yz * across_y - rot_i_zz * across_z;
-        let t213 = t55 * t198 - t57 * across_y - t59 * across_z;
-        let t214 = plane_normal_x * t142 - plane_normal_z * t158;
-        let t215 = plane_normal_x * t145 - plane_normal_z * t159;
-        let t216 = plane_normal_x * t153 + plane_normal_y * t158;
-        let t217 = plane_normal_x * t155 + plane_normal_y * t159;
-        let t218 = plane_normal_y * t142 + plane_normal_z * t153;
-        let t219 = plane_normal_y * t145 + plane_normal_z * t155;
-        let t220 = rot_i_xx * t199 - rot_i_yx * t200 - rot_i_zx * t201;
-        let t221 = rot_i_xx * t198 - rot_i_yx * across_y - rot_i_zx * across_z;
-        let t222 = plane_normal_x * t179 - plane_normal_z * t195;
-        let t223 = plane_normal_x * t182 - plane_normal_z * t196;
-        let t224 = plane_normal_x * t190 + plane_normal_y * t195;
-        let t225 = plane_normal_x * t192 + plane_normal_y * t196;
-        let t226 = plane_normal_y * t179 + plane_normal_z * t190;
-        let t227 = plane_normal_y * t182 + plane_normal_z * t192;
+        let t181 = plane_normal_y * t179 - plane_normal_z * t180;
+        let t182 = rot_i_xx * t15 + rot_i_xy * t14;
+        let t183 = plane_normal_x * t179 - plane_normal_z * t182;
+        let t184 = plane_normal_x * t180 - plane_normal_y * t182;
+        let t185 = axis_local_x * t50 + t14 * t51 - t96;
+        let t186 = t101 + (axis_local_y * t50 - t15 * t51);
+        let t187 = axis_local_z * t50 + t16 * t51;
+        let t188 = t13 * (rot_i_yx * t185 + rot_i_yy * t186 + rot_i_yz * t187)
+            - t98 * t52;
+        let t189 = rot_i_xx * omega_i_y - rot_i_xy * omega_i_x;
+        let t190 = axis_local_x * t51 - t105;
+        let t191 = t155 + axis_local_y * t51;
+        let t192 = t13 * (rot_i_yx * t190 + rot_i_yy * t191 + t34 * t51) - t98 * t53;
+        let t193 = rot_i_xx * alpha_i_y - rot_i_xy * alpha_i_x;
+        let t194 = t13 * (rot_i_xx * t185 + rot_i_xy * t186 + rot_i_xz * t187)
+            - t111 * t52;
+        let t195 = rot_i_yx * omega_i_y - rot_i_yy * omega_i_x;
+        let t196 = t13 * (rot_i_xx * t190 + rot_i_xy * t191 + t31 * t51) - t111 * t53;
+        let t197 = rot_i_yx * alpha_i_y - rot_i_yy * alpha_i_x;
+        let t198 = t55 * t188 - t189 * t102 + (t59 * t192 - t193 * t110)
+            - (t54 * t194 - t195 * t114 + (t58 * t196 - t197 * t117));
+        let t199 = t55 * t192 - t189 * t110 - (t54 * t196 - t195 * t117);
+        let t200 = t13 * (rot_i_zx * t185 + rot_i_zy * t186 + rot_i_zz * t187)
+            - t121 * t52;
+        let t201 = t13 * (rot_i_zx * t190 + rot_i_zy * t191 + t37 * t51) - t121 * t53;
+        let t202 = rot_i_zx * omega_i_y - rot_i_zy * omega_i_x;
+        let t203 = rot_i_zx * alpha_i_y - rot_i_zy * alpha_i_x;
+        let t204 = t55 * t200 - t189 * t123 + (t59 * t201 - t193 * t125)
+            - (t62 * t194 - t202 * t114 + (t65 * t196 - t203 * t117));
+        let t205 = t55 * t201 - t189 * t125 - (t62 * t196 - t202 * t117);
+        let t206 = t54 * t200 - t195 * t123 + (t58 * t201 - t197 * t125)
+            - (t62 * t188 - t202 * t102 + (t65 * t192 - t203 * t110));
+        let t207 = t54 * t201 - t195 * t125 - (t62 * t192 - t202 * t110);
+        let t208 = plane_normal_x * t64 + plane_normal_y * t68;
+        let across_z = plane_normal_x * along_y + plane_normal_y * t70;
+        let t209 = plane_normal_x * t57 - plane_normal_z * t68;
+        let across_y = plane_normal_x * t61 - plane_normal_z * t70;
+        let t210 = plane_normal_y * t57 + plane_normal_z * t64;
+        let t211 = plane_normal_y * t61 + plane_normal_z * along_y;
+        let t212 = a_i_x * t211 - a_i_y * across_y - a_i_z * across_z
+            + (t71 * t210 - t72 * t209 - t73 * t208)
+            + (t7 * t211 - t8 * across_y - t9 * across_z);
+        let t213 = tube_0
+            * (t56 * t208 + t60 * across_z - (t63 * t209 + t66 * across_y)
+                - (t67 * t210 + t69 * t211)) - t212;
+        let t214 = plane_normal_y * t81 + plane_normal_z * t80;
+        let t215 = plane_normal_x * t81 - plane_normal_z * t78;
+        let t216 = plane_normal_x * t80 + plane_normal_y * t78;
+        let t217 = plane_normal_y * t87 + plane_normal_z * t86;
+        let t218 = plane_normal_x * t87 - plane_normal_z * t84;
+        let t219 = plane_normal_x * t86 + plane_normal_y * t84;
+        let t220 = rot_i_xy * t210 - rot_i_yy * t209 - rot_i_zy * t208;
+        let t221 = rot_i_xz * t210 - rot_i_yz * t209 - rot_i_zz * t208;
+        let t222 = rot_i_xy * t211 - rot_i_yy * across_y - rot_i_zy * across_z;
+        let t223 = rot_i_xz * t211 - rot_i_yz * across_y - rot_i_zz * across_z;
+        let t224 = t71 * t211 - t72 * across_y - t73 * across_z;
+        let t225 = plane_normal_y * t140 + plane_normal_z * t139;
+        let t226 = plane_normal_x * t140 - plane_normal_z * t137;
+        let t227 = plane_normal_x * t139 + plane_normal_y * t137;
+        let t228 = plane_normal_y * t146 + plane_normal_z * t145;
+        let t229 = plane_normal_x * t146 - plane_normal_z * t143;
+        let t230 = plane_normal_x * t145 + plane_normal_y * t143;
+        let t231 = rot_i_xx * t210 - rot_i_yx * t209 - rot_i_zx * t208;
+        let t232 = rot_i_xx * t211 - rot_i_yx * across_y - rot_i_zx * across_z;
+        let t233 = plane_normal_y * t178 + plane_normal_z * t177;
+        let t234 = plane_normal_x * t178 - plane_normal_z * t175;
+        let t235 = plane_normal_x * t177 + plane_normal_y * t175;
+        let t236 = plane_normal_y * t184 + plane_normal_z * t183;
+        let t237 = plane_normal_x * t184 - plane_normal_z * t181;
+        let t238 = plane_normal_x * t183 + plane_normal_y * t181;
         out[0] = t0 * t10;
         out[1] = t11 * t10;
         out[2] = t12 * t10;
@@ -1711,123 +1773,103 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
                 * (T::from(2.0) * (t20 * t23)
                     - (t24 * t28 + k * (t21 * t27 - t22 * t26)))
                 + (T::from(2.0) * (t38 * t42)
-                    - (t43 * t10 + h * (t21 * t6 - t22 * t5)))));
+                    + (t43 * (t21 * t6 - t22 * t5) - t44 * t10))));
         out[4] = inverse
             * (t13
-                * (T::from(2.0) * (t20 * t45)
-                    - (t46 * t28 + k * (t44 * t27 + t22 * t25)))
-                + (T::from(2.0) * (t47 * t42)
-                    - (t48 * t10 + h * (t44 * t6 + t22 * t3))));
+                * (T::from(2.0) * (t20 * t46)
+                    - (t47 * t28 + k * (t45 * t27 + t22 * t25)))
+                + (T::from(2.0) * (t48 * t42)
+                    + (t43 * (t45 * t6 + t22 * t3) - t49 * t10)));
         out[5] = inverse
             * (t13
-                * (T::from(2.0) * (t20 * t49)
-                    + (t50 * t28 + k * (t44 * t26 + t21 * t25)))
-                + (T::from(2.0) * (t51 * t42)
-                    + (t52 * t10 + h * (t44 * t5 + t21 * t3))));
-        out[6] = -(t0 * t61);
-        out[7] = -(t11 * t61);
-        out[8] = -(t12 * t61);
-        out[9] = inverse
-            * (t13
-                * (t54 * t88 + t91 * t92 + (t60 * t93 + t96 * t97)
-                    + (along_y * t106 + t108 * t109 + (t58 * t110 + t112 * t113))
-                    + (t53 * t114 + t115 * t116 + (t56 * t117 + t118 * t119)))
-                - (t43 * t61
-                    - h
-                        * (a_i_x * t115 - a_i_y * t108 + a_i_z * t91
-                            + (t55 * t118 - t57 * t112 + t59 * t96
-                                + (t120 * t1 + t121 * t2))
-                            + (t7 * t115 - t8 * t108 + t9 * t91
-                                - (t122 * t6 - t123 * t5)))
-                    - (t124 * t38
-                        + t42
-                            * (t55 * t115 - t57 * t108 + t59 * t91
-                                + (t122 * t1 + t123 * t2)))));
-        out[10] = -(inverse
-            * (t13
-                * (t54 * t139 + t142 * t92 + (t145 * t97 + t60 * t146)
-                    + (along_y * t151 + t153 * t109 + (t155 * t113 + t58 * t156))
-                    + (t53 * t157 + t158 * t116 + (t159 * t119 + t56 * t160)))
-                - (t48 * t61
-                    - h
-                        * (a_i_x * t158 - a_i_y * t153 + a_i_z * t142
-                            + (t55 * t159 - t57 * t155 + t59 * t145
-                                + (t161 * t1 - t121 * t4))
-                            - (t162 * t6 + t123 * t3
-                                - (t7 * t158 - t8 * t153 + t9 * t142)))
-                    - (t124 * t47
-                        + t42
-                            * (t55 * t158 - t57 * t153 + t59 * t142
-                                + (t162 * t1 - t123 * t4))))));
-        out[11] = inverse
-            * (t13
-                * (t54 * t176 + t179 * t92 - (t182 * t97 - t60 * t183)
-                    + (along_y * t188 + t190 * t109 - (t192 * t113 - t58 * t193))
-                    + (t53 * t194 + t195 * t116 - (t196 * t119 - t56 * t197)))
-                - (t52 * t61
-                    - h
-                        * (a_i_x * t195 - a_i_y * t190 + a_i_z * t179
-                            - (t55 * t196 - t57 * t192 + t59 * t182
-                                + (t161 * t2 + t120 * t4))
-                            - (t162 * t5 + t122 * t3
-                                - (t7 * t195 - t8 * t190 + t9 * t179)))
-                    + (t124 * t51
-                        - t42
-                            * (t55 * t195 - t57 * t190 + t59 * t179
-                                - (t162 * t2 + t122 * t4)))));
-        out[12] = -(t0 * t202);
-        out[13] = -(t11 * t202);
-        out[14] = -(t12 * t202);
-        out[15] = inverse
-            * (t13
-                * (across_y * t106 + t203 * t109 + (t200 * t110 + t204 * t113)
-                    - (across_z * t88 + t205 * t92 + (t201 * t93 + t206 * t97))
-                    + (t198 * t114 + t207 * t116 + (t199 * t117 + t208 * t119)))
-                - (t43 * t202
-                    - h
-                        * (a_i_x * t207 - a_i_y * t203 - a_i_z * t205
-                            + (t55 * t208 - t57 * t204 - t59 * t206
-                                + (t209 * t1 + t210 * t2))
-                            + (t7 * t207 - t8 * t203 - t9 * t205
-                                - (t211 * t6 - t212 * t5)))
-                    - (t213 * t38
-                        + t42
-                            * (t55 * t207 - t57 * t203 - t59 * t205
-                                + (t211 * t1 + t212 * t2)))));
-        out[16] = -(inverse
-            * (t13
-                * (across_y * t151 + t214 * t109 + (t215 * t113 + t200 * t156)
-                    - (across_z * t139 + t216 * t92 + (t217 * t97 + t201 * t146))
-                    + (t198 * t157 + t218 * t116 + (t219 * t119 + t199 * t160)))
-                - (t48 * t202
-                    - h
-                        * (a_i_x * t218 - a_i_y * t214 - a_i_z * t216
-                            + (t55 * t219 - t57 * t215 - t59 * t217
-                                + (t220 * t1 - t210 * t4))
-                            - (t221 * t6 + t212 * t3
-                                - (t7 * t218 - t8 * t214 - t9 * t216)))
-                    - (t213 * t47
-                        + t42
-                            * (t55 * t218 - t57 * t214 - t59 * t216
-                                + (t221 * t1 - t212 * t4))))));
-        out[17] = inverse
-            * (t13
-                * (across_y * t188 + t222 * t109 - (t223 * t113 - t200 * t193)
-                    - (across_z * t176 + t224 * t92 - (t225 * t97 - t201 * t183))
-                    + (t198 * t194 + t226 * t116 - (t227 * t119 - t199 * t197)))
-                - (t52 * t202
-                    - h
-                        * (a_i_x * t226 - a_i_y * t222 - a_i_z * t224
-                            - (t55 * t227 - t57 * t223 - t59 * t225
-                                + (t220 * t2 + t209 * t4))
-                            - (t221 * t5 + t211 * t3
-                                - (t7 * t226 - t8 * t222 - t9 * t224)))
-                    + (t213 * t51
-                        - t42
-                            * (t55 * t226 - t57 * t222 - t59 * t224
-                                - (t221 * t2 + t211 * t4)))));
+                * (T::from(2.0) * (t20 * t50)
+                    + (t51 * t28 + k * (t45 * t26 + t21 * t25)))
+                + (T::from(2.0) * (t52 * t42)
+                    - (t43 * (t45 * t5 + t21 * t3) - t53 * t10)));
+        out[6] = -(t0 * t75);
+        out[7] = -(t11 * t75);
+        out[8] = -(t12 * t75);
+        out[9] = -(inverse
+            * (t43
+                * (a_i_x * t78 - a_i_y * t80 + a_i_z * t81
+                    + (t71 * t84 - t72 * t86 + t73 * t87 + (t88 * t1 + t89 * t2))
+                    + (t7 * t78 - t8 * t80 + t9 * t81 - (t90 * t6 - t91 * t5)))
+                + t44 * t74
+                - (t92 * t38
+                    + t42 * (t71 * t78 - t72 * t80 + t73 * t81 + (t90 * t1 + t91 * t2)))
+                - (t61 * t118 + t81 * t119 - (t57 * t120 - t87 * turned_z)
+                    + (along_y * t128 + t80 * t129 - (t64 * t130 - t86 * t131))
+                    + (t70 * t132 + t78 * t133 - (t68 * t134 - t84 * turned_x)))));
+        out[10] = inverse
+            * (t43
+                * (a_i_x * t137 - a_i_y * t139 + a_i_z * t140
+                    + (t71 * t143 - t72 * t145 + t73 * t146 + (t147 * t1 - t89 * t4))
+                    - (t148 * t6 + t91 * t3 - (t7 * t137 - t8 * t139 + t9 * t140)))
+                + t49 * t74
+                - (t92 * t48
+                    + t42
+                        * (t71 * t137 - t72 * t139 + t73 * t140
+                            + (t148 * t1 - t91 * t4)))
+                - (t61 * t163 + t140 * t119 + (t146 * turned_z - t57 * t164)
+                    + (along_y * t169 + t139 * t129 + (t145 * t131 - t64 * t170))
+                    + (t70 * t171 + t137 * t133 + (t143 * turned_x - t68 * t172))));
+        out[11] = -(inverse
+            * (t43
+                * (a_i_x * t175 - a_i_y * t177 + a_i_z * t178
+                    - (t71 * t181 - t72 * t183 + t73 * t184 + (t147 * t2 + t88 * t4))
+                    - (t148 * t5 + t90 * t3 - (t7 * t175 - t8 * t177 + t9 * t178)))
+                + t53 * t74
+                + (t92 * t52
+                    - t42
+                        * (t71 * t175 - t72 * t177 + t73 * t178
+                            - (t148 * t2 + t90 * t4)))
+                + (t61 * t198 - t178 * t119 + (t184 * turned_z + t57 * t199)
+                    + (along_y * t204 - t177 * t129 + (t183 * t131 + t64 * t205))
+                    + (t70 * t206 - t175 * t133 + (t181 * turned_x + t68 * t207)))));
+        out[12] = t0 * t213;
+        out[13] = t11 * t213;
+        out[14] = t12 * t213;
+        out[15] = -(inverse
+            * (t43
+                * (a_i_x * t214 - a_i_y * t215 - a_i_z * t216
+                    + (t71 * t217 - t72 * t218 - t73 * t219 + (t220 * t1 + t221 * t2))
+                    + (t7 * t214 - t8 * t215 - t9 * t216 - (t222 * t6 - t223 * t5)))
+                + t44 * t212
+                - (t224 * t38
+                    + t42
+                        * (t71 * t214 - t72 * t215 - t73 * t216
+                            + (t222 * t1 + t223 * t2)))
+                - (across_y * t128 + t215 * t129 - (t209 * t130 - t218 * t131)
+                    - (across_z * t118 + t216 * t119 - (t208 * t120 - t219 * turned_z))
+                    + (t211 * t132 + t214 * t133 - (t210 * t134 - t217 * turned_x)))));
+        out[16] = inverse
+            * (t43
+                * (a_i_x * t225 - a_i_y * t226 - a_i_z * t227
+                    + (t71 * t228 - t72 * t229 - t73 * t230 + (t231 * t1 - t221 * t4))
+                    - (t232 * t6 + t223 * t3 - (t7 * t225 - t8 * t226 - t9 * t227)))
+                + t49 * t212
+                - (t224 * t48
+                    + t42
+                        * (t71 * t225 - t72 * t226 - t73 * t227
+                            + (t232 * t1 - t223 * t4)))
+                - (across_y * t169 + t226 * t129 + (t229 * t131 - t209 * t170)
+                    - (across_z * t163 + t227 * t119 + (t230 * turned_z - t208 * t164))
+                    + (t211 * t171 + t225 * t133 + (t228 * turned_x - t210 * t172))));
+        out[17] = -(inverse
+            * (t43
+                * (a_i_x * t233 - a_i_y * t234 - a_i_z * t235
+                    - (t71 * t236 - t72 * t237 - t73 * t238 + (t231 * t2 + t220 * t4))
+                    - (t232 * t5 + t222 * t3 - (t7 * t233 - t8 * t234 - t9 * t235)))
+                + t53 * t212
+                + (t224 * t52
+                    - t42
+                        * (t71 * t233 - t72 * t234 - t73 * t235
+                            - (t232 * t2 + t222 * t4)))
+                + (across_y * t204 - t234 * t129 + (t237 * t131 + t209 * t205)
+                    - (across_z * t198 - t235 * t119 + (t238 * turned_z + t208 * t199))
+                    + (t211 * t206 - t233 * t133 + (t236 * turned_x + t210 * t207)))));
     }
-    /// ∂Γ/∂v. Operations: 553 mul, 375 add, 8 neg.
+    /// ∂Γ/∂v. Operations: 599 mul, 402 add, 10 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..18];
         let r_i_x = x[0].r[0];
@@ -1861,6 +1903,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let t0 = omega_i_y * s_z;
         let t1 = omega_i_z * s_y;
@@ -1913,137 +1956,147 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
             + rot_i_zx * plane_normal_z;
         let t40 = omega_i_y * axis_local_y;
         let t41 = omega_i_z * axis_local_z;
-        let t42 = s_y * t14 - s_z * t15;
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
+        let t42 = tube_0
+            - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                + plane_normal_z * (r_i_z - plane_point_z + arm_i_z));
         let t43 = omega_i_y * s_y;
         let t44 = omega_i_z * s_z;
         let t45 = t43 + t44;
         let t46 = t6 + t8;
         let t47 = t3 + t5;
-        let t48 = axis_local_x * t14 - axis_local_z * t39;
-        let t49 = omega_i_x * axis_local_x;
-        let t50 = s_x * t14 - s_z * t39;
+        let t48 = s_y * t14 - s_z * t15;
+        let t49 = axis_local_x * t14 - axis_local_z * t39;
+        let t50 = omega_i_x * axis_local_x;
         let t51 = t7 - t8;
         let t52 = omega_i_x * s_x;
         let t53 = t52 + t44;
         let t54 = t0 + t2;
-        let t55 = axis_local_x * t15 - axis_local_y * t39;
-        let t56 = s_x * t15 - s_y * t39;
+        let t55 = s_x * t14 - s_z * t39;
+        let t56 = axis_local_x * t15 - axis_local_y * t39;
         let t57 = t4 - t5;
         let t58 = t1 - t2;
         let t59 = t52 + t43;
-        let t60 = plane_normal_y * t28 - plane_normal_z * t27;
-        let t61 = v_i_x + t9;
-        let t62 = plane_normal_y * a_z - plane_normal_z * a_y;
-        let t63 = v_i_y + t10;
-        let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
-        let t64 = v_i_z + t11;
+        let t60 = s_x * t15 - s_y * t39;
+        let t61 = plane_normal_x * tube_0;
+        let t62 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
+        let t63 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
+        let t64 = plane_normal_x * t62 - plane_normal_y * t63;
         let t65 = plane_normal_x * a_y - plane_normal_y * a_x;
-        let t66 = t61 * t62 - t63 * along_y + t64 * t65;
-        let t67 = plane_normal_x * t28 - plane_normal_z * t26;
-        let t68 = plane_normal_x * t27 - plane_normal_y * t26;
-        let t69 = axis_local_x * t29 + t19 * k;
-        let t70 = axis_local_y * t29 - t22 * k;
-        let t71 = axis_local_z * t29 + t25 * k;
-        let t72 = rot_i_yx * t69 + rot_i_yy * t70 + rot_i_yz * t71;
-        let t73 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
-        let t74 = axis_local_z * k;
-        let t75 = axis_local_y * t16 - t74;
-        let t76 = axis_local_y * k;
-        let t77 = t76 + axis_local_z * t16;
-        let t78 = t33 * t16 + rot_i_yy * t75 + rot_i_yz * t77;
-        let t79 = rot_i_xx * t69 + rot_i_xy * t70 + rot_i_xz * t71;
-        let t80 = t30 * t16 + rot_i_xy * t75 + rot_i_xz * t77;
-        let t81 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
-        let t82 = rot_i_xx * t72 + t73 * t78 - (rot_i_yx * t79 + t80 * t81);
-        let t83 = plane_normal_y - a_y * k;
-        let t84 = plane_normal_x - a_x * k;
-        let t85 = rot_i_xx * t83 - rot_i_yx * t84;
+        let t66 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
+        let t67 = plane_normal_x * t66 - plane_normal_z * t63;
+        let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
+        let t68 = plane_normal_y * t66 - plane_normal_z * t62;
+        let t69 = plane_normal_y * a_z - plane_normal_z * a_y;
+        let t70 = t64 * t65 + t67 * along_y + t68 * t69;
+        let t71 = plane_normal_y * t28 - plane_normal_z * t27;
+        let t72 = v_i_x + t9;
+        let t73 = v_i_y + t10;
+        let t74 = v_i_z + t11;
+        let t75 = t72 * t69 - t73 * along_y + t74 * t65;
+        let t76 = plane_normal_y * tube_0;
+        let t77 = plane_normal_x * t28 - plane_normal_z * t26;
+        let t78 = plane_normal_z * tube_0;
+        let t79 = plane_normal_x * t27 - plane_normal_y * t26;
+        let t80 = rot_i_xx * t69 - rot_i_yx * along_y + rot_i_zx * t65;
+        let t81 = rot_i_xy * t69 - rot_i_yy * along_y + rot_i_zy * t65;
+        let t82 = rot_i_xz * t69 - rot_i_yz * along_y + rot_i_zz * t65;
+        let t83 = rot_i_xz * t71 - rot_i_yz * t77 + rot_i_zz * t79;
+        let t84 = rot_i_xy * t71 - rot_i_yy * t77 + rot_i_zy * t79;
+        let t85 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
         let t86 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
-        let t87 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
-        let t88 = plane_normal_x * t86 - plane_normal_y * t87;
-        let t89 = t84 * t81 - t83 * t73;
-        let t90 = rot_i_zx * t69 + rot_i_zy * t70 + rot_i_zz * t71;
-        let t91 = t36 * t16 + rot_i_zy * t75 + rot_i_zz * t77;
-        let t92 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
-        let t93 = rot_i_xx * t90 + t73 * t91 - (rot_i_zx * t79 + t80 * t92);
-        let t94 = plane_normal_z - a_z * k;
-        let t95 = rot_i_xx * t94 - rot_i_zx * t84;
-        let t96 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
-        let t97 = plane_normal_x * t96 - plane_normal_z * t87;
-        let t98 = t84 * t92 - t94 * t73;
-        let t99 = rot_i_yx * t90 + t81 * t91 - (rot_i_zx * t72 + t78 * t92);
-        let t100 = rot_i_yx * t94 - rot_i_zx * t83;
-        let t101 = plane_normal_y * t96 - plane_normal_z * t86;
-        let t102 = t83 * t92 - t94 * t81;
-        let t103 = rot_i_xx * t62 - rot_i_yx * along_y + rot_i_zx * t65;
-        let t104 = rot_i_xy * t62 - rot_i_yy * along_y + rot_i_zy * t65;
-        let t105 = rot_i_xz * t62 - rot_i_yz * along_y + rot_i_zz * t65;
-        let t106 = rot_i_xz * t60 - rot_i_yz * t67 + rot_i_zz * t68;
-        let t107 = rot_i_xy * t60 - rot_i_yy * t67 + rot_i_zy * t68;
-        let t108 = axis_local_x * t48 - t74;
-        let t109 = axis_local_x * k;
-        let t110 = t109 + axis_local_z * t48;
-        let t111 = rot_i_yx * t108 + t34 * t48 + rot_i_yz * t110;
-        let t112 = rot_i_xx * t108 + t31 * t48 + rot_i_xz * t110;
-        let t113 = rot_i_xy * t72 - t73 * t111 - (rot_i_yy * t79 - t112 * t81);
-        let t114 = rot_i_xy * t83 - rot_i_yy * t84;
-        let t115 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
-        let t116 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
-        let t117 = plane_normal_x * t115 - plane_normal_y * t116;
-        let t118 = rot_i_zx * t108 + t37 * t48 + rot_i_zz * t110;
-        let t119 = rot_i_xy * t90 - t73 * t118 - (rot_i_zy * t79 - t112 * t92);
-        let t120 = rot_i_xy * t94 - rot_i_zy * t84;
-        let t121 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
-        let t122 = plane_normal_x * t121 - plane_normal_z * t116;
-        let t123 = rot_i_yy * t90 - t81 * t118 - (rot_i_zy * t72 - t111 * t92);
-        let t124 = rot_i_yy * t94 - rot_i_zy * t83;
-        let t125 = plane_normal_y * t121 - plane_normal_z * t115;
-        let t126 = rot_i_xx * t60 - rot_i_yx * t67 + rot_i_zx * t68;
-        let t127 = axis_local_x * t55 - t76;
-        let t128 = t109 + axis_local_y * t55;
-        let t129 = rot_i_yx * t127 + rot_i_yy * t128 + t35 * t55;
-        let t130 = rot_i_xx * t127 + rot_i_xy * t128 + t32 * t55;
-        let t131 = rot_i_xz * t72 + t73 * t129 - (rot_i_yz * t79 + t130 * t81);
-        let t132 = rot_i_xz * t83 - rot_i_yz * t84;
-        let t133 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
-        let t134 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
-        let t135 = plane_normal_x * t133 - plane_normal_y * t134;
-        let t136 = rot_i_zx * t127 + rot_i_zy * t128 + t38 * t55;
-        let t137 = rot_i_xz * t90 + t73 * t136 - (rot_i_zz * t79 + t130 * t92);
-        let t138 = rot_i_xz * t94 - rot_i_zz * t84;
-        let t139 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
-        let t140 = plane_normal_x * t139 - plane_normal_z * t134;
-        let t141 = rot_i_yz * t90 + t81 * t136 - (rot_i_zz * t72 + t129 * t92);
-        let t142 = rot_i_yz * t94 - rot_i_zz * t83;
-        let t143 = plane_normal_y * t139 - plane_normal_z * t133;
-        let t144 = plane_normal_y * t68 + plane_normal_z * t67;
-        let t145 = plane_normal_y * t65 + plane_normal_z * along_y;
-        let across_y = plane_normal_x * t65 - plane_normal_z * t62;
-        let across_z = plane_normal_x * along_y + plane_normal_y * t62;
-        let t146 = t61 * t145 - t63 * across_y - t64 * across_z;
-        let t147 = plane_normal_x * t68 - plane_normal_z * t60;
-        let t148 = plane_normal_x * t67 + plane_normal_y * t60;
-        let t149 = plane_normal_x * t88 - plane_normal_z * t101;
-        let t150 = plane_normal_x * t97 + plane_normal_y * t101;
-        let t151 = plane_normal_y * t88 + plane_normal_z * t97;
-        let t152 = rot_i_xx * t145 - rot_i_yx * across_y - rot_i_zx * across_z;
-        let t153 = rot_i_xy * t145 - rot_i_yy * across_y - rot_i_zy * across_z;
-        let t154 = rot_i_xz * t145 - rot_i_yz * across_y - rot_i_zz * across_z;
-        let t155 = rot_i_xz * t144 - rot_i_yz * t147 - rot_i_zz * t148;
-        let t156 = rot_i_xy * t144 - rot_i_yy * t147 - rot_i_zy * t148;
-        let t157 = plane_normal_x * t117 - plane_normal_z * t125;
-        let t158 = plane_normal_x * t122 + plane_normal_y * t125;
-        let t159 = plane_normal_y * t117 + plane_normal_z * t122;
-        let t160 = rot_i_xx * t144 - rot_i_yx * t147 - rot_i_zx * t148;
-        let t161 = plane_normal_x * t135 - plane_normal_z * t143;
-        let t162 = plane_normal_x * t140 + plane_normal_y * t143;
-        let t163 = plane_normal_y * t135 + plane_normal_z * t140;
+        let t87 = plane_normal_y * t85 - plane_normal_z * t86;
+        let t88 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t89 = plane_normal_x * t85 - plane_normal_z * t88;
+        let t90 = plane_normal_x * t86 - plane_normal_y * t88;
+        let t91 = axis_local_x * t29 + t19 * k;
+        let t92 = axis_local_y * t29 - t22 * k;
+        let t93 = axis_local_z * t29 + t25 * k;
+        let t94 = t13 * (rot_i_yx * t91 + rot_i_yy * t92 + rot_i_yz * t93) - t76 * t12;
+        let t95 = axis_local_z * k;
+        let t96 = axis_local_y * t16 - t95;
+        let t97 = axis_local_y * k;
+        let t98 = t97 + axis_local_z * t16;
+        let t99 = t13 * (t33 * t16 + rot_i_yy * t96 + rot_i_yz * t98) - t76 * t48;
+        let t100 = t13 * (rot_i_xx * t91 + rot_i_xy * t92 + rot_i_xz * t93) - t61 * t12;
+        let t101 = t13 * (t30 * t16 + rot_i_xy * t96 + rot_i_xz * t98) - t61 * t48;
+        let t102 = rot_i_xx * t94 + t63 * t99 - (rot_i_yx * t100 + t62 * t101);
+        let t103 = t13 - tube_0 * t42;
+        let t104 = t13 * a_y * k - plane_normal_y * t103;
+        let t105 = t13 * a_x * k - plane_normal_x * t103;
+        let t106 = rot_i_xx * t104 - rot_i_yx * t105;
+        let turned_z = t63 * t104 - t62 * t105;
+        let t107 = t13 * (rot_i_zx * t91 + rot_i_zy * t92 + rot_i_zz * t93) - t78 * t12;
+        let t108 = t13 * (t36 * t16 + rot_i_zy * t96 + rot_i_zz * t98) - t78 * t48;
+        let t109 = rot_i_xx * t107 + t63 * t108 - (rot_i_zx * t100 + t66 * t101);
+        let t110 = t13 * a_z * k - plane_normal_z * t103;
+        let t111 = rot_i_xx * t110 - rot_i_zx * t105;
+        let t112 = t63 * t110 - t66 * t105;
+        let t113 = rot_i_yx * t107 + t62 * t108 - (rot_i_zx * t94 + t66 * t99);
+        let t114 = rot_i_yx * t110 - rot_i_zx * t104;
+        let turned_x = t62 * t110 - t66 * t104;
+        let t115 = rot_i_xx * t71 - rot_i_yx * t77 + rot_i_zx * t79;
+        let t116 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t117 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t118 = plane_normal_y * t116 - plane_normal_z * t117;
+        let t119 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t120 = plane_normal_x * t116 - plane_normal_z * t119;
+        let t121 = plane_normal_x * t117 - plane_normal_y * t119;
+        let t122 = axis_local_x * t49 - t95;
+        let t123 = axis_local_x * k;
+        let t124 = t123 + axis_local_z * t49;
+        let t125 = t13 * (rot_i_yx * t122 + t34 * t49 + rot_i_yz * t124) - t76 * t55;
+        let t126 = t13 * (rot_i_xx * t122 + t31 * t49 + rot_i_xz * t124) - t61 * t55;
+        let t127 = rot_i_xy * t94 - t63 * t125 - (rot_i_yy * t100 - t62 * t126);
+        let t128 = rot_i_xy * t104 - rot_i_yy * t105;
+        let t129 = t13 * (rot_i_zx * t122 + t37 * t49 + rot_i_zz * t124) - t78 * t55;
+        let t130 = rot_i_xy * t107 - t63 * t129 - (rot_i_zy * t100 - t66 * t126);
+        let t131 = rot_i_xy * t110 - rot_i_zy * t105;
+        let t132 = rot_i_yy * t107 - t62 * t129 - (rot_i_zy * t94 - t66 * t125);
+        let t133 = rot_i_yy * t110 - rot_i_zy * t104;
+        let t134 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t135 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t136 = plane_normal_y * t134 - plane_normal_z * t135;
+        let t137 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t138 = plane_normal_x * t134 - plane_normal_z * t137;
+        let t139 = plane_normal_x * t135 - plane_normal_y * t137;
+        let t140 = axis_local_x * t56 - t97;
+        let t141 = t123 + axis_local_y * t56;
+        let t142 = t13 * (rot_i_yx * t140 + rot_i_yy * t141 + t35 * t56) - t76 * t60;
+        let t143 = t13 * (rot_i_xx * t140 + rot_i_xy * t141 + t32 * t56) - t61 * t60;
+        let t144 = rot_i_xz * t94 + t63 * t142 - (rot_i_yz * t100 + t62 * t143);
+        let t145 = rot_i_xz * t104 - rot_i_yz * t105;
+        let t146 = t13 * (rot_i_zx * t140 + rot_i_zy * t141 + t38 * t56) - t78 * t60;
+        let t147 = rot_i_xz * t107 + t63 * t146 - (rot_i_zz * t100 + t66 * t143);
+        let t148 = rot_i_xz * t110 - rot_i_zz * t105;
+        let t149 = rot_i_yz * t107 + t62 * t146 - (rot_i_zz * t94 + t66 * t142);
+        let t150 = rot_i_yz * t110 - rot_i_zz * t104;
+        let across_z = plane_normal_x * along_y + plane_normal_y * t69;
+        let across_y = plane_normal_x * t65 - plane_normal_z * t69;
+        let t151 = plane_normal_y * t65 + plane_normal_z * along_y;
+        let t152 = t64 * across_z - t67 * across_y - t68 * t151;
+        let t153 = plane_normal_y * t79 + plane_normal_z * t77;
+        let t154 = t72 * t151 - t73 * across_y - t74 * across_z;
+        let t155 = plane_normal_x * t79 - plane_normal_z * t71;
+        let t156 = plane_normal_x * t77 + plane_normal_y * t71;
+        let t157 = rot_i_xx * t151 - rot_i_yx * across_y - rot_i_zx * across_z;
+        let t158 = rot_i_xy * t151 - rot_i_yy * across_y - rot_i_zy * across_z;
+        let t159 = rot_i_xz * t151 - rot_i_yz * across_y - rot_i_zz * across_z;
+        let t160 = rot_i_xz * t153 - rot_i_yz * t155 - rot_i_zz * t156;
+        let t161 = rot_i_xy * t153 - rot_i_yy * t155 - rot_i_zy * t156;
+        let t162 = plane_normal_y * t90 + plane_normal_z * t89;
+        let t163 = plane_normal_x * t90 - plane_normal_z * t87;
+        let t164 = plane_normal_x * t89 + plane_normal_y * t87;
+        let t165 = rot_i_xx * t153 - rot_i_yx * t155 - rot_i_zx * t156;
+        let t166 = plane_normal_y * t121 + plane_normal_z * t120;
+        let t167 = plane_normal_x * t121 - plane_normal_z * t118;
+        let t168 = plane_normal_x * t120 + plane_normal_y * t118;
+        let t169 = plane_normal_y * t139 + plane_normal_z * t138;
+        let t170 = plane_normal_x * t139 - plane_normal_z * t136;
+        let t171 = plane_normal_x * t138 + plane_normal_y * t136;
         out[0] = -(T::from(2.0) * (plane_normal_x * inverse * t12));
         out[1] = -(T::from(2.0) * (plane_normal_y * inverse * t12));
         out[2] = -(T::from(2.0) * (plane_normal_z * inverse * t12));
@@ -2051,88 +2104,82 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
             * (t13
                 * (T::from(2.0) * (t16 * t29)
                     + k * (t39 * (t40 + t41) - t15 * (t23 + t25) - t14 * (t20 + t22)))
-                + (T::from(2.0) * (t42 * t12)
-                    + h * (t39 * t45 - t15 * t46 - t14 * t47))));
+                - (t42 * (t39 * t45 - t15 * t46 - t14 * t47)
+                    - T::from(2.0) * (t48 * t12))));
         out[4] = inverse
             * (t13
-                * (T::from(2.0) * (t48 * t29)
-                    + k * (t39 * (t24 - t25) - t15 * (t49 + t41) + t14 * (t17 + t19)))
-                + (T::from(2.0) * (t50 * t12)
-                    + h * (t39 * t51 - t15 * t53 + t14 * t54)));
+                * (T::from(2.0) * (t49 * t29)
+                    + k * (t39 * (t24 - t25) - t15 * (t50 + t41) + t14 * (t17 + t19)))
+                - (t42 * (t39 * t51 - t15 * t53 + t14 * t54)
+                    - T::from(2.0) * (t55 * t12)));
         out[5] = -(inverse
             * (t13
-                * (T::from(2.0) * (t55 * t29)
-                    - k * (t39 * (t21 - t22) + t15 * (t18 - t19) - t14 * (t49 + t40)))
-                + (T::from(2.0) * (t56 * t12)
-                    - h * (t39 * t57 + t15 * t58 - t14 * t59))));
-        out[6] = inverse * (h * t60 + (plane_normal_x * t66 + t62 * t12));
-        out[7] = -(inverse * (t67 * h - (plane_normal_y * t66 - along_y * t12)));
-        out[8] = inverse * (t68 * h + (plane_normal_z * t66 + t65 * t12));
-        out[9] = inverse
-            * (t13
-                * (t65 * t82 - (t85 * t68 + t88 * t89)
-                    + (along_y * t93 - (t95 * t67 + t97 * t98))
-                    + (t62 * t99 - (t100 * t60 + t101 * t102)))
-                + (h
-                    * (t103 * t45 - t104 * t46 - t105 * t47
-                        + (s_y * t106 - s_z * t107
-                            - (t61 * t101 - t63 * t97 + t64 * t88)))
-                    + (t42 * t66 + (s_y * t105 - s_z * t104) * t12)));
+                * (T::from(2.0) * (t56 * t29)
+                    - k * (t39 * (t21 - t22) + t15 * (t18 - t19) - t14 * (t50 + t40)))
+                + (t42 * (t39 * t57 + t15 * t58 - t14 * t59)
+                    + T::from(2.0) * (t60 * t12))));
+        out[6] = inverse
+            * (t61 * t70 - (t42 * t71 - (plane_normal_x * t75 + t69 * t12)));
+        out[7] = inverse
+            * (t76 * t70 + (t42 * t77 + (plane_normal_y * t75 - along_y * t12)));
+        out[8] = inverse
+            * (t78 * t70 - (t42 * t79 - (plane_normal_z * t75 + t65 * t12)));
+        out[9] = -(inverse
+            * (t42
+                * (t80 * t45 - t81 * t46 - t82 * t47
+                    + (s_y * t83 - s_z * t84 - (t72 * t87 - t73 * t89 + t74 * t90)))
+                - (t48 * t75 + (s_y * t82 - s_z * t81) * t12)
+                - (t65 * t102 + (t106 * t79 - t90 * turned_z)
+                    + (along_y * t109 + (t111 * t77 - t89 * t112))
+                    + (t69 * t113 + (t114 * t71 - t87 * turned_x)))));
         out[10] = inverse
-            * (t13
-                * (t65 * t113 - (t114 * t68 - t117 * t89)
-                    + (along_y * t119 - (t120 * t67 - t122 * t98))
-                    + (t62 * t123 - (t124 * t60 - t125 * t102)))
-                - (h
-                    * (t103 * t51 - t104 * t53 + t105 * t54
-                        + (s_x * t106 - s_z * t126
-                            - (t61 * t125 - t63 * t122 + t64 * t117)))
-                    + (t50 * t66 + (s_x * t105 - s_z * t103) * t12)));
+            * (t42
+                * (t80 * t51 - t81 * t53 + t82 * t54
+                    + (s_x * t83 - s_z * t115 - (t72 * t118 - t73 * t120 + t74 * t121)))
+                - (t55 * t75 + (s_x * t82 - s_z * t80) * t12)
+                + (t65 * t127 + (t128 * t79 + t121 * turned_z)
+                    + (along_y * t130 + (t131 * t77 + t120 * t112))
+                    + (t69 * t132 + (t133 * t71 + t118 * turned_x))));
         out[11] = inverse
-            * (t13
-                * (t65 * t131 - (t132 * t68 + t135 * t89)
-                    + (along_y * t137 - (t138 * t67 + t140 * t98))
-                    + (t62 * t141 - (t142 * t60 + t143 * t102)))
-                - (h
-                    * (t103 * t57 + t104 * t58 - t105 * t59
-                        - (s_x * t107 - s_y * t126
-                            - (t61 * t143 - t63 * t140 + t64 * t135)))
-                    - (t56 * t66 + (s_x * t104 - s_y * t103) * t12)));
-        out[12] = inverse * (h * t144 + (plane_normal_x * t146 + t145 * t12));
-        out[13] = -(inverse * (t147 * h - (plane_normal_y * t146 - across_y * t12)));
-        out[14] = -(inverse * (t148 * h - (plane_normal_z * t146 - across_z * t12)));
-        out[15] = inverse
-            * (t13
-                * (across_y * t93 - (t95 * t147 + t149 * t98)
-                    - (across_z * t82 - (t85 * t148 + t150 * t89))
-                    + (t145 * t99 - (t100 * t144 + t151 * t102)))
-                + (h
-                    * (t152 * t45 - t153 * t46 - t154 * t47
-                        + (s_y * t155 - s_z * t156
-                            - (t61 * t151 - t63 * t149 - t64 * t150)))
-                    + (t42 * t146 + (s_y * t154 - s_z * t153) * t12)));
+            * (t42
+                * (t80 * t57 + t81 * t58 - t82 * t59
+                    - (s_x * t84 - s_y * t115 - (t72 * t136 - t73 * t138 + t74 * t139)))
+                + (t60 * t75 + (s_x * t81 - s_y * t80) * t12)
+                + (t65 * t144 + (t145 * t79 - t139 * turned_z)
+                    + (along_y * t147 + (t148 * t77 - t138 * t112))
+                    + (t69 * t149 + (t150 * t71 - t136 * turned_x))));
+        out[12] = -(inverse
+            * (t61 * t152 + (t42 * t153 - (plane_normal_x * t154 + t151 * t12))));
+        out[13] = -(inverse
+            * (t76 * t152 - (t42 * t155 + (plane_normal_y * t154 - across_y * t12))));
+        out[14] = -(inverse
+            * (t78 * t152 - (t42 * t156 + (plane_normal_z * t154 - across_z * t12))));
+        out[15] = -(inverse
+            * (t42
+                * (t157 * t45 - t158 * t46 - t159 * t47
+                    + (s_y * t160 - s_z * t161 - (t72 * t162 - t73 * t163 - t74 * t164)))
+                - (t48 * t154 + (s_y * t159 - s_z * t158) * t12)
+                - (across_y * t109 + (t111 * t155 - t163 * t112)
+                    - (across_z * t102 + (t106 * t156 - t164 * turned_z))
+                    + (t151 * t113 + (t114 * t153 - t162 * turned_x)))));
         out[16] = inverse
-            * (t13
-                * (across_y * t119 - (t120 * t147 - t157 * t98)
-                    - (across_z * t113 - (t114 * t148 - t158 * t89))
-                    + (t145 * t123 - (t124 * t144 - t159 * t102)))
-                - (h
-                    * (t152 * t51 - t153 * t53 + t154 * t54
-                        + (s_x * t155 - s_z * t160
-                            - (t61 * t159 - t63 * t157 - t64 * t158)))
-                    + (t50 * t146 + (s_x * t154 - s_z * t152) * t12)));
+            * (t42
+                * (t157 * t51 - t158 * t53 + t159 * t54
+                    + (s_x * t160 - s_z * t165 - (t72 * t166 - t73 * t167 - t74 * t168)))
+                - (t55 * t154 + (s_x * t159 - s_z * t157) * t12)
+                + (across_y * t130 + (t131 * t155 + t167 * t112)
+                    - (across_z * t127 + (t128 * t156 + t168 * turned_z))
+                    + (t151 * t132 + (t133 * t153 + t166 * turned_x))));
         out[17] = inverse
-            * (t13
-                * (across_y * t137 - (t138 * t147 + t161 * t98)
-                    - (across_z * t131 - (t132 * t148 + t162 * t89))
-                    + (t145 * t141 - (t142 * t144 + t163 * t102)))
-                - (h
-                    * (t152 * t57 + t153 * t58 - t154 * t59
-                        - (s_x * t156 - s_y * t160
-                            - (t61 * t163 - t63 * t161 - t64 * t162)))
-                    - (t56 * t146 + (s_x * t153 - s_y * t152) * t12)));
+            * (t42
+                * (t157 * t57 + t158 * t58 - t159 * t59
+                    - (s_x * t161 - s_y * t165 - (t72 * t169 - t73 * t170 - t74 * t171)))
+                + (t60 * t154 + (s_x * t158 - s_y * t157) * t12)
+                + (across_y * t147 + (t148 * t155 - t170 * t112)
+                    - (across_z * t144 + (t145 * t156 - t171 * turned_z))
+                    + (t151 * t149 + (t150 * t153 - t169 * turned_x))));
     }
-    /// ∂(C·v − b)/∂x. Operations: 415 mul, 264 add, 9 neg.
+    /// ∂(C·v − b)/∂x. Operations: 451 mul, 284 add, 8 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..18];
         let r_i_x = x[0].r[0];
@@ -2166,6 +2213,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let plane_normal_x = T::from(self.plane.normal().xyz()[0]);
         let plane_normal_y = T::from(self.plane.normal().xyz()[1]);
         let plane_normal_z = T::from(self.plane.normal().xyz()[2]);
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let t0 = plane_normal_x * inverse;
         let t1 = omega_i_y * s_z - omega_i_z * s_y;
@@ -2203,172 +2251,168 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let t26 = rot_i_zz * axis_local_z;
         let a_z = t24 + t25 + t26;
         let k = plane_normal_x * a_x + plane_normal_y * a_y + plane_normal_z * a_z;
-        let t27 = s_y * t11 - s_z * t12;
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let h = plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
-            + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
-            + plane_normal_z * (r_i_z - plane_point_z + arm_i_z);
-        let t28 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
+        let t27 = tube_0
+            - (plane_normal_x * (r_i_x - plane_point_x + arm_i_x)
+                + plane_normal_y * (r_i_y - plane_point_y + arm_i_y)
+                + plane_normal_z * (r_i_z - plane_point_z + arm_i_z));
+        let t28 = s_y * t11 - s_z * t12;
+        let t29 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
             + rot_i_zx * plane_normal_z;
-        let t29 = axis_local_x * t11 - axis_local_z * t28;
-        let t30 = s_x * t11 - s_z * t28;
-        let t31 = axis_local_x * t12 - axis_local_y * t28;
-        let t32 = s_x * t12 - s_y * t28;
-        let t33 = v_i_x + t4;
-        let t34 = plane_normal_y * a_z - plane_normal_z * a_y;
-        let t35 = v_i_y + t5;
-        let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
-        let t36 = v_i_z + t6;
+        let t30 = axis_local_x * t11 - axis_local_z * t29;
+        let t31 = s_x * t11 - s_z * t29;
+        let t32 = axis_local_x * t12 - axis_local_y * t29;
+        let t33 = s_x * t12 - s_y * t29;
+        let t34 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
+        let t35 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
+        let t36 = plane_normal_x * t34 - plane_normal_y * t35;
         let t37 = plane_normal_x * a_y - plane_normal_y * a_x;
-        let t38 = t33 * t34 - t35 * along_y + t36 * t37;
-        let t39 = plane_normal_x - a_x * k;
-        let t40 = rot_i_yy * omega_i_z - rot_i_yz * omega_i_y;
-        let t41 = axis_local_z * k;
-        let t42 = axis_local_y * t13 - t41;
-        let t43 = axis_local_y * k;
-        let t44 = t43 + axis_local_z * t13;
-        let t45 = t18 * t13 + rot_i_xy * t42 + rot_i_xz * t44;
-        let t46 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
-        let t47 = plane_normal_y - a_y * k;
-        let t48 = rot_i_xy * omega_i_z - rot_i_xz * omega_i_y;
-        let t49 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
-        let t50 = t21 * t13 + rot_i_yy * t42 + rot_i_yz * t44;
-        let t51 = t39 * t40 + t45 * t46 - (t47 * t48 + t49 * t50);
-        let t52 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
-        let t53 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
-        let t54 = plane_normal_x * t52 - plane_normal_y * t53;
-        let t55 = t39 * t46 - t47 * t49;
-        let t56 = rot_i_zy * omega_i_z - rot_i_zz * omega_i_y;
-        let t57 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
-        let t58 = plane_normal_z - a_z * k;
-        let t59 = t24 * t13 + rot_i_zy * t42 + rot_i_zz * t44;
-        let t60 = t39 * t56 + t45 * t57 - (t58 * t48 + t49 * t59);
-        let t61 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
-        let t62 = plane_normal_x * t61 - plane_normal_z * t53;
-        let t63 = t39 * t57 - t58 * t49;
-        let t64 = t47 * t56 + t50 * t57 - (t58 * t40 + t46 * t59);
-        let t65 = plane_normal_y * t61 - plane_normal_z * t52;
-        let t66 = t47 * t57 - t58 * t46;
-        let t67 = rot_i_xy * t34 - rot_i_yy * along_y + rot_i_zy * t37;
-        let t68 = rot_i_xz * t34 - rot_i_yz * along_y + rot_i_zz * t37;
-        let t69 = rot_i_yx * omega_i_z - rot_i_yz * omega_i_x;
-        let t70 = axis_local_x * t29 - t41;
-        let t71 = axis_local_x * k;
-        let t72 = t71 + axis_local_z * t29;
-        let t73 = rot_i_xx * t70 + t19 * t29 + rot_i_xz * t72;
-        let t74 = rot_i_xx * omega_i_z - rot_i_xz * omega_i_x;
-        let t75 = rot_i_yx * t70 + t22 * t29 + rot_i_yz * t72;
-        let t76 = t39 * t69 + t73 * t46 - (t47 * t74 + t49 * t75);
+        let t38 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
+        let t39 = plane_normal_x * t38 - plane_normal_z * t35;
+        let along_y = plane_normal_x * a_z - plane_normal_z * a_x;
+        let t40 = plane_normal_y * t38 - plane_normal_z * t34;
+        let t41 = plane_normal_y * a_z - plane_normal_z * a_y;
+        let t42 = v_i_x + t4;
+        let t43 = v_i_y + t5;
+        let t44 = v_i_z + t6;
+        let t45 = t42 * t41 - t43 * along_y + t44 * t37;
+        let t46 = tube_0 * (t36 * t37 + t39 * along_y + t40 * t41) + t45;
+        let t47 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t48 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t49 = plane_normal_y * t47 - plane_normal_z * t48;
+        let t50 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t51 = plane_normal_x * t47 - plane_normal_z * t50;
+        let t52 = plane_normal_x * t48 - plane_normal_y * t50;
+        let t53 = rot_i_xy * t41 - rot_i_yy * along_y + rot_i_zy * t37;
+        let t54 = rot_i_xz * t41 - rot_i_yz * along_y + rot_i_zz * t37;
+        let t55 = axis_local_z * k;
+        let t56 = axis_local_y * t13 - t55;
+        let t57 = axis_local_y * k;
+        let t58 = t57 + axis_local_z * t13;
+        let t59 = plane_normal_y * tube_0;
+        let t60 = t10 * (t21 * t13 + rot_i_yy * t56 + rot_i_yz * t58) - t59 * t28;
+        let t61 = rot_i_xy * omega_i_z - rot_i_xz * omega_i_y;
+        let t62 = t10 - tube_0 * t27;
+        let t63 = t10 * a_y * k - plane_normal_y * t62;
+        let t64 = plane_normal_x * tube_0;
+        let t65 = t10 * (t18 * t13 + rot_i_xy * t56 + rot_i_xz * t58) - t64 * t28;
+        let t66 = rot_i_yy * omega_i_z - rot_i_yz * omega_i_y;
+        let t67 = t10 * a_x * k - plane_normal_x * t62;
+        let t68 = t35 * t60 - t61 * t63 - (t34 * t65 - t66 * t67);
+        let turned_z = t35 * t63 - t34 * t67;
+        let t69 = plane_normal_z * tube_0;
+        let t70 = t10 * (t24 * t13 + rot_i_zy * t56 + rot_i_zz * t58) - t69 * t28;
+        let t71 = t10 * a_z * k - plane_normal_z * t62;
+        let t72 = rot_i_zy * omega_i_z - rot_i_zz * omega_i_y;
+        let t73 = t35 * t70 - t61 * t71 - (t38 * t65 - t72 * t67);
+        let t74 = t35 * t71 - t38 * t67;
+        let t75 = t34 * t70 - t66 * t71 - (t38 * t60 - t72 * t63);
+        let turned_x = t34 * t71 - t38 * t63;
+        let t76 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
         let t77 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
-        let t78 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
-        let t79 = plane_normal_x * t77 - plane_normal_y * t78;
-        let t80 = rot_i_zx * omega_i_z - rot_i_zz * omega_i_x;
-        let t81 = rot_i_zx * t70 + t25 * t29 + rot_i_zz * t72;
-        let t82 = t39 * t80 + t73 * t57 - (t58 * t74 + t49 * t81);
-        let t83 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
-        let t84 = plane_normal_x * t83 - plane_normal_z * t78;
-        let t85 = t47 * t80 + t75 * t57 - (t58 * t69 + t46 * t81);
-        let t86 = plane_normal_y * t83 - plane_normal_z * t77;
-        let t87 = rot_i_xx * t34 - rot_i_yx * along_y + rot_i_zx * t37;
-        let t88 = rot_i_yx * omega_i_y - rot_i_yy * omega_i_x;
-        let t89 = axis_local_x * t31 - t43;
-        let t90 = t71 + axis_local_y * t31;
-        let t91 = rot_i_xx * t89 + rot_i_xy * t90 + t20 * t31;
-        let t92 = rot_i_xx * omega_i_y - rot_i_xy * omega_i_x;
-        let t93 = rot_i_yx * t89 + rot_i_yy * t90 + t23 * t31;
-        let t94 = t39 * t88 + t91 * t46 - (t47 * t92 + t49 * t93);
-        let t95 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
-        let t96 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
-        let t97 = plane_normal_x * t95 - plane_normal_y * t96;
-        let t98 = rot_i_zx * omega_i_y - rot_i_zy * omega_i_x;
-        let t99 = rot_i_zx * t89 + rot_i_zy * t90 + t26 * t31;
-        let t100 = t39 * t98 + t91 * t57 - (t58 * t92 + t49 * t99);
-        let t101 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
-        let t102 = plane_normal_x * t101 - plane_normal_z * t96;
-        let t103 = t47 * t98 + t93 * t57 - (t58 * t88 + t46 * t99);
-        let t104 = plane_normal_y * t101 - plane_normal_z * t95;
-        let t105 = plane_normal_y * t37 + plane_normal_z * along_y;
-        let across_y = plane_normal_x * t37 - plane_normal_z * t34;
-        let across_z = plane_normal_x * along_y + plane_normal_y * t34;
-        let t106 = t33 * t105 - t35 * across_y - t36 * across_z;
-        let t107 = plane_normal_x * t54 - plane_normal_z * t65;
-        let t108 = plane_normal_x * t62 + plane_normal_y * t65;
-        let t109 = plane_normal_y * t54 + plane_normal_z * t62;
-        let t110 = rot_i_xy * t105 - rot_i_yy * across_y - rot_i_zy * across_z;
-        let t111 = rot_i_xz * t105 - rot_i_yz * across_y - rot_i_zz * across_z;
-        let t112 = plane_normal_x * t79 - plane_normal_z * t86;
-        let t113 = plane_normal_x * t84 + plane_normal_y * t86;
-        let t114 = plane_normal_y * t79 + plane_normal_z * t84;
-        let t115 = rot_i_xx * t105 - rot_i_yx * across_y - rot_i_zx * across_z;
-        let t116 = plane_normal_x * t97 - plane_normal_z * t104;
-        let t117 = plane_normal_x * t102 + plane_normal_y * t104;
-        let t118 = plane_normal_y * t97 + plane_normal_z * t102;
+        let t78 = plane_normal_y * t76 - plane_normal_z * t77;
+        let t79 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t80 = plane_normal_x * t76 - plane_normal_z * t79;
+        let t81 = plane_normal_x * t77 - plane_normal_y * t79;
+        let t82 = rot_i_xx * t41 - rot_i_yx * along_y + rot_i_zx * t37;
+        let t83 = axis_local_x * t30 - t55;
+        let t84 = axis_local_x * k;
+        let t85 = t84 + axis_local_z * t30;
+        let t86 = t10 * (rot_i_yx * t83 + t22 * t30 + rot_i_yz * t85) - t59 * t31;
+        let t87 = rot_i_xx * omega_i_z - rot_i_xz * omega_i_x;
+        let t88 = t10 * (rot_i_xx * t83 + t19 * t30 + rot_i_xz * t85) - t64 * t31;
+        let t89 = rot_i_yx * omega_i_z - rot_i_yz * omega_i_x;
+        let t90 = t35 * t86 - t87 * t63 - (t34 * t88 - t89 * t67);
+        let t91 = t10 * (rot_i_zx * t83 + t25 * t30 + rot_i_zz * t85) - t69 * t31;
+        let t92 = rot_i_zx * omega_i_z - rot_i_zz * omega_i_x;
+        let t93 = t35 * t91 - t87 * t71 - (t38 * t88 - t92 * t67);
+        let t94 = t34 * t91 - t89 * t71 - (t38 * t86 - t92 * t63);
+        let t95 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t96 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t97 = plane_normal_y * t95 - plane_normal_z * t96;
+        let t98 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t99 = plane_normal_x * t95 - plane_normal_z * t98;
+        let t100 = plane_normal_x * t96 - plane_normal_y * t98;
+        let t101 = axis_local_x * t32 - t57;
+        let t102 = t84 + axis_local_y * t32;
+        let t103 = t10 * (rot_i_yx * t101 + rot_i_yy * t102 + t23 * t32) - t59 * t33;
+        let t104 = rot_i_xx * omega_i_y - rot_i_xy * omega_i_x;
+        let t105 = t10 * (rot_i_xx * t101 + rot_i_xy * t102 + t20 * t32) - t64 * t33;
+        let t106 = rot_i_yx * omega_i_y - rot_i_yy * omega_i_x;
+        let t107 = t35 * t103 - t104 * t63 - (t34 * t105 - t106 * t67);
+        let t108 = t10 * (rot_i_zx * t101 + rot_i_zy * t102 + t26 * t32) - t69 * t33;
+        let t109 = rot_i_zx * omega_i_y - rot_i_zy * omega_i_x;
+        let t110 = t35 * t108 - t104 * t71 - (t38 * t105 - t109 * t67);
+        let t111 = t34 * t108 - t106 * t71 - (t38 * t103 - t109 * t63);
+        let across_z = plane_normal_x * along_y + plane_normal_y * t41;
+        let across_y = plane_normal_x * t37 - plane_normal_z * t41;
+        let t112 = plane_normal_y * t37 + plane_normal_z * along_y;
+        let t113 = t42 * t112 - t43 * across_y - t44 * across_z;
+        let t114 = tube_0 * (t36 * across_z - t39 * across_y - t40 * t112) - t113;
+        let t115 = plane_normal_y * t52 + plane_normal_z * t51;
+        let t116 = plane_normal_x * t52 - plane_normal_z * t49;
+        let t117 = plane_normal_x * t51 + plane_normal_y * t49;
+        let t118 = rot_i_xy * t112 - rot_i_yy * across_y - rot_i_zy * across_z;
+        let t119 = rot_i_xz * t112 - rot_i_yz * across_y - rot_i_zz * across_z;
+        let t120 = plane_normal_y * t81 + plane_normal_z * t80;
+        let t121 = plane_normal_x * t81 - plane_normal_z * t78;
+        let t122 = plane_normal_x * t80 + plane_normal_y * t78;
+        let t123 = rot_i_xx * t112 - rot_i_yx * across_y - rot_i_zx * across_z;
+        let t124 = plane_normal_y * t100 + plane_normal_z * t99;
+        let t125 = plane_normal_x * t100 - plane_normal_z * t97;
+        let t126 = plane_normal_x * t99 + plane_normal_y * t97;
         out[0] = t0 * t7;
         out[1] = t8 * t7;
         out[2] = t9 * t7;
         out[3] = inverse
             * (t10 * (t13 * t17 - k * (t12 * t16 + t11 * t15))
-                + (t27 * t7 - h * (t12 * t3 + t11 * t2)));
+                + (t27 * (t12 * t3 + t11 * t2) + t28 * t7));
         out[4] = -(inverse
-            * (t10 * (t29 * t17 - k * (t28 * t16 - t11 * t14))
-                + (t30 * t7 - h * (t28 * t3 - t11 * t1))));
+            * (t10 * (t30 * t17 - k * (t29 * t16 - t11 * t14))
+                + (t27 * (t29 * t3 - t11 * t1) + t31 * t7)));
         out[5] = inverse
-            * (t10 * (t31 * t17 + k * (t28 * t15 + t12 * t14))
-                + (t32 * t7 + h * (t28 * t2 + t12 * t1)));
-        out[6] = -(t0 * t38);
-        out[7] = -(t8 * t38);
-        out[8] = -(t9 * t38);
-        out[9] = inverse
-            * (t10
-                * (t37 * t51 + t54 * t55 + (along_y * t60 + t62 * t63)
-                    + (t34 * t64 + t65 * t66))
-                - (t27 * t38
-                    - h * (t33 * t65 - t35 * t62 + t36 * t54 + (t67 * t3 + t68 * t2))));
-        out[10] = -(inverse
-            * (t10
-                * (t37 * t76 + t79 * t55 + (along_y * t82 + t84 * t63)
-                    + (t34 * t85 + t86 * t66))
-                - (t30 * t38
-                    - h * (t33 * t86 - t35 * t84 + t36 * t79 + (t87 * t3 - t68 * t1)))));
-        out[11] = inverse
-            * (t10
-                * (t37 * t94 + t97 * t55 + (along_y * t100 + t102 * t63)
-                    + (t34 * t103 + t104 * t66))
-                - (t32 * t38
-                    - h
-                        * (t33 * t104 - t35 * t102 + t36 * t97
-                            - (t87 * t2 + t67 * t1))));
-        out[12] = -(t0 * t106);
-        out[13] = -(t8 * t106);
-        out[14] = -(t9 * t106);
-        out[15] = inverse
-            * (t10
-                * (across_y * t60 + t107 * t63 - (across_z * t51 + t108 * t55)
-                    + (t105 * t64 + t109 * t66))
-                - (t27 * t106
-                    - h
-                        * (t33 * t109 - t35 * t107 - t36 * t108
-                            + (t110 * t3 + t111 * t2))));
-        out[16] = -(inverse
-            * (t10
-                * (across_y * t82 + t112 * t63 - (across_z * t76 + t113 * t55)
-                    + (t105 * t85 + t114 * t66))
-                - (t30 * t106
-                    - h
-                        * (t33 * t114 - t35 * t112 - t36 * t113
-                            + (t115 * t3 - t111 * t1)))));
-        out[17] = inverse
-            * (t10
-                * (across_y * t100 + t116 * t63 - (across_z * t94 + t117 * t55)
-                    + (t105 * t103 + t118 * t66))
-                - (t32 * t106
-                    - h
-                        * (t33 * t118 - t35 * t116 - t36 * t117
-                            - (t115 * t2 + t110 * t1))));
+            * (t10 * (t32 * t17 + k * (t29 * t15 + t12 * t14))
+                - (t27 * (t29 * t2 + t12 * t1) - t33 * t7));
+        out[6] = -(t0 * t46);
+        out[7] = -(t8 * t46);
+        out[8] = -(t9 * t46);
+        out[9] = -(inverse
+            * (t27 * (t42 * t49 - t43 * t51 + t44 * t52 + (t53 * t3 + t54 * t2))
+                + t28 * t45
+                + (t37 * t68 - t52 * turned_z + (along_y * t73 - t51 * t74)
+                    + (t41 * t75 - t49 * turned_x))));
+        out[10] = inverse
+            * (t27 * (t42 * t78 - t43 * t80 + t44 * t81 + (t82 * t3 - t54 * t1))
+                + t31 * t45
+                + (t37 * t90 - t81 * turned_z + (along_y * t93 - t80 * t74)
+                    + (t41 * t94 - t78 * turned_x)));
+        out[11] = -(inverse
+            * (t27 * (t42 * t97 - t43 * t99 + t44 * t100 - (t82 * t2 + t53 * t1))
+                + t33 * t45
+                + (t37 * t107 - t100 * turned_z + (along_y * t110 - t99 * t74)
+                    + (t41 * t111 - t97 * turned_x))));
+        out[12] = t0 * t114;
+        out[13] = t8 * t114;
+        out[14] = t9 * t114;
+        out[15] = -(inverse
+            * (t27 * (t42 * t115 - t43 * t116 - t44 * t117 + (t118 * t3 + t119 * t2))
+                + t28 * t113
+                + (across_y * t73 - t116 * t74 - (across_z * t68 - t117 * turned_z)
+                    + (t112 * t75 - t115 * turned_x))));
+        out[16] = inverse
+            * (t27 * (t42 * t120 - t43 * t121 - t44 * t122 + (t123 * t3 - t119 * t1))
+                + t31 * t113
+                + (across_y * t93 - t121 * t74 - (across_z * t90 - t122 * turned_z)
+                    + (t112 * t94 - t120 * turned_x)));
+        out[17] = -(inverse
+            * (t27 * (t42 * t124 - t43 * t125 - t44 * t126 - (t123 * t2 + t118 * t1))
+                + t33 * t113
+                + (across_y * t110 - t125 * t74 - (across_z * t107 - t126 * turned_z)
+                    + (t112 * t111 - t124 * turned_x))));
     }
-    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 1133 mul, 813 add, 7 neg.
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 1347 mul, 957 add, 8 neg.
     fn d_residual_dp(
         &self,
         x: &[Pose<T>],
@@ -2378,7 +2422,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         lambda: &[T],
         out: &mut [T],
     ) {
-        let out = &mut out[..13];
+        let out = &mut out[..14];
         let r_i_x = x[0].r[0];
         let r_i_y = x[0].r[1];
         let r_i_z = x[0].r[2];
@@ -2419,6 +2463,7 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let lambda_0 = lambda[0];
         let lambda_1 = lambda[1];
         let lambda_2 = lambda[2];
+        let tube_0 = T::from(self.tube_0);
         let inverse = T::from(self.inverse);
         let d_inverse_d_radius = T::from({
             let radius = self.radius;
@@ -2437,512 +2482,633 @@ impl<T: Ring> Derivatives<T, Space3> for Wheel {
         let t8 = rot_i_zx * t3 - rot_i_zy * t4 + rot_i_zz * t5;
         let t9 = v_i_x * plane_normal_x + v_i_y * plane_normal_y + v_i_z * plane_normal_z
             + (plane_normal_x * t6 + plane_normal_y * t7 + plane_normal_z * t8);
-        let t10 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
-            + rot_i_zx * plane_normal_z;
-        let t11 = omega_i_y * t5 + omega_i_z * t4 + (alpha_i_y * s_z - alpha_i_z * s_y);
-        let t12 = omega_i_x * t5 - omega_i_z * t3 + (alpha_i_x * s_z - alpha_i_z * s_x);
-        let t13 = omega_i_x * t4 + omega_i_y * t3 - (alpha_i_x * s_y - alpha_i_y * s_x);
-        let t14 = rot_i_xx * t11 - rot_i_xy * t12 - rot_i_xz * t13;
-        let t15 = rot_i_yx * t11 - rot_i_yy * t12 - rot_i_yz * t13;
-        let t16 = rot_i_zx * t11 - rot_i_zy * t12 - rot_i_zz * t13;
-        let t17 = a_i_x * plane_normal_x + a_i_y * plane_normal_y
-            + a_i_z * plane_normal_z
-            + (plane_normal_x * t14 + plane_normal_y * t15 + plane_normal_z * t16);
         let arm_i_x = rot_i_xx * s_x + rot_i_xy * s_y + rot_i_xz * s_z;
-        let t18 = r_i_x - plane_point_x + arm_i_x;
+        let t10 = r_i_x - plane_point_x + arm_i_x;
         let arm_i_y = rot_i_yx * s_x + rot_i_yy * s_y + rot_i_yz * s_z;
-        let t19 = r_i_y - plane_point_y + arm_i_y;
+        let t11 = r_i_y - plane_point_y + arm_i_y;
         let arm_i_z = rot_i_zx * s_x + rot_i_zy * s_y + rot_i_zz * s_z;
-        let t20 = r_i_z - plane_point_z + arm_i_z;
-        let h = plane_normal_x * t18 + plane_normal_y * t19 + plane_normal_z * t20;
-        let t21 = omega_i_x * omega_i_z;
-        let t22 = alpha_i_y - t21;
-        let t23 = omega_i_x * omega_i_y;
-        let t24 = alpha_i_z + t23;
-        let t25 = omega_i_y * omega_i_y;
-        let t26 = omega_i_z * omega_i_z;
-        let t27 = t25 + t26;
-        let t28 = t22 * t0 - t24 * t1 + t10 * t27;
-        let t29 = rot_i_zx * axis_local_x;
-        let t30 = rot_i_zy * axis_local_y;
-        let t31 = rot_i_zz * axis_local_z;
-        let a_z = t29 + t30 + t31;
-        let t32 = plane_normal_y * a_z;
-        let t33 = rot_i_yx * axis_local_x;
-        let t34 = rot_i_yy * axis_local_y;
-        let t35 = rot_i_yz * axis_local_z;
-        let a_y = t33 + t34 + t35;
-        let t36 = plane_normal_z * a_y;
-        let t37 = t32 - t36;
-        let t38 = plane_normal_x * a_z;
-        let t39 = rot_i_xx * axis_local_x;
-        let t40 = rot_i_xy * axis_local_y;
-        let t41 = rot_i_xz * axis_local_z;
-        let a_x = t39 + t40 + t41;
-        let t42 = plane_normal_z * a_x;
-        let along_y = t38 - t42;
-        let t43 = plane_normal_x * a_y;
-        let t44 = plane_normal_y * a_x;
-        let t45 = t43 - t44;
-        let t46 = v_i_x + t6;
-        let t47 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
-        let t48 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
-        let t49 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
-        let t50 = rot_i_zx * t47 - rot_i_zy * t48 + rot_i_zz * t49;
-        let t51 = plane_normal_y * t50;
-        let t52 = rot_i_yx * t47 - rot_i_yy * t48 + rot_i_yz * t49;
-        let t53 = plane_normal_z * t52;
-        let t54 = t51 - t53;
-        let t55 = v_i_y + t7;
-        let t56 = plane_normal_x * t50;
-        let t57 = rot_i_xx * t47 - rot_i_xy * t48 + rot_i_xz * t49;
-        let t58 = plane_normal_z * t57;
-        let t59 = t56 - t58;
-        let t60 = v_i_z + t8;
-        let t61 = plane_normal_x * t52;
-        let t62 = plane_normal_y * t57;
-        let t63 = t61 - t62;
-        let t64 = a_i_x * t37 - a_i_y * along_y + a_i_z * t45
-            + (t46 * t54 - t55 * t59 + t60 * t63)
-            + (t14 * t37 - t15 * along_y + t16 * t45);
-        let t65 = rot_i_xz * t54 - rot_i_yz * t59 + rot_i_zz * t63;
-        let t66 = rot_i_xy * t54 - rot_i_yy * t59 + rot_i_zy * t63;
-        let t67 = rot_i_xz * t37 - rot_i_yz * along_y + rot_i_zz * t45;
-        let t68 = rot_i_xy * t37 - rot_i_yy * along_y + rot_i_zy * t45;
-        let t69 = rot_i_xx * t37 - rot_i_yx * along_y + rot_i_zx * t45;
-        let t70 = t46 * t37 - t55 * along_y + t60 * t45;
-        let t71 = plane_normal_y * t45 + plane_normal_z * along_y;
-        let across_y = plane_normal_x * t45 - plane_normal_z * t37;
-        let across_z = plane_normal_x * along_y + plane_normal_y * t37;
-        let t72 = plane_normal_y * t63 + plane_normal_z * t59;
-        let t73 = plane_normal_x * t63 - plane_normal_z * t54;
-        let t74 = plane_normal_x * t59 + plane_normal_y * t54;
-        let t75 = a_i_x * t71 - a_i_y * across_y - a_i_z * across_z
-            + (t46 * t72 - t55 * t73 - t60 * t74)
-            + (t14 * t71 - t15 * across_y - t16 * across_z);
-        let t76 = rot_i_xz * t72 - rot_i_yz * t73 - rot_i_zz * t74;
-        let t77 = rot_i_xy * t72 - rot_i_yy * t73 - rot_i_zy * t74;
-        let t78 = rot_i_xz * t71 - rot_i_yz * across_y - rot_i_zz * across_z;
-        let t79 = rot_i_xy * t71 - rot_i_yy * across_y - rot_i_zy * across_z;
-        let t80 = rot_i_xx * t71 - rot_i_yx * across_y - rot_i_zx * across_z;
-        let t81 = t46 * t71 - t55 * across_y - t60 * across_z;
-        let t82 = omega_i_x * t0 - omega_i_z * t10;
-        let t83 = omega_i_y * omega_i_z;
-        let t84 = alpha_i_x + t83;
-        let t85 = alpha_i_z - t23;
-        let t86 = omega_i_x * omega_i_x;
-        let t87 = t86 + t26;
-        let t88 = t84 * t0 - t85 * t10 - t1 * t87;
-        let t89 = rot_i_xx * t54 - rot_i_yx * t59 + rot_i_zx * t63;
-        let t90 = rot_i_xx * t72 - rot_i_yx * t73 - rot_i_zx * t74;
-        let t91 = omega_i_x * t1 - omega_i_y * t10;
-        let t92 = alpha_i_x - t83;
-        let t93 = alpha_i_y + t21;
-        let t94 = t86 + t25;
-        let t95 = t92 * t1 - t93 * t10 + t0 * t94;
-        let t96 = radius * radius;
-        let t97 = t96 * lambda_0;
-        let t98 = plane_normal_x * t57;
-        let t99 = plane_normal_y * t52;
-        let t100 = t98 + t99;
-        let t101 = plane_normal_z * t50;
-        let t102 = t100 + t101;
-        let t103 = omega_i_y * t49 + omega_i_z * t48
+        let t12 = r_i_z - plane_point_z + arm_i_z;
+        let t13 = tube_0
+            - (plane_normal_x * t10 + plane_normal_y * t11 + plane_normal_z * t12);
+        let t14 = omega_i_x * omega_i_z;
+        let t15 = alpha_i_y - t14;
+        let t16 = omega_i_x * omega_i_y;
+        let t17 = alpha_i_z + t16;
+        let t18 = rot_i_xx * plane_normal_x + rot_i_yx * plane_normal_y
+            + rot_i_zx * plane_normal_z;
+        let t19 = omega_i_y * omega_i_y;
+        let t20 = omega_i_z * omega_i_z;
+        let t21 = t19 + t20;
+        let t22 = t15 * t0 - t17 * t1 + t18 * t21;
+        let t23 = omega_i_y * t5 + omega_i_z * t4 + (alpha_i_y * s_z - alpha_i_z * s_y);
+        let t24 = omega_i_x * t5 - omega_i_z * t3 + (alpha_i_x * s_z - alpha_i_z * s_x);
+        let t25 = omega_i_x * t4 + omega_i_y * t3 - (alpha_i_x * s_y - alpha_i_y * s_x);
+        let t26 = rot_i_xx * t23 - rot_i_xy * t24 - rot_i_xz * t25;
+        let t27 = rot_i_yx * t23 - rot_i_yy * t24 - rot_i_yz * t25;
+        let t28 = rot_i_zx * t23 - rot_i_zy * t24 - rot_i_zz * t25;
+        let t29 = a_i_x * plane_normal_x + a_i_y * plane_normal_y
+            + a_i_z * plane_normal_z
+            + (plane_normal_x * t26 + plane_normal_y * t27 + plane_normal_z * t28);
+        let t30 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
+        let t31 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
+        let t32 = plane_normal_x * t30 - plane_normal_y * t31;
+        let t33 = t18 * t32;
+        let t34 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t35 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t36 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t37 = rot_i_yx * t34 - rot_i_yy * t35 + rot_i_yz * t36;
+        let t38 = plane_normal_x * t37;
+        let t39 = rot_i_xx * t34 - rot_i_xy * t35 + rot_i_xz * t36;
+        let t40 = plane_normal_y * t39;
+        let t41 = t38 - t40;
+        let t42 = rot_i_yx * axis_local_x;
+        let t43 = rot_i_yy * axis_local_y;
+        let t44 = rot_i_yz * axis_local_z;
+        let a_y = t42 + t43 + t44;
+        let t45 = plane_normal_x * a_y;
+        let t46 = rot_i_xx * axis_local_x;
+        let t47 = rot_i_xy * axis_local_y;
+        let t48 = rot_i_xz * axis_local_z;
+        let a_x = t46 + t47 + t48;
+        let t49 = plane_normal_y * a_x;
+        let t50 = t45 - t49;
+        let t51 = rot_i_yx * alpha_i_x + rot_i_yy * alpha_i_y + rot_i_yz * alpha_i_z;
+        let t52 = t18 * t51 - t30 * t2;
+        let t53 = rot_i_xx * alpha_i_x + rot_i_xy * alpha_i_y + rot_i_xz * alpha_i_z;
+        let t54 = t31 * t2 - t53 * t18;
+        let t55 = plane_normal_x * t52 + plane_normal_y * t54;
+        let t56 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
+        let t57 = plane_normal_x * t56 - plane_normal_z * t31;
+        let t58 = t18 * t57;
+        let t59 = rot_i_zx * t34 - rot_i_zy * t35 + rot_i_zz * t36;
+        let t60 = plane_normal_x * t59;
+        let t61 = plane_normal_z * t39;
+        let t62 = t60 - t61;
+        let t63 = rot_i_zx * axis_local_x;
+        let t64 = rot_i_zy * axis_local_y;
+        let t65 = rot_i_zz * axis_local_z;
+        let a_z = t63 + t64 + t65;
+        let t66 = plane_normal_x * a_z;
+        let t67 = plane_normal_z * a_x;
+        let along_y = t66 - t67;
+        let t68 = rot_i_zx * alpha_i_x + rot_i_zy * alpha_i_y + rot_i_zz * alpha_i_z;
+        let t69 = t18 * t68 - t56 * t2;
+        let t70 = plane_normal_x * t69 + plane_normal_z * t54;
+        let t71 = plane_normal_y * t56 - plane_normal_z * t30;
+        let t72 = t18 * t71;
+        let t73 = plane_normal_y * t59;
+        let t74 = plane_normal_z * t37;
+        let t75 = t73 - t74;
+        let t76 = plane_normal_y * a_z;
+        let t77 = plane_normal_z * a_y;
+        let t78 = t76 - t77;
+        let t79 = plane_normal_y * t69 - plane_normal_z * t52;
+        let t80 = rot_i_xz * t75 - rot_i_yz * t62 + rot_i_zz * t41;
+        let t81 = rot_i_xy * t75 - rot_i_yy * t62 + rot_i_zy * t41;
+        let t82 = rot_i_xz * t78 - rot_i_yz * along_y + rot_i_zz * t50;
+        let t83 = rot_i_xy * t78 - rot_i_yy * along_y + rot_i_zy * t50;
+        let t84 = rot_i_xx * t78 - rot_i_yx * along_y + rot_i_zx * t50;
+        let t85 = v_i_x + t6;
+        let t86 = v_i_y + t7;
+        let t87 = v_i_z + t8;
+        let t88 = a_i_x * t78 - a_i_y * along_y + a_i_z * t50
+            + (t85 * t75 - t86 * t62 + t87 * t41)
+            + (t26 * t78 - t27 * along_y + t28 * t50);
+        let t89 = t85 * t78 - t86 * along_y + t87 * t50;
+        let t90 = plane_normal_x * t62 + plane_normal_y * t75;
+        let across_z = plane_normal_x * along_y + plane_normal_y * t78;
+        let t91 = plane_normal_x * t41 - plane_normal_z * t75;
+        let across_y = plane_normal_x * t50 - plane_normal_z * t78;
+        let t92 = plane_normal_y * t41 + plane_normal_z * t62;
+        let t93 = plane_normal_y * t50 + plane_normal_z * along_y;
+        let t94 = rot_i_xz * t92 - rot_i_yz * t91 - rot_i_zz * t90;
+        let t95 = rot_i_xy * t92 - rot_i_yy * t91 - rot_i_zy * t90;
+        let t96 = rot_i_xz * t93 - rot_i_yz * across_y - rot_i_zz * across_z;
+        let t97 = rot_i_xy * t93 - rot_i_yy * across_y - rot_i_zy * across_z;
+        let t98 = rot_i_xx * t93 - rot_i_yx * across_y - rot_i_zx * across_z;
+        let t99 = a_i_x * t93 - a_i_y * across_y - a_i_z * across_z
+            + (t85 * t92 - t86 * t91 - t87 * t90)
+            + (t26 * t93 - t27 * across_y - t28 * across_z);
+        let t100 = t85 * t93 - t86 * across_y - t87 * across_z;
+        let t101 = omega_i_x * t0 - omega_i_z * t18;
+        let t102 = omega_i_y * omega_i_z;
+        let t103 = alpha_i_x + t102;
+        let t104 = alpha_i_z - t16;
+        let t105 = omega_i_x * omega_i_x;
+        let t106 = t105 + t20;
+        let t107 = t103 * t0 - t104 * t18 - t1 * t106;
+        let t108 = t1 * t32;
+        let t109 = t1 * t51 + t30 * t101;
+        let t110 = t31 * t101 + t53 * t1;
+        let t111 = plane_normal_x * t109 - plane_normal_y * t110;
+        let t112 = t1 * t57;
+        let t113 = t1 * t68 + t56 * t101;
+        let t114 = plane_normal_x * t113 - plane_normal_z * t110;
+        let t115 = t1 * t71;
+        let t116 = plane_normal_y * t113 - plane_normal_z * t109;
+        let t117 = rot_i_xx * t75 - rot_i_yx * t62 + rot_i_zx * t41;
+        let t118 = rot_i_xx * t92 - rot_i_yx * t91 - rot_i_zx * t90;
+        let t119 = omega_i_x * t1 - omega_i_y * t18;
+        let t120 = alpha_i_x - t102;
+        let t121 = alpha_i_y + t14;
+        let t122 = t105 + t19;
+        let t123 = t120 * t1 - t121 * t18 + t0 * t122;
+        let t124 = t0 * t32;
+        let t125 = t0 * t51 - t30 * t119;
+        let t126 = t31 * t119 - t53 * t0;
+        let t127 = plane_normal_x * t125 + plane_normal_y * t126;
+        let t128 = t0 * t57;
+        let t129 = t0 * t68 - t56 * t119;
+        let t130 = plane_normal_x * t129 + plane_normal_z * t126;
+        let t131 = t0 * t71;
+        let t132 = plane_normal_y * t129 - plane_normal_z * t125;
+        let t133 = radius * radius;
+        let t134 = t133 * lambda_0;
+        let t135 = plane_normal_x * t39;
+        let t136 = plane_normal_y * t37;
+        let t137 = t135 + t136;
+        let t138 = plane_normal_z * t59;
+        let t139 = t137 + t138;
+        let t140 = omega_i_y * t36 + omega_i_z * t35
             + (alpha_i_y * axis_local_z - alpha_i_z * axis_local_y);
-        let t104 = omega_i_x * t49 - omega_i_z * t47
+        let t141 = omega_i_x * t36 - omega_i_z * t34
             + (alpha_i_x * axis_local_z - alpha_i_z * axis_local_x);
-        let t105 = omega_i_x * t48 + omega_i_y * t47
+        let t142 = omega_i_x * t35 + omega_i_y * t34
             - (alpha_i_x * axis_local_y - alpha_i_y * axis_local_x);
-        let t106 = rot_i_xx * t103 - rot_i_xy * t104 - rot_i_xz * t105;
-        let t107 = rot_i_yx * t103 - rot_i_yy * t104 - rot_i_yz * t105;
-        let t108 = rot_i_zx * t103 - rot_i_zy * t104 - rot_i_zz * t105;
-        let t109 = plane_normal_x * t106 + plane_normal_y * t107 + plane_normal_z * t108;
-        let t110 = plane_normal_x * a_x;
-        let t111 = plane_normal_y * a_y;
-        let t112 = t110 + t111;
-        let t113 = plane_normal_z * a_z;
-        let k = t112 + t113;
-        let t114 = rot_i_xx * plane_normal_y - rot_i_yx * plane_normal_x;
-        let t115 = plane_normal_x - a_x * k;
-        let t116 = rot_i_yx * alpha_i_x + rot_i_yy * alpha_i_y + rot_i_yz * alpha_i_z;
-        let t117 = axis_local_x * t102 + t47 * k;
-        let t118 = axis_local_y * t102 - t48 * k;
-        let t119 = axis_local_z * t102 + t49 * k;
-        let t120 = rot_i_xx * t117 + rot_i_xy * t118 + rot_i_xz * t119;
-        let t121 = rot_i_yx * omega_i_x + rot_i_yy * omega_i_y + rot_i_yz * omega_i_z;
-        let t122 = plane_normal_y - a_y * k;
-        let t123 = rot_i_xx * alpha_i_x + rot_i_xy * alpha_i_y + rot_i_xz * alpha_i_z;
-        let t124 = rot_i_xx * omega_i_x + rot_i_xy * omega_i_y + rot_i_xz * omega_i_z;
-        let t125 = rot_i_yx * t117 + rot_i_yy * t118 + rot_i_yz * t119;
-        let t126 = t115 * t116 - t120 * t121 - (t122 * t123 - t124 * t125);
-        let t127 = t10 * t47 - (axis_local_x * t2 - t102);
-        let t128 = omega_i_z * k;
-        let t129 = axis_local_y * t2 - (t128 - t10 * t48);
-        let t130 = omega_i_y * k;
-        let t131 = axis_local_z * t2 + (t130 - t10 * t49);
-        let t132 = rot_i_yx * t127 - rot_i_yy * t129 - rot_i_yz * t131;
-        let t133 = axis_local_x * t10 + k;
-        let t134 = rot_i_yx * t133 + t34 * t10 + t35 * t10;
-        let t135 = rot_i_xx * t133 + t40 * t10 + t41 * t10;
-        let t136 = rot_i_xx * t127 - rot_i_xy * t129 - rot_i_xz * t131;
-        let t137 = t124 * t132 + t123 * t134 - (t135 * t116 + t136 * t121);
-        let t138 = t124 * t134 - t135 * t121;
-        let t139 = rot_i_yy * omega_i_z - rot_i_yz * omega_i_y;
-        let t140 = rot_i_xy * omega_i_z - rot_i_xz * omega_i_y;
-        let t141 = plane_normal_x * t139 - plane_normal_y * t140;
-        let t142 = t115 * t121 - t122 * t124;
-        let t143 = rot_i_xx * plane_normal_z - rot_i_zx * plane_normal_x;
-        let t144 = rot_i_zx * alpha_i_x + rot_i_zy * alpha_i_y + rot_i_zz * alpha_i_z;
-        let t145 = rot_i_zx * omega_i_x + rot_i_zy * omega_i_y + rot_i_zz * omega_i_z;
-        let t146 = plane_normal_z - a_z * k;
-        let t147 = rot_i_zx * t117 + rot_i_zy * t118 + rot_i_zz * t119;
-        let t148 = t115 * t144 - t120 * t145 - (t146 * t123 - t124 * t147);
-        let t149 = rot_i_zx * t127 - rot_i_zy * t129 - rot_i_zz * t131;
-        let t150 = rot_i_zx * t133 + t30 * t10 + t31 * t10;
-        let t151 = t124 * t149 + t123 * t150 - (t135 * t144 + t136 * t145);
-        let t152 = t124 * t150 - t135 * t145;
-        let t153 = rot_i_zy * omega_i_z - rot_i_zz * omega_i_y;
-        let t154 = plane_normal_x * t153 - plane_normal_z * t140;
-        let t155 = t115 * t145 - t146 * t124;
-        let t156 = rot_i_yx * plane_normal_z - rot_i_zx * plane_normal_y;
-        let t157 = t122 * t144 - t125 * t145 - (t146 * t116 - t121 * t147);
-        let t158 = t121 * t149 + t116 * t150 - (t134 * t144 + t132 * t145);
-        let t159 = t121 * t150 - t134 * t145;
-        let t160 = plane_normal_y * t153 - plane_normal_z * t139;
-        let t161 = t122 * t145 - t146 * t121;
-        let t162 = plane_normal_x * t114 - plane_normal_z * t156;
-        let t163 = plane_normal_x * t141 - plane_normal_z * t160;
-        let t164 = plane_normal_x * t143 + plane_normal_y * t156;
-        let t165 = plane_normal_x * t154 + plane_normal_y * t160;
-        let t166 = plane_normal_y * t114 + plane_normal_z * t143;
-        let t167 = plane_normal_y * t141 + plane_normal_z * t154;
-        let t168 = rot_i_xy * plane_normal_y - rot_i_yy * plane_normal_x;
-        let t169 = axis_local_x * t82 - (t128 - t1 * t47);
-        let t170 = t1 * t48 - (axis_local_y * t82 + t102);
-        let t171 = omega_i_x * k;
-        let t172 = axis_local_z * t82 + (t171 + t1 * t49);
-        let t173 = rot_i_yx * t169 - rot_i_yy * t170 + rot_i_yz * t172;
-        let t174 = axis_local_y * t1 + k;
-        let t175 = t33 * t1 + rot_i_yy * t174 + t35 * t1;
-        let t176 = t39 * t1 + rot_i_xy * t174 + t41 * t1;
-        let t177 = rot_i_xx * t169 - rot_i_xy * t170 + rot_i_xz * t172;
-        let t178 = t124 * t173 + t123 * t175 - (t176 * t116 + t177 * t121);
-        let t179 = rot_i_yx * omega_i_z - rot_i_yz * omega_i_x;
-        let t180 = rot_i_xx * omega_i_z - rot_i_xz * omega_i_x;
-        let t181 = plane_normal_x * t179 - plane_normal_y * t180;
-        let t182 = t124 * t175 - t176 * t121;
-        let t183 = rot_i_xy * plane_normal_z - rot_i_zy * plane_normal_x;
-        let t184 = rot_i_zx * t169 - rot_i_zy * t170 + rot_i_zz * t172;
-        let t185 = t29 * t1 + rot_i_zy * t174 + t31 * t1;
-        let t186 = t124 * t184 + t123 * t185 - (t176 * t144 + t177 * t145);
-        let t187 = rot_i_zx * omega_i_z - rot_i_zz * omega_i_x;
-        let t188 = plane_normal_x * t187 - plane_normal_z * t180;
-        let t189 = t124 * t185 - t176 * t145;
-        let t190 = rot_i_yy * plane_normal_z - rot_i_zy * plane_normal_y;
-        let t191 = t121 * t184 + t116 * t185 - (t175 * t144 + t173 * t145);
-        let t192 = plane_normal_y * t187 - plane_normal_z * t179;
-        let t193 = t121 * t185 - t175 * t145;
-        let t194 = plane_normal_x * t168 - plane_normal_z * t190;
-        let t195 = plane_normal_x * t181 - plane_normal_z * t192;
-        let t196 = plane_normal_x * t183 + plane_normal_y * t190;
-        let t197 = plane_normal_x * t188 + plane_normal_y * t192;
-        let t198 = plane_normal_y * t168 + plane_normal_z * t183;
-        let t199 = plane_normal_y * t181 + plane_normal_z * t188;
-        let t200 = rot_i_xz * plane_normal_y - rot_i_yz * plane_normal_x;
-        let t201 = axis_local_x * t91 - (t130 + t0 * t47);
-        let t202 = axis_local_y * t91 + (t171 + t0 * t48);
-        let t203 = t0 * t49 - (axis_local_z * t91 - t102);
-        let t204 = rot_i_yx * t201 + rot_i_yy * t202 - rot_i_yz * t203;
-        let t205 = axis_local_z * t0 + k;
-        let t206 = t33 * t0 + t34 * t0 + rot_i_yz * t205;
-        let t207 = t39 * t0 + t40 * t0 + rot_i_xz * t205;
-        let t208 = rot_i_xx * t201 + rot_i_xy * t202 - rot_i_xz * t203;
-        let t209 = t124 * t204 - t123 * t206 + (t207 * t116 - t208 * t121);
-        let t210 = rot_i_yx * omega_i_y - rot_i_yy * omega_i_x;
-        let t211 = rot_i_xx * omega_i_y - rot_i_xy * omega_i_x;
-        let t212 = plane_normal_x * t210 - plane_normal_y * t211;
-        let t213 = t124 * t206 - t207 * t121;
-        let t214 = rot_i_xz * plane_normal_z - rot_i_zz * plane_normal_x;
-        let t215 = rot_i_zx * t201 + rot_i_zy * t202 - rot_i_zz * t203;
-        let t216 = t29 * t0 + t30 * t0 + rot_i_zz * t205;
-        let t217 = t124 * t215 - t123 * t216 + (t207 * t144 - t208 * t145);
-        let t218 = rot_i_zx * omega_i_y - rot_i_zy * omega_i_x;
-        let t219 = plane_normal_x * t218 - plane_normal_z * t211;
-        let t220 = t124 * t216 - t207 * t145;
-        let t221 = rot_i_yz * plane_normal_z - rot_i_zz * plane_normal_y;
-        let t222 = t121 * t215 - t116 * t216 + (t206 * t144 - t204 * t145);
-        let t223 = plane_normal_y * t218 - plane_normal_z * t210;
-        let t224 = t121 * t216 - t206 * t145;
-        let t225 = plane_normal_x * t200 - plane_normal_z * t221;
-        let t226 = plane_normal_x * t212 - plane_normal_z * t223;
-        let t227 = plane_normal_x * t214 + plane_normal_y * t221;
-        let t228 = plane_normal_x * t219 + plane_normal_y * t223;
-        let t229 = plane_normal_y * t200 + plane_normal_z * t214;
-        let t230 = plane_normal_y * t212 + plane_normal_z * t219;
-        let t231 = k * t109 + t102 * t102;
-        let t232 = t45 * t126 + t63 * t142 + (along_y * t148 + t59 * t155)
-            + (t37 * t157 + t54 * t161);
-        let t233 = across_y * t148 + t73 * t155 - (across_z * t126 + t74 * t142)
-            + (t71 * t157 + t72 * t161);
-        let t234 = lambda_0 * t17 - lambda_1 * t64 - lambda_2 * t75;
-        let t235 = a_y * t145;
-        let t236 = t121 * a_z - t235;
-        let t237 = a_x * t116;
-        let t238 = t237 * a_z;
-        let t239 = axis_local_x * t57 + a_x * t47;
-        let t240 = axis_local_y * t57 - a_x * t48;
-        let t241 = axis_local_z * t57 + a_x * t49;
-        let t242 = rot_i_zx * t239 + rot_i_zy * t240 + rot_i_zz * t241;
-        let t243 = a_x * a_y * t144;
-        let t244 = rot_i_yx * t239 + rot_i_yy * t240 + rot_i_yz * t241;
-        let t245 = t238 + t121 * t242 - (t243 + t244 * t145);
-        let t246 = t123 * a_x;
-        let t247 = rot_i_xx * t239 + rot_i_xy * t240 + rot_i_xz * t241;
-        let t248 = a_x * a_x - T::from(1.0);
-        let t249 = t124 * t244 + t246 * a_y - (t247 * t121 + t116 * t248);
-        let t250 = t124 * a_x;
-        let t251 = t250 * a_y - t121 * t248;
-        let t252 = t124 * t242 + t246 * a_z - (t247 * t145 + t144 * t248);
-        let t253 = t250 * a_z - t145 * t248;
-        let t254 = t99 + t101;
-        let t255 = t111 + t113;
-        let t256 = t43 + t45;
-        let t257 = t61 + t63;
-        let t258 = t38 + along_y;
-        let t259 = t56 + t59;
-        let t260 = a_x * t145;
-        let t261 = t124 * a_z - t260;
-        let t262 = axis_local_x * t52 + a_y * t47;
-        let t263 = axis_local_y * t52 - a_y * t48;
-        let t264 = axis_local_z * t52 + a_y * t49;
-        let t265 = rot_i_zx * t262 + rot_i_zy * t263 + rot_i_zz * t264;
-        let t266 = t123 * a_y * a_z;
-        let t267 = rot_i_xx * t262 + rot_i_xy * t263 + rot_i_xz * t264;
-        let t268 = t124 * t265 + t266 - (t243 + t267 * t145);
-        let t269 = rot_i_yx * t262 + rot_i_yy * t263 + rot_i_yz * t264;
-        let t270 = a_y * a_y - T::from(1.0);
-        let t271 = t124 * t269 + t123 * t270 - (t237 * a_y + t267 * t121);
-        let t272 = a_x * t121;
-        let t273 = t124 * t270 - t272 * a_y;
-        let t274 = t121 * t265 + t116 * a_y * a_z - (t269 * t145 + t144 * t270);
-        let t275 = t121 * a_y * a_z - t145 * t270;
-        let t276 = t98 + t101;
-        let t277 = t110 + t113;
-        let t278 = t32 + t37;
-        let t279 = t51 + t54;
-        let t280 = t44 - t45;
-        let t281 = t62 - t63;
-        let t282 = t124 * a_y - t272;
-        let t283 = axis_local_x * t50 + a_z * t47;
-        let t284 = axis_local_y * t50 - a_z * t48;
-        let t285 = axis_local_z * t50 + a_z * t49;
-        let t286 = rot_i_yx * t283 + rot_i_yy * t284 + rot_i_yz * t285;
-        let t287 = rot_i_xx * t283 + rot_i_xy * t284 + rot_i_xz * t285;
-        let t288 = t124 * t286 + t266 - (t238 + t287 * t121);
-        let t289 = rot_i_zx * t283 + rot_i_zy * t284 + rot_i_zz * t285;
-        let t290 = a_z * a_z - T::from(1.0);
-        let t291 = t124 * t289 + t123 * t290 - (a_x * t144 * a_z + t287 * t145);
-        let t292 = t124 * t290 - t260 * a_z;
-        let t293 = t121 * t289 + t116 * t290 - (a_y * t144 * a_z + t286 * t145);
-        let t294 = t121 * t290 - t235 * a_z;
-        let t295 = t36 - t37;
-        let t296 = t53 - t54;
-        let t297 = t42 - along_y;
-        let t298 = t58 - t59;
+        let t143 = rot_i_xx * t140 - rot_i_xy * t141 - rot_i_xz * t142;
+        let t144 = rot_i_yx * t140 - rot_i_yy * t141 - rot_i_yz * t142;
+        let t145 = rot_i_zx * t140 - rot_i_zy * t141 - rot_i_zz * t142;
+        let t146 = plane_normal_x * t143 + plane_normal_y * t144 + plane_normal_z * t145;
+        let t147 = plane_normal_x * a_x;
+        let t148 = plane_normal_y * a_y;
+        let t149 = t147 + t148;
+        let t150 = plane_normal_z * a_z;
+        let k = t149 + t150;
+        let t151 = rot_i_yx * plane_normal_z - rot_i_zx * plane_normal_y;
+        let t152 = rot_i_xx * plane_normal_z - rot_i_zx * plane_normal_x;
+        let t153 = rot_i_xx * plane_normal_y - rot_i_yx * plane_normal_x;
+        let t154 = rot_i_zy * omega_i_z - rot_i_zz * omega_i_y;
+        let t155 = rot_i_yy * omega_i_z - rot_i_yz * omega_i_y;
+        let t156 = plane_normal_y * t154 - plane_normal_z * t155;
+        let t157 = rot_i_xy * omega_i_z - rot_i_xz * omega_i_y;
+        let t158 = plane_normal_x * t154 - plane_normal_z * t157;
+        let t159 = plane_normal_x * t155 - plane_normal_y * t157;
+        let t160 = t133 * t50;
+        let t161 = t18 * t34 - (axis_local_x * t2 - t139);
+        let t162 = omega_i_z * k;
+        let t163 = axis_local_y * t2 - (t162 - t18 * t35);
+        let t164 = omega_i_y * k;
+        let t165 = axis_local_z * t2 + (t164 - t18 * t36);
+        let t166 = rot_i_yx * t161 - rot_i_yy * t163 - rot_i_yz * t165;
+        let t167 = axis_local_x * t18 + k;
+        let t168 = rot_i_yx * t167 + t43 * t18 + t44 * t18;
+        let t169 = rot_i_xx * t167 + t47 * t18 + t48 * t18;
+        let t170 = rot_i_xx * t161 - rot_i_xy * t163 - rot_i_xz * t165;
+        let t171 = t31 * t166 + t53 * t168 - (t169 * t51 + t170 * t30);
+        let t172 = axis_local_x * t139 + t34 * k;
+        let t173 = axis_local_y * t139 - t35 * k;
+        let t174 = axis_local_z * t139 + t36 * k;
+        let t175 = rot_i_yx * t172 + rot_i_yy * t173 + rot_i_yz * t174;
+        let t176 = plane_normal_y * tube_0;
+        let t177 = t133 * t175 - t176 * t9;
+        let t178 = t133 * a_y;
+        let t179 = t133 - tube_0 * t13;
+        let t180 = t178 * k - plane_normal_y * t179;
+        let t181 = rot_i_xx * t172 + rot_i_xy * t173 + rot_i_xz * t174;
+        let t182 = plane_normal_x * tube_0;
+        let t183 = t133 * t181 - t182 * t9;
+        let t184 = t133 * a_x;
+        let t185 = t184 * k - plane_normal_x * t179;
+        let t186 = t31 * t177 + t53 * t180 - (t30 * t183 + t51 * t185);
+        let t187 = t133 * t41;
+        let t188 = t31 * t168 - t169 * t30;
+        let turned_z = t31 * t180 - t30 * t185;
+        let t189 = t133 * along_y;
+        let t190 = rot_i_zx * t161 - rot_i_zy * t163 - rot_i_zz * t165;
+        let t191 = rot_i_zx * t167 + t64 * t18 + t65 * t18;
+        let t192 = t31 * t190 + t53 * t191 - (t169 * t68 + t170 * t56);
+        let t193 = rot_i_zx * t172 + rot_i_zy * t173 + rot_i_zz * t174;
+        let t194 = plane_normal_z * tube_0;
+        let t195 = t133 * t193 - t194 * t9;
+        let t196 = t133 * a_z * k - plane_normal_z * t179;
+        let t197 = t31 * t195 + t53 * t196 - (t56 * t183 + t68 * t185);
+        let t198 = t133 * t62;
+        let t199 = t31 * t191 - t169 * t56;
+        let t200 = t31 * t196 - t56 * t185;
+        let t201 = t133 * t78;
+        let t202 = t30 * t190 + t51 * t191 - (t168 * t68 + t166 * t56);
+        let t203 = t30 * t195 + t51 * t196 - (t56 * t177 + t68 * t180);
+        let t204 = t133 * t75;
+        let t205 = t30 * t191 - t168 * t56;
+        let turned_x = t30 * t196 - t56 * t180;
+        let t206 = plane_normal_y * t153 + plane_normal_z * t152;
+        let t207 = plane_normal_x * t153 - plane_normal_z * t151;
+        let t208 = plane_normal_x * t152 + plane_normal_y * t151;
+        let t209 = plane_normal_y * t159 + plane_normal_z * t158;
+        let t210 = plane_normal_x * t159 - plane_normal_z * t156;
+        let t211 = plane_normal_x * t158 + plane_normal_y * t156;
+        let t212 = t133 * across_y;
+        let t213 = t133 * t91;
+        let t214 = t133 * across_z;
+        let t215 = t133 * t90;
+        let t216 = t133 * t93;
+        let t217 = t133 * t92;
+        let t218 = rot_i_yy * plane_normal_z - rot_i_zy * plane_normal_y;
+        let t219 = rot_i_xy * plane_normal_z - rot_i_zy * plane_normal_x;
+        let t220 = rot_i_xy * plane_normal_y - rot_i_yy * plane_normal_x;
+        let t221 = rot_i_zx * omega_i_z - rot_i_zz * omega_i_x;
+        let t222 = rot_i_yx * omega_i_z - rot_i_yz * omega_i_x;
+        let t223 = plane_normal_y * t221 - plane_normal_z * t222;
+        let t224 = rot_i_xx * omega_i_z - rot_i_xz * omega_i_x;
+        let t225 = plane_normal_x * t221 - plane_normal_z * t224;
+        let t226 = plane_normal_x * t222 - plane_normal_y * t224;
+        let t227 = axis_local_x * t101 - (t162 - t1 * t34);
+        let t228 = t1 * t35 - (axis_local_y * t101 + t139);
+        let t229 = omega_i_x * k;
+        let t230 = axis_local_z * t101 + (t229 + t1 * t36);
+        let t231 = rot_i_yx * t227 - rot_i_yy * t228 + rot_i_yz * t230;
+        let t232 = axis_local_y * t1 + k;
+        let t233 = t42 * t1 + rot_i_yy * t232 + t44 * t1;
+        let t234 = t46 * t1 + rot_i_xy * t232 + t48 * t1;
+        let t235 = rot_i_xx * t227 - rot_i_xy * t228 + rot_i_xz * t230;
+        let t236 = t31 * t231 + t53 * t233 - (t234 * t51 + t235 * t30);
+        let t237 = t31 * t233 - t234 * t30;
+        let t238 = rot_i_zx * t227 - rot_i_zy * t228 + rot_i_zz * t230;
+        let t239 = t63 * t1 + rot_i_zy * t232 + t65 * t1;
+        let t240 = t31 * t238 + t53 * t239 - (t234 * t68 + t235 * t56);
+        let t241 = t31 * t239 - t234 * t56;
+        let t242 = t30 * t238 + t51 * t239 - (t233 * t68 + t231 * t56);
+        let t243 = t30 * t239 - t233 * t56;
+        let t244 = plane_normal_y * t220 + plane_normal_z * t219;
+        let t245 = plane_normal_x * t220 - plane_normal_z * t218;
+        let t246 = plane_normal_x * t219 + plane_normal_y * t218;
+        let t247 = plane_normal_y * t226 + plane_normal_z * t225;
+        let t248 = plane_normal_x * t226 - plane_normal_z * t223;
+        let t249 = plane_normal_x * t225 + plane_normal_y * t223;
+        let t250 = rot_i_yz * plane_normal_z - rot_i_zz * plane_normal_y;
+        let t251 = rot_i_xz * plane_normal_z - rot_i_zz * plane_normal_x;
+        let t252 = rot_i_xz * plane_normal_y - rot_i_yz * plane_normal_x;
+        let t253 = rot_i_zx * omega_i_y - rot_i_zy * omega_i_x;
+        let t254 = rot_i_yx * omega_i_y - rot_i_yy * omega_i_x;
+        let t255 = plane_normal_y * t253 - plane_normal_z * t254;
+        let t256 = rot_i_xx * omega_i_y - rot_i_xy * omega_i_x;
+        let t257 = plane_normal_x * t253 - plane_normal_z * t256;
+        let t258 = plane_normal_x * t254 - plane_normal_y * t256;
+        let t259 = axis_local_x * t119 - (t164 + t0 * t34);
+        let t260 = axis_local_y * t119 + (t229 + t0 * t35);
+        let t261 = t0 * t36 - (axis_local_z * t119 - t139);
+        let t262 = rot_i_yx * t259 + rot_i_yy * t260 - rot_i_yz * t261;
+        let t263 = axis_local_z * t0 + k;
+        let t264 = t42 * t0 + t43 * t0 + rot_i_yz * t263;
+        let t265 = t46 * t0 + t47 * t0 + rot_i_xz * t263;
+        let t266 = rot_i_xx * t259 + rot_i_xy * t260 - rot_i_xz * t261;
+        let t267 = t31 * t262 - t53 * t264 + (t265 * t51 - t266 * t30);
+        let t268 = t31 * t264 - t265 * t30;
+        let t269 = rot_i_zx * t259 + rot_i_zy * t260 - rot_i_zz * t261;
+        let t270 = t63 * t0 + t64 * t0 + rot_i_zz * t263;
+        let t271 = t31 * t269 - t53 * t270 + (t265 * t68 - t266 * t56);
+        let t272 = t31 * t270 - t265 * t56;
+        let t273 = t30 * t269 - t51 * t270 + (t264 * t68 - t262 * t56);
+        let t274 = t30 * t270 - t264 * t56;
+        let t275 = plane_normal_y * t252 + plane_normal_z * t251;
+        let t276 = plane_normal_x * t252 - plane_normal_z * t250;
+        let t277 = plane_normal_x * t251 + plane_normal_y * t250;
+        let t278 = plane_normal_y * t258 + plane_normal_z * t257;
+        let t279 = plane_normal_x * t258 - plane_normal_z * t255;
+        let t280 = plane_normal_x * t257 + plane_normal_y * t255;
+        let t281 = k * t146 + t139 * t139;
+        let t282 = plane_normal_x - a_x * k;
+        let t283 = plane_normal_y - a_y * k;
+        let t284 = t282 * t51 - t181 * t30 - (t283 * t53 - t31 * t175);
+        let t285 = t282 * t30 - t283 * t31;
+        let t286 = plane_normal_z - a_z * k;
+        let t287 = t282 * t68 - t181 * t56 - (t286 * t53 - t31 * t193);
+        let t288 = t282 * t56 - t286 * t31;
+        let t289 = t283 * t68 - t175 * t56 - (t286 * t51 - t30 * t193);
+        let t290 = t283 * t56 - t286 * t30;
+        let t291 = lambda_0 * t29;
+        let t292 = plane_normal_x * t51 - plane_normal_y * t53;
+        let t293 = plane_normal_x * t68 - plane_normal_z * t53;
+        let t294 = plane_normal_y * t68 - plane_normal_z * t51;
+        let t295 = t291
+            - lambda_1
+                * (tube_0
+                    * (t32 * t41 + t292 * t50 + (t57 * t62 + t293 * along_y)
+                        + (t71 * t75 + t294 * t78)) + t88)
+            + lambda_2
+                * (tube_0
+                    * (t32 * t90 + t292 * across_z - (t57 * t91 + t293 * across_y)
+                        - (t71 * t92 + t294 * t93)) - t99);
+        let t296 = axis_local_x * t39 + a_x * t34;
+        let t297 = axis_local_y * t39 - a_x * t35;
+        let t298 = axis_local_z * t39 + a_x * t36;
+        let t299 = t133 * (rot_i_zx * t296 + rot_i_zy * t297 + rot_i_zz * t298)
+            - t194 * t85;
+        let t300 = t184 * a_z;
+        let t301 = t300 - t194 * t10;
+        let t302 = t133 * (rot_i_yx * t296 + rot_i_yy * t297 + rot_i_yz * t298)
+            - t176 * t85;
+        let t303 = t184 * a_y;
+        let t304 = t303 - t176 * t10;
+        let t305 = t30 * t299 + t51 * t301 - (t56 * t302 + t68 * t304);
+        let t306 = t30 * t301 - t56 * t304;
+        let t307 = t133 * (rot_i_xx * t296 + rot_i_xy * t297 + rot_i_xz * t298)
+            - tube_0 * (plane_normal_x * t85 + t9);
+        let t308 = t133 * (a_x * a_x) - (t182 * t10 + t179);
+        let t309 = t31 * t302 + t53 * t304 - (t30 * t307 + t51 * t308);
+        let t310 = t31 * t304 - t30 * t308;
+        let t311 = t31 * t299 + t53 * t301 - (t56 * t307 + t68 * t308);
+        let t312 = t31 * t301 - t56 * t308;
+        let t313 = t148 + t150;
+        let t314 = t45 + t50;
+        let t315 = t66 + along_y;
+        let t316 = t136 + t138;
+        let t317 = t38 + t41;
+        let t318 = t60 + t62;
+        let t319 = axis_local_x * t37 + a_y * t34;
+        let t320 = axis_local_y * t37 - a_y * t35;
+        let t321 = axis_local_z * t37 + a_y * t36;
+        let t322 = t133 * (rot_i_zx * t319 + rot_i_zy * t320 + rot_i_zz * t321)
+            - t194 * t86;
+        let t323 = t178 * a_z;
+        let t324 = t323 - t194 * t11;
+        let t325 = t133 * (rot_i_xx * t319 + rot_i_xy * t320 + rot_i_xz * t321)
+            - t182 * t86;
+        let t326 = t303 - t182 * t11;
+        let t327 = t31 * t322 + t53 * t324 - (t56 * t325 + t68 * t326);
+        let t328 = t31 * t324 - t56 * t326;
+        let t329 = t133 * (rot_i_yx * t319 + rot_i_yy * t320 + rot_i_yz * t321)
+            - tube_0 * (plane_normal_y * t86 + t9);
+        let t330 = t133 * (a_y * a_y) - (t176 * t11 + t179);
+        let t331 = t31 * t329 + t53 * t330 - (t30 * t325 + t51 * t326);
+        let t332 = t31 * t330 - t30 * t326;
+        let t333 = t30 * t322 + t51 * t324 - (t56 * t329 + t68 * t330);
+        let t334 = t30 * t324 - t56 * t330;
+        let t335 = t49 - t50;
+        let t336 = t147 + t150;
+        let t337 = t76 + t78;
+        let t338 = t40 - t41;
+        let t339 = t135 + t138;
+        let t340 = t73 + t75;
+        let t341 = axis_local_x * t59 + a_z * t34;
+        let t342 = axis_local_y * t59 - a_z * t35;
+        let t343 = axis_local_z * t59 + a_z * t36;
+        let t344 = t133 * (rot_i_yx * t341 + rot_i_yy * t342 + rot_i_yz * t343)
+            - t176 * t87;
+        let t345 = t323 - t176 * t12;
+        let t346 = t133 * (rot_i_xx * t341 + rot_i_xy * t342 + rot_i_xz * t343)
+            - t182 * t87;
+        let t347 = t300 - t182 * t12;
+        let t348 = t31 * t344 + t53 * t345 - (t30 * t346 + t51 * t347);
+        let t349 = t31 * t345 - t30 * t347;
+        let t350 = t133 * (rot_i_zx * t341 + rot_i_zy * t342 + rot_i_zz * t343)
+            - tube_0 * (plane_normal_z * t87 + t9);
+        let t351 = t133 * (a_z * a_z) - (t194 * t12 + t179);
+        let t352 = t31 * t350 + t53 * t351 - (t56 * t346 + t68 * t347);
+        let t353 = t31 * t351 - t56 * t347;
+        let t354 = t30 * t350 + t51 * t351 - (t56 * t344 + t68 * t345);
+        let t355 = t30 * t351 - t56 * t345;
+        let t356 = t67 - along_y;
+        let t357 = t77 - t78;
+        let t358 = t61 - t62;
+        let t359 = t74 - t75;
+        let t360 = tube_0 + t13;
+        let t361 = t360 * t32;
+        let t362 = t360 * t51 - t30 * t9;
+        let t363 = t360 * t53 - t31 * t9;
+        let t364 = plane_normal_x * t362 - plane_normal_y * t363;
+        let t365 = t360 * t57;
+        let t366 = t360 * t68 - t56 * t9;
+        let t367 = plane_normal_x * t366 - plane_normal_z * t363;
+        let t368 = t360 * t71;
+        let t369 = plane_normal_y * t366 - plane_normal_z * t362;
         out[0] = -(inverse
-            * (lambda_0 * (T::from(2.0) * (t2 * t9) - (t10 * t17 - h * t28))
+            * (lambda_0 * (T::from(2.0) * (t2 * t9) - (t13 * t22 + t18 * t29))
                 + lambda_1
-                    * (t10 * t64
-                        - h
-                            * (omega_i_y * t65 - omega_i_z * t66
-                                + (t22 * t67 - t24 * t68 + t69 * t27))
-                        - (t2 * t70 + (omega_i_y * t67 - omega_i_z * t68) * t9))
-                + lambda_2
-                    * (t10 * t75
-                        - h
-                            * (omega_i_y * t76 - omega_i_z * t77
-                                + (t22 * t78 - t24 * t79 + t80 * t27))
-                        - (t2 * t81 + (omega_i_y * t78 - omega_i_z * t79) * t9))));
+                    * (tube_0
+                        * (t33 * t41 + t50 * t55 + (t58 * t62 + along_y * t70)
+                            + (t72 * t75 + t78 * t79))
+                        + (t13
+                            * (omega_i_y * t80 - omega_i_z * t81
+                                + (t15 * t82 - t17 * t83 + t84 * t21)) + t18 * t88
+                            - (t2 * t89 + (omega_i_y * t82 - omega_i_z * t83) * t9)))
+                - lambda_2
+                    * (tube_0
+                        * (t33 * t90 + across_z * t55 - (t58 * t91 + across_y * t70)
+                            - (t72 * t92 + t93 * t79))
+                        - (t13
+                            * (omega_i_y * t94 - omega_i_z * t95
+                                + (t15 * t96 - t17 * t97 + t98 * t21)) + t18 * t99
+                            - (t2 * t100 + (omega_i_y * t96 - omega_i_z * t97) * t9)))));
         out[1] = inverse
-            * (lambda_0 * (T::from(2.0) * (t82 * t9) + (t1 * t17 + h * t88))
+            * (lambda_0 * (T::from(2.0) * (t101 * t9) - (t13 * t107 - t1 * t29))
                 - lambda_1
-                    * (t1 * t64
-                        + h
-                            * (omega_i_x * t65 - omega_i_z * t89
-                                + (t84 * t67 - t85 * t69 - t68 * t87))
-                        + (t82 * t70 + (omega_i_x * t67 - omega_i_z * t69) * t9))
-                - lambda_2
-                    * (t1 * t75
-                        + h
-                            * (omega_i_x * t76 - omega_i_z * t90
-                                + (t84 * t78 - t85 * t80 - t79 * t87))
-                        + (t82 * t81 + (omega_i_x * t78 - omega_i_z * t80) * t9)));
+                    * (tube_0
+                        * (t108 * t41 + t50 * t111 + (t112 * t62 + along_y * t114)
+                            + (t115 * t75 + t78 * t116))
+                        - (t13
+                            * (omega_i_x * t80 - omega_i_z * t117
+                                + (t103 * t82 - t104 * t84 - t83 * t106)) - t1 * t88
+                            - (t101 * t89 + (omega_i_x * t82 - omega_i_z * t84) * t9)))
+                + lambda_2
+                    * (tube_0
+                        * (t108 * t90 + across_z * t111 - (t112 * t91 + across_y * t114)
+                            - (t115 * t92 + t93 * t116))
+                        + (t13
+                            * (omega_i_x * t94 - omega_i_z * t118
+                                + (t103 * t96 - t104 * t98 - t97 * t106)) - t1 * t99
+                            - (t101 * t100
+                                + (omega_i_x * t96 - omega_i_z * t98) * t9))));
         out[2] = -(inverse
-            * (lambda_0 * (T::from(2.0) * (t91 * t9) - (t0 * t17 - h * t95))
+            * (lambda_0 * (T::from(2.0) * (t119 * t9) - (t13 * t123 + t0 * t29))
                 + lambda_1
-                    * (t0 * t64
-                        - h
-                            * (omega_i_x * t66 - omega_i_y * t89
-                                + (t92 * t68 - t93 * t69 + t67 * t94))
-                        - (t91 * t70 + (omega_i_x * t68 - omega_i_y * t69) * t9))
-                + lambda_2
-                    * (t0 * t75
-                        - h
-                            * (omega_i_x * t77 - omega_i_y * t90
-                                + (t92 * t79 - t93 * t80 + t78 * t94))
-                        - (t91 * t81 + (omega_i_x * t79 - omega_i_y * t80) * t9))));
+                    * (tube_0
+                        * (t124 * t41 + t50 * t127 + (t128 * t62 + along_y * t130)
+                            + (t131 * t75 + t78 * t132))
+                        + (t13
+                            * (omega_i_x * t81 - omega_i_y * t117
+                                + (t120 * t83 - t121 * t84 + t82 * t122)) + t0 * t88
+                            - (t119 * t89 + (omega_i_x * t83 - omega_i_y * t84) * t9)))
+                - lambda_2
+                    * (tube_0
+                        * (t124 * t90 + across_z * t127 - (t128 * t91 + across_y * t130)
+                            - (t131 * t92 + t93 * t132))
+                        - (t13
+                            * (omega_i_x * t95 - omega_i_y * t118
+                                + (t120 * t97 - t121 * t98 + t96 * t122)) + t0 * t99
+                            - (t119 * t100
+                                + (omega_i_x * t97 - omega_i_y * t98) * t9)))));
         out[3] = -(inverse
-            * (t97 * (T::from(2.0) * (t2 * t102) - (t10 * t109 - k * t28))
-                - lambda_1
-                    * (t96
-                        * (t114 * t126 - t45 * t137 - (t63 * t138 + t141 * t142)
-                            + (t143 * t148 - along_y * t151 - (t59 * t152 + t154 * t155))
-                            + (t156 * t157 - t37 * t158 - (t54 * t159 + t160 * t161)))
-                        + (h
-                            * (a_i_x * t156 - a_i_y * t143 + a_i_z * t114
-                                - (t46 * t160 - t55 * t154 + t60 * t141)
-                                + (t114 * t16 - t143 * t15 + t14 * t156))
-                            + (t46 * t156 - t55 * t143 + t60 * t114) * t9))
-                - lambda_2
-                    * (t96
-                        * (t162 * t148 - across_y * t151 - (t73 * t152 + t163 * t155)
-                            - (t164 * t126 - across_z * t137
-                                - (t74 * t138 + t165 * t142))
-                            + (t166 * t157 - t71 * t158 - (t72 * t159 + t167 * t161)))
-                        + (h
-                            * (a_i_x * t166 - a_i_y * t162 - a_i_z * t164
-                                - (t46 * t167 - t55 * t163 - t60 * t165)
-                                + (t14 * t166 - t15 * t162 - t16 * t164))
-                            + (t46 * t166 - t55 * t162 - t60 * t164) * t9))));
-        out[4] = inverse
-            * (t97 * (T::from(2.0) * (t82 * t102) + (t1 * t109 + k * t88))
+            * (t134 * (T::from(2.0) * (t2 * t139) - (t18 * t146 - k * t22))
                 + lambda_1
-                    * (t96
-                        * (t168 * t126 - t45 * t178 + (t181 * t142 - t63 * t182)
-                            + (t183 * t148 - along_y * t186 + (t188 * t155 - t59 * t189))
-                            + (t190 * t157 - t37 * t191 + (t192 * t161 - t54 * t193)))
-                        + (h
-                            * (a_i_x * t190 - a_i_y * t183 + a_i_z * t168
-                                + (t46 * t192 - t55 * t188 + t60 * t181)
-                                + (t14 * t190 + t168 * t16 - t183 * t15))
-                            + (t46 * t190 - t55 * t183 + t60 * t168) * t9))
+                    * (t13
+                        * (a_i_x * t151 - a_i_y * t152 + a_i_z * t153
+                            - (t85 * t156 - t86 * t158 + t87 * t159)
+                            + (t153 * t28 - t152 * t27 + t26 * t151))
+                        - (t85 * t151 - t86 * t152 + t87 * t153) * t9
+                        + (t160 * t171 - t153 * t186 + (t187 * t188 + t159 * turned_z)
+                            + (t189 * t192 - t152 * t197 + (t198 * t199 + t158 * t200))
+                            + (t201 * t202 - t151 * t203
+                                + (t204 * t205 + t156 * turned_x))))
                 + lambda_2
-                    * (t96
-                        * (t194 * t148 - across_y * t186 + (t195 * t155 - t73 * t189)
-                            - (t196 * t126 - across_z * t178
-                                + (t197 * t142 - t74 * t182))
-                            + (t198 * t157 - t71 * t191 + (t199 * t161 - t72 * t193)))
-                        + (h
-                            * (a_i_x * t198 - a_i_y * t194 - a_i_z * t196
-                                + (t46 * t199 - t55 * t195 - t60 * t197)
-                                + (t14 * t198 - t15 * t194 - t16 * t196))
-                            + (t46 * t198 - t55 * t194 - t60 * t196) * t9)));
-        out[5] = -(inverse
-            * (t97 * (T::from(2.0) * (t91 * t102) - (t0 * t109 - k * t95))
+                    * (t13
+                        * (a_i_x * t206 - a_i_y * t207 - a_i_z * t208
+                            - (t85 * t209 - t86 * t210 - t87 * t211)
+                            + (t26 * t206 - t27 * t207 - t28 * t208))
+                        - (t85 * t206 - t86 * t207 - t87 * t208) * t9
+                        + (t212 * t192 - t207 * t197 + (t213 * t199 + t210 * t200)
+                            - (t214 * t171 - t208 * t186
+                                + (t215 * t188 + t211 * turned_z))
+                            + (t216 * t202 - t206 * t203
+                                + (t217 * t205 + t209 * turned_x))))));
+        out[4] = inverse
+            * (t134 * (T::from(2.0) * (t101 * t139) + (t1 * t146 + k * t107))
                 - lambda_1
-                    * (t96
-                        * (t200 * t126 + t45 * t209 - (t212 * t142 + t63 * t213)
-                            + (t214 * t148 + along_y * t217 - (t219 * t155 + t59 * t220))
-                            + (t221 * t157 + t37 * t222 - (t223 * t161 + t54 * t224)))
-                        + (h
-                            * (a_i_x * t221 - a_i_y * t214 + a_i_z * t200
-                                - (t46 * t223 - t55 * t219 + t60 * t212)
-                                + (t14 * t221 + t200 * t16 - t214 * t15))
-                            + (t46 * t221 - t55 * t214 + t60 * t200) * t9))
+                    * (t13
+                        * (a_i_x * t218 - a_i_y * t219 + a_i_z * t220
+                            + (t85 * t223 - t86 * t225 + t87 * t226)
+                            + (t26 * t218 + t220 * t28 - t219 * t27))
+                        - (t85 * t218 - t86 * t219 + t87 * t220) * t9
+                        + (t160 * t236 - t220 * t186 + (t187 * t237 - t226 * turned_z)
+                            + (t189 * t240 - t219 * t197 + (t198 * t241 - t225 * t200))
+                            + (t201 * t242 - t218 * t203
+                                + (t204 * t243 - t223 * turned_x))))
                 - lambda_2
-                    * (t96
-                        * (t225 * t148 + across_y * t217 - (t226 * t155 + t73 * t220)
-                            - (t227 * t126 + across_z * t209
-                                - (t228 * t142 + t74 * t213))
-                            + (t229 * t157 + t71 * t222 - (t230 * t161 + t72 * t224)))
-                        + (h
-                            * (a_i_x * t229 - a_i_y * t225 - a_i_z * t227
-                                - (t46 * t230 - t55 * t226 - t60 * t228)
-                                + (t14 * t229 - t15 * t225 - t16 * t227))
-                            + (t46 * t229 - t55 * t225 - t60 * t227) * t9))));
+                    * (t13
+                        * (a_i_x * t244 - a_i_y * t245 - a_i_z * t246
+                            + (t85 * t247 - t86 * t248 - t87 * t249)
+                            + (t26 * t244 - t27 * t245 - t28 * t246))
+                        - (t85 * t244 - t86 * t245 - t87 * t246) * t9
+                        + (t212 * t240 - t245 * t197 + (t213 * t241 - t248 * t200)
+                            - (t214 * t236 - t246 * t186
+                                + (t215 * t237 - t249 * turned_z))
+                            + (t216 * t242 - t244 * t203
+                                + (t217 * t243 - t247 * turned_x)))));
+        out[5] = -(inverse
+            * (t134 * (T::from(2.0) * (t119 * t139) - (t0 * t146 - k * t123))
+                + lambda_1
+                    * (t13
+                        * (a_i_x * t250 - a_i_y * t251 + a_i_z * t252
+                            - (t85 * t255 - t86 * t257 + t87 * t258)
+                            + (t26 * t250 + t252 * t28 - t251 * t27))
+                        - (t85 * t250 - t86 * t251 + t87 * t252) * t9
+                        - (t160 * t267 + t252 * t186 - (t187 * t268 + t258 * turned_z)
+                            + (t189 * t271 + t251 * t197 - (t198 * t272 + t257 * t200))
+                            + (t201 * t273 + t250 * t203
+                                - (t204 * t274 + t255 * turned_x))))
+                + lambda_2
+                    * (t13
+                        * (a_i_x * t275 - a_i_y * t276 - a_i_z * t277
+                            - (t85 * t278 - t86 * t279 - t87 * t280)
+                            + (t26 * t275 - t27 * t276 - t28 * t277))
+                        - (t85 * t275 - t86 * t276 - t87 * t277) * t9
+                        - (t212 * t271 + t276 * t197 - (t213 * t272 + t279 * t200)
+                            - (t214 * t267 + t277 * t186
+                                - (t215 * t268 + t280 * turned_z))
+                            + (t216 * t273 + t275 * t203
+                                - (t217 * t274 + t278 * turned_x))))));
         out[6] = T::from(2.0)
-            * (radius * inverse * (lambda_0 * t231 - lambda_1 * t232 - lambda_2 * t233))
+            * (radius * inverse
+                * (lambda_0 * t281
+                    - lambda_1
+                        * (t50 * t284 + t41 * t285 + (along_y * t287 + t62 * t288)
+                            + (t78 * t289 + t75 * t290))
+                    - lambda_2
+                        * (across_y * t287 + t91 * t288 - (across_z * t284 + t90 * t285)
+                            + (t93 * t289 + t92 * t290))))
             + d_inverse_d_radius
-                * (lambda_0 * (t96 * t231 + (h * t17 + t9 * t9))
-                    - lambda_1 * (t96 * t232 + (h * t64 + t70 * t9))
-                    - lambda_2 * (t96 * t233 + (h * t75 + t81 * t9)));
-        out[7] = -(plane_normal_x * inverse * t234);
-        out[8] = -(plane_normal_y * inverse * t234);
-        out[9] = -(plane_normal_z * inverse * t234);
+                * (lambda_0 * (t133 * t281 - (t13 * t29 - t9 * t9))
+                    + lambda_1
+                        * (t13 * t88 - t89 * t9
+                            - (t50 * t186 + t41 * turned_z
+                                + (along_y * t197 + t62 * t200)
+                                + (t78 * t203 + t75 * turned_x)))
+                    + lambda_2
+                        * (t13 * t99 - t100 * t9
+                            - (across_y * t197 + t91 * t200
+                                - (across_z * t186 + t90 * turned_z)
+                                + (t93 * t203 + t92 * turned_x))));
+        out[7] = -(plane_normal_x * inverse * t295);
+        out[8] = -(plane_normal_y * inverse * t295);
+        out[9] = -(plane_normal_z * inverse * t295);
         out[10] = inverse
             * (lambda_0
-                * (t96 * (T::from(2.0) * (t57 * t102) + (a_x * t109 + t106 * k))
-                    + (T::from(2.0) * (t46 * t9) + ((a_i_x + t14) * h + t18 * t17)))
+                * (t133 * (T::from(2.0) * (t39 * t139) + (a_x * t146 + t143 * k))
+                    + (T::from(2.0) * (t85 * t9) - ((a_i_x + t26) * t13 - t10 * t29)))
                 - lambda_1
-                    * (t96
-                        * (a_x * t54 * t236 + t37 * t245
-                            + (a_y * t126 + t45 * t249 + (t52 * t142 + t63 * t251))
-                            + (a_z * t148 + along_y * t252 + (t50 * t155 + t59 * t253)))
-                        + (t46 * t70 - (t55 * a_z - t60 * a_y) * t9
-                            - (h
-                                * (a_i_y * a_z - a_i_z * a_y + (t55 * t50 - t60 * t52)
-                                    - (a_y * t16 - t15 * a_z)) - t18 * t64)))
+                    * (t85 * t89 - (t86 * a_z - t87 * a_y) * t9
+                        + (t13
+                            * (a_i_y * a_z - a_i_z * a_y + (t86 * t59 - t87 * t37)
+                                - (a_y * t28 - t27 * a_z)) + t10 * t88)
+                        + (t78 * t305 + t75 * t306
+                            + (a_y * t186 + t50 * t309 + (t37 * turned_z + t41 * t310))
+                            + (a_z * t197 + along_y * t311 + (t59 * t200 + t62 * t312))))
                 - lambda_2
-                    * (t96
-                        * (a_x * t72 * t236 + t254 * t161 + (t255 * t157 + t71 * t245)
-                            + (t256 * t148 + across_y * t252
-                                + (t257 * t155 + t73 * t253))
-                            - (t258 * t126 + across_z * t249
-                                + (t259 * t142 + t74 * t251)))
-                        + (t46 * t81 + (t46 * t255 - t55 * t256 - t60 * t258) * t9
-                            + (h
-                                * (a_i_x * t255 - a_i_y * t256 - a_i_z * t258
-                                    + (t46 * t254 - t55 * t257 - t60 * t259)
-                                    + (t14 * t255 - t15 * t256 - t16 * t258)) + t18 * t75))));
+                    * (t85 * t100 + (t85 * t313 - t86 * t314 - t87 * t315) * t9
+                        - (t13
+                            * (a_i_x * t313 - a_i_y * t314 - a_i_z * t315
+                                + (t85 * t316 - t86 * t317 - t87 * t318)
+                                + (t26 * t313 - t27 * t314 - t28 * t315)) - t10 * t99)
+                        + (t314 * t197 + across_y * t311 + (t317 * t200 + t91 * t312)
+                            - (t315 * t186 + across_z * t309
+                                + (t318 * turned_z + t90 * t310))
+                            + (t313 * t203 + t93 * t305
+                                + (t316 * turned_x + t92 * t306)))));
         out[11] = inverse
             * (lambda_0
-                * (t96 * (T::from(2.0) * (t52 * t102) + (a_y * t109 + t107 * k))
-                    + (T::from(2.0) * (t55 * t9) + ((a_i_y + t15) * h + t19 * t17)))
+                * (t133 * (T::from(2.0) * (t37 * t139) + (a_y * t146 + t144 * k))
+                    + (T::from(2.0) * (t86 * t9) - ((a_i_y + t27) * t13 - t11 * t29)))
                 - lambda_1
-                    * (t96
-                        * (a_y * t59 * t261 + along_y * t268
-                            - (a_x * t126 - t45 * t271 + (t57 * t142 - t63 * t273))
-                            + (a_z * t157 + t37 * t274 + (t50 * t161 + t54 * t275)))
-                        + (t55 * t70 + (t46 * a_z - t60 * a_x) * t9
-                            + (h
-                                * (a_i_x * a_z - a_i_z * a_x + (t46 * t50 - t60 * t57)
-                                    - (a_x * t16 - t14 * a_z)) + t19 * t64)))
+                    * (t86 * t89 + (t85 * a_z - t87 * a_x) * t9
+                        - (t13
+                            * (a_i_x * a_z - a_i_z * a_x + (t85 * t59 - t87 * t39)
+                                - (a_x * t28 - t26 * a_z)) - t11 * t88)
+                        + (along_y * t327 + t62 * t328
+                            - (a_x * t186 - t50 * t331 + (t39 * turned_z - t41 * t332))
+                            + (a_z * t203 + t78 * t333 + (t59 * turned_x + t75 * t334))))
                 - lambda_2
-                    * (t96
-                        * (a_y * t73 * t261 - t276 * t155
-                            - (t277 * t148 - across_y * t268)
-                            - (across_z * t271 + t278 * t126
-                                + (t74 * t273 + t279 * t142))
-                            - (t280 * t157 - t71 * t274 + (t281 * t161 - t72 * t275)))
-                        + (t55 * t81 - (t46 * t280 - t55 * t277 + t60 * t278) * t9
-                            - (h
-                                * (a_i_x * t280 - a_i_y * t277 + a_i_z * t278
-                                    + (t46 * t281 - t55 * t276 + t60 * t279)
-                                    + (t14 * t280 - t15 * t277 + t16 * t278)) - t19 * t75))));
+                    * (t86 * t100 - (t85 * t335 - t86 * t336 + t87 * t337) * t9
+                        + (t13
+                            * (a_i_x * t335 - a_i_y * t336 + a_i_z * t337
+                                + (t85 * t338 - t86 * t339 + t87 * t340)
+                                + (t26 * t335 - t27 * t336 + t28 * t337)) + t11 * t99)
+                        - (t336 * t197 - across_y * t327 + (t339 * t200 - t91 * t328)
+                            + (across_z * t331 + t337 * t186
+                                + (t90 * t332 + t340 * turned_z))
+                            + (t335 * t203 - t93 * t333
+                                + (t338 * turned_x - t92 * t334)))));
         out[12] = inverse
             * (lambda_0
-                * (t96 * (T::from(2.0) * (t50 * t102) + (a_z * t109 + t108 * k))
-                    + (T::from(2.0) * (t60 * t9) + ((a_i_z + t16) * h + t20 * t17)))
+                * (t133 * (T::from(2.0) * (t59 * t139) + (a_z * t146 + t145 * k))
+                    + (T::from(2.0) * (t87 * t9) - ((a_i_z + t28) * t13 - t12 * t29)))
                 - lambda_1
-                    * (t96
-                        * (a_z * t63 * t282 + t45 * t288
-                            - (a_x * t148 - along_y * t291 + (t57 * t155 - t59 * t292))
-                            - (a_y * t157 - t37 * t293 + (t52 * t161 - t54 * t294)))
-                        + (t60 * t70 - (t46 * a_y - t55 * a_x) * t9
-                            - (h
-                                * (a_i_x * a_y - a_i_y * a_x + (t46 * t52 - t55 * t57)
-                                    - (a_x * t15 - t14 * a_y)) - t20 * t64)))
-                + lambda_2
-                    * (t96
-                        * (a_z * t74 * t282 - t100 * t142
-                            - (t112 * t126 - across_z * t288)
-                            - (across_y * t291 + t295 * t148
-                                + (t73 * t292 + t296 * t155))
-                            - (t71 * t293 - t297 * t157 + (t72 * t294 - t298 * t161)))
-                        - (t60 * t81 - (t46 * t297 + t55 * t295 - t60 * t112) * t9
-                            - (h
-                                * (a_i_x * t297 + a_i_y * t295 - a_i_z * t112
-                                    + (t46 * t298 + t55 * t296 - t60 * t100)
-                                    + (t14 * t297 + t15 * t295 - t16 * t112)) - t20 * t75))));
+                    * (t87 * t89 - (t85 * a_y - t86 * a_x) * t9
+                        + (t13
+                            * (a_i_x * a_y - a_i_y * a_x + (t85 * t37 - t86 * t39)
+                                - (a_x * t27 - t26 * a_y)) + t12 * t88)
+                        + (t50 * t348 + t41 * t349
+                            - (a_x * t197 - along_y * t352 + (t39 * t200 - t62 * t353))
+                            - (a_y * t203 - t78 * t354 + (t37 * turned_x - t75 * t355))))
+                - lambda_2
+                    * (t87 * t100 - (t85 * t356 + t86 * t357 - t87 * t149) * t9
+                        + (t13
+                            * (a_i_x * t356 + a_i_y * t357 - a_i_z * t149
+                                + (t85 * t358 + t86 * t359 - t87 * t137)
+                                + (t26 * t356 + t27 * t357 - t28 * t149)) + t12 * t99)
+                        + (t149 * t186 - across_z * t348 + (t137 * turned_z - t90 * t349)
+                            + (across_y * t352 + t357 * t197
+                                + (t91 * t353 + t359 * t200))
+                            + (t93 * t354 - t356 * t203
+                                + (t92 * t355 - t358 * turned_x)))));
+        out[13] = -(inverse
+            * (t291
+                - lambda_1
+                    * (t88
+                        + (t361 * t41 + t50 * t364 + (t365 * t62 + along_y * t367)
+                            + (t368 * t75 + t78 * t369)))
+                - lambda_2
+                    * (t99
+                        - (t361 * t90 + across_z * t364 - (t365 * t91 + across_y * t367)
+                            - (t368 * t92 + t93 * t369)))));
     }
 }

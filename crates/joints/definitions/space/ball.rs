@@ -1,0 +1,23 @@
+joint! { space Ball(i) {
+    /// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of `radius` about point `s` lies
+    /// in the plane and has no velocity along and across a fixed direction of the plane.
+    params {
+        /// The centre of the ball.
+        s: Point in i,
+        /// Radius of the ball.
+        radius: Radius,
+        /// The plane, its normal towards the side of the ball. Longitudinal is the coordinate axis that lies least along the
+        /// normal, made orthogonal to it, and lateral = normal × longitudinal: x and y on the plane z = 0.
+        plane: GroundPlane,
+    }
+    let n = normal(plane);
+    let track = along(plane);
+    let centre = point(i, s);
+    let slip = velocity(centre) - cross(spin(i), n) * radius;
+    require "the radius is not zero": radius > 0.0;
+    rows: [contact, longitudinal, lateral];
+    phi: dot(n, centre - start(plane)) - radius;
+    psi: [dot(track, slip), dot(cross(n, track), slip)];
+    component N: n;
+    place: centre - n * radius;
+} }
