@@ -30,7 +30,7 @@ fn a_rod_is_linearised_in_words_documents_and_files() {
         assert!(text.contains(words), "{words}: {text}");
     }
     let folder = Folder::new("linearised");
-    let out = folder.path("modes");
+    let out = folder.0.join("modes").display().to_string();
     let output = with_scene(&["linearise", "-", "--out", &out, "--json"], ROD);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let d: Value = serde_json::from_str(&stdout(&output)).expect("one document");

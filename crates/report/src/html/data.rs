@@ -247,7 +247,7 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
     let group = &page.mechanism.layout().groups[k];
     let of_analysis: Option<&ReactionDocument> = page.analysis.and_then(|a| a.reactions.get(k));
     let of_run = page
-        .run
+        .run()
         .and_then(|run| run.reactions.0.get(k))
         .map(|(_, r)| r);
     let choice = of_run.and_then(|r| r.choice.as_ref().map(ToString::to_string));
