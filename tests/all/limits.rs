@@ -19,7 +19,8 @@ const TABLES: [(&str, &str); 4] = [
 
 /// Numbers that are not chosen and are defined where they are used: facts of the plane and of
 /// `f64`, coefficients of algorithms, special indices.
-const FACTS: [(&str, &[&str]); 13] = [
+const FACTS: [(&str, &[&str]); 14] = [
+    ("dynamics/src/linearise/curve.rs", &["BODY"]),
     ("linalg/src/double_double.rs", &["FACTOR", "EPSILON"]),
     (
         "linalg/src/double_double/trigonometry.rs",

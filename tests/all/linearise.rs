@@ -94,7 +94,7 @@ fn a_mass_that_passes_its_place_of_rest_is_not_steady() {
 scene = { name = \"mass\", space = \"plane\", gravity = [0.0, 0.0] }
 body = [{ name = \"mass\", mass = 2.0, inertia = 0.5, velocity = [1.0, 0.0] }]
 joint = [{ name = \"rail\", type = \"translational\", bodies = [\"ground\", \"mass\"], at = [0.0, 0.0], axis = [1.0, 0.0] }]
-force = [{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"mass\"], points = { a = [-1.0, 0.0], b = [0.0, 0.0] }, free_length = 1.0, stiffness = 50.0, damping = 0.0 }]
+force = [{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"mass\"], points = { ground = [-1.0, 0.0], mass = [0.0, 0.0] }, free_length = 1.0, stiffness = 50.0, damping = 0.0 }]
 ";
     let refused = asked(text, &[], &[]).expect_err("it swings");
     assert!(

@@ -87,8 +87,8 @@ pub(crate) const SYMMETRY: f64 = 1e-7;
 
 /// Eigenvalues below this share of the largest one are zero: the square root of rounding, since
 /// zeros of free motions are double.
-/// Unit: share of the largest eigenvalue. Less: free motions seem to grow or decay. More: slow modes
-/// are lost. Test: `the_benchmark_bicycle_has_its_published_eigenvalues`.
+/// Unit: share of the largest eigenvalue. Less: free motions seem to grow or decay. More: slow
+/// modes are lost. Test: `the_benchmark_bicycle_has_its_published_eigenvalues`.
 pub(crate) const ZERO_EIGENVALUE: f64 = 1e-7;
 
 /// Real parts below this share of the largest eigenvalue neither grow nor decay.
@@ -98,7 +98,7 @@ pub(crate) const NEITHER: f64 = 1e-9;
 
 /// Among free directions the first one is chosen whose share is at least this part of the largest.
 /// Unit: share. Less: coordinates may determine the state badly. More: names follow rounding. Test:
-/// none.
+/// `a_pendulum_has_the_matrices_of_its_textbook`.
 pub(crate) const CHOSEN_PIVOT: f64 = 0.3;
 
 /// A direction with less than this share left free is determined by those chosen before.

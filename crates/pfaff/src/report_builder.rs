@@ -8,8 +8,8 @@ use model::{Mechanism, Reaction, System};
 use rank::Limits;
 use report::documents::MakeUniqueDocument;
 use report::{
-    AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, Shows, WrittenScene,
-    numbers_per_row, run_page,
+    AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, Shows,
+    WrittenScene, numbers_per_row, run_page,
 };
 use scene::{Scene, Units, WithUnit};
 use solvability::{Allowed, Sensitivities, Verdict};

@@ -97,8 +97,9 @@ fn a_torus_rolls_down_a_slope() {
 ///
 /// Rolling: the centre has the velocity −(Ω·z + s·e) × c = −V·t with V = Ω·ρ·cos θ +
 /// s·(ρ + σ·sin θ). It goes round with Ω, so that the contact carries m·Ω·V·r + m·g·z, whose moment
-/// c × F is −(m·g·ρ·cos θ + m·H·Ω·V)·t. The angular momentum A·Ω·sin θ·(sin θ·z − cos θ·r) + C·ω₃·e,
-/// where ω₃ = s + Ω·cos θ, changes with Ω·sin θ·(C·ω₃ − A·Ω·cos θ)·t. Both are equal for one s.
+/// c × F is −(m·g·ρ·cos θ + m·H·Ω·V)·t. The angular momentum A·Ω·sin θ·(sin θ·z − cos θ·r) +
+/// C·ω₃·e, where ω₃ = s + Ω·cos θ, changes with Ω·sin θ·(C·ω₃ − A·Ω·cos θ)·t. Both are equal for
+/// one s.
 #[test]
 fn a_leaning_torus_rolls_steadily() {
     let (mass, [a, c], radius, tube) = (15.0, [3.75, 7.5], 0.8, 0.2);
@@ -144,8 +145,8 @@ fn a_leaning_torus_rolls_steadily() {
 }
 
 /// A ball on a slope, at first rolling across it and spinning about its normal: it falls with
-/// g·sin α·m·r²/(J + m·r²), keeps its velocity across and its spin, and the slope carries the rest of
-/// the weight at the contact.
+/// g·sin α·m·r²/(J + m·r²), keeps its velocity across and its spin, and the slope carries the rest
+/// of the weight at the contact.
 #[test]
 fn a_ball_rolls_down_a_slope() {
     let (mass, moment, radius, slope) = (3.0, 0.5, 0.4, 0.3_f64);

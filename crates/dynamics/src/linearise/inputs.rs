@@ -17,8 +17,8 @@ pub struct Input {
     pub what: String,
 }
 
-/// The inputs of all forces, and of all drives whose rows are kept, and the derivatives with respect
-/// to them. A drive that other rows imply prescribes nothing alone.
+/// The inputs of all forces, and of all drives whose rows are kept, and the derivatives with
+/// respect to them. A drive that other rows imply prescribes nothing alone.
 pub(crate) fn all(
     curves: &mut Curves<'_>,
     bases: &Bases,

@@ -103,8 +103,7 @@ impl KeptRowSaddle {
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
-        let below = self.lu.known_below(&self.order);
-        self.free.factor((&self.lu, below), row, mass)?;
+        self.free.factor(&self.lu, row, mass)?;
         self.is_factored = true;
         Ok(())
     }

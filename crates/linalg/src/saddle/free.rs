@@ -2,7 +2,6 @@
 //! `Nᵀ·M·N`, with a Cholesky factorisation without square roots.
 
 use super::error::SaddleError;
-use super::fill::Lists;
 use super::lu::TallLu;
 use crate::kernels::{axpy, dot, max_abs};
 
@@ -41,23 +40,22 @@ impl FreeMotions {
         &self.basis[c * r..(c + 1) * r]
     }
 
-    /// Basis and factors for these rows and masses. `below` lists where columns of L can be other
-    /// than zero, if that is known.
+    /// Basis and factors for these rows and masses.
     pub(super) fn factor<'c>(
         &mut self,
-        (lu, below): (&TallLu, Option<&Lists>),
+        lu: &TallLu,
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
         for (m, &coordinate) in self.mass.iter_mut().zip(&lu.permutation) {
             *m = mass[coordinate];
         }
-        self.fill_basis(lu, below);
+        self.fill_basis(lu);
         self.factor_reduced_mass(lu, row)
     }
 
     /// Solves `L₁ᵀ·Y = −L₂ᵀ` column by column.
-    fn fill_basis(&mut self, lu: &TallLu, below: Option<&Lists>) {
+    fn fill_basis(&mut self, lu: &TallLu) {
         let (n, r) = (lu.n, lu.r);
         if r == 0 {
             return;
@@ -65,13 +63,7 @@ impl FreeMotions {
         for (c, y) in self.basis[..(n - r) * r].chunks_exact_mut(r).enumerate() {
             for t in (0..r).rev() {
                 let l_t = lu.row(t);
-                y[t] = match below {
-                    Some(below) => {
-                        let own = below.of(t).iter().take_while(|&&i| i < r);
-                        own.fold(-l_t[r + c], |y_t, &i| y_t - l_t[i] * y[i])
-                    }
-                    None => -l_t[r + c] - dot(&l_t[t + 1..r], &y[t + 1..r]),
-                };
+                y[t] = -l_t[r + c] - dot(&l_t[t + 1..r], &y[t + 1..r]);
             }
         }
     }
@@ -99,7 +91,7 @@ impl FreeMotions {
             let l_i = &mut rest[..k];
             for j in 0..=i {
                 let y_j = &self.basis[j * r..(j + 1) * r];
-                l_i[j] = dot(&self.weighted[..r], y_j);
+                l_i[j] = self.weighted.iter().zip(y_j).map(|(a, b)| a * b).sum();
             }
             l_i[i] += self.mass[r + i];
             let size = l_i[i];

@@ -2,7 +2,6 @@
 //! `L = [L₁; L₂]` unit lower trapezoidal.
 
 use super::error::{SaddleError, check_finite, check_length};
-use super::fill::Lists;
 use super::order::Order;
 use crate::kernels::{axpy, dot, max_abs};
 use crate::limits::CANDIDATE;
@@ -76,13 +75,6 @@ impl TallLu {
     /// Row j of the factors, see [`TallLu::factors`].
     pub(super) fn row(&self, j: usize) -> &[f64] {
         &self.factors[j * self.n..(j + 1) * self.n]
-    }
-
-    /// Where the columns of L can be other than zero below the diagonal, as long as all rows are
-    /// solved for the coordinates of the order.
-    pub(super) fn known_below<'o>(&self, order: &'o Order) -> Option<&'o Lists> {
-        let is_known = self.is_in_order && self.r == self.used.len();
-        is_known.then_some(&order.fill.lower)
     }
 
     /// Computes the next column of U and of L from a row of C: gather, eliminate with the rows

@@ -761,9 +761,7 @@ pub const TABLE: &[Entry] = &[
         "Describe a start at rest where forces balance, or let dampers bring the mechanism there in a run and linearise at its end with `--at-time`. A steady motion in a circle is steady in axes that turn: `--follow BODY.wz`.",
         Example::Scene(
             "linearise -",
-            bar!(
-                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n"
-            ),
+            "[scene]\nname = \"bar\"\nspace = \"plane\"\ngravity = [0.0, -9.81]\n\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 0.1\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n",
         ),
     ),
     entry(

@@ -98,7 +98,7 @@ const OF_PLACES: [Fault; 1] = [Fault {
 }];
 
 /// The commands with arguments that are right, and whether these end with a scene and with a place.
-const COMMANDS: [(&str, &str, bool, bool); 13] = [
+const COMMANDS: [(&str, &str, bool, bool); 14] = [
     ("analyze", "-", true, false),
     ("simulate", "- --out run --t-end 1", true, true),
     ("plan", "-", true, false),
@@ -110,6 +110,7 @@ const COMMANDS: [(&str, &str, bool, bool); 13] = [
     ),
     ("work-precision", "- --out work --quick", true, true),
     ("check", "-", true, false),
+    ("linearise", "- --out modes", true, true),
     ("new", "door", false, true),
     ("view", "- --no-open", true, true),
     ("diff", "- ./door.toml", true, false),
@@ -120,7 +121,9 @@ const COMMANDS: [(&str, &str, bool, bool); 13] = [
 ];
 
 /// Further faults of single commands.
-const OF_ONE: [(&str, &str, &str); 16] = [
+const OF_ONE: [(&str, &str, &str); 18] = [
+    ("linearise", "- --coordinates leaf.tilt", "P0222"),
+    ("linearise", "- --at-time soon", "P0001"),
     ("analyze", "- --drop 0", "P0001"),
     ("analyze", "- --drop 99", "P0403"),
     ("analyze", "- --combine nobody.Fx", "P0311"),

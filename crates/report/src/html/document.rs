@@ -140,11 +140,7 @@ fn head(out: &mut String, page: &RunPage<'_>) {
 }
 
 fn picture_title(page: &RunPage<'_>) -> &'static str {
-    if page.moves() {
-        "Motion"
-    } else {
-        "Picture"
-    }
+    if page.moves() { "Motion" } else { "Picture" }
 }
 
 /// One or two sentences with the main result.
