@@ -42,7 +42,7 @@ fn eigenvalues(a: &Matrix) -> Vec<[f64; 2]> {
     pairs.into_iter().map(|pair| pair.value).collect()
 }
 
-/// A compound pendulum with a spring and a damper on its bob: m = 2, J = 0.5, mass centre 1.5 below
+/// A compound pendulum: m = 2, J = 0.5, mass centre 1.5 below
 /// the pin, g = 9.81. `(J + m·l²)·ÿ + m·g·l·y = 0`.
 #[test]
 fn a_pendulum_has_the_matrices_of_its_textbook() {
@@ -135,7 +135,7 @@ joint = [{ name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"rod\"], 
 }
 
 /// A disk that rolls upright at ω leans with `(A + m·r²)·λ² = m·g·r − C·(C + m·r²)·ω²/A`: m = 3,
-/// r = 0.4, A = 0.12, C = 0.24. In plane and space frames, with its wheel as it is used.
+/// r = 0.4, A = 0.12, C = 0.24. All other eigenvalues vanish.
 #[test]
 fn a_rolling_disk_is_steady_beyond_its_critical_speed() {
     let (m, r, a, c, g) = (3.0_f64, 0.4_f64, 0.12_f64, 0.24_f64, 9.81_f64);
@@ -185,7 +185,7 @@ radius = {r}
     }
 }
 
-/// What the motion depends on cannot be followed: the lean of the disk.
+/// The weight of a pendulum acts on its angle.
 #[test]
 fn what_the_motion_depends_on_cannot_be_followed() {
     let text = "

@@ -85,6 +85,7 @@ pub(crate) const STEADY_FRACTION: f64 = 1e-6;
 /// is left out. Test: `what_the_motion_depends_on_cannot_be_followed`.
 pub(crate) const SYMMETRY: f64 = 1e-7;
 
+#[cfg(feature = "eigen")]
 /// Eigenvalues below this share of the largest one are zero: the square root of rounding, since
 /// zeros of free motions are double.
 /// Unit: share of the largest eigenvalue. Less: free motions seem to grow or decay. More: slow

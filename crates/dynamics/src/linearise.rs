@@ -94,8 +94,7 @@ pub fn linearise(
     (t, q, v): (f64, &[f64], &[f64]),
     options: &LineariseOptions,
 ) -> Result<Linearisation, LineariseError> {
-    let mechanism = &prepared.mechanism;
-    let followed = Followed::of(mechanism, (q, v), &options.follow)?;
+    let followed = Followed::of(&prepared.mechanism, (q, v), &options.follow)?;
     let mut curves = Curves::new(KeptRowMotion::new(prepared)?, prepared, (t, q, v))?;
     curves.check_steady(followed.turning)?;
     let chosen = Chosen::new(&curves, &followed, &options.coordinates)?;
@@ -122,9 +121,6 @@ pub fn linearise(
         }
         all
     };
-    let shapes = Matrix::from_fn(chosen.positions.len(), mechanism.layout().n_v, |k, j| {
-        bases.shifts[(k, j)]
-    });
     let whole = Linearisation {
         time: t,
         q: q.to_vec(),
@@ -134,7 +130,7 @@ pub fn linearise(
         velocities: chosen.velocities.clone(),
         inputs,
         second_order: None,
-        shapes,
+        shapes: bases.shifts.clone(),
         accuracy,
     };
     if !options.follow.is_empty() {

@@ -126,14 +126,14 @@ impl Chosen {
         asked: &[String],
     ) -> Result<Self, LineariseError> {
         let mechanism = curves.mechanism();
-        let mut wanted: Vec<(usize, String, bool)> = Vec::new();
+        let mut wanted: Vec<(usize, String)> = Vec::new();
         for coordinate in &followed.coordinates {
-            wanted.push((coordinate.row(), coordinate.name.clone(), true));
+            wanted.push((coordinate.row(), coordinate.name.clone()));
         }
         for name in asked {
             let (coordinate, _) = named(mechanism, name)?;
             if !wanted.iter().any(|w| w.0 == coordinate.row()) {
-                wanted.push((coordinate.row(), name.clone(), false));
+                wanted.push((coordinate.row(), name.clone()));
             }
         }
         let [of_phi, of_c] = curves.kept();
@@ -250,7 +250,7 @@ impl<'c, 'm> Free<'c, 'm> {
 
     fn choose(
         mut self,
-        wanted: &[(usize, String, bool)],
+        wanted: &[(usize, String)],
         first: &[usize],
         all_wanted: bool,
     ) -> Result<Vec<usize>, LineariseError> {
@@ -264,7 +264,7 @@ impl<'c, 'm> Free<'c, 'm> {
             if length(&self.left(row)) > DEPENDENT_COORDINATE {
                 self.take(row);
                 chosen.push(row);
-            } else if let Some((_, name, _)) = asked.filter(|_| all_wanted) {
+            } else if let Some((_, name)) = asked.filter(|_| all_wanted) {
                 return Err(self.dependent(name, &chosen));
             }
         }
