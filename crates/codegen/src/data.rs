@@ -103,6 +103,7 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
             },
             shape: match (&kept.kind, &kept.overridden_by) {
                 (Kept::Number(unit), None) => Shape::Kept(unit.clone()),
+                (Kept::Turn, _) => Shape::Turn,
                 (Kept::Number(unit), Some(_)) => Shape::Number(unit.clone(), None),
                 (Kept::Vector(slot), _) => Shape::KeptVector(slot.clone()),
             },

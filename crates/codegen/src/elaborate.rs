@@ -21,9 +21,11 @@ use symbolic::{Expr, Graph};
 use crate::parse::{Definition, Kept, Param, ParamKind};
 use crate::space::Space;
 pub(crate) use check::not_polynomial;
-use expression::as_scalar;
+use expression::{as_scalar, wrong};
 pub(crate) use inputs::{Inputs, Source};
-pub(crate) use model::{Body, Comparison, Condition, ConstraintBody, KeptValue, Measure, Model};
+pub(crate) use model::{
+    Body, Comparison, Condition, ConstraintBody, Counted, KeptValue, Measure, Model,
+};
 use scope::Scope;
 use value::Value;
 
@@ -106,6 +108,7 @@ pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
         turns,
         names: Vec::new(),
         kept: Vec::new(),
+        counted: Vec::new(),
         requirements: Vec::new(),
         body: Body::Force(Vec::new()),
     };
@@ -245,6 +248,13 @@ impl<'a> Scope<'a> {
                 continue;
             };
             let values = match kept {
+                Kept::Turn => {
+                    only_in(definition, Space::Space3, &b.name, "`turns`")?;
+                    match value {
+                        Value::Angle { sin, cos } => vec![cos, sin],
+                        other => return Err(wrong(&b.value, "an angle in space", &other)),
+                    }
+                }
                 Kept::Number(_) => vec![as_scalar(value, &b.value)?],
                 Kept::Vector(slot) => {
                     let slot = self.slot(slot)?;
@@ -266,9 +276,10 @@ impl<'a> Scope<'a> {
         overridden_by: Option<Ident>,
     ) -> syn::Result<Value> {
         // The optional parameter keeps its own name; the value that is used is another field.
-        let field = match overridden_by {
-            Some(_) => format!("{name}_0"),
-            None => name.to_string(),
+        // So it is of an angle: its name is that since the start.
+        let field = match (&overridden_by, &kind) {
+            (None, Kept::Number(_) | Kept::Vector(_)) => name.to_string(),
+            (Some(_), _) | (None, Kept::Turn) => format!("{name}_0"),
         };
         let params = self.definition.params.iter().map(|p| p.name.to_string());
         let kept = self.model.kept.iter().map(|k| k.field.clone());
@@ -288,6 +299,7 @@ impl<'a> Scope<'a> {
                 local: symbols.clone(),
             },
             Kept::Number(_) => Value::Scalar(symbols[0]),
+            Kept::Turn => Value::Scalar(self.counted(name, &values, &symbols)),
         };
         self.model.kept.push(KeptValue {
             field,
@@ -298,6 +310,26 @@ impl<'a> Scope<'a> {
             of_start,
         });
         Ok(value)
+    }
+}
+
+impl Scope<'_> {
+    /// The angle since the start, with its full turns: what is known of it, and the sine of what is
+    /// left. This is the angle where it is known to rounding, and everywhere a polynomial with the
+    /// right derivatives there.
+    fn counted(&mut self, name: &Ident, angle: &[Expr], start: &[Expr]) -> Expr {
+        let Model {
+            g, inputs, counted, ..
+        } = &mut self.model;
+        let [known, known_cos, known_sin] = inputs.counted(g, &name.to_string(), counted.len());
+        let since = self
+            .model
+            .angle_since([angle[0], angle[1]], [start[0], start[1]]);
+        self.model.counted.push(since);
+        let g = &mut self.model.g;
+        let (a, b) = (g.mul(since.sin, known_cos), g.mul(since.cos, known_sin));
+        let left = g.sub(a, b);
+        g.add(known, left)
     }
 }
 

@@ -10,7 +10,7 @@ use symbolic::{Counts, Expr, Scalar};
 
 use crate::data::{derivations, of_measure, of_turn, stored};
 use crate::derive::{self, Component, ConstraintKernels, Sparse};
-use crate::elaborate::{Body, ConstraintBody, Measure, Model};
+use crate::elaborate::{Body, ConstraintBody, Counted, Measure, Model};
 use crate::kernel::kernel;
 use crate::parse::Definition;
 use crate::space::Space;
@@ -73,6 +73,8 @@ pub(crate) fn constraint(
         driven: None,
         scene_type: parts::scene_type(d),
         data: data.clone(),
+        turns: model.counted.len(),
+        counted: model.counted.clone(),
     };
     let mut items = vec![constraint_type(d, &model, &main, &kernels, &body, text)];
     let motion = model.inputs.motion[0];
@@ -148,6 +150,15 @@ pub(crate) fn constraint(
                 "its initial value + f(t): the rows of the joint with this value, in their place",
             ),
         };
+        let counted = match *value {
+            Measure::Angle { sin, cos } => {
+                let start = model.inputs.turn_0;
+                let since = model.angle_since([cos, sin], start).all();
+                let [cos, sin, rate] = since.map(|e| model.expand(e));
+                vec![Counted { cos, sin, rate }]
+            }
+            Measure::Of(_) | Measure::Kept(_) => Vec::new(),
+        };
         let drive = Type {
             name: drive.name.clone(),
             rows,
@@ -157,6 +168,8 @@ pub(crate) fn constraint(
             driven: Some(drive.by),
             scene_type: measure.to_string(),
             data,
+            turns: 0,
+            counted,
         };
         let mut driven = driven;
         driven.measures[0].1 = expanded(&mut model, *value);
@@ -181,6 +194,7 @@ fn constraint_type(
     let measure = t.driven.map(|_| body.measures[0].1);
     let initialise = parts::initialise(model, measure);
     let requirement = parts::requirement(model);
+    let turned = parts::turned(model, &t.counted);
     let points = parts::points(d);
     let axes = parts::axes(d);
     // A drive has the parameters of its joint, but not its rows.
@@ -263,6 +277,7 @@ fn constraint_type(
         impl #definition for #name {
             #initialise
             #requirement
+            #turned
             #points
             #axes
             #parallel_axes
@@ -311,14 +326,10 @@ fn expanded(model: &mut Model, measure: Measure) -> Measure {
 /// The row of the drive of an angle θ in space, `sin(θ − θ₀ − f)`, from cosine and sine of the
 /// angle.
 fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
-    let [cos_0, sin_0] = model.inputs.turn_0;
     let [cos_f, sin_f] = model.inputs.motion_turn.map(|jet| jet[0]);
+    let since = model.angle_since([cos, sin], model.inputs.turn_0);
     let g = &mut model.g;
-    let mut product = |a, b| g.mul(a, b);
-    let (a, b) = (product(sin, cos_0), product(cos, sin_0));
-    let (c, d) = (product(cos, cos_0), product(sin, sin_0));
-    let (sin_since, cos_since) = (g.sub(a, b), g.add(c, d));
-    let (a, b) = (g.mul(sin_since, cos_f), g.mul(cos_since, sin_f));
+    let (a, b) = (g.mul(since.sin, cos_f), g.mul(since.cos, sin_f));
     g.sub(a, b)
 }
 

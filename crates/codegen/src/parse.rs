@@ -11,6 +11,7 @@
 //!     points apart;                    the place in a scene is one point for each Point, not a common one
 //!     let name = expr;
 //!     initial { name: Kind = expr, … } kept from the assembled start
+//!     turns name: angle(a, b);         an angle in space since the assembled start, with its full turns
 //!     require "words": condition;      must hold at the assembled start
 //!     rows: [name, …];
 //!     phi: expr;                       rows of position level (constraints); one of both may be missing

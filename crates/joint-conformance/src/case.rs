@@ -88,18 +88,21 @@ pub(crate) struct Case<S: Bodies> {
     pub(crate) f: Vec<[f64; 3]>,
     /// Whether the last function of time enters by its cosine and sine.
     pub(crate) turning: bool,
+    /// What is given of the angles that count their turns.
+    pub(crate) counted: Vec<f64>,
     pub(crate) motions: Vec<Motion>,
     pub(crate) spec: &'static Spec,
 }
 
 impl<S: Bodies> Case<S> {
     /// All cases for a definition with so many rows; `turning` if its last function of time enters
-    /// by cosine and sine.
+    /// by cosine and sine, `turns` angles that count their turns.
     pub(crate) fn all(
         seed: u64,
         spec: &'static Spec,
         rows: usize,
         turning: bool,
+        turns: usize,
     ) -> impl Iterator<Item = Self> {
         let kinds = std::iter::repeat_n(Kind::Ordinary, ORDINARY_CASES).chain(
             Kind::AWKWARD
@@ -122,6 +125,7 @@ impl<S: Bodies> Case<S> {
                 .map(|_| std::array::from_fn(|_| random.within(2.0)))
                 .collect(),
             turning,
+            counted: (0..turns).map(|_| random.within(20.0)).collect(),
             motions: (0..MOTIONS)
                 .map(|_| motion::<S>(spec.slots.len(), rows, kind, &mut random))
                 .collect(),

@@ -16,7 +16,7 @@ use crate::subject::{By, Derivative, Subject};
 pub(crate) fn check<S: Subject>(seed: u64) -> Result<(), Failure> {
     let mut patterns = S::patterns()?;
     let mut seen = S::Seen::default();
-    for case in Case::all(seed, &S::COMMON, S::ROWS.len(), S::TURNING) {
+    for case in Case::all(seed, &S::COMMON, S::ROWS.len(), S::TURNING, S::TURNS) {
         let (subject, case) = assembled::<S>(&case)?;
         let check = Check {
             subject: &subject,

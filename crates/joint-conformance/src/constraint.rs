@@ -86,6 +86,7 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
     const COMMON: Spec = K::SPEC.common;
     const ROWS: &'static [Row] = K::SPEC.rows;
     const TURNING: bool = K::SPEC.turning;
+    const TURNS: usize = K::SPEC.turns;
     const SLOPE: Kernel = Kernel::C;
     const INVARIANTS: &'static [(Kernel, &'static str)] = &[
         (Kernel::Phi, "Φ"),

@@ -74,6 +74,11 @@ impl Along {
         {
             f.extend(turn(angle));
         }
+        for &known in &case.counted {
+            let (sin, cos) = known.sin_cos();
+            let zero = D::from(0.0);
+            f.extend([known, cos, sin].map(|value| [D::from(value), zero, zero]));
+        }
         State {
             x: bodies.map(|(x, v)| S::moved(x, v, tau)).collect(),
             v: v.collect(),

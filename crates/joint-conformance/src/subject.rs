@@ -26,6 +26,8 @@ pub(crate) trait Subject: Sized {
     const ROWS: &'static [Row];
     /// Whether its last function of time enters by its cosine and sine.
     const TURNING: bool = false;
+    /// Number of angles that it is given with their turns.
+    const TURNS: usize = 0;
     /// The kernel that says what an error of the coordinates does.
     const SLOPE: Self::Kernel;
     /// Kernels whose norm stays if all bodies are moved as one, with their names.

@@ -10,6 +10,13 @@ pub trait Definition<S: Space = Plane>: Send + Sync {
     /// Whether requirement `k` of the definition holds at the assembled start.
     fn requirement(&self, k: usize, x: &[S::Pose<f64>]) -> bool;
 
+    /// Cosine, sine and rate (rad/s) of counted angle `k` since the start: of the angles that
+    /// kernels are given with their turns, or of the angle in space that a drive prescribes. Those
+    /// of an angle that stays if there is none of this number.
+    fn turned(&self, _k: usize, _x: &[S::Pose<f64>], _v: &[S::Twist<f64>]) -> [f64; 3] {
+        [1.0, 0.0, 0.0]
+    }
+
     /// Points at which the definition acts, each in the frame of its body: the parameters that are
     /// points, in their order. Empty if a definition has none.
     fn points(&self) -> Vec<S::Vector<f64>> {

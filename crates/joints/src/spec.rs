@@ -285,6 +285,10 @@ pub struct ConstraintSpec {
     /// Whether kernels take the cosine and the sine of the function of time in place of the
     /// function itself, each with two derivatives: drives of angles in space.
     pub turning: bool,
+    /// Number of angles of space that its kernels are given with their full turns. After the
+    /// functions of time come three values for each: the angle since the start, its cosine and its
+    /// sine; their derivatives are not read.
+    pub turns: usize,
     /// Pattern (row of the block, column of the block) of `∂(Cᵀλ)/∂x`.
     pub d_force_dx: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂(C·a − Γ)/∂x`.
@@ -506,6 +510,9 @@ pub struct ForceSpec {
     pub dq_dv: &'static [[usize; 2]],
     /// Whether it depends on velocities.
     pub dissipative: bool,
+    /// Number of angles of space that it is given with their full turns, as
+    /// [`ConstraintSpec::turns`].
+    pub turns: usize,
     /// Whether it depends on time explicitly.
     pub rheonomic: bool,
 }

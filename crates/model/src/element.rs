@@ -18,7 +18,7 @@ pub(crate) use constraint::{Framed, PlacedConstraint};
 pub(crate) use force::PlacedForce;
 pub use recorded::Input;
 pub(crate) use recorded::RecordedSlots;
-pub(crate) use slots::{OwnRates, Rates, Site, Slots};
+pub(crate) use slots::{Kinematics, OwnRates, PoseOf, Rates, Site, Slots, TwistOf};
 pub(crate) use turned::TurnedSlots;
 
 use joints::spec::{ConstraintSpec, ForceSpec};
@@ -97,7 +97,7 @@ impl BodySpace for Plane {
         arguments: &[Argument],
         law: Law,
     ) -> Result<Box<dyn ForceKernels>, LawError> {
-        build_law::<K>(arguments, law)
+        build_law::<K, Self>(arguments, law)
     }
 }
 
@@ -126,12 +126,11 @@ impl BodySpace for Space3 {
         body.pose().to_local(point)
     }
 
-    // Drives of angles tell the sine of what is left of the angle, not the angle with its turns.
     fn law<K: Constraint<Self>>(
-        _: &[Argument],
-        _: Law,
+        arguments: &[Argument],
+        law: Law,
     ) -> Result<Box<dyn ForceKernels<Self>>, LawError> {
-        Err(LawError::Space)
+        build_law::<K, Self>(arguments, law)
     }
 }
 

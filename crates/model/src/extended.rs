@@ -9,7 +9,7 @@
 use linalg::{DampedRows, Dd, DdMatrix, StepError};
 
 use crate::element::Bodies;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Given, Mechanism};
 use crate::size::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
@@ -140,9 +140,11 @@ fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
 
 /// Poses of the bodies, and values of the functions of time.
 fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> (Bodies<Dd>, Vec<[Dd; 3]>) {
-    let jets = mechanism.elements.functions.iter();
-    let jets = jets.map(|f| f.extended_jet(t)).collect();
-    (Bodies::at(mechanism.space(), q), jets)
+    let given = mechanism.elements.given.iter();
+    let jet = |given: &Given| given.function().map(|f| f.extended_jet(t));
+    let mut jets: Vec<[Dd; 3]> = given.map(|g| jet(g).unwrap_or_default()).collect();
+    mechanism.extended_angles(t, q, &mut jets);
+    (Bodies::at(mechanism.space(), mechanism.of_bodies(q)), jets)
 }
 
 #[cfg(test)]

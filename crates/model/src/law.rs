@@ -140,9 +140,6 @@ pub enum LawError {
         /// Largest number of bodies.
         most: usize,
     },
-    /// The joint is one of space.
-    #[error("laws on measures act in the plane only so far; in space prescribe the motion")]
-    Space,
     /// The arguments of the joint do not fit.
     #[error(transparent)]
     Argument(#[from] joints::ArgumentError),

@@ -4,6 +4,7 @@
 mod build;
 mod build_error;
 mod check;
+mod counted;
 mod derivatives;
 mod forces;
 mod holds;
@@ -19,6 +20,7 @@ use linalg::Dd;
 use crate::body::BodyRecord;
 use crate::element::{PlacedConstraint, PlacedForce, Site};
 use crate::function::Function;
+use crate::mechanism::counted::CountedAngle;
 use crate::observed::Observed;
 use crate::space::{Space, SpaceKind, in_space};
 use crate::system::Layout;
@@ -85,7 +87,10 @@ pub struct Mechanism {
 pub(crate) struct Elements {
     pub(crate) constraints: Vec<PlacedConstraint>,
     pub(crate) forces: Vec<PlacedForce>,
-    pub(crate) functions: Vec<TimeFunction>,
+    /// What kernels are given besides poses and velocities, element by element.
+    pub(crate) given: Vec<Given>,
+    /// The angles that count their turns: those of constraints, then those of forces.
+    pub(crate) counted: Vec<CountedAngle>,
     /// Constant entries of C, zero elsewhere.
     pub(crate) entries: Vec<f64>,
     pub(crate) n_slots: usize,
@@ -98,6 +103,33 @@ impl Elements {
     pub(crate) fn sites(&self) -> impl Iterator<Item = &Site> {
         let constraints = self.constraints.iter().map(|c| &c.site);
         constraints.chain(self.forces.iter().map(|f| &f.site))
+    }
+}
+
+/// What the kernels of an element are given besides poses and velocities.
+#[derive(Clone)]
+pub(crate) enum Given {
+    /// A function of time.
+    Function(TimeFunction),
+    /// One of three values of a counted angle, which [`System::pose`] sets.
+    ///
+    /// [`System::pose`]: crate::System::pose
+    Counted,
+}
+
+impl Given {
+    pub(crate) fn function(&self) -> Option<&TimeFunction> {
+        match self {
+            Self::Function(function) => Some(function),
+            Self::Counted => None,
+        }
+    }
+}
+
+impl Elements {
+    /// The functions of time as passed to the elements.
+    pub(crate) fn functions(&self) -> impl Iterator<Item = &TimeFunction> {
+        self.given.iter().filter_map(Given::function)
     }
 }
 
@@ -201,6 +233,22 @@ impl Mechanism {
         (q, v)
     }
 
+    /// The displacement (n_v) that moves the configuration `from` to q; allocates.
+    #[must_use]
+    pub fn difference_of(&self, q: &[f64], from: &[f64]) -> Vec<f64> {
+        let mut d = vec![0.0; self.layout.n_v];
+        self.space().difference(q, from, &mut d);
+        d
+    }
+
+    /// The column of C along which two configurations differ most, and the difference: lengths as a
+    /// fraction of `size`, angles in radians.
+    #[must_use]
+    pub fn largest_difference(&self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
+        let space = self.space();
+        space.largest_difference(self.of_bodies(a), self.of_bodies(b), size)
+    }
+
     /// Kinetic energy at velocities v (J).
     #[must_use]
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
@@ -228,7 +276,13 @@ impl Mechanism {
     #[must_use]
     pub fn coordinate_name(&self, k: usize) -> (&str, &'static str) {
         let n = self.space().n_q();
-        in_space!(self.space(), S => (self.bodies[k / n].name.as_str(), S::COORDINATES[k % n]))
+        match self.bodies.get(k / n) {
+            Some(body) => in_space!(self.space(), S => (body.name.as_str(), S::COORDINATES[k % n])),
+            None => (
+                self.counted_name(k - n * self.bodies.len()),
+                "angle with its turns",
+            ),
+        }
     }
 
     /// Generalised forces of gravity, n_v.

@@ -7,7 +7,7 @@ use joints::recorded::{Operation, Recorded, record};
 pub use crate::element::Input;
 use crate::element::{PlacedConstraint, RecordedSlots};
 use crate::function::Function;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, TimeFunction};
 use crate::space::SpaceKind;
 use crate::system::System;
 
@@ -43,7 +43,7 @@ impl Mechanism {
     /// The functions of time of its joints, drives and forces, each with the value that is
     /// subtracted from it: f(0) for drives.
     pub fn functions(&self) -> impl Iterator<Item = (&Function, f64)> {
-        self.elements.functions.iter().map(|f| f.parts())
+        self.elements.functions().map(TimeFunction::parts)
     }
 }
 
@@ -68,7 +68,7 @@ impl RecordedEquations {
     pub fn of(mechanism: &Mechanism) -> Self {
         assert_eq!(mechanism.space(), SpaceKind::Plane, "planar bodies");
         let layout = mechanism.layout();
-        let n_functions = mechanism.elements.functions.len();
+        let n_functions = mechanism.elements.given.len();
         let (tape, (inputs, results)) = record(|| {
             let mut list = Vec::new();
             let input = |what: Input| {

@@ -348,18 +348,10 @@ impl SpaceKind {
         });
     }
 
-    /// Like `difference`, as a vector; allocates.
-    #[must_use]
-    pub fn difference_of(self, q: &[f64], from: &[f64]) -> Vec<f64> {
-        let mut d = vec![0.0; self.n_v() * (q.len() / self.n_q())];
-        self.difference(q, from, &mut d);
-        d
-    }
-
     /// The column of C along which two configurations differ most, and the difference: lengths as a
     /// fraction of `size`, angles in radians.
     #[must_use]
-    pub fn largest_difference(self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
+    pub(crate) fn largest_difference(self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let mut largest = (0, 0.0);
         let mut d = vec![0.0; self.n_v()];
         let n = self.n_q();

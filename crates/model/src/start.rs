@@ -119,7 +119,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     if let Some((name, requirement)) = unmet_requirement(mechanism, &q) {
         return Err(StartError::Requirement { name, requirement });
     }
-    let correction = mechanism.space().difference_of(&q, &described);
+    let correction = mechanism.difference_of(&q, &described);
     if options.correction == CorrectionLimit::Small {
         check_correction(mechanism, &correction, size)?;
     }
@@ -267,7 +267,7 @@ fn nearest(
             });
         }
         let c = dense_rows(mechanism.layout(), s, rows)?;
-        let shift = mechanism.space().difference_of(described, &q);
+        let shift = mechanism.difference_of(described, &q);
         // C·(q₀ + δ − q) + Φ = 0
         let moved = c.times(&shift);
         let misfit: Vec<f64> = rows

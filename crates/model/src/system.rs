@@ -64,7 +64,8 @@ pub trait System: Sync {
     /// ```
     fn displace(&self, q: &mut [f64], d: &[f64]);
 
-    /// The displacement (n_v) that moves the configuration `from` to q.
+    /// The displacement (n_v) that moves the configuration `from` to q; counted angles follow from
+    /// it.
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]);
 }
 
@@ -74,8 +75,11 @@ pub struct Layout {
     /// The space in which the bodies move: what the columns of C and the components of reactions
     /// are.
     pub space: SpaceKind,
-    /// Number of coordinates.
+    /// Number of coordinates: those of the bodies, then the counted angles.
     pub n_q: usize,
+    /// Number of counted angles among the coordinates: angles in space since the start, with their
+    /// full turns, for elements that need these.
+    pub turns: usize,
     /// Number of velocities.
     pub n_v: usize,
     /// Number of holonomic rows m; they come first.

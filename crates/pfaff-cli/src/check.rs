@@ -118,10 +118,7 @@ impl Checked {
                 let mut assembled = resources.assembled(source)?;
                 let start = assembled.analyse(None).map_err(|e| source.failure(e))?;
                 let (described, _) = start.mechanism.described_state();
-                let correction = start
-                    .mechanism
-                    .space()
-                    .difference_of(&start.state.q, &described);
+                let correction = start.mechanism.difference_of(&start.state.q, &described);
                 let mut checked = new(start.scene, start.mechanism, &correction);
                 checked.warnings.push(warning);
                 Ok(checked)

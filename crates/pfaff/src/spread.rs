@@ -66,7 +66,7 @@ impl Path {
             let Some(q) = rows.next() else {
                 return Ok(ControlFlow::Break(()));
             };
-            spread.take(sample.t, &space.difference_of(sample.q, q), space);
+            spread.take(sample.t, &other.mechanism.difference_of(sample.q, q), space);
             Ok(ControlFlow::Continue(()))
         });
         outcome.map(drop).map_err(|failure| failure.error)

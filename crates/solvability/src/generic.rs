@@ -62,7 +62,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
             continue;
         };
         let is_new = |(t, q): &(f64, Vec<f64>)| {
-            let moved = mechanism.space().difference_of(&there.1, q).into_iter();
+            let moved = mechanism.difference_of(&there.1, q).into_iter();
             there.0 != *t || length(moved, &units, size) >= POINTS_APART
         };
         if visited.iter().all(is_new) {

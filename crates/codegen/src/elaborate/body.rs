@@ -75,6 +75,12 @@ impl<'a> Scope<'a> {
                         other => Measure::Of(as_scalar(other, e)?),
                     }
                 }
+                None if !self.model.counted.is_empty() => {
+                    return Err(syn::Error::new_spanned(
+                        name,
+                        "a joint that counts turns has no measure that is `kept`: give it an expression",
+                    ));
+                }
                 None => Measure::Kept(self.moved(name, &rows[..holonomic])?),
             };
             measures.push((name.clone(), measure));

@@ -23,6 +23,9 @@ pub(crate) enum Source {
     Acceleration { slot: usize, field: &'static str },
     /// A derivative of a function of time.
     Function { index: usize, order: usize },
+    /// What is given of an angle that counts its turns, where a function of time would be: the
+    /// angle, its cosine or its sine.
+    Counted { index: usize },
     /// A parameter, with the tokens that read it.
     Parameter { access: String },
     /// A value kept from the start, with the tokens that read it.
@@ -50,6 +53,10 @@ impl Source {
             Self::Function { index: k, order } => {
                 let (k, order) = (index(*k), index(*order));
                 quote!(f[#k][#order])
+            }
+            Self::Counted { index: k } => {
+                let k = index(*k);
+                quote!(f[#k][0])
             }
             Self::Lambda { row } => {
                 let row = index(*row);
@@ -301,6 +308,12 @@ impl Inputs {
                 axes.map(|(k, axis)| (format!("{field}_{axis}"), format!("self.{field}[{k}]")))
                     .collect()
             }
+            Kept::Turn => {
+                let parts = ["cos", "sin"].iter().enumerate();
+                parts
+                    .map(|(k, part)| (format!("{field}_{part}"), format!("self.{field}[{k}]")))
+                    .collect()
+            }
         };
         components
             .into_iter()
@@ -309,6 +322,18 @@ impl Inputs {
                 self.add(g, &name, Source::Kept { field, access })
             })
             .collect()
+    }
+
+    /// What is given of the counted angle number `k`: the angle since the start, its cosine and its
+    /// sine. They follow the functions of time.
+    pub(crate) fn counted(&mut self, g: &mut Graph, name: &str, k: usize) -> [Expr; 3] {
+        let first = self.functions.len() + 3 * k;
+        [
+            (first, "known"),
+            (first + 1, "known_cos"),
+            (first + 2, "known_sin"),
+        ]
+        .map(|(index, part)| self.add(g, &format!("{name}_{part}"), Source::Counted { index }))
     }
 
     /// A symbol for a derivative that is not a polynomial; `access` are the tokens that compute it.

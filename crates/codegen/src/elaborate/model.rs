@@ -21,6 +21,8 @@ pub(crate) struct Model {
     pub(crate) names: Vec<(Expr, String)>,
     /// The values kept from the assembled start, in order.
     pub(crate) kept: Vec<KeptValue>,
+    /// The angles that count their turns, in order.
+    pub(crate) counted: Vec<Counted>,
     pub(crate) requirements: Vec<Condition>,
     pub(crate) body: Body,
 }
@@ -38,6 +40,20 @@ pub(crate) struct KeptValue {
     pub(crate) overridden_by: Option<Ident>,
     /// Whether the value depends on the configuration.
     pub(crate) of_start: bool,
+}
+
+/// An angle in space since the start: what tells it up to full turns, and its rate.
+#[derive(Clone, Copy)]
+pub(crate) struct Counted {
+    pub(crate) cos: Expr,
+    pub(crate) sin: Expr,
+    pub(crate) rate: Expr,
+}
+
+impl Counted {
+    pub(crate) fn all(self) -> [Expr; 3] {
+        [self.cos, self.sin, self.rate]
+    }
 }
 
 /// The content of a definition: a constraint or a force.
@@ -118,6 +134,21 @@ impl Model {
         self.inputs.defined.expand(&mut self.g, e)
     }
 
+    /// The angle with this cosine and sine since it had those of `start`.
+    pub(crate) fn angle_since(&mut self, [cos, sin]: [Expr; 2], start: [Expr; 2]) -> Counted {
+        let [cos_0, sin_0] = start;
+        let g = &mut self.g;
+        let mut product = |a, b| g.mul(a, b);
+        let (a, b) = (product(sin, cos_0), product(cos, sin_0));
+        let (c, d) = (product(cos, cos_0), product(sin, sin_0));
+        let (sin, cos) = (g.sub(a, b), g.add(c, d));
+        let [d_sin, d_cos] = [sin, cos].map(|e| self.time.apply(&mut self.g, e));
+        let g = &mut self.g;
+        let (a, b) = (g.mul(cos, d_sin), g.mul(sin, d_cos));
+        let rate = g.sub(a, b);
+        Counted { cos, sin, rate }
+    }
+
     /// Replaces these symbols in all that is printed without further derivatives.
     pub(super) fn expand_printed(&mut self) {
         let Self {
@@ -125,6 +156,7 @@ impl Model {
             inputs,
             names,
             kept,
+            counted,
             requirements,
             ..
         } = self;
@@ -133,6 +165,11 @@ impl Model {
         kept.iter_mut()
             .flat_map(|k| &mut k.values)
             .for_each(&mut expand);
+        for of_angle in counted {
+            expand(&mut of_angle.cos);
+            expand(&mut of_angle.sin);
+            expand(&mut of_angle.rate);
+        }
         requirements.iter_mut().for_each(|c| c.visit(&mut expand));
     }
 

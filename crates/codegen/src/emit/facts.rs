@@ -62,6 +62,7 @@ pub(super) fn constraint_spec(
         }
     });
     let turning = t.driven == Some(Driven::Turn);
+    let turns = index(t.turns);
     let wrench = pattern(&k.wrench);
     let d_force_dx = pattern(&k.d_force_dx);
     let d_residual_dx = pattern(&k.d_residual_dx);
@@ -81,6 +82,7 @@ pub(super) fn constraint_spec(
             note: #note,
             measures: &[#(#measures),*],
             turning: #turning,
+            turns: #turns,
             d_force_dx: #d_force_dx,
             d_residual_dx: #d_residual_dx,
             d_gamma_dv: #d_gamma_dv,
@@ -117,6 +119,7 @@ pub(super) fn force_spec(
             dq_dx: #dq_dx,
             dq_dv: #dq_dv,
             dissipative: #dissipative,
+            turns: 0,
             rheonomic: #rheonomic,
         };
     }

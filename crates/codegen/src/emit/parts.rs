@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 use symbolic::{Expr, Scalar};
 
 use crate::data::Datum;
-use crate::elaborate::{Comparison, Condition, KeptValue, Measure, Model};
+use crate::elaborate::{Comparison, Condition, Counted, KeptValue, Measure, Model};
 use crate::kernel::kernel;
 use crate::names::kebab_case;
 use crate::parse::{Definition, Kept, Param, ParamKind};
@@ -22,6 +22,10 @@ pub(super) struct Type {
     pub(super) driven: Option<Driven>,
     pub(super) scene_type: String,
     pub(super) data: Vec<Datum>,
+    /// Number of angles given to its kernels with their turns.
+    pub(super) turns: usize,
+    /// The angles whose cosine, sine and rate it tells: those, or the measure that it drives.
+    pub(super) counted: Vec<Counted>,
 }
 
 /// The type of a drive.
@@ -148,9 +152,14 @@ pub(super) fn structure(
         let ty = match k.kind {
             Kept::Number(_) => quote!(f64),
             Kept::Vector(_) => vector(d.space),
+            Kept::Turn => quote!([f64; 2]),
         };
         let doc = match &k.overridden_by {
             Some(p) => format!(" `{p}`, or its value at the assembled start; set by `initialise`."),
+            None if k.kind == Kept::Turn => {
+                " Cosine and sine of the angle at the assembled start; set by `initialise`."
+                    .to_owned()
+            }
             None => " Kept from the assembled start; set by `initialise`.".to_owned(),
         };
         quote!(#[doc = #doc] pub #name: #ty,)
@@ -323,6 +332,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Drive
                 let dim = index(d.space.dim());
                 quote!(#name: [0.0; #dim],)
             }
+            Kept::Turn => quote!(#name: [1.0, 0.0],),
         }
     });
     let measure = driven.and_then(measure_0);
@@ -346,6 +356,9 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Drive
 pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> TokenStream {
     let kept = model.kept.iter().map(|k| {
         let field = format_ident!("{}", k.field);
+        if k.kind == Kept::Turn {
+            return unit_turn(model, &field, &k.values);
+        }
         let value = kept_value(model, k);
         match &k.overridden_by {
             Some(p) if let Some(number) = literal(&value) => {
@@ -366,21 +379,42 @@ pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> TokenStream
             let (statements, outputs) = (&printed.statements, &printed.outputs);
             quote!(self.measure_0 = { #(#statements)* #(#outputs)* };)
         }
-        Measure::Angle { sin, cos } => {
-            let printed = kernel(model, &[cos, sin], Scalar::F64);
-            let (statements, outputs) = (&printed.statements, &printed.outputs);
-            quote! {
-                let [c, s]: [f64; 2] = { #(#statements)* [#(#outputs),*] };
-                // Axes across each other have no angle: any serves.
-                let length = c.hypot(s);
-                self.measure_0 = if length > 0.0 { [c / length, s / length] } else { [1.0, 0.0] };
-            }
-        }
+        Measure::Angle { sin, cos } => unit_turn(model, &format_ident!("measure_0"), &[cos, sin]),
         Measure::Kept(_) => TokenStream::new(),
     });
     quote! {
         fn initialise(&mut self, x: &[Pose]) { #(#kept)* #measure }
     }
+}
+
+/// Statements that keep cosine and sine of an angle, from those of axes that are nearly parallel.
+fn unit_turn(model: &Model, field: &Ident, turn: &[Expr]) -> TokenStream {
+    let printed = kernel(model, turn, Scalar::F64);
+    let (statements, outputs) = (&printed.statements, &printed.outputs);
+    quote! {
+        let [c, s]: [f64; 2] = { #(#statements)* [#(#outputs),*] };
+        // Axes across each other have no angle: any serves.
+        let length = c.hypot(s);
+        self.#field = if length > 0.0 { [c / length, s / length] } else { [1.0, 0.0] };
+    }
+}
+
+/// The method that tells cosine, sine and rate of each angle that counts its turns; none if there
+/// is none.
+pub(super) fn turned(model: &Model, counted: &[Counted]) -> Option<TokenStream> {
+    if counted.is_empty() {
+        return None;
+    }
+    let arms = counted.iter().enumerate().map(|(k, of_angle)| {
+        let printed = kernel(model, &of_angle.all(), Scalar::F64);
+        let (k, statements, outputs) = (index(k), &printed.statements, &printed.outputs);
+        quote!(#k => { #(#statements)* [#(#outputs),*] })
+    });
+    Some(quote! {
+        fn turned(&self, k: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
+            match k { #(#arms)* _ => [1.0, 0.0, 0.0] }
+        }
+    })
 }
 
 /// The literal that a block consists of, if it consists of one.
@@ -398,7 +432,7 @@ pub(super) fn kept_value(model: &Model, k: &KeptValue) -> TokenStream {
     let (statements, outputs) = (&printed.statements, &printed.outputs);
     match k.kind {
         Kept::Number(_) => quote!({ #(#statements)* #(#outputs)* }),
-        Kept::Vector(_) => quote!({ #(#statements)* [#(#outputs),*] }),
+        Kept::Vector(_) | Kept::Turn => quote!({ #(#statements)* [#(#outputs),*] }),
     }
 }
 

@@ -6,7 +6,7 @@ use syn::punctuated::Punctuated;
 use syn::{Attribute, Ident, LitStr, Token, braced, bracketed, parenthesized};
 
 use super::kind::{Initial, doc_lines};
-use super::tree::{Binding, Definition, Kind, Param, name};
+use super::tree::{Binding, Definition, Kept, Kind, Param, name};
 use crate::nearest::hint;
 use crate::space::Space;
 
@@ -23,7 +23,8 @@ mod kw {
 const COMMON: [&str; 7] = [
     "params", "points", "let", "initial", "require", "scene", "variant",
 ];
-const CONSTRAINT: [&str; 7] = [
+const CONSTRAINT: [&str; 8] = [
+    "turns",
     "rows",
     "phi",
     "psi",
@@ -180,6 +181,15 @@ fn item(kind: Kind, input: ParseStream<'_>, d: &mut Definition) -> syn::Result<(
 
 fn constraint_item(word: &Ident, input: ParseStream<'_>, d: &mut Definition) -> syn::Result<()> {
     match word.to_string().as_str() {
+        "turns" => {
+            let name = name(input)?;
+            input.parse::<Token![:]>()?;
+            d.bindings.push(Binding {
+                name,
+                value: input.parse()?,
+                kept: Some(Kept::Turn),
+            });
+        }
         "rows" => {
             input.parse::<Token![:]>()?;
             let list;

@@ -28,7 +28,7 @@ pub struct Definition {
     pub params: Vec<Param>,
     /// Whether its place in a scene consists of one point for each point parameter.
     pub points_apart: bool,
-    /// `let` and `initial`, in the order of the text.
+    /// `let`, `initial` and `turns`, in the order of the text.
     pub bindings: Vec<Binding>,
     /// Conditions on the assembled start.
     pub requirements: Vec<(LitStr, Expr)>,
@@ -97,23 +97,26 @@ pub enum ParamKind {
     Functions(Vec<Ident>),
 }
 
-/// `let` or one entry of `initial`.
+/// `let`, `turns` or one entry of `initial`.
 pub struct Binding {
     /// Its name.
     pub name: Ident,
     /// Its value.
     pub value: Expr,
-    /// The kind of the kept value, for `initial`; `None` for `let`.
+    /// The kind of the kept value, for `initial` and `turns`; `None` for `let`.
     pub kept: Option<Kept>,
 }
 
-/// The kind of an `initial` value.
+/// The kind of a value kept from the start.
 #[derive(Clone, PartialEq, Eq)]
 pub enum Kept {
     /// One number with its unit.
     Number(Ident),
     /// Components in the frame of the body in a slot.
     Vector(Ident),
+    /// An angle in space, by its cosine and sine: the name stands for the angle since the start,
+    /// with its full turns.
+    Turn,
 }
 
 /// A name that is also used as a name in the generated code.

@@ -132,7 +132,6 @@ impl IndependentCoordinates {
         let at = &equations.at;
         let moved = at
             .mechanism
-            .space()
             .largest_difference(&self.q, &self.guess, at.size);
         if moved.1 > far {
             return Err(at.far_completion(t, moved));
@@ -183,10 +182,7 @@ impl IndependentCoordinates {
         }
         self.guess.copy_from_slice(&self.accepted.q);
         at.mechanism.displace(&mut self.guess, &self.storage.delta);
-        let off = at
-            .mechanism
-            .space()
-            .largest_difference(q, &self.guess, at.size);
+        let off = at.mechanism.largest_difference(q, &self.guess, at.size);
         if off.1 <= FAR_IN_A_STEP * farthest + FAR_AT_REST {
             Ok(())
         } else {

@@ -387,7 +387,7 @@ impl<'m> RunEquations<'m> {
         motion.equations.accept_misfits(true);
         self.record.note(mechanism, (q, v, work(q, v, y)), found);
         let layout = mechanism.layout();
-        let (q, qd) = (&mut y[..layout.n_q], &mut dy[..layout.n_q]);
+        let (q, qd) = (mechanism.of_bodies_mut(y), mechanism.of_bodies_mut(dy));
         let scaled = layout.space.normalise(q, qd, &QUATERNION_LENGTHS);
         self.record.normalisations += scaled;
         let now = now(mechanism, step.t, y, dy);

@@ -230,7 +230,7 @@ impl Reduced {
         for (terms, &z) in own.reads.iter_mut().zip(z) {
             mechanism.space().read_velocity(&y[..n_q], z, terms);
         }
-        own.normals = mechanism.space().normals(&y[..n_q]);
+        own.normals = mechanism.space().normals(mechanism.of_bodies(y));
         for (terms, u) in own.reads[z.len()..].iter_mut().zip(u) {
             terms.clear();
             terms.push((n_q + u, 1.0));

@@ -63,7 +63,7 @@ impl Span {
         let n_q = mechanism.layout().n_q;
         let (q, v) = y.split_at(n_q);
         let (led_q, led_v) = self.led.split_at(n_q);
-        let (column, by) = mechanism.space().largest_difference(q, led_q, size);
+        let (column, by) = mechanism.largest_difference(q, led_q, size);
         let off = v.iter().zip(led_v).map(|(v, led)| v - led);
         let kink = momentum(mechanism.mass(), off);
         if by <= ROW_DEVIATION * way + ROW_DEVIATION_AT_REST
@@ -88,9 +88,7 @@ impl Span {
         let h = self.times[1] - self.times[0];
         let largest = |a: &[f64], b: &[f64], i: usize| a[i].abs().max(b[i].abs());
         let at_speed = |j: usize| h * largest(y0, y1, n_q + j) / unit(j);
-        let (_, apart) = mechanism
-            .space()
-            .largest_difference(&y1[..n_q], &y0[..n_q], size);
+        let (_, apart) = mechanism.largest_difference(&y1[..n_q], &y0[..n_q], size);
         let way = (0..n_v).map(at_speed).fold(apart, f64::max);
         let fastest = |i: usize| largest(y0, y1, i) + h * largest(f0, f1, i);
         Sizes {

@@ -109,7 +109,9 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         // Changes of axes, and of angles by cosine and sine, are carried out, not stored.
         let is_change = |k: usize| {
             K::SPEC.data.iter().any(|d| {
-                let turns = K::SPEC.turning && d.name == "measure_0";
+                let is_kept_angle = d.shape == DatumShape::Kept(Unit::Angle);
+                // Those of space are kept by cosine and sine.
+                let turns = is_kept_angle && <S as joints::Space>::DIM > 2;
                 d.numbers().contains(&k) && (turns || matches!(d.shape, DatumShape::Axes { .. }))
             })
         };

@@ -41,6 +41,7 @@ impl Constraint for Angle {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],

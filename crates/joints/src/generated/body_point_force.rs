@@ -46,6 +46,7 @@ impl Force for BodyPointForce {
         dq_dx: &[[0, 2], [1, 2]],
         dq_dv: &[],
         dissipative: false,
+        turns: 0,
         rheonomic: true,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -137,6 +137,7 @@ impl Force for Bushing {
             [5, 5],
         ],
         dissipative: true,
+        turns: 0,
         rheonomic: false,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -117,6 +117,7 @@ impl Force for Damper {
             [5, 5],
         ],
         dissipative: true,
+        turns: 0,
         rheonomic: false,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -70,6 +70,7 @@ impl Constraint for Distance {
         note: None,
         measures: &[Measure::kept("length", "DistanceLengthDrive")],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 0],
             [0, 2],
@@ -769,6 +770,7 @@ impl Constraint for DistanceLengthDrive {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 0],
             [0, 2],

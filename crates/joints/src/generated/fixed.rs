@@ -73,6 +73,7 @@ impl Constraint for Fixed {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[[2, 2], [5, 5]],
         d_residual_dx: &[[0, 2], [0, 5], [1, 2], [1, 5]],
         d_gamma_dv: &[[0, 2], [0, 5], [1, 2], [1, 5]],

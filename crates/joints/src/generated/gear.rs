@@ -56,6 +56,7 @@ impl Constraint for Gear {
         ),
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],

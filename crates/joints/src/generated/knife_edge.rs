@@ -50,6 +50,7 @@ impl Constraint for KnifeEdge {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[[0, 2], [1, 2]],
         d_residual_dx: &[[0, 2]],
         d_gamma_dv: &[[0, 0], [0, 1], [0, 2]],

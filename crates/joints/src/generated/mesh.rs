@@ -91,6 +91,7 @@ impl Constraint for Mesh {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 8],
             [1, 8],

@@ -93,6 +93,7 @@ impl Constraint for PinInSlot {
             Measure::new("angle", "PinInSlotAngleDrive"),
         ],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 2],
             [1, 2],
@@ -664,6 +665,7 @@ impl Constraint for PinInSlotDisplacementDrive {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 2],
             [1, 2],
@@ -1272,6 +1274,7 @@ impl Constraint for PinInSlotAngleDrive {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],

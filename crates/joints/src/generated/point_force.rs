@@ -46,6 +46,7 @@ impl Force for PointForce {
         dq_dx: &[[2, 2]],
         dq_dv: &[],
         dissipative: false,
+        turns: 0,
         rheonomic: true,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -54,6 +54,7 @@ impl Constraint for PointOnLine {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[[2, 2]],
         d_residual_dx: &[[0, 2]],
         d_gamma_dv: &[[0, 2]],

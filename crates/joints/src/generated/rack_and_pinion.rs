@@ -77,6 +77,7 @@ impl Constraint for RackAndPinion {
         ),
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 2],
             [1, 2],

@@ -67,6 +67,7 @@ impl Constraint for Rolling {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[[0, 2], [1, 2]],
         d_residual_dx: &[[0, 2]],
         d_gamma_dv: &[[0, 0], [0, 1], [0, 2]],

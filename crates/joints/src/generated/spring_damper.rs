@@ -133,6 +133,7 @@ impl Force for SpringDamper {
             [5, 5],
         ],
         dissipative: true,
+        turns: 0,
         rheonomic: false,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -34,6 +34,7 @@ impl Force for Torque {
         dq_dx: &[],
         dq_dv: &[],
         dissipative: false,
+        turns: 0,
         rheonomic: true,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -53,6 +53,7 @@ impl Force for TorsionSpringDamper {
         dq_dx: &[[2, 2], [2, 5], [5, 2], [5, 5]],
         dq_dv: &[[2, 2], [2, 5], [5, 2], [5, 5]],
         dissipative: true,
+        turns: 0,
         rheonomic: false,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

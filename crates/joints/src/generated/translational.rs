@@ -86,6 +86,7 @@ impl Constraint for Translational {
         note: None,
         measures: &[Measure::new("displacement", "TranslationalDisplacementDrive")],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 2],
             [1, 2],
@@ -687,6 +688,7 @@ impl Constraint for TranslationalDisplacementDrive {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 2],
             [1, 2],

@@ -59,6 +59,7 @@ impl Force for Tyre {
         dq_dx: &[[0, 2], [1, 2], [2, 2]],
         dq_dv: &[[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2], [2, 0], [2, 1], [2, 2]],
         dissipative: true,
+        turns: 0,
         rheonomic: false,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -12,7 +12,7 @@ const HELD: f64 = 4.0 * f64::EPSILON;
 /// One value for each body or slot, in the space of the mechanism; the list of the other space is
 /// empty.
 #[derive(Clone, Debug)]
-pub(super) struct InEach<P, S> {
+pub(crate) struct InEach<P, S> {
     pub(super) plane: Vec<P>,
     pub(super) space3: Vec<S>,
 }
@@ -31,9 +31,9 @@ impl<P: Copy, S: Copy> InEach<P, S> {
 }
 
 /// Poses of bodies or slots.
-pub(super) type Poses<T> = InEach<Pose<T>, space3::Pose<T>>;
+pub(crate) type Poses<T> = InEach<Pose<T>, space3::Pose<T>>;
 /// Twists of slots.
-pub(super) type Twists<T> = InEach<Twist<T>, space3::Twist<T>>;
+pub(crate) type Twists<T> = InEach<Twist<T>, space3::Twist<T>>;
 
 impl<P, S> Default for InEach<P, S> {
     fn default() -> Self {
@@ -327,7 +327,7 @@ fn turned_by(sin: f64, cos: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
 
 /// The pose of a spatial body from its coordinates: the rotation divided by the square of the
 /// quaternion's length, so that this does not matter.
-fn spatial_pose<T: Number>(q: &[T]) -> space3::Pose<T> {
+pub(super) fn spatial_pose<T: Number>(q: &[T]) -> space3::Pose<T> {
     let e = quaternion(q);
     let [w, x, y, z] = e;
     let square = w * w + x * x + y * y + z * z;

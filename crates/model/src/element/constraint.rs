@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use joints::space3::{Pose, Twist};
 use joints::spec::ConstraintSpec;
 use joints::{Magnitude, Recorded, Space3};
 use linalg::Dd;
@@ -106,6 +107,14 @@ impl PlacedConstraint {
     /// Whether Γ of its rows may differ from zero. C of the other rows is constant, so `C·v̇ = 0`.
     pub(crate) fn has_gamma(&self) -> bool {
         self.has_varying_entries() || self.depends_on_time()
+    }
+
+    /// Cosine, sine and rate of a counted angle at these poses and twists of its slots in space.
+    pub(crate) fn counted(&self, number: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
+        match &self.framed.element {
+            AnyConstraint::Space3(element) => element.turned(number, x, v),
+            AnyConstraint::Plane(_) => [1.0, 0.0, 0.0],
+        }
     }
 
     pub(crate) fn initialise(&mut self, bodies: &Bodies) {

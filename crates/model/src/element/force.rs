@@ -90,6 +90,17 @@ impl PlacedForce {
         }
     }
 
+    /// Cosine, sine and rate of a counted angle at these poses and twists of its slots in space.
+    pub(crate) fn counted(&self, number: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
+        match (&self.turned, &self.element) {
+            (Some(turned), AnyForce::Space3(kernels)) => {
+                turned.with_frames((x, v), |x, v| kernels.turned(number, x, v))
+            }
+            (None, AnyForce::Space3(kernels)) => kernels.turned(number, x, v),
+            (_, AnyForce::Plane(_)) => [1.0, 0.0, 0.0],
+        }
+    }
+
     pub(crate) fn is_law(&self) -> bool {
         with!(AnyForce, &self.element, element, _S => element.is_law())
     }
@@ -160,6 +171,10 @@ impl PlacedForce {
 
     /// The force along the measure of a drive by a law.
     pub(crate) fn drive(&self, s: &Slots) -> Option<DriveForce> {
+        if let Some((turned, kernels)) = self.between() {
+            let f = self.site.f(s);
+            return turned.with_frames(self.site.in_space(s), |x, v| kernels.drive(x, v, f));
+        }
         with!(AnyForce, &self.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.drive(x, v, f)

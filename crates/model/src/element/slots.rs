@@ -5,17 +5,24 @@ use std::ops::Range;
 use joints::plane::{Pose, Twist};
 use joints::{Magnitude, Plane, Ring, Space3, space3};
 
-use super::bodies::{Bodies, InEach, Poses, Twists};
+use super::BodySpace;
+use super::bodies::{Bodies, InEach, Poses, Twists, spatial_pose};
+use super::turned::lent;
 use crate::body::BodyRef;
 use crate::space::SpaceKind;
 
+/// Bodies of an element up to which nothing is allocated; no joint of the library has more.
+const FEW: usize = 4;
+
 /// What the kernels of a space take of bodies.
-pub(super) trait Kinematics: joints::Space {
+pub(crate) trait Kinematics: BodySpace {
     fn ground<T: Ring>() -> Self::Pose<T>;
     fn poses<T: Ring>(all: &Poses<T>) -> &[Self::Pose<T>];
     fn poses_mut<T: Ring>(all: &mut Poses<T>) -> &mut [Self::Pose<T>];
     fn twists<T: Ring>(all: &Twists<T>) -> &[Self::Twist<T>];
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Self::Twist<T>];
+    /// The velocities of a twist.
+    fn velocities<T: Ring>(twist: &Self::Twist<T>) -> impl Iterator<Item = T>;
     /// The twist with these velocities.
     fn twist<T: Ring>(v: &[T]) -> Self::Twist<T>;
     /// Sizes of the contributions of a pose to a polynomial.
@@ -45,6 +52,9 @@ impl Kinematics for Plane {
             y: v[1],
             omega: v[2],
         }
+    }
+    fn velocities<T: Ring>(twist: &Twist<T>) -> impl Iterator<Item = T> {
+        [twist.x, twist.y, twist.omega].into_iter()
     }
     /// Cosine and sine are accurate to the rounding of their angle.
     fn magnitude(pose: &Pose) -> Pose<Magnitude> {
@@ -84,6 +94,9 @@ impl Kinematics for Space3 {
             omega: [v[3], v[4], v[5]],
         }
     }
+    fn velocities<T: Ring>(twist: &space3::Twist<T>) -> impl Iterator<Item = T> {
+        twist.v.into_iter().chain(twist.omega)
+    }
     /// Every entry of a rotation is accurate to the rounding of 1.
     fn magnitude(pose: &space3::Pose) -> space3::Pose<Magnitude> {
         space3::Pose {
@@ -95,6 +108,11 @@ impl Kinematics for Space3 {
         poses[0].r
     }
 }
+
+/// The pose of a body in a space.
+pub(crate) type PoseOf<S, T = f64> = <S as joints::Space>::Pose<T>;
+/// The velocity of a body in a space.
+pub(crate) type TwistOf<S, T = f64> = <S as joints::Space>::Twist<T>;
 
 /// The pose of a body, taken from those of all.
 pub(super) fn pose_of<S: Kinematics, T: Ring>(poses: &Poses<T>, body: BodyRef) -> S::Pose<T> {
@@ -265,8 +283,30 @@ impl Site {
         &S::twists(&all.twists)[self.slots.clone()]
     }
 
+    /// Poses of its bodies at the coordinates q, and their twists at velocities v or at rest, in
+    /// space.
+    pub(crate) fn with_spatial<R>(
+        &self,
+        (q, v): (&[f64], Option<&[f64]>),
+        use_them: impl FnOnce(&[space3::Pose], &[space3::Twist]) -> R,
+    ) -> R {
+        let n = self.bodies.len();
+        let (mut few, mut many) = ([space3::Pose::GROUND; FEW], Vec::new());
+        let x = lent(&mut few, &mut many, n);
+        for (pose, body) in x.iter_mut().zip(&self.bodies) {
+            let own = body.moving().map(|k| &q[SpaceKind::Space3.coordinates(k)]);
+            *pose = own.map_or(space3::Pose::GROUND, spatial_pose);
+        }
+        let (mut few, mut many) = ([space3::Twist::zero(); FEW], Vec::new());
+        let twists = lent(&mut few, &mut many, n);
+        for (twist, &body) in twists.iter_mut().zip(&self.bodies) {
+            *twist = v.map_or_else(space3::Twist::zero, |v| twist_of::<Space3>(body, v));
+        }
+        use_them(x, twists)
+    }
+
     /// Poses and twists of its bodies in space.
-    pub(super) fn in_space<'s>(&self, all: &'s Slots) -> (&'s [space3::Pose], &'s [space3::Twist]) {
+    pub(crate) fn in_space<'s>(&self, all: &'s Slots) -> (&'s [space3::Pose], &'s [space3::Twist]) {
         (self.x::<Space3>(all), self.v::<Space3>(&all.rates))
     }
 

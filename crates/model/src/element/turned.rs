@@ -65,7 +65,7 @@ impl TurnedSlots {
     }
 
     /// Calls `kernel` with the poses and twists of the frames.
-    fn with_frames<R>(
+    pub(super) fn with_frames<R>(
         &self,
         (x, v): (&[Pose], &[Twist]),
         kernel: impl FnOnce(&[Pose], &[Twist]) -> R,
@@ -140,7 +140,7 @@ impl TurnedSlots {
 }
 
 /// `n` numbers of an array if it has as many, else of a vector.
-fn lent<'a, T: Copy, const N: usize>(
+pub(super) fn lent<'a, T: Copy, const N: usize>(
     few: &'a mut [T; N],
     many: &'a mut Vec<T>,
     n: usize,

@@ -114,7 +114,7 @@ fn some_law() -> Law {
 }
 
 fn force<K: Constraint>(law: Law, arguments: &[Argument], start: &[Pose]) -> Box<dyn ForceKernels> {
-    let mut force = build_law::<K>(arguments, law).expect("a row and two bodies");
+    let mut force = build_law::<K, joints::Plane>(arguments, law).expect("a row and two bodies");
     force.initialise(start);
     force
 }

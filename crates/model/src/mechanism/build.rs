@@ -5,9 +5,10 @@ use std::ops::Range;
 use joints::spec::ConstraintSpec;
 
 use super::check;
+use super::counted::{CountedAngle, Owner};
 use super::turn;
 use super::work::held_bodies;
-use super::{BuildError, Elements, FunctionForm, Mechanism, TimeFunction, initialise};
+use super::{BuildError, Elements, FunctionForm, Given, Mechanism, TimeFunction, initialise};
 use crate::body::{BodyRecord, BodyRef, DescribedBody};
 use crate::description::{AnyDescription, Described};
 use crate::element::{
@@ -170,7 +171,9 @@ impl Builder {
             ConstraintKind::Drive => f.jet(0.0)[0],
             ConstraintKind::Joint => 0.0,
         };
-        let site = self.site(bodies, functions, offset, spec.turning);
+        let owner = Owner::Constraint(self.elements.constraints.len());
+        let mut site = self.site(bodies, functions, offset, spec.turning);
+        self.count(owner, spec.turns, &mut site);
         let placed = PlacedConstraint::new(framed, site, entries, tolerance);
         self.layout.rheonomic |= spec.rheonomic;
         self.layout.groups.push(ConstraintGroup {
@@ -191,7 +194,9 @@ impl Builder {
         (element, turned): (AnyForce, Option<TurnedSlots>),
         functions: &[Function],
     ) {
-        let site = self.site(bodies, functions, |_| 0.0, false);
+        let owner = Owner::Force(self.elements.forces.len());
+        let mut site = self.site(bodies, functions, |_| 0.0, false);
+        self.count(owner, element.spec().turns, &mut site);
         let placed = PlacedForce::new(name, element, site, turned);
         self.elements.block = self.elements.block.max(placed.columns.len());
         self.elements.forces.push(placed);
@@ -264,7 +269,7 @@ impl Builder {
         offset: impl Fn(&Function) -> f64,
         turning: bool,
     ) -> Site {
-        let (first_slot, first) = (self.elements.n_slots, self.elements.functions.len());
+        let (first_slot, first) = (self.elements.n_slots, self.elements.given.len());
         self.elements.n_slots += bodies.len();
         for function in functions {
             self.layout.break_times.extend(function.break_times());
@@ -273,19 +278,37 @@ impl Builder {
             } else {
                 &[FunctionForm::Value]
             };
-            let functions = forms.iter().map(|&form| TimeFunction {
-                function: function.clone(),
-                offset: offset(function),
-                form,
+            let given = forms.iter().map(|&form| {
+                Given::Function(TimeFunction {
+                    function: function.clone(),
+                    offset: offset(function),
+                    form,
+                })
             });
-            self.elements.functions.extend(functions);
+            self.elements.given.extend(given);
         }
         Site {
             space: self.layout.space,
             bodies: bodies.to_vec(),
             slots: first_slot..self.elements.n_slots,
-            functions: first..self.elements.functions.len(),
+            functions: first..self.elements.given.len(),
         }
+    }
+
+    /// Gives an element its counted angles, after its functions of time.
+    fn count(&mut self, owner: Owner, turns: usize, site: &mut Site) {
+        for number in 0..turns {
+            let first = self.elements.given.len();
+            self.elements
+                .given
+                .extend([Given::Counted, Given::Counted, Given::Counted]);
+            self.elements.counted.push(CountedAngle {
+                owner,
+                number,
+                first,
+            });
+        }
+        site.functions.end = self.elements.given.len();
     }
 
     /// The mechanism of these bodies and of constraints whose rows are numbered; initial values and
@@ -297,7 +320,8 @@ impl Builder {
         weight: Vec<f64>,
     ) -> Mechanism {
         let space = self.layout.space;
-        self.layout.n_q = space.n_q() * bodies.len();
+        self.layout.turns = self.elements.counted.len();
+        self.layout.n_q = space.n_q() * bodies.len() + self.layout.turns;
         self.layout.n_v = space.n_v() * bodies.len();
         self.layout.break_times.sort_by(f64::total_cmp);
         self.layout.break_times.dedup();

@@ -13,7 +13,7 @@ use crate::system::{Scratch, System};
 
 /// Takes initial values of joints, drives and forces from a configuration.
 pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
-    let bodies = Bodies::at(mechanism.space(), q);
+    let bodies = Bodies::at(mechanism.space(), mechanism.of_bodies(q));
     for c in &mut mechanism.elements.constraints {
         c.initialise(&bodies);
     }
@@ -29,7 +29,7 @@ pub(crate) fn unmet_requirement(
     mechanism: &Mechanism,
     q: &[f64],
 ) -> Option<(String, &'static str)> {
-    let bodies = Bodies::at(mechanism.space(), q);
+    let bodies = Bodies::at(mechanism.space(), mechanism.of_bodies(q));
     let groups = mechanism.layout.groups.iter();
     let constraints = mechanism.elements.constraints.iter().zip(groups);
     let mut of_constraints = constraints
@@ -44,7 +44,7 @@ pub(crate) fn unmet_requirement(
 
 /// Rows of the constraints with a requirement that a configuration does not satisfy, ascending.
 pub(crate) fn unmet_rows(mechanism: &Mechanism, q: &[f64]) -> Vec<usize> {
-    let bodies = Bodies::at(mechanism.space(), q);
+    let bodies = Bodies::at(mechanism.space(), mechanism.of_bodies(q));
     let constraints = mechanism.elements.constraints.iter();
     let unmet = constraints.filter(|c| c.unmet_requirement(&bodies).is_some());
     unmet.flat_map(|c| c.rows.clone()).collect()

@@ -30,7 +30,7 @@ impl System for Mechanism {
             slots: Slots::new(
                 self.space(),
                 self.elements.n_slots,
-                self.elements.functions.len(),
+                self.elements.given.len(),
             ),
             spins: match self.space() {
                 SpaceKind::Space3 => vec![[0.0; 3]; self.bodies.len()],
@@ -49,11 +49,14 @@ impl System for Mechanism {
         s.slots.take(self.elements.sites(), &s.bodies);
         if s.jets_at != t {
             s.jets_at = t;
-            for (jet, f) in s.slots.jets.iter_mut().zip(&self.elements.functions) {
-                *jet = f.jet(t);
-                note(Counted::Function);
+            for (jet, given) in s.slots.jets.iter_mut().zip(&self.elements.given) {
+                if let Some(f) = given.function() {
+                    *jet = f.jet(t);
+                    note(Counted::Function);
+                }
             }
         }
+        self.count_turns(q, &mut s.slots);
     }
 
     fn phi(&self, s: &mut Scratch) {
@@ -135,10 +138,13 @@ impl System for Mechanism {
                 S::rate(q, v, qd);
             }
         });
+        self.rate_of_angles(q, v, qd);
     }
 
     fn displace(&self, q: &mut [f64], d: &[f64]) {
+        self.displace_angles(q, d);
         self.space().displace(q, d);
+        self.settle_angles(q);
     }
 
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]) {

@@ -5,7 +5,7 @@
 use linalg::DisjointSets;
 
 use super::build::Builder;
-use super::{FunctionForm, Mechanism};
+use super::{FunctionForm, Given, Mechanism};
 use crate::body::BodyRef;
 use crate::element::{PlacedForce, Site};
 use crate::function::Function;
@@ -108,12 +108,12 @@ impl Mechanism {
             .filter(|(_, c)| c.site.bodies.iter().any(is_here))
             .map(|(k, _)| k)
             .collect();
-        let forces = self.elements.forces.iter();
+        let forces = self.elements.forces.iter().enumerate();
         assembled(
             self,
             bodies,
             &groups,
-            forces.filter(|f| f.site.bodies.iter().any(is_here)),
+            forces.filter(|(_, f)| f.site.bodies.iter().any(is_here)),
         )
     }
 
@@ -144,7 +144,7 @@ fn assembled<'a>(
     whole: &Mechanism,
     bodies: &[usize],
     groups: &[usize],
-    forces: impl Iterator<Item = &'a PlacedForce>,
+    forces: impl Iterator<Item = (usize, &'a PlacedForce)>,
 ) -> Part {
     let here = |body: &BodyRef| match *body {
         BodyRef::Ground => Some(BodyRef::Ground),
@@ -177,7 +177,9 @@ fn assembled<'a>(
     for (label, &row) in b.layout.labels.iter_mut().zip(&rows) {
         label.clone_from(&whole.layout.labels[row]);
     }
-    for f in forces {
+    let mut own_forces = Vec::new();
+    for (k, f) in forces {
+        own_forces.push(k);
         let functions = laws(whole, &f.site);
         let to = translated(&f.name, &f.site.bodies);
         let turned = f.turned().cloned();
@@ -187,6 +189,8 @@ fn assembled<'a>(
         let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));
         each.collect()
     };
+    let mut coordinates = places(whole.space().n_q());
+    coordinates.extend(whole.counted_of(groups, &own_forces));
     let velocities = places(whole.space().n_v());
     let own = bodies.iter().map(|&k| whole.bodies[k].clone()).collect();
     let weight = velocities.iter().map(|&j| whole.weight[j]).collect();
@@ -196,7 +200,7 @@ fn assembled<'a>(
     mechanism.reach = bodies.iter().map(|&k| whole.reach[k]).collect();
     let places = Places {
         bodies: bodies.to_vec(),
-        coordinates: places(whole.space().n_q()),
+        coordinates,
         velocities,
         rows,
         groups: groups.to_vec(),
@@ -206,7 +210,8 @@ fn assembled<'a>(
 
 /// Functions of time of an element.
 fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
-    let functions = whole.elements.functions[site.functions.clone()].iter();
+    let given = whole.elements.given[site.functions.clone()].iter();
+    let functions = given.filter_map(Given::function);
     let whole = functions.filter(|f| f.form != FunctionForm::Sine);
     whole.map(|f| f.function.clone()).collect()
 }

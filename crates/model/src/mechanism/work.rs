@@ -46,7 +46,7 @@ impl Work {
         let (held, elements) = (&mechanism.held, &mechanism.elements);
         let mut work = Self {
             without_turning: (0..held.len()).filter(|&k| held[k]).collect(),
-            functions: elements.functions.len(),
+            functions: elements.functions().count(),
             forces: elements.forces.len(),
             ..Self::default()
         };

@@ -88,7 +88,7 @@ fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
 
 /// Distance of two configurations in these units.
 fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
-    let apart = mechanism.space().difference_of(a, b);
+    let apart = mechanism.difference_of(a, b);
     let shares = apart.iter().zip(units).map(|(d, unit)| d.abs() / unit);
     shares.fold(0.0, f64::max)
 }
@@ -165,7 +165,7 @@ fn truncated(
             return Ok(None);
         }
         // C·(q₀ + δ − q) + Φ = 0
-        let shift = mechanism.space().difference_of(described, &q);
+        let shift = mechanism.difference_of(described, &q);
         let moved = c.times(&shift);
         let misfit: Vec<f64> = (0..rows.len())
             .map(|i| (s.phi[rows[i]] + moved[i]) / scale(i))

@@ -224,7 +224,7 @@ fn step(
     };
     let rows = ground.holonomic();
     let there = nearest_configuration(mechanism, ground.t, &rows, &ahead, Metric::Length).ok()?;
-    let correction = mechanism.space().difference_of(&there, &ahead);
+    let correction = mechanism.difference_of(&there, &ahead);
     let mut lengths = correction
         .iter()
         .zip(units)

@@ -95,6 +95,7 @@ impl Constraint<Space3> for Ball {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [3, 3],
             [3, 4],

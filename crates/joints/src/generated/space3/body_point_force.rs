@@ -46,6 +46,7 @@ impl Force<Space3> for BodyPointForce {
         dq_dx: &[[0, 3], [0, 4], [0, 5], [1, 3], [1, 4], [1, 5], [2, 3], [2, 4], [2, 5]],
         dq_dv: &[],
         dissipative: false,
+        turns: 0,
         rheonomic: true,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -76,6 +76,7 @@ impl Constraint<Space3> for Distance {
         note: None,
         measures: &[Measure::kept("length", "DistanceLengthDrive")],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 0],
             [0, 3],
@@ -1768,6 +1769,7 @@ impl Constraint<Space3> for DistanceLengthDrive {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 0],
             [0, 3],

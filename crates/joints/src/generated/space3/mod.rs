@@ -49,6 +49,9 @@ pub use point_on_plane::*;
 pub mod revolute;
 pub use revolute::*;
 #[rustfmt::skip]
+pub mod screw;
+pub use screw::*;
+#[rustfmt::skip]
 pub mod spherical;
 pub use spherical::*;
 #[rustfmt::skip]
@@ -87,6 +90,7 @@ pub fn constraints<V: Visitor<Space3>>(visitor: &mut V) {
     visitor.constraint::<PointOnLine>();
     visitor.constraint::<PointOnPlane>();
     visitor.constraint::<Revolute>();
+    visitor.constraint::<Screw>();
     visitor.constraint::<Spherical>();
     visitor.constraint::<Translational>();
     visitor.constraint::<Universal>();

@@ -114,6 +114,7 @@ impl Constraint<Space3> for Planar {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 3],
             [0, 4],

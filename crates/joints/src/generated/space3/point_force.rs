@@ -46,6 +46,7 @@ impl Force<Space3> for PointForce {
         dq_dx: &[[3, 3], [3, 4], [3, 5], [4, 3], [4, 4], [4, 5], [5, 3], [5, 4], [5, 5]],
         dq_dv: &[],
         dissipative: false,
+        turns: 0,
         rheonomic: true,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -137,6 +137,7 @@ impl Constraint<Space3> for Revolute {
         note: None,
         measures: &[Measure::new("angle", "RevoluteAngleDrive")],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [3, 3],
             [3, 4],
@@ -1946,6 +1947,7 @@ impl Constraint<Space3> for RevoluteAngleDrive {
         note: None,
         measures: &[],
         turning: true,
+        turns: 0,
         d_force_dx: &[
             [3, 3],
             [3, 4],
@@ -2075,6 +2077,86 @@ impl Definition<Space3> for RevoluteAngleDrive {
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
+    }
+    fn turned(&self, k: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
+        match k {
+            0 => {
+                let rot_i_xx = x[0].rot[0][0];
+                let rot_i_xy = x[0].rot[0][1];
+                let rot_i_xz = x[0].rot[0][2];
+                let rot_i_yx = x[0].rot[1][0];
+                let rot_i_yy = x[0].rot[1][1];
+                let rot_i_yz = x[0].rot[1][2];
+                let rot_i_zx = x[0].rot[2][0];
+                let rot_i_zy = x[0].rot[2][1];
+                let rot_i_zz = x[0].rot[2][2];
+                let omega_i_x = v[0].omega[0];
+                let omega_i_y = v[0].omega[1];
+                let omega_i_z = v[0].omega[2];
+                let rot_j_xx = x[1].rot[0][0];
+                let rot_j_xy = x[1].rot[0][1];
+                let rot_j_xz = x[1].rot[0][2];
+                let rot_j_yx = x[1].rot[1][0];
+                let rot_j_yy = x[1].rot[1][1];
+                let rot_j_yz = x[1].rot[1][2];
+                let rot_j_zx = x[1].rot[2][0];
+                let rot_j_zy = x[1].rot[2][1];
+                let rot_j_zz = x[1].rot[2][2];
+                let omega_j_x = v[1].omega[0];
+                let omega_j_y = v[1].omega[1];
+                let omega_j_z = v[1].omega[2];
+                let axis_local_ux = self.axis.uvw()[0][0];
+                let axis_local_uy = self.axis.uvw()[0][1];
+                let axis_local_uz = self.axis.uvw()[0][2];
+                let axis_local_vx = self.axis.uvw()[1][0];
+                let axis_local_vy = self.axis.uvw()[1][1];
+                let axis_local_vz = self.axis.uvw()[1][2];
+                let axis_j_local_ux = self.axis_j.uvw()[0][0];
+                let axis_j_local_uy = self.axis_j.uvw()[0][1];
+                let axis_j_local_uz = self.axis_j.uvw()[0][2];
+                let cos_0 = self.measure_0[0];
+                let sin_0 = self.measure_0[1];
+                let axis_j_u_x = rot_j_xx * axis_j_local_ux + rot_j_xy * axis_j_local_uy
+                    + rot_j_xz * axis_j_local_uz;
+                let axis_j_u_y = rot_j_yx * axis_j_local_ux + rot_j_yy * axis_j_local_uy
+                    + rot_j_yz * axis_j_local_uz;
+                let axis_j_u_z = rot_j_zx * axis_j_local_ux + rot_j_zy * axis_j_local_uy
+                    + rot_j_zz * axis_j_local_uz;
+                let t0 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y
+                    + rot_i_zx * axis_j_u_z;
+                let t1 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y
+                    + rot_i_zy * axis_j_u_z;
+                let t2 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y
+                    + rot_i_zz * axis_j_u_z;
+                let t3 = axis_local_ux * t0 + axis_local_uy * t1 + axis_local_uz * t2;
+                let t4 = axis_local_vx * t0 + axis_local_vy * t1 + axis_local_vz * t2;
+                let t5 = cos_0 * t3 + sin_0 * t4;
+                let t6 = cos_0 * t4 - sin_0 * t3;
+                let t7 = omega_j_y * axis_j_local_uz - omega_j_z * axis_j_local_uy;
+                let t8 = omega_j_x * axis_j_local_uz - omega_j_z * axis_j_local_ux;
+                let t9 = omega_j_x * axis_j_local_uy - omega_j_y * axis_j_local_ux;
+                let t10 = rot_j_xx * t7 - rot_j_xy * t8 + rot_j_xz * t9;
+                let t11 = rot_j_yx * t7 - rot_j_yy * t8 + rot_j_yz * t9;
+                let t12 = rot_j_zx * t7 - rot_j_zy * t8 + rot_j_zz * t9;
+                let t13 = rot_i_xx * t10 + rot_i_yx * t11 + rot_i_zx * t12;
+                let t14 = rot_i_xy * t10 + rot_i_yy * t11 + rot_i_zy * t12;
+                let t15 = rot_i_xz * t10 + rot_i_yz * t11 + rot_i_zz * t12;
+                let t16 = axis_local_vx * t13 + axis_local_vy * t14 + axis_local_vz * t15
+                    + (t0 * (omega_i_y * axis_local_vz - omega_i_z * axis_local_vy)
+                        - t1 * (omega_i_x * axis_local_vz - omega_i_z * axis_local_vx)
+                        + t2 * (omega_i_x * axis_local_vy - omega_i_y * axis_local_vx));
+                let t17 = axis_local_ux * t13 + axis_local_uy * t14 + axis_local_uz * t15
+                    + (t0 * (omega_i_y * axis_local_uz - omega_i_z * axis_local_uy)
+                        - t1 * (omega_i_x * axis_local_uz - omega_i_z * axis_local_ux)
+                        + t2 * (omega_i_x * axis_local_uy - omega_i_y * axis_local_ux));
+                [
+                    t5,
+                    t6,
+                    t5 * (cos_0 * t16 - sin_0 * t17) - t6 * (cos_0 * t17 + sin_0 * t16),
+                ]
+            }
+            _ => [1.0, 0.0, 0.0],
+        }
     }
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s_i, self.s_j]

@@ -349,6 +349,7 @@ impl Force<Space3> for SpringDamper {
             [11, 11],
         ],
         dissipative: true,
+        turns: 0,
         rheonomic: false,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -34,6 +34,7 @@ impl Force<Space3> for Torque {
         dq_dx: &[[3, 4], [3, 5], [4, 3], [4, 5], [5, 3], [5, 4]],
         dq_dv: &[],
         dissipative: false,
+        turns: 0,
         rheonomic: true,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

@@ -47,6 +47,7 @@ impl Force<Space3> for TorqueBetween {
         ],
         dq_dv: &[],
         dissipative: false,
+        turns: 0,
         rheonomic: true,
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {

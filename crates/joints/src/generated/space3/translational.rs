@@ -156,6 +156,7 @@ impl Constraint<Space3> for Translational {
         note: None,
         measures: &[Measure::new("displacement", "TranslationalDisplacementDrive")],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 3],
             [0, 4],
@@ -3065,6 +3066,7 @@ impl Constraint<Space3> for TranslationalDisplacementDrive {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 3],
             [0, 4],

@@ -105,6 +105,7 @@ impl Constraint<Space3> for Universal {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [3, 3],
             [3, 4],

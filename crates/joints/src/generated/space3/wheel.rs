@@ -130,6 +130,7 @@ impl Constraint<Space3> for Wheel {
         note: None,
         measures: &[],
         turning: false,
+        turns: 0,
         d_force_dx: &[
             [0, 0],
             [0, 1],

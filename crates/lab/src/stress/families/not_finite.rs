@@ -42,6 +42,7 @@ struct Root;
 
 impl Law for Root {
     const SPEC: ForceSpec = ForceSpec {
+        turns: 0,
         common: Spec {
             name: "Root",
             scene_type: "root",
