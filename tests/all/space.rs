@@ -8,4 +8,5 @@ mod rolling;
 mod second_order;
 mod shafts;
 mod starts;
+mod turns;
 mod verdicts;

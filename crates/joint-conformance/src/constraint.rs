@@ -225,6 +225,7 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
         check.place()?;
         check.component()?;
         check.start()?;
+        check.turned()?;
         check.rows_balance()
     }
 

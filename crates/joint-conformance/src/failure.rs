@@ -35,6 +35,8 @@ pub enum Property {
     DGammaDv,
     /// `∂(C·v − b)/∂x`
     DVelocityDx,
+    /// Cosine, sine and rate of counted angles are those of one angle that moves.
+    Turned,
     /// `data` returns the numbers in the specification, and `set_data` sets them.
     Data,
     /// `∂(λᵀ·Φ)/∂p`
@@ -83,6 +85,7 @@ impl fmt::Display for Property {
             Self::DResidualDx => "d_residual_dx = ∂(C·a − Γ)/∂x",
             Self::DGammaDv => "d_gamma_dv = ∂Γ/∂v",
             Self::DVelocityDx => "d_velocity_dx = ∂(C·v − b)/∂x",
+            Self::Turned => "`turned` tells cosine, sine and rate of one angle that moves",
             Self::Data => {
                 "`data` tells the numbers that the facts name, and `set_data` puts numbers back"
             }

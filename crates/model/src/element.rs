@@ -29,6 +29,7 @@ use joints::{
 use linalg::Dd;
 
 use crate::body::{Body, DescribedBody, SpatialBody};
+use crate::coupling::{CouplingError, Measured, Placed, couple};
 use crate::law::{DriveForce, Law, LawError, build_law};
 use crate::space::SpaceKind;
 
@@ -66,6 +67,13 @@ pub trait BodySpace: joints::Space + Sized {
         arguments: &[Argument],
         law: Law,
     ) -> Result<Box<dyn ForceKernels<Self>>, LawError>;
+
+    /// The constraint by which the second measure follows the first.
+    #[doc(hidden)]
+    fn couple(
+        measures: [Measured<Self>; 2],
+        coefficients: &[f64],
+    ) -> Result<Placed<Self>, CouplingError>;
 }
 
 impl BodySpace for Plane {
@@ -99,6 +107,13 @@ impl BodySpace for Plane {
     ) -> Result<Box<dyn ForceKernels>, LawError> {
         build_law::<K, Self>(arguments, law)
     }
+
+    fn couple(
+        measures: [Measured<Self>; 2],
+        coefficients: &[f64],
+    ) -> Result<Placed<Self>, CouplingError> {
+        couple(measures, coefficients)
+    }
 }
 
 impl BodySpace for Space3 {
@@ -131,6 +146,13 @@ impl BodySpace for Space3 {
         law: Law,
     ) -> Result<Box<dyn ForceKernels<Self>>, LawError> {
         build_law::<K, Self>(arguments, law)
+    }
+
+    fn couple(
+        measures: [Measured<Self>; 2],
+        coefficients: &[f64],
+    ) -> Result<Placed<Self>, CouplingError> {
+        couple(measures, coefficients)
     }
 }
 

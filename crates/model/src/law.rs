@@ -100,6 +100,8 @@ const DEEPEST: usize = 64;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
     operations: Box<[Operation]>,
+    /// Whether the measure is counted from the start.
+    pub(crate) since_start: bool,
 }
 
 /// The force of a drive by a law, and what it depends on.
@@ -199,8 +201,18 @@ impl Law {
         match left {
             1 => Ok(Self {
                 operations: operations.into(),
+                since_start: false,
             }),
             left => Err(LawError::Incomplete { left }),
+        }
+    }
+
+    /// The same law of the change of the measure since the assembled start.
+    #[must_use]
+    pub fn since_start(self) -> Self {
+        Self {
+            since_start: true,
+            ..self
         }
     }
 

@@ -43,8 +43,9 @@
 
 mod body;
 pub mod codes;
+pub mod coupling;
 mod data;
-pub mod description;
+mod description;
 mod element;
 pub mod extended;
 pub mod frame;

@@ -10,6 +10,7 @@ use crate::arguments::Arguments;
 use crate::between::Between;
 use crate::body::Bodies;
 use crate::connection;
+use crate::coupling::COUPLING;
 use crate::direction::Directions;
 use crate::findings::Findings;
 use crate::function::Domain;
@@ -83,7 +84,7 @@ impl<'r, S: SceneSpace> Types<'r, S> {
             all,
             registry,
             kind: "joint",
-            known: names(registry.constraint_specs()),
+            known: with_coupling(names(registry.constraint_specs())),
             other: ("force", "force", names(registry.force_specs())),
         }
     }
@@ -106,6 +107,13 @@ fn names(specs: impl Iterator<Item = &'static Spec>) -> Vec<&'static str> {
     let mut types: Vec<_> = specs.map(|spec| spec.scene_type).collect();
     types.sort_unstable();
     types.dedup();
+    types
+}
+
+/// The types of joints with that of couplings, which have no definition.
+fn with_coupling(mut types: Vec<&'static str>) -> Vec<&'static str> {
+    let at = types.partition_point(|known| *known < COUPLING);
+    types.insert(at, COUPLING);
     types
 }
 

@@ -26,7 +26,7 @@ use crate::space::SceneSpace;
 use crate::table::Table;
 use crate::tolerance;
 
-const JOINT: Key =
+pub(crate) const JOINT: Key =
     Key::required("joint", "the name of a joint", Takes::Text).doc("The joint that is driven");
 const MOTION: Key = Key::optional("motion", "a function of time", Takes::Function)
     .doc("The measure is its initial value + f(t) − f(0); a number holds it (rad or m)");
@@ -59,8 +59,33 @@ pub(crate) struct Known<'r, S: SceneSpace> {
     /// Its bodies and arguments, if all could be read.
     complete: Option<(Vec<BodyRef>, Vec<Argument>)>,
     /// Tolerance of its data (m).
-    tolerance: Option<f64>,
+    pub(crate) tolerance: Option<f64>,
     pub(crate) is_active: bool,
+    /// Whether it couples measures of other joints.
+    pub(crate) is_coupling: bool,
+}
+
+impl<S: SceneSpace> Known<'_, S> {
+    /// A joint of which nothing but the name is known.
+    pub(crate) fn named(name: &str, table: &Table) -> Self {
+        Self {
+            name: name.to_owned(),
+            span: table.span_of("name"),
+            definition: None,
+            complete: None,
+            tolerance: None,
+            is_active: true,
+            is_coupling: false,
+        }
+    }
+
+    /// Its bodies, and its arguments with one for the motion of a drive of a measure.
+    pub(crate) fn with_motion(&self) -> Option<(Vec<BodyRef>, Vec<Argument>)> {
+        let (bodies, arguments) = self.complete.as_ref()?;
+        let mut arguments = arguments.clone();
+        arguments.push(Argument::Absent);
+        Some((bodies.clone(), arguments))
+    }
 }
 
 /// The joints that were read.
@@ -91,14 +116,7 @@ impl<'r, S: SceneSpace> Joints<'r, S> {
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
-        let mut known = Known {
-            name: name.to_owned(),
-            span: table.span_of("name"),
-            definition: None,
-            complete: None,
-            tolerance: None,
-            is_active: true,
-        };
+        let mut known = Known::named(name, &table);
         let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
             connection::check_names(&mut table, &bodies.names, findings);
             self.known.push(known);
@@ -159,7 +177,7 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         Self { list, by_name }
     }
 
-    fn get(&self, name: &str) -> Option<&'j Known<'r, S>> {
+    pub(crate) fn get(&self, name: &str) -> Option<&'j Known<'r, S>> {
         self.by_name.get(name).copied()
     }
 }
@@ -244,7 +262,8 @@ impl<S: SceneSpace> Drives<S> {
         }
         if is_active {
             domains.append(&mut own);
-            is_driven(&table, joint, findings);
+            let at = table.span_of(JOINT.name);
+            must_be_active(&table.subject, "drives", at, joint, findings);
         }
         let entry = Entry::switched(name, &table, is_active);
         table.close(findings);
@@ -252,6 +271,17 @@ impl<S: SceneSpace> Drives<S> {
             return;
         };
         let Some(definition) = joint.definition else {
+            if joint.is_coupling {
+                findings.error(
+                    Mistake::UnknownMeasure,
+                    span,
+                    format!(
+                        "drive `{name}`: `{}` is a coupling, which has no measure",
+                        joint.name
+                    ),
+                    "drive a measure of one of its joints",
+                );
+            }
             return;
         };
         let measures = || definition.spec.measures.iter().map(|m| m.name);
@@ -276,11 +306,9 @@ impl<S: SceneSpace> Drives<S> {
             );
             return;
         };
-        let (Some((bodies, arguments)), Some(action)) = (&joint.complete, action) else {
+        let (Some((bodies, arguments)), Some(action)) = (joint.with_motion(), action) else {
             return;
         };
-        let mut arguments = arguments.clone();
-        arguments.push(Argument::Absent);
         let Some(drive) = definition.drives.get(at) else {
             return findings.error(
                 Mistake::Registry,
@@ -388,27 +416,33 @@ fn warn_if_held(motion: &Field, function: &Function, findings: &mut Findings) {
     );
 }
 
-/// Reports a joint that is to be driven and is not active.
-fn is_driven<S: SceneSpace>(table: &Table, joint: Option<&Known<S>>, findings: &mut Findings) {
+/// Reports a joint that is to be driven or coupled and is not active.
+pub(crate) fn must_be_active<S: SceneSpace>(
+    subject: &str,
+    verb: &str,
+    at: Range<usize>,
+    joint: Option<&Known<S>>,
+    findings: &mut Findings,
+) {
     let Some(joint) = joint.filter(|joint| !joint.is_active) else {
         return;
     };
     let message = format!(
-        "{} drives joint `{}`, which is not active",
-        table.subject, joint.name
+        "{subject} {verb} joint `{}`, which is not active",
+        joint.name
     );
     findings.collision(
         Mistake::Inactive,
-        table.span_of(JOINT.name),
+        at,
         message,
-        "write `active = false` for the drive, too, or remove it from the joint",
+        "write `active = false` here, too, or remove it from the joint",
         joint.span.clone(),
         "this joint is not active",
     );
 }
 
 /// The dimension of a measure of a joint, if it has this measure.
-fn dimension<S: SceneSpace>(joint: &Known<S>, measure: &str) -> Option<Dimension> {
+pub(crate) fn dimension<S: SceneSpace>(joint: &Known<S>, measure: &str) -> Option<Dimension> {
     let definition = joint.definition?;
     let mut measures = definition.spec.measures.iter();
     let at = measures.position(|m| m.name == measure)?;
@@ -424,6 +458,16 @@ fn joint<'j, 'r, S: SceneSpace>(
 ) -> Option<&'j Known<'r, S>> {
     let field = table.required(&JOINT, findings)?;
     let name = field.text(JOINT.expected, findings)?;
+    of_name(name, &field, joints, findings)
+}
+
+/// The joint of this name, which stands in a field.
+pub(crate) fn of_name<'j, 'r, S: SceneSpace>(
+    name: &str,
+    field: &Field,
+    joints: &JointNames<'j, 'r, S>,
+    findings: &mut Findings,
+) -> Option<&'j Known<'r, S>> {
     let found = joints.get(name);
     if found.is_none() {
         let near = findings.suggest(name, joints.list.iter().map(|j| j.name.as_str()));
@@ -439,7 +483,7 @@ fn joint<'j, 'r, S: SceneSpace>(
         findings.error_with_help(
             Mistake::UnknownJoint,
             field.span(),
-            format!("{} refers to the unknown joint `{name}`", table.subject),
+            format!("{} refers to the unknown joint `{name}`", field.subject),
             label,
             match near {
                 Some(near) => Some(format!("did you mean `{}`?", near.name)),

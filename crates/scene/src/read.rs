@@ -13,6 +13,7 @@ use toml::de::DeTable;
 use crate::active;
 use crate::body::{Bodies, SceneBody};
 use crate::combination::{ReactionNames, Reactions};
+use crate::coupling;
 use crate::diagnostic::Diagnostic;
 use crate::element::Types;
 use crate::findings::Findings;
@@ -36,6 +37,7 @@ use crate::silence;
 use crate::simulate;
 use crate::source_map::{Entry, SourceMap};
 use crate::space::SceneSpace;
+use crate::spring;
 use crate::start;
 use crate::table::Table;
 use crate::text::SourceText;
@@ -264,25 +266,33 @@ impl<'r, S: SceneBody> Parts<'r, S> {
             measures.read(table, &name, S::KIND, &bodies.markers, findings);
         }
         let types = Types::of_joints(registry);
+        let mut couplings = Vec::new();
         for (table, name) in tables(root, &section::JOINT, findings) {
             names.elements.push(Use::of(&name, &table));
-            joints.read(table, &name, &types, bodies, domains, findings);
-        }
-        let driven = tables(root, &section::DRIVE, findings);
-        if !driven.is_empty() {
-            let by_name = JointNames::of(joints);
-            for (table, name) in driven {
-                names.elements.push(Use::of(&name, &table));
-                drives.read(table, &name, &by_name, domains, findings);
+            match coupling::Found::of(table, name, joints) {
+                Ok(found) => couplings.push(found),
+                Err((table, name)) => {
+                    joints.read(table, &name, &types, bodies, domains, findings);
+                }
             }
-            joints.leave_out(&drives.replaced);
-            *forces = std::mem::take(&mut drives.laws);
         }
+        coupling::read(couplings, joints, findings);
+        let by_name = JointNames::of(joints);
+        for (table, name) in tables(root, &section::DRIVE, findings) {
+            names.elements.push(Use::of(&name, &table));
+            drives.read(table, &name, &by_name, domains, findings);
+        }
+        *forces = std::mem::take(&mut drives.laws);
         let types = Types::of_forces(registry);
         for (table, name) in tables(root, &section::FORCE, findings) {
             names.elements.push(Use::of(&name, &table));
-            forces.read(table, &name, &types, bodies, domains, findings);
+            if spring::is_meant::<S>(&table) {
+                forces.read_spring(table, &name, &by_name, findings);
+            } else {
+                forces.read(table, &name, &types, bodies, domains, findings);
+            }
         }
+        joints.leave_out(&drives.replaced);
         parts
     }
 

@@ -8,7 +8,7 @@ mod value;
 use std::collections::{BTreeMap, BTreeSet};
 
 use joints::{Plane, Space3};
-use model::{Definitions, Registry};
+use model::{Definitions, Registry, SpaceKind};
 use serde_json::{Map, Value, json};
 
 use crate::active::ACTIVE;
@@ -23,7 +23,7 @@ use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
 use crate::silence;
 use crate::space::SceneSpace;
-use crate::{marker, measure, simulate, start, tolerance};
+use crate::{coupling, marker, measure, simulate, spring, start, tolerance};
 use element::{Kind, elements};
 use value::{described, reference};
 
@@ -102,9 +102,9 @@ fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Val
         named("Body", S::BODY_KEYS),
         named("Marker", marker::keys(S::KIND)),
         named("Measure", &measure::keys(S::KIND)),
-        elements(registry, Kind::Joint),
+        with_coupling(elements(registry, Kind::Joint)),
         drive(registry),
-        elements(registry, Kind::Force),
+        with_springs::<S>(elements(registry, Kind::Force)),
     ];
     let mut properties = Map::new();
     for (Section { name, doc }, definition) in OF_SPACE.into_iter().zip(tables) {
@@ -122,6 +122,38 @@ fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Val
     definitions.insert(value::name_in::<S>("point"), value::point::<S>());
     definitions.insert(value::name_in::<S>("place"), value::place::<S>());
     properties.into()
+}
+
+/// The joints, with the table of couplings, which have no definition.
+fn with_coupling(mut joints: Value) -> Value {
+    let keys = [&coupling::KEYS[..], &[tolerance::OF_JOINT, ACTIVE]].concat();
+    let mut own = named("Joint `coupling`", &keys);
+    own["properties"][TYPE] = json!({
+        "const": coupling::COUPLING,
+        "description": "A measure of one joint follows a measure of another",
+    });
+    require(&mut own, TYPE);
+    if let Some(tables) = joints["oneOf"].as_array_mut() {
+        tables.push(own);
+    }
+    joints
+}
+
+/// The forces, in space with the table of springs on angles, which have no definition.
+fn with_springs<S: SceneSpace>(mut forces: Value) -> Value {
+    if S::KIND == SpaceKind::Space3 {
+        let keys = [&spring::KEYS[..], &[ACTIVE]].concat();
+        let mut own = named("Force `torsion-spring-damper`", &keys);
+        own["properties"][TYPE] = json!({
+            "const": spring::SPRING,
+            "description": "A spring and a damper on the angle of a joint",
+        });
+        require(&mut own, TYPE);
+        if let Some(tables) = forces["oneOf"].as_array_mut() {
+            tables.push(own);
+        }
+    }
+    forces
 }
 
 /// A section with this definition.

@@ -5,7 +5,7 @@
 use std::marker::PhantomData;
 
 use joints::Constraint;
-use joints::spec::DatumShape;
+use joints::spec::{DatumShape, Unit};
 
 use super::{Kernel, OfConstraint};
 use crate::block::{Block, dot};

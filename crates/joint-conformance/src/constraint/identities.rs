@@ -11,7 +11,14 @@ use crate::case::{Case, Kind};
 use crate::check::{Check, is_internal};
 use crate::derivative::DualNumbers;
 use crate::failure::{DUAL_TOLERANCE, Failure, Property};
+use crate::state::{Along, State};
 use crate::subject::{By, Subject};
+
+/// Time over which cosines and sines are differenced: rounding and curvature both change a rate of
+/// order one by less than 1e-8.
+const STEP: f64 = 1e-5;
+/// Largest error of such a rate.
+const OF_DIFFERENCE: f64 = 1e-7;
 
 impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     fn first(&self, kernel: Kernel) -> Block {
@@ -101,6 +108,30 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         self.identity(Property::Place, &found, &expected)
     }
 
+    /// The rate of each counted angle is c·ṡ − s·ċ of its cosine and sine, by differences.
+    pub(super) fn turned(&self) -> Result<(), Failure> {
+        let angles = K::SPEC.turns.max(usize::from(K::SPEC.turning));
+        if self.case.kind != Kind::Ordinary {
+            return Ok(());
+        }
+        let motion = &self.case.motions[0];
+        let at = |number: usize, tau: f64| {
+            let state = Along::Motion.state::<S, f64>(self.case, motion, tau);
+            let v = State::<S, f64>::twists(&state.v);
+            self.subject.0.turned(number, &state.x, &v)
+        };
+        for number in 0..angles {
+            let [before, now, after] = [-STEP, 0.0, STEP].map(|tau| at(number, tau));
+            let slope = |k: usize| (after[k] - before[k]) / (2.0 * STEP);
+            let expected = now[0] * slope(1) - now[1] * slope(0);
+            if (now[2] - expected).abs() > OF_DIFFERENCE {
+                let entry = format!("rate of counted angle {number}");
+                return Err(self.fact(Property::Turned, entry, [now[2], expected]));
+            }
+        }
+        Ok(())
+    }
+
     /// Only where Φ = 0: elsewhere two points that should coincide give the pair of forces a lever.
     pub(super) fn rows_balance(&self) -> Result<(), Failure> {
         let ordinary = self.case.kind == Kind::Ordinary;
@@ -183,6 +214,7 @@ pub(super) fn phi_at_start<K: Constraint<S>, S: Bodies>(
     let start = Case {
         x: check.case.start.clone(),
         f: vec![[0.0; 3]; check.case.f.len()],
+        counted: vec![0.0; check.case.counted.len()],
         ..check.case.clone()
     };
     check.with(&start).first(Kernel::Phi)

@@ -83,7 +83,8 @@ impl<K: Constraint<S>, S: Kinematics> Definition<S> for LawDrive<K> {
             let still = vec![S::twist(&[0.0; 6]); x.len()];
             let [cos, sin, _] = self.drive.turned(0, x, &still);
             self.drive.initialise(x);
-            self.measured = Measured::Turn(start + sin.atan2(cos));
+            let angle = start + sin.atan2(cos);
+            self.measured = Measured::Turn(if self.law.since_start { 0.0 } else { angle });
         } else {
             self.drive.initialise(x);
             let mut numbers = vec![0.0; K::SPEC.n_data()];
@@ -91,12 +92,14 @@ impl<K: Constraint<S>, S: Kinematics> Definition<S> for LawDrive<K> {
             let mut data = K::SPEC.data.iter().rev();
             let measure = K::SPEC.common.scene_type;
             self.measured = match data.find(|d| d.name == OF_ROW || d.name == measure) {
+                Some(datum) if datum.name == OF_ROW && self.law.since_start => Measured::ByRow,
                 Some(datum) if datum.name == OF_ROW => {
                     // Then its row is the measure itself.
                     numbers[datum.first] = 0.0;
                     self.drive.set_data(&numbers);
                     Measured::ByRow
                 }
+                _ if self.law.since_start => Measured::Kept(0.0),
                 found => Measured::Kept(found.map_or(0.0, |datum| numbers[datum.first])),
             };
         }

@@ -1,0 +1,147 @@
+//! Couplings: a measure of one joint follows a measure of another by a polynomial, as the wheels of a
+//! gear train, a rack, or a cam of few terms.
+//!
+//! A drive states its measure by the row measure − initial measure − motion, or for an angle in space
+//! by the sine of what is left of the angle ([`joints::spec::ConstraintSpec::turning`]). A coupling
+//! has the kernels of two drives, x and y their measures since the start, and the row
+//! `y − (ratio·x + c₂·x² + …) = 0`.
+
+mod element;
+mod facts;
+mod polynomial;
+mod side;
+
+use joints::{Plane, Space3};
+
+use crate::body::BodyRef;
+use crate::element::{BodySpace, ConstraintKernels, Kinematics};
+use facts::facts;
+use polynomial::Polynomial;
+use side::Side;
+
+/// A coupling of two measures.
+#[derive(Clone)]
+struct Coupling<S: BodySpace> {
+    /// The measure x, and y that follows it.
+    sides: [Side<S>; 2],
+    law: Polynomial,
+    /// How the joint of y meets the first body: with its first body (1), with its second (−1), or
+    /// not at all.
+    meets: f64,
+    facts: &'static facts::Facts,
+}
+
+/// A measure that can be coupled: the bodies of its joint, and the kernels of its drive.
+pub type Measured<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
+
+/// A constraint with its bodies.
+pub type Placed<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
+
+/// Error in the measures or numbers of a coupling.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CouplingError {
+    /// A measure whose drive has other rows than one of its own between two bodies.
+    #[error(
+        "`{definition}` has {rows} rows and {slots} bodies: a coupling takes measures that have one \
+         row of their own between two bodies, such as the angle of a revolute joint or the \
+         displacement of a slider"
+    )]
+    Measure {
+        /// The definition of the drive.
+        definition: &'static str,
+        /// Number of its rows.
+        rows: usize,
+        /// Number of its bodies.
+        slots: usize,
+    },
+    /// No coefficient, or one that is not finite.
+    #[error("the ratio of a coupling and its coefficients are finite numbers, not all zero")]
+    Coefficients,
+}
+
+/// The constraint by which the second measure follows the first: their changes since the start
+/// satisfy `y = Σ coefficients[k]·xᵏ⁺¹`.
+///
+/// # Errors
+/// - [`CouplingError::Measure`]: a measure has no row of its own.
+/// - [`CouplingError::Coefficients`]: a coefficient is not finite, or all are zero.
+#[allow(private_bounds)]
+pub(crate) fn couple<S: Kinematics>(
+    measures: [Measured<S>; 2],
+    coefficients: &[f64],
+) -> Result<Placed<S>, CouplingError>
+where
+    Coupling<S>: ConstraintKernels<S>,
+{
+    let law = Polynomial::new(coefficients).ok_or(CouplingError::Coefficients)?;
+    let mut bodies: Vec<BodyRef> = Vec::new();
+    let mut slots = Vec::new();
+    for (own, drive) in &measures {
+        let spec = drive.spec();
+        let is_single = spec.rows.len() == 1 && spec.holonomic == 1 && own.len() == 2;
+        if !is_single || spec.common.slots.len() != 2 || spec.common.functions().count() != 1 {
+            return Err(CouplingError::Measure {
+                definition: spec.common.name,
+                rows: spec.rows.len(),
+                slots: spec.common.slots.len(),
+            });
+        }
+        let mut of = |body: &BodyRef| {
+            let known = bodies.iter().position(|b| b == body);
+            known.unwrap_or_else(|| {
+                bodies.push(*body);
+                bodies.len() - 1
+            })
+        };
+        let own: Vec<usize> = own.iter().map(&mut of).collect();
+        slots.push([own[0], own[1]]);
+    }
+    let [(_, x), (_, y)] = measures;
+    let meets = match slots[1] {
+        [0, _] => 1.0,
+        [_, 0] => -1.0,
+        _ => 0.0,
+    };
+    let facts = facts(
+        [x.spec(), y.spec()],
+        [slots[0], slots[1]],
+        bodies.len(),
+        &law,
+    );
+    let first = [0, x.spec().n_data()];
+    let turns = [0, usize::from(x.spec().turning)];
+    let x = Side::new(x, slots[0], first[0], turns[0], facts);
+    let y = Side::new(y, slots[1], first[1], turns[1], facts);
+    let coupling = Coupling {
+        sides: [x, y],
+        law,
+        meets,
+        facts,
+    };
+    Ok((bodies, Box::new(coupling)))
+}
+
+/// The kernels of a coupling as those of a constraint of a space. A downstream crate might make a
+/// coupling a definition of its own space, so this cannot be said of all spaces at once.
+macro_rules! constraint_kernels {
+    ($space:ident) => {
+        impl ConstraintKernels<$space> for Coupling<$space> {
+            fn extended(&self) -> &dyn joints::Element<linalg::Dd, $space> {
+                self
+            }
+            fn magnitude(&self) -> &dyn joints::Element<joints::Magnitude, $space> {
+                self
+            }
+            fn recorded(&self) -> &dyn joints::Element<joints::Recorded, $space> {
+                self
+            }
+            fn boxed(&self) -> Box<dyn ConstraintKernels<$space>> {
+                Box::new(self.clone())
+            }
+        }
+    };
+}
+
+constraint_kernels!(Plane);
+constraint_kernels!(Space3);

@@ -1,0 +1,250 @@
+//! The facts of couplings. Those of a definition are constants; those of a coupling depend on its two
+//! measures, and are made once for each pair and kept.
+
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
+
+use joints::spec::{
+    ConstraintSpec, Datum, DatumShape, Entry, Parameter, Role, Row, Shape, Spec, Unit,
+};
+
+use super::polynomial::Polynomial;
+
+/// The facts of a coupling with the patterns of its kernels.
+pub(super) struct Facts {
+    pub(super) spec: ConstraintSpec,
+    /// Velocities of a body.
+    n_dof: usize,
+    /// The entry of the row for each column.
+    entry_of: Vec<Option<usize>>,
+}
+
+impl Facts {
+    /// The entry of the row for a freedom of a slot; it exists for entries of the measures.
+    pub(super) fn entry(&self, slot: usize, dof: usize) -> usize {
+        self.entry_of[self.column(slot, dof)].unwrap_or_default()
+    }
+
+    pub(super) fn column(&self, slot: usize, dof: usize) -> usize {
+        self.n_dof * slot + dof
+    }
+
+    /// Column of the block for a column of the block of a measure.
+    pub(super) fn of_side(&self, slots: [usize; 2], column: usize) -> usize {
+        self.column(slots[column / self.n_dof], column % self.n_dof)
+    }
+}
+
+/// Names of the slots of a coupling.
+const SLOTS: [&str; 4] = ["i", "j", "k", "l"];
+
+/// All facts that were made: at most one set for each pair of measures, each way in which they share
+/// bodies and each degree.
+static KEPT: Mutex<Option<HashMap<String, &'static Facts>>> = Mutex::new(None);
+
+/// The facts of the coupling of two measures, whose bodies are in these slots.
+pub(super) fn facts(
+    measures: [&'static ConstraintSpec; 2],
+    slots: [[usize; 2]; 2],
+    n_slots: usize,
+    law: &Polynomial,
+) -> &'static Facts {
+    let [x, y] = measures;
+    let key = format!(
+        "{}.{} {}.{} {slots:?} {} {}",
+        x.common.name,
+        x.c.len(),
+        y.common.name,
+        y.c.len(),
+        law.degree(),
+        x.common.parameters.len(),
+    );
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let kept = kept.get_or_insert_default();
+    *kept
+        .entry(key)
+        .or_insert_with(|| Box::leak(Box::new(made(measures, slots, n_slots, law.degree()))))
+}
+
+fn made(
+    measures: [&'static ConstraintSpec; 2],
+    slots: [[usize; 2]; 2],
+    n_slots: usize,
+    degree: usize,
+) -> Facts {
+    let widest = measures.iter().flat_map(|m| m.wrench).map(|w| w[0] + 1);
+    let deepest = measures.iter().flat_map(|m| m.c).map(|e| e.dof + 1);
+    // Bodies of the plane have three velocities, bodies in space six.
+    let n_dof = if widest.chain(deepest).max().unwrap_or(0) > 3 {
+        6
+    } else {
+        3
+    };
+    let columns = n_dof * n_slots;
+    let mut facts = Facts {
+        spec: ConstraintSpec {
+            common: common(measures, slots, n_slots),
+            ..PLAIN
+        },
+        n_dof,
+        entry_of: vec![None; columns],
+    };
+    let mut row: Vec<usize> = Vec::new();
+    for (measure, slots) in measures.iter().zip(slots) {
+        row.extend(measure.c.iter().map(|e| facts.column(slots[e.slot], e.dof)));
+    }
+    row.sort_unstable();
+    row.dedup();
+    for (entry, &column) in row.iter().enumerate() {
+        facts.entry_of[column] = Some(entry);
+    }
+    let c = row.iter().map(|k| Entry::varying(0, k / n_dof, k % n_dof));
+    // The gradient of x times itself comes with the curvature of the polynomial.
+    let own = &measures[0].c;
+    let of_x = |e: &Entry| facts.column(slots[0][e.slot], e.dof);
+    let outer = own
+        .iter()
+        .flat_map(|a| own.iter().map(move |b| [of_x(a), of_x(b)]));
+    let outer: Vec<[usize; 2]> = if degree > 1 {
+        outer.collect()
+    } else {
+        Vec::new()
+    };
+    let blocks = |of: fn(&ConstraintSpec) -> &'static [[usize; 2]]| {
+        let mut pairs = outer.clone();
+        for (measure, slots) in measures.iter().zip(slots) {
+            let own = of(measure).iter();
+            pairs.extend(own.map(|&[a, b]| [facts.of_side(slots, a), facts.of_side(slots, b)]));
+        }
+        kept(sorted(pairs))
+    };
+    let rows = |of: fn(&ConstraintSpec) -> &'static [[usize; 2]]| {
+        let mut pairs: Vec<[usize; 2]> = Vec::new();
+        if degree > 1 {
+            pairs.extend(own.iter().map(|e| [0, of_x(e)]));
+        }
+        for (measure, slots) in measures.iter().zip(slots) {
+            let own = of(measure).iter();
+            pairs.extend(own.map(|&[_, b]| [0, facts.of_side(slots, b)]));
+        }
+        kept(sorted(pairs))
+    };
+    let wrench: Vec<[usize; 2]> = (0..n_dof).map(|k| [k, 0]).collect();
+    let spec = ConstraintSpec {
+        c: kept(c.collect()),
+        wrench: kept(wrench),
+        turns: measures.iter().filter(|m| m.turning).count(),
+        d_force_dx: blocks(|m| m.d_force_dx),
+        d_residual_dx: rows(|m| m.d_residual_dx),
+        d_gamma_dv: rows(|m| m.d_gamma_dv),
+        d_velocity_dx: rows(|m| m.d_velocity_dx),
+        data: kept(data(measures, slots, degree)),
+        ..facts.spec
+    };
+    facts.spec = spec;
+    facts
+}
+
+/// What all couplings have in common.
+const PLAIN: ConstraintSpec = ConstraintSpec {
+    common: Spec {
+        name: "Coupling",
+        scene_type: "coupling",
+        variant: None,
+        doc: "A measure of one joint follows a measure of another, both since the start.",
+        text: "",
+        slots: &[],
+        parameters: &[],
+        points_apart: false,
+        requirements: &[],
+    },
+    role: Role::Joint,
+    rows: &[Row::keeping_start("coupling")],
+    holonomic: 1,
+    c: &[],
+    rheonomic: false,
+    wrench: &[],
+    component: Some("load"),
+    note: Some(
+        "the load of a coupling acts along the measure that follows, and along the other one times \
+         the ratio, without forces of teeth or threads",
+    ),
+    measures: &[],
+    turning: false,
+    turns: 0,
+    d_force_dx: &[],
+    d_residual_dx: &[],
+    d_gamma_dv: &[],
+    d_velocity_dx: &[],
+    data: &[],
+};
+
+fn kept<T>(list: Vec<T>) -> &'static [T] {
+    Box::leak(list.into_boxed_slice())
+}
+
+fn sorted(mut pairs: Vec<[usize; 2]>) -> Vec<[usize; 2]> {
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// Parameters of both joints, without the motions of their drives, for what asks where points are.
+fn common(measures: [&'static ConstraintSpec; 2], slots: [[usize; 2]; 2], n_slots: usize) -> Spec {
+    let mut parameters: Vec<Parameter> = Vec::new();
+    for (measure, slots) in measures.iter().zip(slots) {
+        let first = parameters.len();
+        let own = measure.common.parameters;
+        let own = own.split_last().map_or(own, |(_, own)| own);
+        parameters.extend(own.iter().map(|parameter| Parameter {
+            shape: match parameter.shape {
+                Shape::Point { slot } => Shape::Point { slot: slots[slot] },
+                Shape::Direction { slot } => Shape::Direction { slot: slots[slot] },
+                Shape::Axes { slot, like } => Shape::Axes {
+                    slot: slots[slot],
+                    like: like.map(|like| first + like),
+                },
+                other => other,
+            },
+            ..*parameter
+        }));
+    }
+    Spec {
+        slots: &SLOTS[..n_slots],
+        parameters: kept(parameters),
+        ..PLAIN.common
+    }
+}
+
+/// The numbers of both drives, then ratio and coefficients.
+fn data(
+    measures: [&'static ConstraintSpec; 2],
+    slots: [[usize; 2]; 2],
+    degree: usize,
+) -> Vec<Datum> {
+    let mut data: Vec<Datum> = Vec::new();
+    let mut first = 0;
+    for (measure, slots) in measures.iter().zip(slots) {
+        data.extend(measure.data.iter().map(|datum| {
+            let shape = match datum.shape {
+                DatumShape::Point { slot } => DatumShape::Point { slot: slots[slot] },
+                DatumShape::Direction { slot } => DatumShape::Direction { slot: slots[slot] },
+                DatumShape::Axes { slot } => DatumShape::Axes { slot: slots[slot] },
+                DatumShape::KeptVector { slot } => DatumShape::KeptVector { slot: slots[slot] },
+                other => other,
+            };
+            Datum::new(datum.name, shape, first + datum.first, datum.count)
+        }));
+        first += measure.n_data();
+    }
+    let names = ["ratio"]
+        .into_iter()
+        .chain(std::iter::repeat("coefficient"));
+    data.extend(
+        names
+            .take(degree)
+            .enumerate()
+            .map(|(k, name)| Datum::new(name, DatumShape::Number(Unit::Ratio), first + k, 1)),
+    );
+    data
+}
