@@ -145,3 +145,6 @@ macro_rules! constraint_kernels {
 
 constraint_kernels!(Plane);
 constraint_kernels!(Space3);
+
+#[cfg(test)]
+mod tests;

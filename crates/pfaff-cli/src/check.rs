@@ -132,7 +132,7 @@ impl Checked {
             ok: true,
             scene: &self.scene,
             bodies: self.bodies,
-            coordinates: self.layout.n_q,
+            coordinates: self.layout.n_q - self.layout.turns,
             holonomic_rows: self.layout.m,
             nonholonomic_rows: self.layout.h,
             start_correction: self.position,

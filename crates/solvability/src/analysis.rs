@@ -143,7 +143,7 @@ impl Analysis {
         let mut analysis = Self {
             time: t,
             bodies: mechanism.bodies().len(),
-            coordinates: layout.n_q,
+            coordinates: layout.n_q - layout.turns,
             velocities: layout.n_v,
             size: 0.0,
             tolerance: mechanism.tolerance(),

@@ -99,7 +99,11 @@ fn a_screw_has_one_freedom_and_its_thread_carries_a_couple() {
         .expect("analysed")
         .analysis;
     assert_eq!(
-        (found.rank(), found.mobility(), found.redundancy()),
+        (
+            found.decision.rank,
+            found.mobility(),
+            found.decision.redundancy
+        ),
         (5, 1, 0)
     );
 }
@@ -213,7 +217,11 @@ fn a_train_keeps_its_ratio_over_two_hundred_turns() {
         .expect("analysed")
         .analysis;
     assert_eq!(
-        (found.rank(), found.mobility(), found.redundancy()),
+        (
+            found.decision.rank,
+            found.mobility(),
+            found.decision.redundancy
+        ),
         (11, 1, 0)
     );
     let names: Vec<&str> = found.reactions.iter().map(|r| r.name.as_str()).collect();

@@ -30,8 +30,9 @@ const FUNCTIONS: [(&str, usize); 11] = [
 const PLANE: [(&str, usize); 4] = [("angle", 1), ("start", 1), ("along", 1), ("perp", 1)];
 
 /// Names of the functions of space.
-const SPACE3: [(&str, usize); 6] = [
+const SPACE3: [(&str, usize); 7] = [
     ("angle", 2),
+    ("turn", 3),
     ("spin", 1),
     ("cross", 2),
     ("start", 1),
@@ -95,6 +96,16 @@ impl<'a> Scope<'a> {
                 Ok(Value::Scalar(self.model.inputs.slots[slot].pose[2]))
             }
             "angle" => self.angle_about(args[0], args[1]),
+            "turn" => {
+                let (about, from) = (self.vector(args[0])?, self.vector(args[1])?);
+                let to = self.vector(args[2])?;
+                let model = &mut self.model;
+                let across = from.cross(&mut model.g, &to, &model.turns);
+                Ok(Value::Angle {
+                    sin: about.dot(&mut model.g, &across, &model.turns),
+                    cos: from.dot(&mut model.g, &to, &model.turns),
+                })
+            }
             "spin" => {
                 let slot = self.slot_argument(args[0])?;
                 let omega = self.model.inputs.slots[slot].twist[3..].to_vec();

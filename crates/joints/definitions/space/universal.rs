@@ -11,9 +11,18 @@ joint! { space Universal(i, j) {
         /// The axis of the cross that is fixed in body j.
         cross: Direction in j,
     }
-    let k = dot(direction(i, axis), direction(j, cross));
+    let a = direction(i, axis);
+    let b = direction(j, cross);
+    let k = dot(a, b);
+    // The other axis of the cross, as it stood in each body at the start.
+    initial {
+        b_in_i: Vector in i = local(i, b),
+        a_in_j: Vector in j = local(j, a),
+    }
     require "the two axes of its cross do not lie along one line": 1.0 - k * k > 0.000001;
     rows: [x, y, z, cross];
     phi: [point(i, s_i) - point(j, s_j), k];
+    measure first: turn(a, vector(i, b_in_i), b);
+    measure second: turn(b, a, vector(j, a_in_j));
     place: point(i, s_i);
 } }

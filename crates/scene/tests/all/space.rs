@@ -105,6 +105,10 @@ fn every_type_is_read_and_built() {
             "constant-velocity",
             format!("{AB}{place}\naxes = {{ a = [1, 0, 0], b = [1, 1, 0] }}"),
         ),
+        (
+            "screw",
+            format!("{AB}{place}\naxis = [1, 0, 0]\npitch = 0.01"),
+        ),
     ];
     let forces = [
         (

@@ -23,6 +23,38 @@ pub struct Universal {
     pub axis: Direction,
     /// The axis of the cross that is fixed in body j. Unit vector in the frame of body j.
     pub cross: Direction,
+    /// Kept from the assembled start; set by `initialise`.
+    pub b_in_i: [f64; 3],
+    /// Kept from the assembled start; set by `initialise`.
+    pub a_in_j: [f64; 3],
+}
+impl Universal {
+    /// The drive of its first, with the same parameters.
+    #[must_use]
+    pub fn first_drive(&self) -> UniversalFirstDrive {
+        UniversalFirstDrive {
+            s_i: self.s_i,
+            s_j: self.s_j,
+            axis: self.axis,
+            cross: self.cross,
+            b_in_i: self.b_in_i,
+            a_in_j: self.a_in_j,
+            measure_0: [1.0, 0.0],
+        }
+    }
+    /// The drive of its second, with the same parameters.
+    #[must_use]
+    pub fn second_drive(&self) -> UniversalSecondDrive {
+        UniversalSecondDrive {
+            s_i: self.s_i,
+            s_j: self.s_j,
+            axis: self.axis,
+            cross: self.cross,
+            b_in_i: self.b_in_i,
+            a_in_j: self.a_in_j,
+            measure_0: [1.0, 0.0],
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for Universal {
@@ -32,7 +64,7 @@ impl Constraint<Space3> for Universal {
             scene_type: "universal",
             variant: None,
             doc: "Point `s_i` of body i and point `s_j` of body j coincide, and the axis of body i is perpendicular to the axis of body j: the two axes of a cross.",
-            text: "joint! { space Universal(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide, and the axis of body i is perpendicular to the axis\n    /// of body j: the two axes of a cross.\n    params {\n        /// The centre of the cross on body i.\n        s_i: Point in i,\n        /// The centre of the cross on body j.\n        s_j: Point in j,\n        /// The axis of the cross that is fixed in body i.\n        axis: Direction in i,\n        /// The axis of the cross that is fixed in body j.\n        cross: Direction in j,\n    }\n    let k = dot(direction(i, axis), direction(j, cross));\n    require \"the two axes of its cross do not lie along one line\": 1.0 - k * k > 0.000001;\n    rows: [x, y, z, cross];\n    phi: [point(i, s_i) - point(j, s_j), k];\n    place: point(i, s_i);\n} }",
+            text: "joint! { space Universal(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide, and the axis of body i is perpendicular to the axis\n    /// of body j: the two axes of a cross.\n    params {\n        /// The centre of the cross on body i.\n        s_i: Point in i,\n        /// The centre of the cross on body j.\n        s_j: Point in j,\n        /// The axis of the cross that is fixed in body i.\n        axis: Direction in i,\n        /// The axis of the cross that is fixed in body j.\n        cross: Direction in j,\n    }\n    let a = direction(i, axis);\n    let b = direction(j, cross);\n    let k = dot(a, b);\n    // The other axis of the cross, as it stood in each body at the start.\n    initial {\n        b_in_i: Vector in i = local(i, b),\n        a_in_j: Vector in j = local(j, a),\n    }\n    require \"the two axes of its cross do not lie along one line\": 1.0 - k * k > 0.000001;\n    rows: [x, y, z, cross];\n    phi: [point(i, s_i) - point(j, s_j), k];\n    measure first: turn(a, vector(i, b_in_i), b);\n    measure second: turn(b, a, vector(j, a_in_j));\n    place: point(i, s_i);\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
@@ -103,7 +135,10 @@ impl Constraint<Space3> for Universal {
         wrench: &[[0, 0], [1, 1], [2, 2], [3, 3], [4, 3], [5, 3]],
         component: None,
         note: None,
-        measures: &[],
+        measures: &[
+            Measure::new("first", "UniversalFirstDrive"),
+            Measure::new("second", "UniversalSecondDrive"),
+        ],
         turning: false,
         turns: 0,
         d_force_dx: &[
@@ -227,6 +262,8 @@ impl Constraint<Space3> for Universal {
             Datum::new("s_j", DatumShape::Point { slot: 1 }, 3, 3),
             Datum::new("axis", DatumShape::Direction { slot: 0 }, 6, 3),
             Datum::new("cross", DatumShape::Direction { slot: 1 }, 9, 3),
+            Datum::new("b_in_i", DatumShape::KeptVector { slot: 0 }, 12, 3),
+            Datum::new("a_in_j", DatumShape::KeptVector { slot: 1 }, 15, 3),
         ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
@@ -235,9 +272,19 @@ impl Constraint<Space3> for Universal {
         let s_j = reader.point3()?;
         let axis = reader.direction3()?;
         let cross = reader.direction3()?;
-        Ok(Self { s_i, s_j, axis, cross })
+        Ok(Self {
+            s_i,
+            s_j,
+            axis,
+            cross,
+            b_in_i: [0.0; 3],
+            a_in_j: [0.0; 3],
+        })
     }
-    fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
+    fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {
+        visitor.drive::<UniversalFirstDrive>();
+        visitor.drive::<UniversalSecondDrive>();
+    }
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {
         self
     }
@@ -247,7 +294,76 @@ impl Constraint<Space3> for Universal {
 }
 #[allow(unused_variables)]
 impl Definition<Space3> for Universal {
-    fn initialise(&mut self, x: &[Pose]) {}
+    fn initialise(&mut self, x: &[Pose]) {
+        self.b_in_i = {
+            let rot_i_xx = x[0].rot[0][0];
+            let rot_i_xy = x[0].rot[0][1];
+            let rot_i_xz = x[0].rot[0][2];
+            let rot_i_yx = x[0].rot[1][0];
+            let rot_i_yy = x[0].rot[1][1];
+            let rot_i_yz = x[0].rot[1][2];
+            let rot_i_zx = x[0].rot[2][0];
+            let rot_i_zy = x[0].rot[2][1];
+            let rot_i_zz = x[0].rot[2][2];
+            let rot_j_xx = x[1].rot[0][0];
+            let rot_j_xy = x[1].rot[0][1];
+            let rot_j_xz = x[1].rot[0][2];
+            let rot_j_yx = x[1].rot[1][0];
+            let rot_j_yy = x[1].rot[1][1];
+            let rot_j_yz = x[1].rot[1][2];
+            let rot_j_zx = x[1].rot[2][0];
+            let rot_j_zy = x[1].rot[2][1];
+            let rot_j_zz = x[1].rot[2][2];
+            let cross_local_x = self.cross.xyz()[0];
+            let cross_local_y = self.cross.xyz()[1];
+            let cross_local_z = self.cross.xyz()[2];
+            let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                + rot_j_xz * cross_local_z;
+            let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                + rot_j_yz * cross_local_z;
+            let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                + rot_j_zz * cross_local_z;
+            [
+                rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z,
+                rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z,
+                rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z,
+            ]
+        };
+        self.a_in_j = {
+            let rot_i_xx = x[0].rot[0][0];
+            let rot_i_xy = x[0].rot[0][1];
+            let rot_i_xz = x[0].rot[0][2];
+            let rot_i_yx = x[0].rot[1][0];
+            let rot_i_yy = x[0].rot[1][1];
+            let rot_i_yz = x[0].rot[1][2];
+            let rot_i_zx = x[0].rot[2][0];
+            let rot_i_zy = x[0].rot[2][1];
+            let rot_i_zz = x[0].rot[2][2];
+            let rot_j_xx = x[1].rot[0][0];
+            let rot_j_xy = x[1].rot[0][1];
+            let rot_j_xz = x[1].rot[0][2];
+            let rot_j_yx = x[1].rot[1][0];
+            let rot_j_yy = x[1].rot[1][1];
+            let rot_j_yz = x[1].rot[1][2];
+            let rot_j_zx = x[1].rot[2][0];
+            let rot_j_zy = x[1].rot[2][1];
+            let rot_j_zz = x[1].rot[2][2];
+            let axis_local_x = self.axis.xyz()[0];
+            let axis_local_y = self.axis.xyz()[1];
+            let axis_local_z = self.axis.xyz()[2];
+            let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+                + rot_i_xz * axis_local_z;
+            let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+                + rot_i_yz * axis_local_z;
+            let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+                + rot_i_zz * axis_local_z;
+            [
+                rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z,
+                rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z,
+                rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z,
+            ]
+        };
+    }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         match k {
             0 => {
@@ -275,18 +391,15 @@ impl Definition<Space3> for Universal {
                 let cross_local_x = self.cross.xyz()[0];
                 let cross_local_y = self.cross.xyz()[1];
                 let cross_local_z = self.cross.xyz()[2];
-                let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
                     + rot_j_xz * cross_local_z;
-                let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
                     + rot_j_yz * cross_local_z;
-                let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
                     + rot_j_zz * cross_local_z;
-                let k = axis_local_x
-                    * (rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z)
-                    + axis_local_y
-                        * (rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z)
-                    + axis_local_z
-                        * (rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z);
+                let k = axis_local_x * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
+                    + axis_local_y * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
+                    + axis_local_z * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z);
                 -(k * k - 1.0) > 0.000001
             }
             _ => true,
@@ -311,12 +424,20 @@ impl Definition<Space3> for Universal {
         out[9] = self.cross.xyz()[0];
         out[10] = self.cross.xyz()[1];
         out[11] = self.cross.xyz()[2];
+        out[12] = self.b_in_i[0];
+        out[13] = self.b_in_i[1];
+        out[14] = self.b_in_i[2];
+        out[15] = self.a_in_j[0];
+        out[16] = self.a_in_j[1];
+        out[17] = self.a_in_j[2];
     }
     fn set_data(&mut self, numbers: &[f64]) {
         self.s_i = [numbers[0], numbers[1], numbers[2]];
         self.s_j = [numbers[3], numbers[4], numbers[5]];
         self.axis = Direction::from_data([numbers[6], numbers[7], numbers[8]]);
         self.cross = Direction::from_data([numbers[9], numbers[10], numbers[11]]);
+        self.b_in_i = [numbers[12], numbers[13], numbers[14]];
+        self.a_in_j = [numbers[15], numbers[16], numbers[17]];
     }
 }
 #[allow(unused_variables)]
@@ -370,21 +491,18 @@ impl<T: Ring> Element<T, Space3> for Universal {
         let arm_j_y = rot_j_yx * s_j_x + rot_j_yy * s_j_y + rot_j_yz * s_j_z;
         let arm_i_z = rot_i_zx * s_i_x + rot_i_zy * s_i_y + rot_i_zz * s_i_z;
         let arm_j_z = rot_j_zx * s_j_x + rot_j_zy * s_j_y + rot_j_zz * s_j_z;
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
         out[0] = r_i_x - r_j_x + arm_i_x - arm_j_x;
         out[1] = r_i_y - r_j_y + arm_i_y - arm_j_y;
         out[2] = r_i_z - r_j_z + arm_i_z - arm_j_z;
-        out[3] = axis_local_x
-            * (rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z)
-            + axis_local_y
-                * (rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z)
-            + axis_local_z
-                * (rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z);
+        out[3] = axis_local_x * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
+            + axis_local_y * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
+            + axis_local_z * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z);
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {
@@ -429,24 +547,24 @@ impl<T: Ring> Element<T, Space3> for Universal {
         let cross_local_x = T::from(self.cross.xyz()[0]);
         let cross_local_y = T::from(self.cross.xyz()[1]);
         let cross_local_z = T::from(self.cross.xyz()[2]);
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
-        let t0 = rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z;
-        let t1 = rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z;
-        let t2 = rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z;
-        let axis_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+        let t0 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t1 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t2 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
-        let axis_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let axis_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
-        let t3 = rot_j_xz * axis_x + rot_j_yz * axis_y + rot_j_zz * axis_z;
-        let t4 = rot_j_xy * axis_x + rot_j_yy * axis_y + rot_j_zy * axis_z;
-        let t5 = rot_j_xx * axis_x + rot_j_yx * axis_y + rot_j_zx * axis_z;
+        let t3 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t4 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t5 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
         out[1] = -(rot_i_xy * s_i_z - rot_i_xz * s_i_y);
         out[2] = rot_i_xx * s_i_z - rot_i_xz * s_i_x;
         out[3] = -(rot_i_xx * s_i_y - rot_i_xy * s_i_x);
@@ -543,11 +661,11 @@ impl<T: Ring> Element<T, Space3> for Universal {
         let t27 = (rot_i_xx * t21 + rot_i_yx * t22 + rot_i_zx * t23) * t24
             - (rot_i_xy * t21 + rot_i_yy * t22 + rot_i_zy * t23) * t25
             + (rot_i_xz * t21 + rot_i_yz * t22 + rot_i_zz * t23) * t26;
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
         out[0] = -(rot_i_xx * t2 - rot_i_xy * t4 - rot_i_xz * t5
             - (rot_j_xx * t8 - rot_j_xy * t10 - rot_j_xz * t11));
@@ -558,11 +676,11 @@ impl<T: Ring> Element<T, Space3> for Universal {
         out[3] = -(axis_local_x * (rot_i_xx * t18 + rot_i_yx * t19 + rot_i_zx * t20)
             + axis_local_y * (rot_i_xy * t18 + rot_i_yy * t19 + rot_i_zy * t20)
             + axis_local_z * (rot_i_xz * t18 + rot_i_yz * t19 + rot_i_zz * t20) + t27
-            + ((rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z)
+            + ((rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
                 * (omega_i_y * t26 + omega_i_z * t25)
-                - (rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z)
+                - (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
                     * (omega_i_x * t26 - omega_i_z * t24)
-                - (rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z)
+                - (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z)
                     * (omega_i_x * t25 + omega_i_y * t24) + t27));
     }
     /// Entries of the wrench map. Operations: 33 mul, 21 add, 3 neg.
@@ -595,16 +713,16 @@ impl<T: Ring> Element<T, Space3> for Universal {
         let cross_local_x = T::from(self.cross.xyz()[0]);
         let cross_local_y = T::from(self.cross.xyz()[1]);
         let cross_local_z = T::from(self.cross.xyz()[2]);
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
-        let t0 = rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z;
-        let t1 = rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z;
+        let t0 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t1 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
         let t2 = axis_local_y * t0 - axis_local_z * t1;
-        let t3 = rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z;
+        let t3 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
         let t4 = axis_local_x * t0 - axis_local_z * t3;
         let t5 = axis_local_x * t1 - axis_local_y * t3;
         out[0] = T::from(-1.0);
@@ -643,7 +761,7 @@ impl<T: Ring> Element<T, Space3> for Universal {
     }
     /// ∂(λᵀΦ)/∂p. Operations: 60 mul, 36 add, 3 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        let out = &mut out[..12];
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -672,17 +790,17 @@ impl<T: Ring> Element<T, Space3> for Universal {
         let lambda_1 = lambda[1];
         let lambda_2 = lambda[2];
         let lambda_3 = lambda[3];
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
-        let axis_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
-        let axis_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let axis_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
         out[0] = rot_i_xx * lambda_0 + rot_i_yx * lambda_1 + rot_i_zx * lambda_2;
         out[1] = rot_i_xy * lambda_0 + rot_i_yy * lambda_1 + rot_i_zy * lambda_2;
@@ -690,15 +808,18 @@ impl<T: Ring> Element<T, Space3> for Universal {
         out[3] = -(rot_j_xx * lambda_0 + rot_j_yx * lambda_1 + rot_j_zx * lambda_2);
         out[4] = -(rot_j_xy * lambda_0 + rot_j_yy * lambda_1 + rot_j_zy * lambda_2);
         out[5] = -(rot_j_xz * lambda_0 + rot_j_yz * lambda_1 + rot_j_zz * lambda_2);
-        out[6] = lambda_3
-            * (rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z);
-        out[7] = lambda_3
-            * (rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z);
-        out[8] = lambda_3
-            * (rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z);
-        out[9] = lambda_3 * (rot_j_xx * axis_x + rot_j_yx * axis_y + rot_j_zx * axis_z);
-        out[10] = lambda_3 * (rot_j_xy * axis_x + rot_j_yy * axis_y + rot_j_zy * axis_z);
-        out[11] = lambda_3 * (rot_j_xz * axis_x + rot_j_yz * axis_y + rot_j_zz * axis_z);
+        out[6] = lambda_3 * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z);
+        out[7] = lambda_3 * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z);
+        out[8] = lambda_3 * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z);
+        out[9] = lambda_3 * (rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z);
+        out[10] = lambda_3 * (rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z);
+        out[11] = lambda_3 * (rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z);
+        out[12] = T::from(0.0);
+        out[13] = T::from(0.0);
+        out[14] = T::from(0.0);
+        out[15] = T::from(0.0);
+        out[16] = T::from(0.0);
+        out[17] = T::from(0.0);
     }
 }
 #[allow(unused_variables)]
@@ -741,15 +862,15 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let lambda_1 = lambda[1];
         let lambda_2 = lambda[2];
         let lambda_3 = lambda[3];
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
-        let t0 = rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z;
+        let t0 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
         let t1 = axis_local_y * t0;
-        let t2 = rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z;
+        let t2 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
         let t3 = axis_local_z * t2;
         let t4 = rot_i_xy * lambda_0 + rot_i_yy * lambda_1 + rot_i_zy * lambda_2;
         let t5 = s_i_y * t4;
@@ -757,7 +878,7 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t7 = s_i_z * t6;
         let t8 = rot_i_xx * lambda_0 + rot_i_yx * lambda_1 + rot_i_zx * lambda_2;
         let t9 = axis_local_y * lambda_3;
-        let t10 = rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z;
+        let t10 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
         let t11 = axis_local_z * lambda_3;
         let t12 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
         let t13 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
@@ -786,15 +907,15 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t36 = rot_i_xz * t33 + rot_i_yz * t34 + rot_i_zz * t35;
         let t37 = rot_i_xy * t33 + rot_i_yy * t34 + rot_i_zy * t35;
         let t38 = rot_i_xx * t33 + rot_i_yx * t34 + rot_i_zx * t35;
-        let axis_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
-        let axis_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let axis_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
-        let t39 = rot_j_xy * axis_x + rot_j_yy * axis_y + rot_j_zy * axis_z;
+        let t39 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
         let t40 = cross_local_y * t39;
-        let t41 = rot_j_xz * axis_x + rot_j_yz * axis_y + rot_j_zz * axis_z;
+        let t41 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
         let t42 = cross_local_z * t41;
         let t43 = rot_j_xy * lambda_0 + rot_j_yy * lambda_1 + rot_j_zy * lambda_2;
         let t44 = s_j_y * t43;
@@ -802,7 +923,7 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t46 = s_j_z * t45;
         let t47 = rot_j_xx * lambda_0 + rot_j_yx * lambda_1 + rot_j_zx * lambda_2;
         let t48 = cross_local_y * lambda_3;
-        let t49 = rot_j_xx * axis_x + rot_j_yx * axis_y + rot_j_zx * axis_z;
+        let t49 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
         let t50 = cross_local_z * lambda_3;
         let t51 = rot_j_xx * cross_local_z - rot_j_xz * cross_local_x;
         let t52 = rot_j_yx * cross_local_z - rot_j_yz * cross_local_x;
@@ -948,23 +1069,23 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t28 = rot_i_xz * t23 + rot_i_yz * t24 + rot_i_zz * t25;
         let t29 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
         let t30 = t26 * t27 + t28 * t29;
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
-        let t31 = rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z;
+        let t31 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
         let t32 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
         let t33 = omega_i_x * t29 + omega_i_y * t32
             - (alpha_i_x * axis_local_y - alpha_i_y * axis_local_x);
-        let t34 = rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z;
+        let t34 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
         let t35 = omega_i_x * t27 - omega_i_z * t32
             + (alpha_i_x * axis_local_z - alpha_i_z * axis_local_x);
         let t36 = rot_i_xx * t18 + rot_i_yx * t19 + rot_i_zx * t20;
         let t37 = rot_i_xx * t23 + rot_i_yx * t24 + rot_i_zx * t25;
         let t38 = t37 * t27 - t28 * t32;
-        let t39 = rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z;
+        let t39 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
         let t40 = omega_i_y * t27 + omega_i_z * t29
             + (alpha_i_y * axis_local_z - alpha_i_z * axis_local_y);
         let t41 = t37 * t29 + t26 * t32;
@@ -979,18 +1100,18 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t50 = rot_j_xy * t47 + rot_j_yy * t48 + rot_j_zy * t49;
         let t51 = rot_j_xz * t47 + rot_j_yz * t48 + rot_j_zz * t49;
         let t52 = t50 * t12 + t51 * t13;
-        let axis_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
-        let axis_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let axis_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
-        let t53 = rot_j_xy * axis_x + rot_j_yy * axis_y + rot_j_zy * axis_z;
-        let t54 = rot_j_xz * axis_x + rot_j_yz * axis_y + rot_j_zz * axis_z;
+        let t53 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t54 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
         let t55 = rot_j_xx * t42 + rot_j_yx * t43 + rot_j_zx * t44;
         let t56 = rot_j_xx * t47 + rot_j_yx * t48 + rot_j_zx * t49;
         let t57 = t56 * t12 - t51 * t15;
-        let t58 = rot_j_xx * axis_x + rot_j_yx * axis_y + rot_j_zx * axis_z;
+        let t58 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
         let t59 = t56 * t13 + t50 * t15;
         out[0] = rot_i_xy * t2 - rot_i_xz * t4;
         out[1] = -(rot_i_xx * t2 + rot_i_xz * t5);
@@ -1119,20 +1240,20 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t54 = rot_i_xz * t51 + rot_i_yz * t52 + rot_i_zz * t53;
         let t55 = rot_i_xy * t51 + rot_i_yy * t52 + rot_i_zy * t53;
         let t56 = axis_local_y * t54 - axis_local_z * t55;
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
-        let t57 = rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z;
+        let t57 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
         let t58 = omega_i_y * axis_local_y;
         let t59 = omega_i_z * axis_local_z;
-        let t60 = rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z;
+        let t60 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
         let t61 = omega_i_x * axis_local_y;
         let t62 = omega_i_y * axis_local_x;
         let t63 = t61 - t62;
-        let t64 = rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z;
+        let t64 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
         let t65 = omega_i_x * axis_local_z;
         let t66 = omega_i_z * axis_local_x;
         let t67 = t65 - t66;
@@ -1149,17 +1270,17 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t78 = rot_j_xz * t75 + rot_j_yz * t76 + rot_j_zz * t77;
         let t79 = rot_j_xy * t75 + rot_j_yy * t76 + rot_j_zy * t77;
         let t80 = cross_local_y * t78 - cross_local_z * t79;
-        let axis_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
-        let axis_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let axis_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
-        let t81 = rot_j_xx * axis_x + rot_j_yx * axis_y + rot_j_zx * axis_z;
+        let t81 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
         let t82 = omega_j_y * cross_local_y;
         let t83 = omega_j_z * cross_local_z;
-        let t84 = rot_j_xy * axis_x + rot_j_yy * axis_y + rot_j_zy * axis_z;
-        let t85 = rot_j_xz * axis_x + rot_j_yz * axis_y + rot_j_zz * axis_z;
+        let t84 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t85 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
         let t86 = rot_j_xx * t75 + rot_j_yx * t76 + rot_j_zx * t77;
         let t87 = cross_local_x * t78 - cross_local_z * t86;
         let t88 = omega_j_x * cross_local_x;
@@ -1248,34 +1369,34 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t11 = rot_j_zx * t6 - rot_j_zy * t7 + rot_j_zz * t8;
         let t12 = rot_i_xz * t9 + rot_i_yz * t10 + rot_i_zz * t11;
         let t13 = rot_i_xy * t9 + rot_i_yy * t10 + rot_i_zy * t11;
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
-        let t14 = rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z;
+        let t14 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
         let t15 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
-        let t16 = rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z;
+        let t16 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
         let t17 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
         let t18 = rot_i_xx * t9 + rot_i_yx * t10 + rot_i_zx * t11;
-        let t19 = rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z;
+        let t19 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
         let t20 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
         let t21 = rot_i_xx * t20 - rot_i_xy * t17 + rot_i_xz * t15;
         let t22 = rot_i_yx * t20 - rot_i_yy * t17 + rot_i_yz * t15;
         let t23 = rot_i_zx * t20 - rot_i_zy * t17 + rot_i_zz * t15;
         let t24 = rot_j_xz * t21 + rot_j_yz * t22 + rot_j_zz * t23;
         let t25 = rot_j_xy * t21 + rot_j_yy * t22 + rot_j_zy * t23;
-        let axis_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
-        let axis_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let axis_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
-        let t26 = rot_j_xy * axis_x + rot_j_yy * axis_y + rot_j_zy * axis_z;
-        let t27 = rot_j_xz * axis_x + rot_j_yz * axis_y + rot_j_zz * axis_z;
+        let t26 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t27 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
         let t28 = rot_j_xx * t21 + rot_j_yx * t22 + rot_j_zx * t23;
-        let t29 = rot_j_xx * axis_x + rot_j_yx * axis_y + rot_j_zx * axis_z;
+        let t29 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
         out[0] = -(rot_i_xy * t0 + rot_i_xz * t1);
         out[1] = rot_i_xx * t0 - rot_i_xz * t2;
         out[2] = rot_i_xx * t1 + rot_i_xy * t2;
@@ -1311,7 +1432,7 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         lambda: &[T],
         out: &mut [T],
     ) {
-        let out = &mut out[..12];
+        let out = &mut out[..18];
         let rot_i_xx = x[0].rot[0][0];
         let rot_i_xy = x[0].rot[0][1];
         let rot_i_xz = x[0].rot[0][2];
@@ -1406,15 +1527,15 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t48 = rot_i_xz * t45 + rot_i_yz * t46 + rot_i_zz * t47;
         let t49 = rot_i_xy * t45 + rot_i_yy * t46 + rot_i_zy * t47;
         let t50 = omega_i_y * t48 - omega_i_z * t49;
-        let cross_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
             + rot_j_xz * cross_local_z;
-        let cross_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
             + rot_j_yz * cross_local_z;
-        let cross_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
             + rot_j_zz * cross_local_z;
-        let t51 = rot_i_xz * cross_x + rot_i_yz * cross_y + rot_i_zz * cross_z;
-        let t52 = rot_i_xy * cross_x + rot_i_yy * cross_y + rot_i_zy * cross_z;
-        let t53 = rot_i_xx * cross_x + rot_i_yx * cross_y + rot_i_zx * cross_z;
+        let t51 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t52 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t53 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
         let t54 = rot_i_xx * t45 + rot_i_yx * t46 + rot_i_zx * t47;
         let t55 = omega_i_x * t48 - omega_i_z * t54;
         let t56 = omega_i_x * t49 - omega_i_y * t54;
@@ -1436,15 +1557,15 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         let t69 = rot_j_xz * t66 + rot_j_yz * t67 + rot_j_zz * t68;
         let t70 = rot_j_xy * t66 + rot_j_yy * t67 + rot_j_zy * t68;
         let t71 = omega_j_y * t69 - omega_j_z * t70;
-        let axis_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
             + rot_i_xz * axis_local_z;
-        let axis_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
             + rot_i_yz * axis_local_z;
-        let axis_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
             + rot_i_zz * axis_local_z;
-        let t72 = rot_j_xz * axis_x + rot_j_yz * axis_y + rot_j_zz * axis_z;
-        let t73 = rot_j_xy * axis_x + rot_j_yy * axis_y + rot_j_zy * axis_z;
-        let t74 = rot_j_xx * axis_x + rot_j_yx * axis_y + rot_j_zx * axis_z;
+        let t72 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t73 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t74 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
         let t75 = rot_j_xx * t66 + rot_j_yx * t67 + rot_j_zx * t68;
         let t76 = omega_j_x * t69 - omega_j_z * t75;
         let t77 = omega_j_x * t70 - omega_j_y * t75;
@@ -1472,5 +1593,6041 @@ impl<T: Ring> Derivatives<T, Space3> for Universal {
         out[11] = lambda_3
             * (rot_j_xz * t63 + rot_j_yz * t64 + rot_j_zz * t65 - t77
                 - (t77 + (t33 * t73 - t34 * t74 + t72 * t35)));
+        out[12] = T::from(0.0);
+        out[13] = T::from(0.0);
+        out[14] = T::from(0.0);
+        out[15] = T::from(0.0);
+        out[16] = T::from(0.0);
+        out[17] = T::from(0.0);
+    }
+}
+/// The first of `Universal` follows a function of time: sin(measure − initial measure − f(t)) = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UniversalFirstDrive {
+    /// The centre of the cross on body i. Point in the frame of body i (m).
+    pub s_i: [f64; 3],
+    /// The centre of the cross on body j. Point in the frame of body j (m).
+    pub s_j: [f64; 3],
+    /// The axis of the cross that is fixed in body i. Unit vector in the frame of body i.
+    pub axis: Direction,
+    /// The axis of the cross that is fixed in body j. Unit vector in the frame of body j.
+    pub cross: Direction,
+    /// Kept from the assembled start; set by `initialise`.
+    pub b_in_i: [f64; 3],
+    /// Kept from the assembled start; set by `initialise`.
+    pub a_in_j: [f64; 3],
+    /// Cosine and sine of the measure at the assembled start; set by `initialise`.
+    pub measure_0: [f64; 2],
+}
+#[allow(unused_variables)]
+impl Constraint<Space3> for UniversalFirstDrive {
+    const SPEC: ConstraintSpec = ConstraintSpec {
+        common: Spec {
+            name: "UniversalFirstDrive",
+            scene_type: "first",
+            variant: None,
+            doc: "The first of `Universal` follows a function of time: sin(measure − initial measure − f(t)) = 0.",
+            text: "",
+            slots: &["i", "j"],
+            parameters: &[
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "The centre of the cross on body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The centre of the cross on body j.",
+                ),
+                Parameter::required(
+                    "axis",
+                    Shape::Direction { slot: 0 },
+                    "The axis of the cross that is fixed in body i.",
+                ),
+                Parameter::required(
+                    "cross",
+                    Shape::Direction { slot: 1 },
+                    "The axis of the cross that is fixed in body j.",
+                ),
+                Parameter::required(
+                    "motion",
+                    Shape::Functions(&[Unit::Angle]),
+                    "The function of time that the measure follows.",
+                ),
+            ],
+            points_apart: false,
+            requirements: &["the two axes of its cross do not lie along one line"],
+        },
+        role: Role::Drive,
+        rows: &[Row::keeping_start("first")],
+        holonomic: 1,
+        c: &[
+            Entry::varying(0, 0, 3),
+            Entry::varying(0, 0, 4),
+            Entry::varying(0, 0, 5),
+            Entry::varying(0, 1, 3),
+            Entry::varying(0, 1, 4),
+            Entry::varying(0, 1, 5),
+        ],
+        rheonomic: true,
+        wrench: &[[3, 0], [4, 0], [5, 0]],
+        component: Some("drive"),
+        note: None,
+        measures: &[],
+        turning: true,
+        turns: 0,
+        d_force_dx: &[
+            [3, 3],
+            [3, 4],
+            [3, 5],
+            [3, 9],
+            [3, 10],
+            [3, 11],
+            [4, 3],
+            [4, 4],
+            [4, 5],
+            [4, 9],
+            [4, 10],
+            [4, 11],
+            [5, 3],
+            [5, 4],
+            [5, 5],
+            [5, 9],
+            [5, 10],
+            [5, 11],
+            [9, 3],
+            [9, 4],
+            [9, 5],
+            [9, 9],
+            [9, 10],
+            [9, 11],
+            [10, 3],
+            [10, 4],
+            [10, 5],
+            [10, 9],
+            [10, 10],
+            [10, 11],
+            [11, 3],
+            [11, 4],
+            [11, 5],
+            [11, 9],
+            [11, 10],
+            [11, 11],
+        ],
+        d_residual_dx: &[[0, 3], [0, 4], [0, 5], [0, 9], [0, 10], [0, 11]],
+        d_gamma_dv: &[[0, 3], [0, 4], [0, 5], [0, 9], [0, 10], [0, 11]],
+        d_velocity_dx: &[[0, 3], [0, 4], [0, 5], [0, 9], [0, 10], [0, 11]],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0, 3),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 3, 3),
+            Datum::new("axis", DatumShape::Direction { slot: 0 }, 6, 3),
+            Datum::new("cross", DatumShape::Direction { slot: 1 }, 9, 3),
+            Datum::new("b_in_i", DatumShape::KeptVector { slot: 0 }, 12, 3),
+            Datum::new("a_in_j", DatumShape::KeptVector { slot: 1 }, 15, 3),
+            Datum::new("measure_0", DatumShape::Kept(Unit::Angle), 18, 1),
+        ],
+    };
+    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
+        let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
+        let s_i = reader.point3()?;
+        let s_j = reader.point3()?;
+        let axis = reader.direction3()?;
+        let cross = reader.direction3()?;
+        reader.skip();
+        Ok(Self {
+            s_i,
+            s_j,
+            axis,
+            cross,
+            b_in_i: [0.0; 3],
+            a_in_j: [0.0; 3],
+            measure_0: [1.0, 0.0],
+        })
+    }
+    fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
+    fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {
+        self
+    }
+    fn derivatives<T: Ring>(&self) -> &dyn Derivatives<T, Space3> {
+        self
+    }
+}
+#[allow(unused_variables)]
+impl Definition<Space3> for UniversalFirstDrive {
+    fn initialise(&mut self, x: &[Pose]) {
+        self.b_in_i = {
+            let rot_i_xx = x[0].rot[0][0];
+            let rot_i_xy = x[0].rot[0][1];
+            let rot_i_xz = x[0].rot[0][2];
+            let rot_i_yx = x[0].rot[1][0];
+            let rot_i_yy = x[0].rot[1][1];
+            let rot_i_yz = x[0].rot[1][2];
+            let rot_i_zx = x[0].rot[2][0];
+            let rot_i_zy = x[0].rot[2][1];
+            let rot_i_zz = x[0].rot[2][2];
+            let rot_j_xx = x[1].rot[0][0];
+            let rot_j_xy = x[1].rot[0][1];
+            let rot_j_xz = x[1].rot[0][2];
+            let rot_j_yx = x[1].rot[1][0];
+            let rot_j_yy = x[1].rot[1][1];
+            let rot_j_yz = x[1].rot[1][2];
+            let rot_j_zx = x[1].rot[2][0];
+            let rot_j_zy = x[1].rot[2][1];
+            let rot_j_zz = x[1].rot[2][2];
+            let cross_local_x = self.cross.xyz()[0];
+            let cross_local_y = self.cross.xyz()[1];
+            let cross_local_z = self.cross.xyz()[2];
+            let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                + rot_j_xz * cross_local_z;
+            let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                + rot_j_yz * cross_local_z;
+            let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                + rot_j_zz * cross_local_z;
+            [
+                rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z,
+                rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z,
+                rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z,
+            ]
+        };
+        self.a_in_j = {
+            let rot_i_xx = x[0].rot[0][0];
+            let rot_i_xy = x[0].rot[0][1];
+            let rot_i_xz = x[0].rot[0][2];
+            let rot_i_yx = x[0].rot[1][0];
+            let rot_i_yy = x[0].rot[1][1];
+            let rot_i_yz = x[0].rot[1][2];
+            let rot_i_zx = x[0].rot[2][0];
+            let rot_i_zy = x[0].rot[2][1];
+            let rot_i_zz = x[0].rot[2][2];
+            let rot_j_xx = x[1].rot[0][0];
+            let rot_j_xy = x[1].rot[0][1];
+            let rot_j_xz = x[1].rot[0][2];
+            let rot_j_yx = x[1].rot[1][0];
+            let rot_j_yy = x[1].rot[1][1];
+            let rot_j_yz = x[1].rot[1][2];
+            let rot_j_zx = x[1].rot[2][0];
+            let rot_j_zy = x[1].rot[2][1];
+            let rot_j_zz = x[1].rot[2][2];
+            let axis_local_x = self.axis.xyz()[0];
+            let axis_local_y = self.axis.xyz()[1];
+            let axis_local_z = self.axis.xyz()[2];
+            let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+                + rot_i_xz * axis_local_z;
+            let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+                + rot_i_yz * axis_local_z;
+            let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+                + rot_i_zz * axis_local_z;
+            [
+                rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z,
+                rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z,
+                rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z,
+            ]
+        };
+        let [c, s]: [f64; 2] = {
+            let rot_i_xx = x[0].rot[0][0];
+            let rot_i_xy = x[0].rot[0][1];
+            let rot_i_xz = x[0].rot[0][2];
+            let rot_i_yx = x[0].rot[1][0];
+            let rot_i_yy = x[0].rot[1][1];
+            let rot_i_yz = x[0].rot[1][2];
+            let rot_i_zx = x[0].rot[2][0];
+            let rot_i_zy = x[0].rot[2][1];
+            let rot_i_zz = x[0].rot[2][2];
+            let rot_j_xx = x[1].rot[0][0];
+            let rot_j_xy = x[1].rot[0][1];
+            let rot_j_xz = x[1].rot[0][2];
+            let rot_j_yx = x[1].rot[1][0];
+            let rot_j_yy = x[1].rot[1][1];
+            let rot_j_yz = x[1].rot[1][2];
+            let rot_j_zx = x[1].rot[2][0];
+            let rot_j_zy = x[1].rot[2][1];
+            let rot_j_zz = x[1].rot[2][2];
+            let axis_local_x = self.axis.xyz()[0];
+            let axis_local_y = self.axis.xyz()[1];
+            let axis_local_z = self.axis.xyz()[2];
+            let cross_local_x = self.cross.xyz()[0];
+            let cross_local_y = self.cross.xyz()[1];
+            let cross_local_z = self.cross.xyz()[2];
+            let b_in_i_x = self.b_in_i[0];
+            let b_in_i_y = self.b_in_i[1];
+            let b_in_i_z = self.b_in_i[2];
+            let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                + rot_j_xz * cross_local_z;
+            let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                + rot_j_yz * cross_local_z;
+            let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                + rot_j_zz * cross_local_z;
+            let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+            let t1 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+            let t2 = t0 * b_z - t1 * b_y;
+            let t3 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+            let t4 = t3 * b_z - t1 * b_x;
+            let t5 = t3 * b_y - t0 * b_x;
+            [
+                b_in_i_x * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
+                    + b_in_i_y * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
+                    + b_in_i_z * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z),
+                axis_local_x * (rot_i_xx * t2 - rot_i_yx * t4 + rot_i_zx * t5)
+                    + axis_local_y * (rot_i_xy * t2 - rot_i_yy * t4 + rot_i_zy * t5)
+                    + axis_local_z * (rot_i_xz * t2 - rot_i_yz * t4 + rot_i_zz * t5),
+            ]
+        };
+        let length = c.hypot(s);
+        self.measure_0 = if length > 0.0 {
+            [c / length, s / length]
+        } else {
+            [1.0, 0.0]
+        };
+    }
+    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
+        match k {
+            0 => {
+                let rot_i_xx = x[0].rot[0][0];
+                let rot_i_xy = x[0].rot[0][1];
+                let rot_i_xz = x[0].rot[0][2];
+                let rot_i_yx = x[0].rot[1][0];
+                let rot_i_yy = x[0].rot[1][1];
+                let rot_i_yz = x[0].rot[1][2];
+                let rot_i_zx = x[0].rot[2][0];
+                let rot_i_zy = x[0].rot[2][1];
+                let rot_i_zz = x[0].rot[2][2];
+                let rot_j_xx = x[1].rot[0][0];
+                let rot_j_xy = x[1].rot[0][1];
+                let rot_j_xz = x[1].rot[0][2];
+                let rot_j_yx = x[1].rot[1][0];
+                let rot_j_yy = x[1].rot[1][1];
+                let rot_j_yz = x[1].rot[1][2];
+                let rot_j_zx = x[1].rot[2][0];
+                let rot_j_zy = x[1].rot[2][1];
+                let rot_j_zz = x[1].rot[2][2];
+                let axis_local_x = self.axis.xyz()[0];
+                let axis_local_y = self.axis.xyz()[1];
+                let axis_local_z = self.axis.xyz()[2];
+                let cross_local_x = self.cross.xyz()[0];
+                let cross_local_y = self.cross.xyz()[1];
+                let cross_local_z = self.cross.xyz()[2];
+                let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                    + rot_j_xz * cross_local_z;
+                let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                    + rot_j_yz * cross_local_z;
+                let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                    + rot_j_zz * cross_local_z;
+                let k = axis_local_x * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
+                    + axis_local_y * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
+                    + axis_local_z * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z);
+                -(k * k - 1.0) > 0.000001
+            }
+            _ => true,
+        }
+    }
+    fn turned(&self, k: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
+        match k {
+            0 => {
+                let rot_i_xx = x[0].rot[0][0];
+                let rot_i_xy = x[0].rot[0][1];
+                let rot_i_xz = x[0].rot[0][2];
+                let rot_i_yx = x[0].rot[1][0];
+                let rot_i_yy = x[0].rot[1][1];
+                let rot_i_yz = x[0].rot[1][2];
+                let rot_i_zx = x[0].rot[2][0];
+                let rot_i_zy = x[0].rot[2][1];
+                let rot_i_zz = x[0].rot[2][2];
+                let omega_i_x = v[0].omega[0];
+                let omega_i_y = v[0].omega[1];
+                let omega_i_z = v[0].omega[2];
+                let rot_j_xx = x[1].rot[0][0];
+                let rot_j_xy = x[1].rot[0][1];
+                let rot_j_xz = x[1].rot[0][2];
+                let rot_j_yx = x[1].rot[1][0];
+                let rot_j_yy = x[1].rot[1][1];
+                let rot_j_yz = x[1].rot[1][2];
+                let rot_j_zx = x[1].rot[2][0];
+                let rot_j_zy = x[1].rot[2][1];
+                let rot_j_zz = x[1].rot[2][2];
+                let omega_j_x = v[1].omega[0];
+                let omega_j_y = v[1].omega[1];
+                let omega_j_z = v[1].omega[2];
+                let axis_local_x = self.axis.xyz()[0];
+                let axis_local_y = self.axis.xyz()[1];
+                let axis_local_z = self.axis.xyz()[2];
+                let cross_local_x = self.cross.xyz()[0];
+                let cross_local_y = self.cross.xyz()[1];
+                let cross_local_z = self.cross.xyz()[2];
+                let cos_0 = self.measure_0[0];
+                let sin_0 = self.measure_0[1];
+                let b_in_i_x = self.b_in_i[0];
+                let b_in_i_y = self.b_in_i[1];
+                let b_in_i_z = self.b_in_i[2];
+                let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                    + rot_j_xz * cross_local_z;
+                let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                    + rot_j_yz * cross_local_z;
+                let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                    + rot_j_zz * cross_local_z;
+                let t0 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+                let t1 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+                let t2 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+                let t3 = b_in_i_x * t0 + b_in_i_y * t1 + b_in_i_z * t2;
+                let t4 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+                let t5 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+                let t6 = t4 * b_z - t5 * b_y;
+                let t7 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+                let t8 = t7 * b_z - t5 * b_x;
+                let t9 = t7 * b_y - t4 * b_x;
+                let t10 = axis_local_x * (rot_i_xx * t6 - rot_i_yx * t8 + rot_i_zx * t9)
+                    + axis_local_y * (rot_i_xy * t6 - rot_i_yy * t8 + rot_i_zy * t9)
+                    + axis_local_z * (rot_i_xz * t6 - rot_i_yz * t8 + rot_i_zz * t9);
+                let t11 = cos_0 * t3 + sin_0 * t10;
+                let t12 = cos_0 * t10 - sin_0 * t3;
+                let t13 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+                let t14 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+                let t15 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+                let t16 = rot_j_xx * t13 - rot_j_xy * t14 + rot_j_xz * t15;
+                let t17 = rot_j_yx * t13 - rot_j_yy * t14 + rot_j_yz * t15;
+                let t18 = rot_j_zx * t13 - rot_j_zy * t14 + rot_j_zz * t15;
+                let t19 = omega_i_y * b_in_i_z - omega_i_z * b_in_i_y;
+                let t20 = omega_i_x * b_in_i_z - omega_i_z * b_in_i_x;
+                let t21 = omega_i_x * b_in_i_y - omega_i_y * b_in_i_x;
+                let t22 = b_in_i_x * (rot_i_xx * t16 + rot_i_yx * t17 + rot_i_zx * t18)
+                    + b_in_i_y * (rot_i_xy * t16 + rot_i_yy * t17 + rot_i_zy * t18)
+                    + b_in_i_z * (rot_i_xz * t16 + rot_i_yz * t17 + rot_i_zz * t18)
+                    + (t0 * t19 - t1 * t20 + t2 * t21);
+                let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+                    + rot_i_xz * axis_local_z;
+                let t23 = rot_i_yx * t19 - rot_i_yy * t20 + rot_i_yz * t21;
+                let t24 = rot_i_zx * t19 - rot_i_zy * t20 + rot_i_zz * t21;
+                let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+                    + rot_i_yz * axis_local_z;
+                let t25 = rot_i_xx * t19 - rot_i_xy * t20 + rot_i_xz * t21;
+                let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+                    + rot_i_zz * axis_local_z;
+                let t26 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+                let t27 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+                let t28 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+                let t29 = a_x * (t4 * t18 + t23 * b_z - (t5 * t17 + t24 * b_y))
+                    - a_y * (t7 * t18 + t25 * b_z - (t5 * t16 + t24 * b_x))
+                    + a_z * (t7 * t17 + t25 * b_y - (t4 * t16 + t23 * b_x))
+                    + ((rot_i_xx * t26 - rot_i_xy * t27 + rot_i_xz * t28) * t6
+                        - (rot_i_yx * t26 - rot_i_yy * t27 + rot_i_yz * t28) * t8
+                        + (rot_i_zx * t26 - rot_i_zy * t27 + rot_i_zz * t28) * t9);
+                [
+                    t11,
+                    t12,
+                    -(t12 * (cos_0 * t22 + sin_0 * t29)
+                        - t11 * (cos_0 * t29 - sin_0 * t22)),
+                ]
+            }
+            _ => [1.0, 0.0, 0.0],
+        }
+    }
+    fn points(&self) -> Vec<[f64; 3]> {
+        vec![self.s_i, self.s_j]
+    }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Axes::new(self.axis.xyz(), None).map(Axes::uvw)
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_i[2];
+        out[3] = self.s_j[0];
+        out[4] = self.s_j[1];
+        out[5] = self.s_j[2];
+        out[6] = self.axis.xyz()[0];
+        out[7] = self.axis.xyz()[1];
+        out[8] = self.axis.xyz()[2];
+        out[9] = self.cross.xyz()[0];
+        out[10] = self.cross.xyz()[1];
+        out[11] = self.cross.xyz()[2];
+        out[12] = self.b_in_i[0];
+        out[13] = self.b_in_i[1];
+        out[14] = self.b_in_i[2];
+        out[15] = self.a_in_j[0];
+        out[16] = self.a_in_j[1];
+        out[17] = self.a_in_j[2];
+        out[18] = 0.0;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1], numbers[2]];
+        self.s_j = [numbers[3], numbers[4], numbers[5]];
+        self.axis = Direction::from_data([numbers[6], numbers[7], numbers[8]]);
+        self.cross = Direction::from_data([numbers[9], numbers[10], numbers[11]]);
+        self.b_in_i = [numbers[12], numbers[13], numbers[14]];
+        self.a_in_j = [numbers[15], numbers[16], numbers[17]];
+        let (sin, cos) = f64::sin_cos(numbers[18]);
+        let [c, s] = self.measure_0;
+        self.measure_0 = [c * cos - s * sin, s * cos + c * sin];
+    }
+}
+#[allow(unused_variables)]
+#[allow(clippy::too_many_arguments)]
+impl<T: Ring> Element<T, Space3> for UniversalFirstDrive {
+    fn spec(&self) -> &'static ConstraintSpec {
+        &Self::SPEC
+    }
+    /// Φ. Operations: 54 mul, 34 add.
+    fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t1 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t2 = t0 * b_z - t1 * b_y;
+        let t3 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t4 = t3 * b_z - t1 * b_x;
+        let t5 = t3 * b_y - t0 * b_x;
+        let t6 = axis_local_x * (rot_i_xx * t2 - rot_i_yx * t4 + rot_i_zx * t5)
+            + axis_local_y * (rot_i_xy * t2 - rot_i_yy * t4 + rot_i_zy * t5)
+            + axis_local_z * (rot_i_xz * t2 - rot_i_yz * t4 + rot_i_zz * t5);
+        let t7 = b_in_i_x * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
+            + b_in_i_y * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
+            + b_in_i_z * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z);
+        out[0] = motion_cos * (cos_0 * t6 - sin_0 * t7)
+            - motion_sin * (cos_0 * t7 + sin_0 * t6);
+    }
+    /// Constant entries of C. Operations: none.
+    fn c_constant(&self, out: &mut [f64]) {}
+    /// Varying entries of C. Operations: 204 mul, 117 add, 3 neg.
+    fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t1 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t2 = t0 * b_z - t1 * b_y;
+        let t3 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t4 = t3 * b_z - t1 * b_x;
+        let t5 = t3 * b_y - t0 * b_x;
+        let t6 = rot_i_xz * t2 - rot_i_yz * t4 + rot_i_zz * t5;
+        let t7 = rot_i_xy * t2 - rot_i_yy * t4 + rot_i_zy * t5;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t8 = rot_i_yy * b_in_i_z - rot_i_yz * b_in_i_y;
+        let t9 = rot_i_zy * b_in_i_z - rot_i_zz * b_in_i_y;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t10 = rot_i_xy * b_in_i_z - rot_i_xz * b_in_i_y;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t11 = axis_local_y * t6 - axis_local_z * t7
+            - (a_x * (t8 * b_z - t9 * b_y) - a_y * (t10 * b_z - t9 * b_x)
+                + a_z * (t10 * b_y - t8 * b_x));
+        let t12 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t13 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t14 = b_in_i_y * t12 - b_in_i_z * t13;
+        let t15 = rot_i_xx * t2 - rot_i_yx * t4 + rot_i_zx * t5;
+        let t16 = rot_i_yx * b_in_i_z - rot_i_yz * b_in_i_x;
+        let t17 = rot_i_zx * b_in_i_z - rot_i_zz * b_in_i_x;
+        let t18 = rot_i_xx * b_in_i_z - rot_i_xz * b_in_i_x;
+        let t19 = axis_local_x * t6 - axis_local_z * t15
+            - (a_x * (t16 * b_z - t17 * b_y) - a_y * (t18 * b_z - t17 * b_x)
+                + a_z * (t18 * b_y - t16 * b_x));
+        let t20 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t21 = b_in_i_x * t12 - b_in_i_z * t20;
+        let t22 = rot_i_yx * b_in_i_y - rot_i_yy * b_in_i_x;
+        let t23 = rot_i_zx * b_in_i_y - rot_i_zy * b_in_i_x;
+        let t24 = rot_i_xx * b_in_i_y - rot_i_xy * b_in_i_x;
+        let t25 = axis_local_x * t7 - axis_local_y * t15
+            - (a_x * (t22 * b_z - t23 * b_y) - a_y * (t24 * b_z - t23 * b_x)
+                + a_z * (t24 * b_y - t22 * b_x));
+        let t26 = b_in_i_x * t13 - b_in_i_y * t20;
+        let t27 = rot_j_zy * cross_local_z - rot_j_zz * cross_local_y;
+        let t28 = rot_j_yy * cross_local_z - rot_j_yz * cross_local_y;
+        let t29 = rot_j_xy * cross_local_z - rot_j_xz * cross_local_y;
+        let t30 = a_x * (t0 * t27 - t1 * t28) - a_y * (t3 * t27 - t1 * t29)
+            + a_z * (t3 * t28 - t0 * t29);
+        let t31 = rot_j_xz * t3 + rot_j_yz * t0 + rot_j_zz * t1;
+        let t32 = rot_j_xy * t3 + rot_j_yy * t0 + rot_j_zy * t1;
+        let t33 = cross_local_y * t31 - cross_local_z * t32;
+        let t34 = rot_j_zx * cross_local_z - rot_j_zz * cross_local_x;
+        let t35 = rot_j_yx * cross_local_z - rot_j_yz * cross_local_x;
+        let t36 = rot_j_xx * cross_local_z - rot_j_xz * cross_local_x;
+        let t37 = a_x * (t0 * t34 - t1 * t35) - a_y * (t3 * t34 - t1 * t36)
+            + a_z * (t3 * t35 - t0 * t36);
+        let t38 = rot_j_xx * t3 + rot_j_yx * t0 + rot_j_zx * t1;
+        let t39 = cross_local_x * t31 - cross_local_z * t38;
+        let t40 = rot_j_zx * cross_local_y - rot_j_zy * cross_local_x;
+        let t41 = rot_j_yx * cross_local_y - rot_j_yy * cross_local_x;
+        let t42 = rot_j_xx * cross_local_y - rot_j_xy * cross_local_x;
+        let t43 = a_x * (t0 * t40 - t1 * t41) - a_y * (t3 * t40 - t1 * t42)
+            + a_z * (t3 * t41 - t0 * t42);
+        let t44 = cross_local_x * t32 - cross_local_y * t38;
+        out[0] = motion_cos * (cos_0 * t11 - sin_0 * t14)
+            - motion_sin * (cos_0 * t14 + sin_0 * t11);
+        out[1] = -(motion_cos * (cos_0 * t19 - sin_0 * t21)
+            - motion_sin * (cos_0 * t21 + sin_0 * t19));
+        out[2] = motion_cos * (cos_0 * t25 - sin_0 * t26)
+            - motion_sin * (cos_0 * t26 + sin_0 * t25);
+        out[3] = -(motion_cos * (cos_0 * t30 + sin_0 * t33)
+            + motion_sin * (cos_0 * t33 - sin_0 * t30));
+        out[4] = motion_cos * (cos_0 * t37 + sin_0 * t39)
+            + motion_sin * (cos_0 * t39 - sin_0 * t37);
+        out[5] = -(motion_cos * (cos_0 * t43 + sin_0 * t44)
+            + motion_sin * (cos_0 * t44 - sin_0 * t43));
+    }
+    /// b. Operations: 54 mul, 34 add, 1 neg.
+    fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos_t = f[0][1];
+        let motion_sin_t = f[1][1];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t1 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t2 = t0 * b_z - t1 * b_y;
+        let t3 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t4 = t3 * b_z - t1 * b_x;
+        let t5 = t3 * b_y - t0 * b_x;
+        let t6 = axis_local_x * (rot_i_xx * t2 - rot_i_yx * t4 + rot_i_zx * t5)
+            + axis_local_y * (rot_i_xy * t2 - rot_i_yy * t4 + rot_i_zy * t5)
+            + axis_local_z * (rot_i_xz * t2 - rot_i_yz * t4 + rot_i_zz * t5);
+        let t7 = b_in_i_x * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
+            + b_in_i_y * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
+            + b_in_i_z * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z);
+        out[0] = -(motion_cos_t * (cos_0 * t6 - sin_0 * t7)
+            - motion_sin_t * (cos_0 * t7 + sin_0 * t6));
+    }
+    /// Γ. Operations: 243 mul, 174 add, 1 neg.
+    fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_cos_tt = f[0][2];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let motion_sin_tt = f[1][2];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let t1 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+        let t2 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+        let t3 = omega_j_y * t1 + omega_j_z * t2;
+        let t4 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+        let t5 = omega_j_x * t1 - omega_j_z * t4;
+        let t6 = omega_j_x * t2 + omega_j_y * t4;
+        let t7 = rot_j_zx * t3 - rot_j_zy * t5 - rot_j_zz * t6;
+        let t8 = omega_i_y * b_in_i_z - omega_i_z * b_in_i_y;
+        let t9 = omega_i_x * b_in_i_z - omega_i_z * b_in_i_x;
+        let t10 = omega_i_x * b_in_i_y - omega_i_y * b_in_i_x;
+        let t11 = rot_i_yx * t8 - rot_i_yy * t9 + rot_i_yz * t10;
+        let t12 = rot_j_zx * t4 - rot_j_zy * t2 + rot_j_zz * t1;
+        let t13 = t11 * t12;
+        let t14 = omega_i_y * t10 + omega_i_z * t9;
+        let t15 = omega_i_x * t10 - omega_i_z * t8;
+        let t16 = omega_i_x * t9 + omega_i_y * t8;
+        let t17 = rot_i_yx * t14 - rot_i_yy * t15 - rot_i_yz * t16;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t18 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let t19 = rot_j_yx * t3 - rot_j_yy * t5 - rot_j_yz * t6;
+        let t20 = rot_i_zx * t8 - rot_i_zy * t9 + rot_i_zz * t10;
+        let t21 = rot_j_yx * t4 - rot_j_yy * t2 + rot_j_yz * t1;
+        let t22 = t20 * t21;
+        let t23 = rot_i_zx * t14 - rot_i_zy * t15 - rot_i_zz * t16;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t24 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let t25 = rot_i_xx * t8 - rot_i_xy * t9 + rot_i_xz * t10;
+        let t26 = t25 * t12;
+        let t27 = rot_i_xx * t14 - rot_i_xy * t15 - rot_i_xz * t16;
+        let t28 = rot_j_xx * t3 - rot_j_xy * t5 - rot_j_xz * t6;
+        let t29 = rot_j_xx * t4 - rot_j_xy * t2 + rot_j_xz * t1;
+        let t30 = t20 * t29;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t31 = t25 * t21;
+        let t32 = t11 * t29;
+        let t33 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t34 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t35 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t36 = rot_i_xx * t33 - rot_i_xy * t34 + rot_i_xz * t35;
+        let t37 = t0 * t12 + t11 * b_z - (t18 * t21 + t20 * b_y);
+        let t38 = rot_i_yx * t33 - rot_i_yy * t34 + rot_i_yz * t35;
+        let t39 = t24 * t12 + t25 * b_z - (t18 * t29 + t20 * b_x);
+        let t40 = rot_i_zx * t33 - rot_i_zy * t34 + rot_i_zz * t35;
+        let t41 = t24 * t21 + t25 * b_y - (t0 * t29 + t11 * b_x);
+        let t42 = t36 * t37 - t38 * t39 + t40 * t41;
+        let t43 = omega_i_y * t35 + omega_i_z * t34;
+        let t44 = omega_i_x * t35 - omega_i_z * t33;
+        let t45 = omega_i_x * t34 + omega_i_y * t33;
+        let t46 = t0 * b_z - t18 * b_y;
+        let t47 = t24 * b_z - t18 * b_x;
+        let t48 = t24 * b_y - t0 * b_x;
+        let t49 = a_x
+            * (t0 * t7 + t13 + (t13 + t17 * b_z) - (t18 * t19 + t22 + (t22 + t23 * b_y)))
+            - a_y
+                * (t24 * t7 + t26 + (t26 + t27 * b_z)
+                    - (t18 * t28 + t30 + (t30 + t23 * b_x)))
+            + a_z
+                * (t24 * t19 + t31 + (t31 + t27 * b_y)
+                    - (t0 * t28 + t32 + (t32 + t17 * b_x))) + t42
+            + (t42
+                + ((rot_i_xx * t43 - rot_i_xy * t44 - rot_i_xz * t45) * t46
+                    - (rot_i_yx * t43 - rot_i_yy * t44 - rot_i_yz * t45) * t47
+                    + (rot_i_zx * t43 - rot_i_zy * t44 - rot_i_zz * t45) * t48));
+        let t50 = rot_i_xx * t29 + rot_i_yx * t21 + rot_i_zx * t12;
+        let t51 = rot_i_xy * t29 + rot_i_yy * t21 + rot_i_zy * t12;
+        let t52 = rot_i_xz * t29 + rot_i_yz * t21 + rot_i_zz * t12;
+        let t53 = t50 * t8 - t51 * t9 + t52 * t10;
+        let t54 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t55 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t56 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t57 = b_in_i_x * (rot_i_xx * t28 + rot_i_yx * t19 + rot_i_zx * t7)
+            + b_in_i_y * (rot_i_xy * t28 + rot_i_yy * t19 + rot_i_zy * t7)
+            + b_in_i_z * (rot_i_xz * t28 + rot_i_yz * t19 + rot_i_zz * t7) + t53
+            + (t54 * t14 - t55 * t15 - t56 * t16 + t53);
+        let t58 = a_x * t37 - a_y * t39 + a_z * t41
+            + (t36 * t46 - t38 * t47 + t40 * t48);
+        let t59 = b_in_i_x * t50 + b_in_i_y * t51 + b_in_i_z * t52
+            + (t54 * t8 - t55 * t9 + t56 * t10);
+        let t60 = motion_cos_t * (cos_0 * t58 - sin_0 * t59);
+        let t61 = axis_local_x * (rot_i_xx * t46 - rot_i_yx * t47 + rot_i_zx * t48)
+            + axis_local_y * (rot_i_xy * t46 - rot_i_yy * t47 + rot_i_zy * t48)
+            + axis_local_z * (rot_i_xz * t46 - rot_i_yz * t47 + rot_i_zz * t48);
+        let t62 = b_in_i_x * t54 + b_in_i_y * t55 + b_in_i_z * t56;
+        let t63 = motion_sin_t * (cos_0 * t59 + sin_0 * t58);
+        out[0] = -(motion_cos * (cos_0 * t49 - sin_0 * t57) + t60
+            + (t60 + motion_cos_tt * (cos_0 * t61 - sin_0 * t62))
+            - (motion_sin * (cos_0 * t57 + sin_0 * t49) + t63
+                + (t63 + motion_sin_tt * (cos_0 * t62 + sin_0 * t61))));
+    }
+    /// Entries of the wrench map. Operations: 135 mul, 81 add, 3 neg.
+    fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T])
+    where
+        T: Real,
+    {
+        let out = &mut out[..3];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t1 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t2 = t0 * b_z - t1 * b_y;
+        let t3 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t4 = t3 * b_z - t1 * b_x;
+        let t5 = t3 * b_y - t0 * b_x;
+        let t6 = rot_i_xz * t2 - rot_i_yz * t4 + rot_i_zz * t5;
+        let t7 = rot_i_xy * t2 - rot_i_yy * t4 + rot_i_zy * t5;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t8 = rot_i_yy * b_in_i_z - rot_i_yz * b_in_i_y;
+        let t9 = rot_i_zy * b_in_i_z - rot_i_zz * b_in_i_y;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t10 = rot_i_xy * b_in_i_z - rot_i_xz * b_in_i_y;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t11 = axis_local_y * t6 - axis_local_z * t7
+            - (a_x * (t8 * b_z - t9 * b_y) - a_y * (t10 * b_z - t9 * b_x)
+                + a_z * (t10 * b_y - t8 * b_x));
+        let t12 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t13 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t14 = b_in_i_y * t12 - b_in_i_z * t13;
+        let t15 = motion_cos * (cos_0 * t11 - sin_0 * t14)
+            - motion_sin * (cos_0 * t14 + sin_0 * t11);
+        let t16 = rot_i_xx * t2 - rot_i_yx * t4 + rot_i_zx * t5;
+        let t17 = rot_i_yx * b_in_i_z - rot_i_yz * b_in_i_x;
+        let t18 = rot_i_zx * b_in_i_z - rot_i_zz * b_in_i_x;
+        let t19 = rot_i_xx * b_in_i_z - rot_i_xz * b_in_i_x;
+        let t20 = axis_local_x * t6 - axis_local_z * t16
+            - (a_x * (t17 * b_z - t18 * b_y) - a_y * (t19 * b_z - t18 * b_x)
+                + a_z * (t19 * b_y - t17 * b_x));
+        let t21 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t22 = b_in_i_x * t12 - b_in_i_z * t21;
+        let t23 = motion_cos * (cos_0 * t20 - sin_0 * t22)
+            - motion_sin * (cos_0 * t22 + sin_0 * t20);
+        let t24 = rot_i_yx * b_in_i_y - rot_i_yy * b_in_i_x;
+        let t25 = rot_i_zx * b_in_i_y - rot_i_zy * b_in_i_x;
+        let t26 = rot_i_xx * b_in_i_y - rot_i_xy * b_in_i_x;
+        let t27 = axis_local_x * t7 - axis_local_y * t16
+            - (a_x * (t24 * b_z - t25 * b_y) - a_y * (t26 * b_z - t25 * b_x)
+                + a_z * (t26 * b_y - t24 * b_x));
+        let t28 = b_in_i_x * t13 - b_in_i_y * t21;
+        let t29 = motion_cos * (cos_0 * t27 - sin_0 * t28)
+            - motion_sin * (cos_0 * t28 + sin_0 * t27);
+        out[0] = -(rot_i_xx * t15 - rot_i_xy * t23 + rot_i_xz * t29);
+        out[1] = -(rot_i_yx * t15 - rot_i_yy * t23 + rot_i_yz * t29);
+        out[2] = -(rot_i_zx * t15 - rot_i_zy * t23 + rot_i_zz * t29);
+    }
+    /// Coefficients of the named component. Operations: 54 mul, 34 add.
+    fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t0 = b_in_i_x * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
+            + b_in_i_y * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
+            + b_in_i_z * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z);
+        let t1 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let t2 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let t3 = t1 * b_z - t2 * b_y;
+        let t4 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let t5 = t4 * b_z - t2 * b_x;
+        let t6 = t4 * b_y - t1 * b_x;
+        let t7 = axis_local_x * (rot_i_xx * t3 - rot_i_yx * t5 + rot_i_zx * t6)
+            + axis_local_y * (rot_i_xy * t3 - rot_i_yy * t5 + rot_i_zy * t6)
+            + axis_local_z * (rot_i_xz * t3 - rot_i_yz * t5 + rot_i_zz * t6);
+        out[0] = motion_cos * (cos_0 * t0 + sin_0 * t7)
+            + motion_sin * (cos_0 * t7 - sin_0 * t0);
+    }
+    /// The place of the reaction. Operations: 9 mul, 9 add.
+    fn place(&self, x: &[Pose<T>]) -> [T; 3]
+    where
+        T: Real,
+    {
+        let r_i_x = x[0].r[0];
+        let r_i_y = x[0].r[1];
+        let r_i_z = x[0].r[2];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_i_z = T::from(self.s_i[2]);
+        let arm_i_x = rot_i_xx * s_i_x + rot_i_xy * s_i_y + rot_i_xz * s_i_z;
+        let arm_i_y = rot_i_yx * s_i_x + rot_i_yy * s_i_y + rot_i_yz * s_i_z;
+        let arm_i_z = rot_i_zx * s_i_x + rot_i_zy * s_i_y + rot_i_zz * s_i_z;
+        [r_i_x + arm_i_x, r_i_y + arm_i_y, r_i_z + arm_i_z]
+    }
+    /// ∂(λᵀΦ)/∂p. Operations: 177 mul, 95 add, 4 neg.
+    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..19];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let lambda_0 = lambda[0];
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t1 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t2 = t0 * b_z - t1 * b_y;
+        let t3 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t4 = t3 * b_z - t1 * b_x;
+        let t5 = t3 * b_y - t0 * b_x;
+        let t6 = rot_i_xx * t2 - rot_i_yx * t4 + rot_i_zx * t5;
+        let t7 = motion_cos * cos_0 - motion_sin * sin_0;
+        let t8 = rot_i_xy * t2 - rot_i_yy * t4 + rot_i_zy * t5;
+        let t9 = rot_i_xz * t2 - rot_i_yz * t4 + rot_i_zz * t5;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t10 = a_x * (rot_j_yx * t1 - rot_j_zx * t0)
+            - a_y * (rot_j_xx * t1 - rot_j_zx * t3)
+            + a_z * (rot_j_xx * t0 - rot_j_yx * t3);
+        let t11 = rot_j_xx * t3 + rot_j_yx * t0 + rot_j_zx * t1;
+        let t12 = a_x * (rot_j_yy * t1 - rot_j_zy * t0)
+            - a_y * (rot_j_xy * t1 - rot_j_zy * t3)
+            + a_z * (rot_j_xy * t0 - rot_j_yy * t3);
+        let t13 = rot_j_xy * t3 + rot_j_yy * t0 + rot_j_zy * t1;
+        let t14 = a_x * (rot_j_yz * t1 - rot_j_zz * t0)
+            - a_y * (rot_j_xz * t1 - rot_j_zz * t3)
+            + a_z * (rot_j_xz * t0 - rot_j_yz * t3);
+        let t15 = rot_j_xz * t3 + rot_j_yz * t0 + rot_j_zz * t1;
+        let t16 = a_x * (rot_i_yx * b_z - rot_i_zx * b_y)
+            + (rot_i_xx * b_y - rot_i_yx * b_x) * a_z
+            - (rot_i_xx * b_z - rot_i_zx * b_x) * a_y;
+        let t17 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t18 = a_x * (rot_i_yy * b_z - rot_i_zy * b_y)
+            + (rot_i_xy * b_y - rot_i_yy * b_x) * a_z
+            - (rot_i_xy * b_z - rot_i_zy * b_x) * a_y;
+        let t19 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t20 = a_x * (rot_i_yz * b_z - rot_i_zz * b_y)
+            + (rot_i_xz * b_y - rot_i_yz * b_x) * a_z
+            - (rot_i_xz * b_z - rot_i_zz * b_x) * a_y;
+        let t21 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t22 = b_in_i_x * t17 + b_in_i_y * t19 + b_in_i_z * t21;
+        let t23 = axis_local_x * t6 + axis_local_y * t8 + axis_local_z * t9;
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+        out[4] = T::from(0.0);
+        out[5] = T::from(0.0);
+        out[6] = lambda_0 * t6 * t7;
+        out[7] = lambda_0 * t8 * t7;
+        out[8] = lambda_0 * t9 * t7;
+        out[9] = -(lambda_0
+            * (motion_cos * (cos_0 * t10 + sin_0 * t11)
+                + motion_sin * (cos_0 * t11 - sin_0 * t10)));
+        out[10] = -(lambda_0
+            * (motion_cos * (cos_0 * t12 + sin_0 * t13)
+                + motion_sin * (cos_0 * t13 - sin_0 * t12)));
+        out[11] = -(lambda_0
+            * (motion_cos * (cos_0 * t14 + sin_0 * t15)
+                + motion_sin * (cos_0 * t15 - sin_0 * t14)));
+        out[12] = lambda_0
+            * (motion_cos * (cos_0 * t16 - sin_0 * t17)
+                - motion_sin * (cos_0 * t17 + sin_0 * t16));
+        out[13] = lambda_0
+            * (motion_cos * (cos_0 * t18 - sin_0 * t19)
+                - motion_sin * (cos_0 * t19 + sin_0 * t18));
+        out[14] = lambda_0
+            * (motion_cos * (cos_0 * t20 - sin_0 * t21)
+                - motion_sin * (cos_0 * t21 + sin_0 * t20));
+        out[15] = T::from(0.0);
+        out[16] = T::from(0.0);
+        out[17] = T::from(0.0);
+        out[18] = -(lambda_0
+            * (motion_cos * (cos_0 * t22 + sin_0 * t23)
+                + motion_sin * (cos_0 * t23 - sin_0 * t22)));
+    }
+}
+#[allow(unused_variables)]
+#[allow(clippy::too_many_arguments)]
+impl<T: Ring> Derivatives<T, Space3> for UniversalFirstDrive {
+    /// ∂(Cᵀλ)/∂x. Operations: 837 mul, 498 add, 21 neg.
+    fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let lambda_0 = lambda[0];
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x;
+        let t1 = rot_i_yy * b_in_i_y;
+        let t2 = t0 + t1;
+        let t3 = rot_i_yz * b_in_i_z;
+        let t4 = t2 + t3;
+        let t5 = rot_j_zx * cross_local_x;
+        let t6 = rot_j_zy * cross_local_y;
+        let t7 = t5 + t6;
+        let t8 = rot_j_zz * cross_local_z;
+        let b_z = t7 + t8;
+        let t9 = rot_i_zx * b_in_i_x;
+        let t10 = rot_i_zy * b_in_i_y;
+        let t11 = t9 + t10;
+        let t12 = rot_i_zz * b_in_i_z;
+        let t13 = t11 + t12;
+        let t14 = rot_j_yx * cross_local_x;
+        let t15 = rot_j_yy * cross_local_y;
+        let t16 = t14 + t15;
+        let t17 = rot_j_yz * cross_local_z;
+        let b_y = t16 + t17;
+        let t18 = t4 * b_z - t13 * b_y;
+        let t19 = rot_i_xx * b_in_i_x;
+        let t20 = rot_i_xy * b_in_i_y;
+        let t21 = t19 + t20;
+        let t22 = rot_i_xz * b_in_i_z;
+        let t23 = t21 + t22;
+        let t24 = rot_j_xx * cross_local_x;
+        let t25 = rot_j_xy * cross_local_y;
+        let t26 = t24 + t25;
+        let t27 = rot_j_xz * cross_local_z;
+        let b_x = t26 + t27;
+        let t28 = t23 * b_z - t13 * b_x;
+        let t29 = t23 * b_y - t4 * b_x;
+        let t30 = rot_i_xy * t18 - rot_i_yy * t28 + rot_i_zy * t29;
+        let t31 = axis_local_y * t30;
+        let t32 = rot_i_xz * t18 - rot_i_yz * t28 + rot_i_zz * t29;
+        let t33 = axis_local_z * t32;
+        let t34 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t35 = rot_i_yy * b_in_i_z - rot_i_yz * b_in_i_y;
+        let t36 = rot_i_zy * b_in_i_z - rot_i_zz * b_in_i_y;
+        let t37 = t35 * b_z - t36 * b_y;
+        let t38 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t39 = rot_i_xy * b_in_i_z - rot_i_xz * b_in_i_y;
+        let t40 = t39 * b_z - t36 * b_x;
+        let t41 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t42 = t39 * b_y - t35 * b_x;
+        let t43 = rot_i_xz * t37 - rot_i_yz * t40 + rot_i_zz * t42;
+        let t44 = rot_i_xy * t37 - rot_i_yy * t40 + rot_i_zy * t42;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t45 = t1 + t3;
+        let t46 = t10 + t12;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t47 = t20 + t22;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t48 = t31 + t33 - (t34 * t37 - t38 * t40 + t41 * t42)
+            + (axis_local_y * t43 - axis_local_z * t44
+                + (a_x * (t45 * b_z - t46 * b_y) - a_y * (t47 * b_z - t46 * b_x)
+                    + a_z * (t47 * b_y - t45 * b_x)));
+        let t49 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t50 = b_in_i_y * t49;
+        let t51 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t52 = b_in_i_z * t51;
+        let t53 = t50 + t52;
+        let t54 = rot_i_xx * t18 - rot_i_yx * t28 + rot_i_zx * t29;
+        let t55 = rot_i_yx * b_in_i_z - rot_i_yz * b_in_i_x;
+        let t56 = rot_i_zx * b_in_i_z - rot_i_zz * b_in_i_x;
+        let t57 = t55 * b_z - t56 * b_y;
+        let t58 = rot_i_xx * b_in_i_z - rot_i_xz * b_in_i_x;
+        let t59 = t58 * b_z - t56 * b_x;
+        let t60 = t58 * b_y - t55 * b_x;
+        let t61 = a_x * (rot_i_yx * b_z - rot_i_zx * b_y)
+            + (rot_i_xx * b_y - rot_i_yx * b_x) * a_z
+            - (rot_i_xx * b_z - rot_i_zx * b_x) * a_y;
+        let t62 = rot_i_xx * t37 - rot_i_yx * t40 + rot_i_zx * t42;
+        let t63 = axis_local_y * t54 - (t34 * t57 - t38 * t59 + t41 * t60)
+            + (b_in_i_y * t61 + (axis_local_x * t43 - axis_local_z * t62));
+        let t64 = sin_0 * b_in_i_y;
+        let t65 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t66 = cos_0 * b_in_i_y;
+        let t67 = rot_i_yx * b_in_i_y - rot_i_yy * b_in_i_x;
+        let t68 = rot_i_zx * b_in_i_y - rot_i_zy * b_in_i_x;
+        let t69 = t67 * b_z - t68 * b_y;
+        let t70 = rot_i_xx * b_in_i_y - rot_i_xy * b_in_i_x;
+        let t71 = t70 * b_z - t68 * b_x;
+        let t72 = t70 * b_y - t67 * b_x;
+        let t73 = axis_local_z * t54 + (t34 * t69 - t38 * t71 + t41 * t72)
+            + (b_in_i_z * t61 - (axis_local_x * t44 - axis_local_y * t62));
+        let t74 = sin_0 * b_in_i_z;
+        let t75 = cos_0 * b_in_i_z;
+        let t76 = rot_j_zy * cross_local_z - rot_j_zz * cross_local_y;
+        let t77 = rot_j_yy * cross_local_z - rot_j_yz * cross_local_y;
+        let t78 = rot_j_xy * cross_local_z - rot_j_xz * cross_local_y;
+        let t79 = a_x * (t35 * t76 - t36 * t77) - a_y * (t39 * t76 - t36 * t78)
+            + a_z * (t39 * t77 - t35 * t78);
+        let t80 = t4 * t76 - t13 * t77;
+        let t81 = t23 * t76 - t13 * t78;
+        let t82 = t23 * t77 - t4 * t78;
+        let t83 = t79 + (t34 * t80 - t38 * t81 + t41 * t82);
+        let t84 = rot_j_xz * t39 + rot_j_yz * t35 + rot_j_zz * t36;
+        let t85 = rot_j_xy * t39 + rot_j_yy * t35 + rot_j_zy * t36;
+        let t86 = cross_local_y * t84 - cross_local_z * t85;
+        let t87 = rot_j_zx * cross_local_z - rot_j_zz * cross_local_x;
+        let t88 = rot_j_yx * cross_local_z - rot_j_yz * cross_local_x;
+        let t89 = rot_j_xx * cross_local_z - rot_j_xz * cross_local_x;
+        let t90 = a_x * (t35 * t87 - t36 * t88) - a_y * (t39 * t87 - t36 * t89)
+            + a_z * (t39 * t88 - t35 * t89);
+        let t91 = t4 * t87 - t13 * t88;
+        let t92 = t23 * t87 - t13 * t89;
+        let t93 = t23 * t88 - t4 * t89;
+        let t94 = t90 + (t34 * t91 - t38 * t92 + t41 * t93);
+        let t95 = rot_j_xx * t39 + rot_j_yx * t35 + rot_j_zx * t36;
+        let t96 = cross_local_x * t84 - cross_local_z * t95;
+        let t97 = rot_j_zx * cross_local_y - rot_j_zy * cross_local_x;
+        let t98 = rot_j_yx * cross_local_y - rot_j_yy * cross_local_x;
+        let t99 = rot_j_xx * cross_local_y - rot_j_xy * cross_local_x;
+        let t100 = a_x * (t35 * t97 - t36 * t98) - a_y * (t39 * t97 - t36 * t99)
+            + a_z * (t39 * t98 - t35 * t99);
+        let t101 = t4 * t97 - t13 * t98;
+        let t102 = t23 * t97 - t13 * t99;
+        let t103 = t23 * t98 - t4 * t99;
+        let t104 = t100 + (t34 * t101 - t38 * t102 + t41 * t103);
+        let t105 = cross_local_x * t85 - cross_local_y * t95;
+        let t106 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t107 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t108 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t109 = a_x * (rot_i_yy * b_z - rot_i_zy * b_y)
+            + (rot_i_xy * b_y - rot_i_yy * b_x) * a_z
+            - (rot_i_xy * b_z - rot_i_zy * b_x) * a_y;
+        let t110 = rot_i_xz * t57 - rot_i_yz * t59 + rot_i_zz * t60;
+        let t111 = rot_i_xy * t57 - rot_i_yy * t59 + rot_i_zy * t60;
+        let t112 = axis_local_x * t30 - (t106 * t37 - t107 * t40 + t108 * t42)
+            + (b_in_i_x * t109 + (axis_local_y * t110 - axis_local_z * t111));
+        let t113 = sin_0 * b_in_i_x;
+        let t114 = cos_0 * b_in_i_x;
+        let t115 = axis_local_x * t54;
+        let t116 = rot_i_xx * t57 - rot_i_yx * t59 + rot_i_zx * t60;
+        let t117 = t0 + t3;
+        let t118 = t9 + t12;
+        let t119 = t19 + t22;
+        let t120 = t115 + t33 - (t106 * t57 - t107 * t59 + t108 * t60)
+            + (axis_local_x * t110 - axis_local_z * t116
+                + (a_x * (t117 * b_z - t118 * b_y) - a_y * (t119 * b_z - t118 * b_x)
+                    + a_z * (t119 * b_y - t117 * b_x)));
+        let t121 = b_in_i_x * t65;
+        let t122 = t121 + t52;
+        let t123 = axis_local_z * t30 - (t106 * t69 - t107 * t71 + t108 * t72)
+            + (b_in_i_z * t109 + (axis_local_x * t111 - axis_local_y * t116));
+        let t124 = a_x * (t55 * t76 - t56 * t77) - a_y * (t58 * t76 - t56 * t78)
+            + a_z * (t58 * t77 - t55 * t78);
+        let t125 = t124 + (t106 * t80 - t107 * t81 + t108 * t82);
+        let t126 = rot_j_xz * t58 + rot_j_yz * t55 + rot_j_zz * t56;
+        let t127 = rot_j_xy * t58 + rot_j_yy * t55 + rot_j_zy * t56;
+        let t128 = cross_local_y * t126 - cross_local_z * t127;
+        let t129 = a_x * (t55 * t87 - t56 * t88) - a_y * (t58 * t87 - t56 * t89)
+            + a_z * (t58 * t88 - t55 * t89);
+        let t130 = t129 + (t106 * t91 - t107 * t92 + t108 * t93);
+        let t131 = rot_j_xx * t58 + rot_j_yx * t55 + rot_j_zx * t56;
+        let t132 = cross_local_x * t126 - cross_local_z * t131;
+        let t133 = a_x * (t55 * t97 - t56 * t98) - a_y * (t58 * t97 - t56 * t99)
+            + a_z * (t58 * t98 - t55 * t99);
+        let t134 = t133 + (t106 * t101 - t107 * t102 + t108 * t103);
+        let t135 = cross_local_x * t127 - cross_local_y * t131;
+        let t136 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t137 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t138 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t139 = a_x * (rot_i_yz * b_z - rot_i_zz * b_y)
+            + (rot_i_xz * b_y - rot_i_yz * b_x) * a_z
+            - (rot_i_xz * b_z - rot_i_zz * b_x) * a_y;
+        let t140 = rot_i_xz * t69 - rot_i_yz * t71 + rot_i_zz * t72;
+        let t141 = rot_i_xy * t69 - rot_i_yy * t71 + rot_i_zy * t72;
+        let t142 = axis_local_x * t32 + (t136 * t37 - t137 * t40 + t138 * t42)
+            + (b_in_i_x * t139 - (axis_local_y * t140 - axis_local_z * t141));
+        let t143 = rot_i_xx * t69 - rot_i_yx * t71 + rot_i_zx * t72;
+        let t144 = axis_local_y * t32 - (t136 * t57 - t137 * t59 + t138 * t60)
+            + (b_in_i_y * t139 + (axis_local_x * t140 - axis_local_z * t143));
+        let t145 = t115 + t31 - (t136 * t69 - t137 * t71 + t138 * t72)
+            + (axis_local_x * t141 - axis_local_y * t143
+                + (a_x * (t2 * b_z - t11 * b_y) - a_y * (t21 * b_z - t11 * b_x)
+                    + a_z * (t21 * b_y - t2 * b_x)));
+        let t146 = t121 + t50;
+        let t147 = a_x * (t67 * t76 - t68 * t77) - a_y * (t70 * t76 - t68 * t78)
+            + a_z * (t70 * t77 - t67 * t78);
+        let t148 = t147 + (t136 * t80 - t137 * t81 + t138 * t82);
+        let t149 = rot_j_xz * t70 + rot_j_yz * t67 + rot_j_zz * t68;
+        let t150 = rot_j_xy * t70 + rot_j_yy * t67 + rot_j_zy * t68;
+        let t151 = cross_local_y * t149 - cross_local_z * t150;
+        let t152 = a_x * (t67 * t87 - t68 * t88) - a_y * (t70 * t87 - t68 * t89)
+            + a_z * (t70 * t88 - t67 * t89);
+        let t153 = t152 + (t136 * t91 - t137 * t92 + t138 * t93);
+        let t154 = rot_j_xx * t70 + rot_j_yx * t67 + rot_j_zx * t68;
+        let t155 = cross_local_x * t149 - cross_local_z * t154;
+        let t156 = a_x * (t67 * t97 - t68 * t98) - a_y * (t70 * t97 - t68 * t99)
+            + a_z * (t70 * t98 - t67 * t99);
+        let t157 = t156 + (t136 * t101 - t137 * t102 + t138 * t103);
+        let t158 = cross_local_x * t150 - cross_local_y * t154;
+        let t159 = rot_i_xz * t80 - rot_i_yz * t81 + rot_i_zz * t82;
+        let t160 = rot_i_xy * t80 - rot_i_yy * t81 + rot_i_zy * t82;
+        let t161 = axis_local_y * t159 - axis_local_z * t160 - t79;
+        let t162 = rot_i_xz * t78 + rot_i_yz * t77 + rot_i_zz * t76;
+        let t163 = rot_i_xy * t78 + rot_i_yy * t77 + rot_i_zy * t76;
+        let t164 = b_in_i_y * t162 - b_in_i_z * t163;
+        let t165 = rot_i_xx * t80 - rot_i_yx * t81 + rot_i_zx * t82;
+        let t166 = axis_local_x * t159 - axis_local_z * t165 - t124;
+        let t167 = rot_i_xx * t78 + rot_i_yx * t77 + rot_i_zx * t76;
+        let t168 = b_in_i_x * t162 - b_in_i_z * t167;
+        let t169 = axis_local_x * t160 - axis_local_y * t165 - t147;
+        let t170 = b_in_i_x * t163 - b_in_i_y * t167;
+        let t171 = t6 + t8;
+        let t172 = t15 + t17;
+        let t173 = t25 + t27;
+        let t174 = a_x * (t4 * t171 - t13 * t172) - a_y * (t23 * t171 - t13 * t173)
+            + a_z * (t23 * t172 - t4 * t173);
+        let t175 = rot_j_xy * t23 + rot_j_yy * t4 + rot_j_zy * t13;
+        let t176 = cross_local_y * t175;
+        let t177 = rot_j_xz * t23 + rot_j_yz * t4 + rot_j_zz * t13;
+        let t178 = cross_local_z * t177;
+        let t179 = t176 + t178;
+        let t180 = cross_local_y * lambda_0;
+        let t181 = a_x * (rot_j_yx * t13 - rot_j_zx * t4)
+            - a_y * (rot_j_xx * t13 - rot_j_zx * t23)
+            + a_z * (rot_j_xx * t4 - rot_j_yx * t23);
+        let t182 = rot_j_xx * t23 + rot_j_yx * t4 + rot_j_zx * t13;
+        let t183 = motion_cos * (cos_0 * t181 + sin_0 * t182)
+            + motion_sin * (cos_0 * t182 - sin_0 * t181);
+        let t184 = cross_local_z * lambda_0;
+        let t185 = rot_i_xz * t91 - rot_i_yz * t92 + rot_i_zz * t93;
+        let t186 = rot_i_xy * t91 - rot_i_yy * t92 + rot_i_zy * t93;
+        let t187 = axis_local_y * t185 - axis_local_z * t186 - t90;
+        let t188 = rot_i_xz * t89 + rot_i_yz * t88 + rot_i_zz * t87;
+        let t189 = rot_i_xy * t89 + rot_i_yy * t88 + rot_i_zy * t87;
+        let t190 = b_in_i_y * t188 - b_in_i_z * t189;
+        let t191 = rot_i_xx * t91 - rot_i_yx * t92 + rot_i_zx * t93;
+        let t192 = axis_local_x * t185 - axis_local_z * t191 - t129;
+        let t193 = rot_i_xx * t89 + rot_i_yx * t88 + rot_i_zx * t87;
+        let t194 = b_in_i_x * t188 - b_in_i_z * t193;
+        let t195 = axis_local_x * t186 - axis_local_y * t191 - t152;
+        let t196 = b_in_i_x * t189 - b_in_i_y * t193;
+        let t197 = cross_local_x * lambda_0;
+        let t198 = a_x * (rot_j_yy * t13 - rot_j_zy * t4)
+            - a_y * (rot_j_xy * t13 - rot_j_zy * t23)
+            + a_z * (rot_j_xy * t4 - rot_j_yy * t23);
+        let t199 = motion_cos * (cos_0 * t198 + sin_0 * t175)
+            + motion_sin * (cos_0 * t175 - sin_0 * t198);
+        let t200 = t5 + t8;
+        let t201 = t14 + t17;
+        let t202 = t24 + t27;
+        let t203 = a_x * (t4 * t200 - t13 * t201) - a_y * (t23 * t200 - t13 * t202)
+            + a_z * (t23 * t201 - t4 * t202);
+        let t204 = cross_local_x * t182;
+        let t205 = t204 + t178;
+        let t206 = rot_i_xz * t101 - rot_i_yz * t102 + rot_i_zz * t103;
+        let t207 = rot_i_xy * t101 - rot_i_yy * t102 + rot_i_zy * t103;
+        let t208 = axis_local_y * t206 - axis_local_z * t207 - t100;
+        let t209 = rot_i_xz * t99 + rot_i_yz * t98 + rot_i_zz * t97;
+        let t210 = rot_i_xy * t99 + rot_i_yy * t98 + rot_i_zy * t97;
+        let t211 = b_in_i_y * t209 - b_in_i_z * t210;
+        let t212 = rot_i_xx * t101 - rot_i_yx * t102 + rot_i_zx * t103;
+        let t213 = axis_local_x * t206 - axis_local_z * t212 - t133;
+        let t214 = rot_i_xx * t99 + rot_i_yx * t98 + rot_i_zx * t97;
+        let t215 = b_in_i_x * t209 - b_in_i_z * t214;
+        let t216 = axis_local_x * t207 - axis_local_y * t212 - t156;
+        let t217 = b_in_i_x * t210 - b_in_i_y * t214;
+        let t218 = a_x * (rot_j_yz * t13 - rot_j_zz * t4)
+            - a_y * (rot_j_xz * t13 - rot_j_zz * t23)
+            + a_z * (rot_j_xz * t4 - rot_j_yz * t23);
+        let t219 = motion_cos * (cos_0 * t218 + sin_0 * t177)
+            + motion_sin * (cos_0 * t177 - sin_0 * t218);
+        let t220 = a_x * (t4 * t7 - t13 * t16) - a_y * (t23 * t7 - t13 * t26)
+            + a_z * (t23 * t16 - t4 * t26);
+        let t221 = t204 + t176;
+        out[0] = -(lambda_0
+            * (motion_cos * (cos_0 * t48 - sin_0 * t53)
+                - motion_sin * (cos_0 * t53 + sin_0 * t48)));
+        out[1] = lambda_0
+            * (motion_cos * (cos_0 * t63 - t64 * t65)
+                - motion_sin * (t66 * t65 + sin_0 * t63));
+        out[2] = lambda_0
+            * (motion_cos * (cos_0 * t73 - t74 * t65)
+                - motion_sin * (t75 * t65 + sin_0 * t73));
+        out[3] = lambda_0
+            * (motion_cos * (cos_0 * t83 + sin_0 * t86)
+                + motion_sin * (cos_0 * t86 - sin_0 * t83));
+        out[4] = -(lambda_0
+            * (motion_cos * (cos_0 * t94 + sin_0 * t96)
+                + motion_sin * (cos_0 * t96 - sin_0 * t94)));
+        out[5] = lambda_0
+            * (motion_cos * (cos_0 * t104 + sin_0 * t105)
+                + motion_sin * (cos_0 * t105 - sin_0 * t104));
+        out[6] = lambda_0
+            * (motion_cos * (cos_0 * t112 - t113 * t49)
+                - motion_sin * (t114 * t49 + sin_0 * t112));
+        out[7] = -(lambda_0
+            * (motion_cos * (cos_0 * t120 - sin_0 * t122)
+                - motion_sin * (cos_0 * t122 + sin_0 * t120)));
+        out[8] = lambda_0
+            * (motion_cos * (cos_0 * t123 - t74 * t49)
+                - motion_sin * (t75 * t49 + sin_0 * t123));
+        out[9] = -(lambda_0
+            * (motion_cos * (cos_0 * t125 + sin_0 * t128)
+                + motion_sin * (cos_0 * t128 - sin_0 * t125)));
+        out[10] = lambda_0
+            * (motion_cos * (cos_0 * t130 + sin_0 * t132)
+                + motion_sin * (cos_0 * t132 - sin_0 * t130));
+        out[11] = -(lambda_0
+            * (motion_cos * (cos_0 * t134 + sin_0 * t135)
+                + motion_sin * (cos_0 * t135 - sin_0 * t134)));
+        out[12] = lambda_0
+            * (motion_cos * (cos_0 * t142 - t113 * t51)
+                - motion_sin * (t114 * t51 + sin_0 * t142));
+        out[13] = lambda_0
+            * (motion_cos * (cos_0 * t144 - t64 * t51)
+                - motion_sin * (t66 * t51 + sin_0 * t144));
+        out[14] = -(lambda_0
+            * (motion_cos * (cos_0 * t145 - sin_0 * t146)
+                - motion_sin * (cos_0 * t146 + sin_0 * t145)));
+        out[15] = lambda_0
+            * (motion_cos * (cos_0 * t148 + sin_0 * t151)
+                + motion_sin * (cos_0 * t151 - sin_0 * t148));
+        out[16] = -(lambda_0
+            * (motion_cos * (cos_0 * t153 + sin_0 * t155)
+                + motion_sin * (cos_0 * t155 - sin_0 * t153)));
+        out[17] = lambda_0
+            * (motion_cos * (cos_0 * t157 + sin_0 * t158)
+                + motion_sin * (cos_0 * t158 - sin_0 * t157));
+        out[18] = -(lambda_0
+            * (motion_cos * (cos_0 * t161 - sin_0 * t164)
+                - motion_sin * (cos_0 * t164 + sin_0 * t161)));
+        out[19] = lambda_0
+            * (motion_cos * (cos_0 * t166 - sin_0 * t168)
+                - motion_sin * (cos_0 * t168 + sin_0 * t166));
+        out[20] = -(lambda_0
+            * (motion_cos * (cos_0 * t169 - sin_0 * t170)
+                - motion_sin * (cos_0 * t170 + sin_0 * t169)));
+        out[21] = -(lambda_0
+            * (motion_cos * (cos_0 * t174 - sin_0 * t179)
+                - motion_sin * (cos_0 * t179 + sin_0 * t174)));
+        out[22] = -(t180 * t183);
+        out[23] = -(t184 * t183);
+        out[24] = lambda_0
+            * (motion_cos * (cos_0 * t187 - sin_0 * t190)
+                - motion_sin * (cos_0 * t190 + sin_0 * t187));
+        out[25] = -(lambda_0
+            * (motion_cos * (cos_0 * t192 - sin_0 * t194)
+                - motion_sin * (cos_0 * t194 + sin_0 * t192)));
+        out[26] = lambda_0
+            * (motion_cos * (cos_0 * t195 - sin_0 * t196)
+                - motion_sin * (cos_0 * t196 + sin_0 * t195));
+        out[27] = -(t197 * t199);
+        out[28] = -(lambda_0
+            * (motion_cos * (cos_0 * t203 - sin_0 * t205)
+                - motion_sin * (cos_0 * t205 + sin_0 * t203)));
+        out[29] = -(t184 * t199);
+        out[30] = -(lambda_0
+            * (motion_cos * (cos_0 * t208 - sin_0 * t211)
+                - motion_sin * (cos_0 * t211 + sin_0 * t208)));
+        out[31] = lambda_0
+            * (motion_cos * (cos_0 * t213 - sin_0 * t215)
+                - motion_sin * (cos_0 * t215 + sin_0 * t213));
+        out[32] = -(lambda_0
+            * (motion_cos * (cos_0 * t216 - sin_0 * t217)
+                - motion_sin * (cos_0 * t217 + sin_0 * t216)));
+        out[33] = -(t197 * t219);
+        out[34] = -(t180 * t219);
+        out[35] = -(lambda_0
+            * (motion_cos * (cos_0 * t220 - sin_0 * t221)
+                - motion_sin * (cos_0 * t221 + sin_0 * t220)));
+    }
+    /// ∂(C·a − Γ)/∂x. Operations: 900 mul, 699 add, 2 neg.
+    fn d_residual_dx(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        out: &mut [T],
+    ) {
+        let out = &mut out[..6];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let alpha_i_x = a[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let alpha_i_y = a[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let alpha_i_z = a[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let alpha_j_x = a[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let alpha_j_y = a[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let alpha_j_z = a[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_cos_tt = f[0][2];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let motion_sin_tt = f[1][2];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let t1 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+        let t2 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+        let t3 = omega_j_y * t1 + omega_j_z * t2
+            + (alpha_j_y * cross_local_z - alpha_j_z * cross_local_y);
+        let t4 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+        let t5 = omega_j_x * t1 - omega_j_z * t4
+            + (alpha_j_x * cross_local_z - alpha_j_z * cross_local_x);
+        let t6 = omega_j_x * t2 + omega_j_y * t4
+            - (alpha_j_x * cross_local_y - alpha_j_y * cross_local_x);
+        let t7 = rot_j_zx * t3 - rot_j_zy * t5 - rot_j_zz * t6;
+        let t8 = omega_i_y * b_in_i_z - omega_i_z * b_in_i_y;
+        let t9 = omega_i_x * b_in_i_z - omega_i_z * b_in_i_x;
+        let t10 = omega_i_x * b_in_i_y - omega_i_y * b_in_i_x;
+        let t11 = rot_i_yx * t8 - rot_i_yy * t9 + rot_i_yz * t10;
+        let t12 = rot_j_zx * t4 - rot_j_zy * t2 + rot_j_zz * t1;
+        let t13 = t11 * t12;
+        let t14 = omega_i_y * t10 + omega_i_z * t9
+            + (alpha_i_y * b_in_i_z - alpha_i_z * b_in_i_y);
+        let t15 = omega_i_x * t10 - omega_i_z * t8
+            + (alpha_i_x * b_in_i_z - alpha_i_z * b_in_i_x);
+        let t16 = omega_i_x * t9 + omega_i_y * t8
+            - (alpha_i_x * b_in_i_y - alpha_i_y * b_in_i_x);
+        let t17 = rot_i_yx * t14 - rot_i_yy * t15 - rot_i_yz * t16;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t18 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let t19 = rot_j_yx * t3 - rot_j_yy * t5 - rot_j_yz * t6;
+        let t20 = rot_i_zx * t8 - rot_i_zy * t9 + rot_i_zz * t10;
+        let t21 = rot_j_yx * t4 - rot_j_yy * t2 + rot_j_yz * t1;
+        let t22 = t20 * t21;
+        let t23 = rot_i_zx * t14 - rot_i_zy * t15 - rot_i_zz * t16;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t24 = t0 * t7 + t13 + (t13 + t17 * b_z)
+            - (t18 * t19 + t22 + (t22 + t23 * b_y));
+        let t25 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let t26 = rot_i_xx * t8 - rot_i_xy * t9 + rot_i_xz * t10;
+        let t27 = t26 * t12;
+        let t28 = rot_i_xx * t14 - rot_i_xy * t15 - rot_i_xz * t16;
+        let t29 = rot_j_xx * t3 - rot_j_xy * t5 - rot_j_xz * t6;
+        let t30 = rot_j_xx * t4 - rot_j_xy * t2 + rot_j_xz * t1;
+        let t31 = t20 * t30;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t32 = t25 * t7 + t27 + (t27 + t28 * b_z)
+            - (t18 * t29 + t31 + (t31 + t23 * b_x));
+        let t33 = t26 * t21;
+        let t34 = t11 * t30;
+        let t35 = t25 * t19 + t33 + (t33 + t28 * b_y)
+            - (t0 * t29 + t34 + (t34 + t17 * b_x));
+        let t36 = rot_i_xz * t24 - rot_i_yz * t32 + rot_i_zz * t35;
+        let t37 = rot_i_xy * t24 - rot_i_yy * t32 + rot_i_zy * t35;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t38 = rot_i_yy * b_in_i_z - rot_i_yz * b_in_i_y;
+        let t39 = rot_i_yy * t10 + rot_i_yz * t9;
+        let t40 = t39 * t12;
+        let t41 = rot_i_yy * t16 - rot_i_yz * t15;
+        let t42 = rot_i_zy * b_in_i_z - rot_i_zz * b_in_i_y;
+        let t43 = rot_i_zy * t10 + rot_i_zz * t9;
+        let t44 = t43 * t21;
+        let t45 = rot_i_zy * t16 - rot_i_zz * t15;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t46 = rot_i_xy * b_in_i_z - rot_i_xz * b_in_i_y;
+        let t47 = rot_i_xy * t10 + rot_i_xz * t9;
+        let t48 = t47 * t12;
+        let t49 = rot_i_xy * t16 - rot_i_xz * t15;
+        let t50 = t43 * t30;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t51 = t47 * t21;
+        let t52 = t39 * t30;
+        let t53 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t54 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t55 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t56 = rot_i_xx * t53 - rot_i_xy * t54 + rot_i_xz * t55;
+        let t57 = t38 * t12 + t39 * b_z - (t42 * t21 + t43 * b_y);
+        let t58 = rot_i_yx * t53 - rot_i_yy * t54 + rot_i_yz * t55;
+        let t59 = t46 * t12 + t47 * b_z - (t42 * t30 + t43 * b_x);
+        let t60 = rot_i_zx * t53 - rot_i_zy * t54 + rot_i_zz * t55;
+        let t61 = t46 * t21 + t47 * b_y - (t38 * t30 + t39 * b_x);
+        let t62 = t0 * t12 + t11 * b_z - (t18 * t21 + t20 * b_y);
+        let t63 = t25 * t12 + t26 * b_z - (t18 * t30 + t20 * b_x);
+        let t64 = t25 * t21 + t26 * b_y - (t0 * t30 + t11 * b_x);
+        let t65 = rot_i_xy * t62 - rot_i_yy * t63 + rot_i_zy * t64;
+        let t66 = rot_i_xz * t62 - rot_i_yz * t63 + rot_i_zz * t64;
+        let t67 = t56 * t57 - t58 * t59 + t60 * t61 + (t65 * t55 + t66 * t54);
+        let t68 = omega_i_y * t55 + omega_i_z * t54
+            + (alpha_i_y * axis_local_z - alpha_i_z * axis_local_y);
+        let t69 = omega_i_x * t55 - omega_i_z * t53
+            + (alpha_i_x * axis_local_z - alpha_i_z * axis_local_x);
+        let t70 = omega_i_x * t54 + omega_i_y * t53
+            - (alpha_i_x * axis_local_y - alpha_i_y * axis_local_x);
+        let t71 = rot_i_xx * t68 - rot_i_xy * t69 - rot_i_xz * t70;
+        let t72 = t38 * b_z - t42 * b_y;
+        let t73 = rot_i_yx * t68 - rot_i_yy * t69 - rot_i_yz * t70;
+        let t74 = t46 * b_z - t42 * b_x;
+        let t75 = rot_i_zx * t68 - rot_i_zy * t69 - rot_i_zz * t70;
+        let t76 = t46 * b_y - t38 * b_x;
+        let t77 = t0 * b_z - t18 * b_y;
+        let t78 = t25 * b_z - t18 * b_x;
+        let t79 = t25 * b_y - t0 * b_x;
+        let t80 = rot_i_xy * t77 - rot_i_yy * t78 + rot_i_zy * t79;
+        let t81 = rot_i_xz * t77 - rot_i_yz * t78 + rot_i_zz * t79;
+        let t82 = axis_local_y * t36 - axis_local_z * t37
+            - (a_x
+                * (t38 * t7 + t40 + (t40 - t41 * b_z)
+                    - (t42 * t19 + t44 + (t44 - t45 * b_y)))
+                - a_y
+                    * (t46 * t7 + t48 + (t48 - t49 * b_z)
+                        - (t42 * t29 + t50 + (t50 - t45 * b_x)))
+                + a_z
+                    * (t46 * t19 + t51 + (t51 - t49 * b_y)
+                        - (t38 * t29 + t52 + (t52 - t41 * b_x)))) - t67
+            - (t67 + (t71 * t72 - t73 * t74 + t75 * t76 - (t80 * t70 - t81 * t69)));
+        let t83 = rot_i_xz * t29 + rot_i_yz * t19 + rot_i_zz * t7;
+        let t84 = rot_i_xy * t29 + rot_i_yy * t19 + rot_i_zy * t7;
+        let t85 = rot_i_xy * t30 + rot_i_yy * t21 + rot_i_zy * t12;
+        let t86 = rot_i_xz * t30 + rot_i_yz * t21 + rot_i_zz * t12;
+        let t87 = t85 * t10 + t86 * t9;
+        let t88 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t89 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t90 = b_in_i_y * t83 - b_in_i_z * t84 - t87 + (t88 * t16 - t89 * t15 - t87);
+        let t91 = axis_local_y * t66 - axis_local_z * t65
+            - (a_x * t57 - a_y * t59 + a_z * t61)
+            - (t56 * t72 - t58 * t74 + t60 * t76 + (t80 * t55 + t81 * t54));
+        let t92 = b_in_i_y * t86 - b_in_i_z * t85 - (t88 * t10 + t89 * t9);
+        let t93 = motion_cos_t * (cos_0 * t91 - sin_0 * t92);
+        let t94 = axis_local_y * t81 - axis_local_z * t80
+            - (a_x * t72 - a_y * t74 + a_z * t76);
+        let t95 = b_in_i_y * t89 - b_in_i_z * t88;
+        let t96 = motion_sin_t * (cos_0 * t92 + sin_0 * t91);
+        let t97 = rot_i_xx * t24 - rot_i_yx * t32 + rot_i_zx * t35;
+        let t98 = rot_i_yx * b_in_i_z - rot_i_yz * b_in_i_x;
+        let t99 = rot_i_yx * t10 - rot_i_yz * t8;
+        let t100 = t99 * t12;
+        let t101 = rot_i_yx * t16 + rot_i_yz * t14;
+        let t102 = rot_i_zx * b_in_i_z - rot_i_zz * b_in_i_x;
+        let t103 = rot_i_zx * t10 - rot_i_zz * t8;
+        let t104 = t103 * t21;
+        let t105 = rot_i_zx * t16 + rot_i_zz * t14;
+        let t106 = rot_i_xx * b_in_i_z - rot_i_xz * b_in_i_x;
+        let t107 = rot_i_xx * t10 - rot_i_xz * t8;
+        let t108 = t107 * t12;
+        let t109 = rot_i_xx * t16 + rot_i_xz * t14;
+        let t110 = t103 * t30;
+        let t111 = t107 * t21;
+        let t112 = t99 * t30;
+        let t113 = t98 * t12 + t99 * b_z - (t102 * t21 + t103 * b_y);
+        let t114 = t106 * t12 + t107 * b_z - (t102 * t30 + t103 * b_x);
+        let t115 = t106 * t21 + t107 * b_y - (t98 * t30 + t99 * b_x);
+        let t116 = rot_i_xx * t62 - rot_i_yx * t63 + rot_i_zx * t64;
+        let t117 = t56 * t113 - t58 * t114 + t60 * t115 + (t116 * t55 - t66 * t53);
+        let t118 = rot_i_xx * t77 - rot_i_yx * t78 + rot_i_zx * t79;
+        let t119 = t98 * b_z - t102 * b_y;
+        let t120 = t106 * b_z - t102 * b_x;
+        let t121 = t106 * b_y - t98 * b_x;
+        let t122 = axis_local_x * t36 - axis_local_z * t97
+            - (a_x
+                * (t98 * t7 + t100 + (t100 - t101 * b_z)
+                    - (t102 * t19 + t104 + (t104 - t105 * b_y)))
+                - a_y
+                    * (t106 * t7 + t108 + (t108 - t109 * b_z)
+                        - (t102 * t29 + t110 + (t110 - t105 * b_x)))
+                + a_z
+                    * (t106 * t19 + t111 + (t111 - t109 * b_y)
+                        - (t98 * t29 + t112 + (t112 - t101 * b_x)))) - t117
+            - (t117 - (t118 * t70 + t81 * t68 - (t71 * t119 - t73 * t120 + t75 * t121)));
+        let t123 = rot_i_xx * t29 + rot_i_yx * t19 + rot_i_zx * t7;
+        let t124 = rot_i_xx * t30 + rot_i_yx * t21 + rot_i_zx * t12;
+        let t125 = t124 * t10 - t86 * t8;
+        let t126 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t127 = b_in_i_x * t83 - b_in_i_z * t123 - t125
+            + (t126 * t16 + t89 * t14 - t125);
+        let t128 = axis_local_x * t66 - axis_local_z * t116
+            - (a_x * t113 - a_y * t114 + a_z * t115)
+            - (t56 * t119 - t58 * t120 + t60 * t121 + (t118 * t55 - t81 * t53));
+        let t129 = b_in_i_x * t86 - b_in_i_z * t124 - (t126 * t10 - t89 * t8);
+        let t130 = motion_cos_t * (cos_0 * t128 - sin_0 * t129);
+        let t131 = axis_local_x * t81 - axis_local_z * t118
+            - (a_x * t119 - a_y * t120 + a_z * t121);
+        let t132 = b_in_i_x * t89 - b_in_i_z * t126;
+        let t133 = motion_sin_t * (cos_0 * t129 + sin_0 * t128);
+        let t134 = rot_i_yx * b_in_i_y - rot_i_yy * b_in_i_x;
+        let t135 = rot_i_yx * t9 + rot_i_yy * t8;
+        let t136 = t135 * t12;
+        let t137 = rot_i_yx * t15 + rot_i_yy * t14;
+        let t138 = rot_i_zx * b_in_i_y - rot_i_zy * b_in_i_x;
+        let t139 = rot_i_zx * t9 + rot_i_zy * t8;
+        let t140 = t139 * t21;
+        let t141 = rot_i_zx * t15 + rot_i_zy * t14;
+        let t142 = rot_i_xx * b_in_i_y - rot_i_xy * b_in_i_x;
+        let t143 = rot_i_xx * t9 + rot_i_xy * t8;
+        let t144 = t143 * t12;
+        let t145 = rot_i_xx * t15 + rot_i_xy * t14;
+        let t146 = t139 * t30;
+        let t147 = t143 * t21;
+        let t148 = t135 * t30;
+        let t149 = t134 * t12 - t135 * b_z - (t138 * t21 - t139 * b_y);
+        let t150 = t142 * t12 - t143 * b_z - (t138 * t30 - t139 * b_x);
+        let t151 = t142 * t21 - t143 * b_y - (t134 * t30 - t135 * b_x);
+        let t152 = t56 * t149 - t58 * t150 + t60 * t151 - (t116 * t54 + t65 * t53);
+        let t153 = t134 * b_z - t138 * b_y;
+        let t154 = t142 * b_z - t138 * b_x;
+        let t155 = t142 * b_y - t134 * b_x;
+        let t156 = axis_local_x * t37 - axis_local_y * t97
+            - (a_x
+                * (t134 * t7 - t136 - (t136 + t137 * b_z)
+                    - (t138 * t19 - t140 - (t140 + t141 * b_y)))
+                - a_y
+                    * (t142 * t7 - t144 - (t144 + t145 * b_z)
+                        - (t138 * t29 - t146 - (t146 + t141 * b_x)))
+                + a_z
+                    * (t142 * t19 - t147 - (t147 + t145 * b_y)
+                        - (t134 * t29 - t148 - (t148 + t137 * b_x)))) - t152
+            - (t152 - (t118 * t69 + t80 * t68 - (t71 * t153 - t73 * t154 + t75 * t155)));
+        let t157 = t124 * t9 + t85 * t8;
+        let t158 = b_in_i_x * t84 - b_in_i_y * t123 + t157
+            + (t126 * t15 + t88 * t14 + t157);
+        let t159 = axis_local_x * t65 - axis_local_y * t116
+            - (a_x * t149 - a_y * t150 + a_z * t151)
+            - (t56 * t153 - t58 * t154 + t60 * t155 - (t118 * t54 + t80 * t53));
+        let t160 = b_in_i_x * t85 - b_in_i_y * t124 + (t126 * t9 + t88 * t8);
+        let t161 = motion_cos_t * (cos_0 * t159 - sin_0 * t160);
+        let t162 = axis_local_x * t80 - axis_local_y * t118
+            - (a_x * t153 - a_y * t154 + a_z * t155);
+        let t163 = b_in_i_x * t88 - b_in_i_y * t126;
+        let t164 = motion_sin_t * (cos_0 * t160 + sin_0 * t159);
+        let t165 = rot_j_zy * t6 - rot_j_zz * t5;
+        let t166 = rot_j_zy * t1 + rot_j_zz * t2;
+        let t167 = t11 * t166;
+        let t168 = rot_j_zy * cross_local_z - rot_j_zz * cross_local_y;
+        let t169 = rot_j_yy * t6 - rot_j_yz * t5;
+        let t170 = rot_j_yy * t1 + rot_j_yz * t2;
+        let t171 = t20 * t170;
+        let t172 = rot_j_yy * cross_local_z - rot_j_yz * cross_local_y;
+        let t173 = t26 * t166;
+        let t174 = rot_j_xy * t6 - rot_j_xz * t5;
+        let t175 = rot_j_xy * t1 + rot_j_xz * t2;
+        let t176 = t20 * t175;
+        let t177 = rot_j_xy * cross_local_z - rot_j_xz * cross_local_y;
+        let t178 = t26 * t170;
+        let t179 = t11 * t175;
+        let t180 = t0 * t166 + t11 * t168 - (t18 * t170 + t20 * t172);
+        let t181 = t25 * t166 + t26 * t168 - (t18 * t175 + t20 * t177);
+        let t182 = t25 * t170 + t26 * t172 - (t0 * t175 + t11 * t177);
+        let t183 = t56 * t180 - t58 * t181 + t60 * t182;
+        let t184 = t0 * t168 - t18 * t172;
+        let t185 = t25 * t168 - t18 * t177;
+        let t186 = t25 * t172 - t0 * t177;
+        let t187 = a_x
+            * (t0 * t165 - t167 - (t167 + t17 * t168)
+                - (t18 * t169 - t171 - (t171 + t23 * t172)))
+            - a_y
+                * (t25 * t165 - t173 - (t173 + t28 * t168)
+                    - (t18 * t174 - t176 - (t176 + t23 * t177)))
+            + a_z
+                * (t25 * t169 - t178 - (t178 + t28 * t172)
+                    - (t0 * t174 - t179 - (t179 + t17 * t177))) - t183
+            - (t183 + (t71 * t184 - t73 * t185 + t75 * t186));
+        let t188 = rot_j_xz * t28 + rot_j_yz * t17 + rot_j_zz * t23;
+        let t189 = rot_j_xy * t28 + rot_j_yy * t17 + rot_j_zy * t23;
+        let t190 = rot_j_xy * t26 + rot_j_yy * t11 + rot_j_zy * t20;
+        let t191 = rot_j_xz * t26 + rot_j_yz * t11 + rot_j_zz * t20;
+        let t192 = t190 * t1 + t191 * t2;
+        let t193 = rot_j_xy * t25 + rot_j_yy * t0 + rot_j_zy * t18;
+        let t194 = rot_j_xz * t25 + rot_j_yz * t0 + rot_j_zz * t18;
+        let t195 = cross_local_y * t188 - cross_local_z * t189 - t192
+            + (t193 * t6 - t194 * t5 - t192);
+        let t196 = a_x * t180 - a_y * t181 + a_z * t182
+            + (t56 * t184 - t58 * t185 + t60 * t186);
+        let t197 = cross_local_y * t191 - cross_local_z * t190 - (t193 * t1 + t194 * t2);
+        let t198 = motion_cos_t * (cos_0 * t196 + sin_0 * t197);
+        let t199 = a_x * t184 - a_y * t185 + a_z * t186;
+        let t200 = cross_local_y * t194 - cross_local_z * t193;
+        let t201 = motion_sin_t * (cos_0 * t197 - sin_0 * t196);
+        let t202 = rot_j_zx * t6 + rot_j_zz * t3;
+        let t203 = rot_j_zx * t1 - rot_j_zz * t4;
+        let t204 = t11 * t203;
+        let t205 = rot_j_zx * cross_local_z - rot_j_zz * cross_local_x;
+        let t206 = rot_j_yx * t6 + rot_j_yz * t3;
+        let t207 = rot_j_yx * t1 - rot_j_yz * t4;
+        let t208 = t20 * t207;
+        let t209 = rot_j_yx * cross_local_z - rot_j_yz * cross_local_x;
+        let t210 = t26 * t203;
+        let t211 = rot_j_xx * t6 + rot_j_xz * t3;
+        let t212 = rot_j_xx * t1 - rot_j_xz * t4;
+        let t213 = t20 * t212;
+        let t214 = rot_j_xx * cross_local_z - rot_j_xz * cross_local_x;
+        let t215 = t26 * t207;
+        let t216 = t11 * t212;
+        let t217 = t0 * t203 + t11 * t205 - (t18 * t207 + t20 * t209);
+        let t218 = t25 * t203 + t26 * t205 - (t18 * t212 + t20 * t214);
+        let t219 = t25 * t207 + t26 * t209 - (t0 * t212 + t11 * t214);
+        let t220 = t56 * t217 - t58 * t218 + t60 * t219;
+        let t221 = t0 * t205 - t18 * t209;
+        let t222 = t25 * t205 - t18 * t214;
+        let t223 = t25 * t209 - t0 * t214;
+        let t224 = a_x
+            * (t0 * t202 - t204 - (t204 + t17 * t205)
+                - (t18 * t206 - t208 - (t208 + t23 * t209)))
+            - a_y
+                * (t25 * t202 - t210 - (t210 + t28 * t205)
+                    - (t18 * t211 - t213 - (t213 + t23 * t214)))
+            + a_z
+                * (t25 * t206 - t215 - (t215 + t28 * t209)
+                    - (t0 * t211 - t216 - (t216 + t17 * t214))) - t220
+            - (t220 + (t71 * t221 - t73 * t222 + t75 * t223));
+        let t225 = rot_j_xx * t28 + rot_j_yx * t17 + rot_j_zx * t23;
+        let t226 = rot_j_xx * t26 + rot_j_yx * t11 + rot_j_zx * t20;
+        let t227 = t226 * t1 - t191 * t4;
+        let t228 = rot_j_xx * t25 + rot_j_yx * t0 + rot_j_zx * t18;
+        let t229 = cross_local_x * t188 - cross_local_z * t225 - t227
+            + (t228 * t6 + t194 * t3 - t227);
+        let t230 = a_x * t217 - a_y * t218 + a_z * t219
+            + (t56 * t221 - t58 * t222 + t60 * t223);
+        let t231 = cross_local_x * t191 - cross_local_z * t226 - (t228 * t1 - t194 * t4);
+        let t232 = motion_cos_t * (cos_0 * t230 + sin_0 * t231);
+        let t233 = a_x * t221 - a_y * t222 + a_z * t223;
+        let t234 = cross_local_x * t194 - cross_local_z * t228;
+        let t235 = motion_sin_t * (cos_0 * t231 - sin_0 * t230);
+        let t236 = rot_j_zx * t5 + rot_j_zy * t3;
+        let t237 = rot_j_zx * t2 + rot_j_zy * t4;
+        let t238 = t11 * t237;
+        let t239 = rot_j_zx * cross_local_y - rot_j_zy * cross_local_x;
+        let t240 = rot_j_yx * t5 + rot_j_yy * t3;
+        let t241 = rot_j_yx * t2 + rot_j_yy * t4;
+        let t242 = t20 * t241;
+        let t243 = rot_j_yx * cross_local_y - rot_j_yy * cross_local_x;
+        let t244 = t26 * t237;
+        let t245 = rot_j_xx * t5 + rot_j_xy * t3;
+        let t246 = rot_j_xx * t2 + rot_j_xy * t4;
+        let t247 = t20 * t246;
+        let t248 = rot_j_xx * cross_local_y - rot_j_xy * cross_local_x;
+        let t249 = t26 * t241;
+        let t250 = t11 * t246;
+        let t251 = t0 * t237 - t11 * t239 - (t18 * t241 - t20 * t243);
+        let t252 = t25 * t237 - t26 * t239 - (t18 * t246 - t20 * t248);
+        let t253 = t25 * t241 - t26 * t243 - (t0 * t246 - t11 * t248);
+        let t254 = t56 * t251 - t58 * t252 + t60 * t253;
+        let t255 = t0 * t239 - t18 * t243;
+        let t256 = t25 * t239 - t18 * t248;
+        let t257 = t25 * t243 - t0 * t248;
+        let t258 = a_x
+            * (t0 * t236 + t238 + (t238 - t17 * t239)
+                - (t18 * t240 + t242 + (t242 - t23 * t243)))
+            - a_y
+                * (t25 * t236 + t244 + (t244 - t28 * t239)
+                    - (t18 * t245 + t247 + (t247 - t23 * t248)))
+            + a_z
+                * (t25 * t240 + t249 + (t249 - t28 * t243)
+                    - (t0 * t245 + t250 + (t250 - t17 * t248))) + t254
+            + (t254 - (t71 * t255 - t73 * t256 + t75 * t257));
+        let t259 = t226 * t2 + t190 * t4;
+        let t260 = cross_local_x * t189 - cross_local_y * t225 + t259
+            + (t228 * t5 + t193 * t3 + t259);
+        let t261 = a_x * t251 - a_y * t252 + a_z * t253
+            - (t56 * t255 - t58 * t256 + t60 * t257);
+        let t262 = cross_local_x * t190 - cross_local_y * t226 + (t228 * t2 + t193 * t4);
+        let t263 = motion_cos_t * (cos_0 * t261 - sin_0 * t262);
+        let t264 = a_x * t255 - a_y * t256 + a_z * t257;
+        let t265 = cross_local_x * t193 - cross_local_y * t228;
+        let t266 = motion_sin_t * (cos_0 * t262 + sin_0 * t261);
+        out[0] = motion_cos * (cos_0 * t82 - sin_0 * t90) + t93
+            + (t93 + motion_cos_tt * (cos_0 * t94 - sin_0 * t95))
+            - (motion_sin * (cos_0 * t90 + sin_0 * t82) + t96
+                + (t96 + motion_sin_tt * (cos_0 * t95 + sin_0 * t94)));
+        out[1] = -(motion_cos * (cos_0 * t122 - sin_0 * t127) + t130
+            + (t130 + motion_cos_tt * (cos_0 * t131 - sin_0 * t132))
+            - (motion_sin * (cos_0 * t127 + sin_0 * t122) + t133
+                + (t133 + motion_sin_tt * (cos_0 * t132 + sin_0 * t131))));
+        out[2] = motion_cos * (cos_0 * t156 - sin_0 * t158) + t161
+            + (t161 + motion_cos_tt * (cos_0 * t162 - sin_0 * t163))
+            - (motion_sin * (cos_0 * t158 + sin_0 * t156) + t164
+                + (t164 + motion_sin_tt * (cos_0 * t163 + sin_0 * t162)));
+        out[3] = motion_cos * (cos_0 * t187 - sin_0 * t195) - t198
+            - (t198 + motion_cos_tt * (cos_0 * t199 + sin_0 * t200))
+            - (motion_sin * (cos_0 * t195 + sin_0 * t187) + t201
+                + (t201 + motion_sin_tt * (cos_0 * t200 - sin_0 * t199)));
+        out[4] = -(motion_cos * (cos_0 * t224 - sin_0 * t229) - t232
+            - (t232 + motion_cos_tt * (cos_0 * t233 + sin_0 * t234))
+            - (motion_sin * (cos_0 * t229 + sin_0 * t224) + t235
+                + (t235 + motion_sin_tt * (cos_0 * t234 - sin_0 * t233))));
+        out[5] = motion_cos * (cos_0 * t258 - sin_0 * t260) + t263
+            + (t263 - motion_cos_tt * (cos_0 * t264 + sin_0 * t265))
+            - (motion_sin * (cos_0 * t260 + sin_0 * t258) + t266
+                + (t266 + motion_sin_tt * (cos_0 * t265 - sin_0 * t264)));
+    }
+    /// ∂Γ/∂v. Operations: 540 mul, 441 add, 3 neg.
+    fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t1 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t2 = t0 * b_z - t1 * b_y;
+        let t3 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t4 = t3 * b_z - t1 * b_x;
+        let t5 = t3 * b_y - t0 * b_x;
+        let t6 = rot_i_xz * t2 - rot_i_yz * t4 + rot_i_zz * t5;
+        let t7 = rot_i_xy * t2 - rot_i_yy * t4 + rot_i_zy * t5;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t8 = rot_i_yy * b_in_i_z - rot_i_yz * b_in_i_y;
+        let t9 = rot_i_zy * b_in_i_z - rot_i_zz * b_in_i_y;
+        let t10 = t8 * b_z - t9 * b_y;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t11 = rot_i_xy * b_in_i_z - rot_i_xz * b_in_i_y;
+        let t12 = t11 * b_z - t9 * b_x;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t13 = t11 * b_y - t8 * b_x;
+        let t14 = axis_local_y * t6 - axis_local_z * t7
+            - (a_x * t10 - a_y * t12 + a_z * t13);
+        let t15 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t16 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t17 = b_in_i_y * t15 - b_in_i_z * t16;
+        let t18 = motion_cos_t * (cos_0 * t14 - sin_0 * t17);
+        let t19 = omega_j_y * cross_local_z;
+        let t20 = omega_j_z * cross_local_y;
+        let t21 = t19 - t20;
+        let t22 = omega_j_x * cross_local_z;
+        let t23 = omega_j_z * cross_local_x;
+        let t24 = t22 - t23;
+        let t25 = omega_j_x * cross_local_y;
+        let t26 = omega_j_y * cross_local_x;
+        let t27 = t25 - t26;
+        let t28 = rot_j_zx * t21 - rot_j_zy * t24 + rot_j_zz * t27;
+        let t29 = t8 * t28;
+        let t30 = omega_i_y * b_in_i_y;
+        let t31 = omega_i_z * b_in_i_z;
+        let t32 = t30 + t31;
+        let t33 = omega_i_x * b_in_i_y;
+        let t34 = omega_i_y * b_in_i_x;
+        let t35 = t33 - t34;
+        let t36 = t33 + t35;
+        let t37 = omega_i_x * b_in_i_z;
+        let t38 = omega_i_z * b_in_i_x;
+        let t39 = t37 - t38;
+        let t40 = t37 + t39;
+        let t41 = rot_i_yx * t32 - rot_i_yy * t36 - rot_i_yz * t40;
+        let t42 = rot_j_yx * t21 - rot_j_yy * t24 + rot_j_yz * t27;
+        let t43 = t9 * t42;
+        let t44 = rot_i_zx * t32 - rot_i_zy * t36 - rot_i_zz * t40;
+        let t45 = t11 * t28;
+        let t46 = rot_i_xx * t32 - rot_i_xy * t36 - rot_i_xz * t40;
+        let t47 = rot_j_xx * t21 - rot_j_xy * t24 + rot_j_xz * t27;
+        let t48 = t9 * t47;
+        let t49 = t11 * t42;
+        let t50 = t8 * t47;
+        let t51 = omega_i_y * b_in_i_z;
+        let t52 = omega_i_z * b_in_i_y;
+        let t53 = t51 - t52;
+        let t54 = rot_i_yx * t53 - rot_i_yy * t39 + rot_i_yz * t35;
+        let t55 = rot_i_zx * t53 - rot_i_zy * t39 + rot_i_zz * t35;
+        let t56 = t0 * t28 + t54 * b_z - (t1 * t42 + t55 * b_y);
+        let t57 = rot_i_xx * t53 - rot_i_xy * t39 + rot_i_xz * t35;
+        let t58 = t3 * t28 + t57 * b_z - (t1 * t47 + t55 * b_x);
+        let t59 = t3 * t42 + t57 * b_y - (t0 * t47 + t54 * b_x);
+        let t60 = rot_i_xz * t56 - rot_i_yz * t58 + rot_i_zz * t59;
+        let t61 = rot_i_xy * t56 - rot_i_yy * t58 + rot_i_zy * t59;
+        let t62 = omega_i_y * axis_local_z;
+        let t63 = omega_i_z * axis_local_y;
+        let t64 = t62 - t63;
+        let t65 = omega_i_x * axis_local_z;
+        let t66 = omega_i_z * axis_local_x;
+        let t67 = t65 - t66;
+        let t68 = omega_i_x * axis_local_y;
+        let t69 = omega_i_y * axis_local_x;
+        let t70 = t68 - t69;
+        let t71 = rot_i_xx * t64 - rot_i_xy * t67 + rot_i_xz * t70;
+        let t72 = rot_i_yx * t64 - rot_i_yy * t67 + rot_i_yz * t70;
+        let t73 = rot_i_zx * t64 - rot_i_zy * t67 + rot_i_zz * t70;
+        let t74 = axis_local_y * t60 - axis_local_z * t61
+            - (t71 * t10 - t72 * t12 + t73 * t13);
+        let t75 = rot_i_xx * t2 - rot_i_yx * t4 + rot_i_zx * t5;
+        let t76 = omega_i_y * axis_local_y;
+        let t77 = omega_i_z * axis_local_z;
+        let t78 = a_x * (t29 - (t41 * b_z - t29) - (t43 - (t44 * b_y - t43)))
+            - a_y * (t45 - (t46 * b_z - t45) - (t48 - (t44 * b_x - t48)))
+            + a_z * (t49 - (t46 * b_y - t49) - (t50 - (t41 * b_x - t50))) - t74
+            - (t75 * (t76 + t77) - t7 * (t68 + t70) - t6 * (t65 + t67) + t74);
+        let t79 = rot_i_xz * t47 + rot_i_yz * t42 + rot_i_zz * t28;
+        let t80 = rot_i_xy * t47 + rot_i_yy * t42 + rot_i_zy * t28;
+        let t81 = b_in_i_y * t79 - b_in_i_z * t80;
+        let t82 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t83 = t81 + (t81 + (t82 * t32 - t16 * t36 - t15 * t40));
+        let t84 = motion_sin_t * (cos_0 * t17 + sin_0 * t14);
+        let t85 = rot_i_yx * b_in_i_z - rot_i_yz * b_in_i_x;
+        let t86 = rot_i_zx * b_in_i_z - rot_i_zz * b_in_i_x;
+        let t87 = t85 * b_z - t86 * b_y;
+        let t88 = rot_i_xx * b_in_i_z - rot_i_xz * b_in_i_x;
+        let t89 = t88 * b_z - t86 * b_x;
+        let t90 = t88 * b_y - t85 * b_x;
+        let t91 = axis_local_x * t6 - axis_local_z * t75
+            - (a_x * t87 - a_y * t89 + a_z * t90);
+        let t92 = b_in_i_x * t15 - b_in_i_z * t82;
+        let t93 = motion_cos_t * (cos_0 * t91 - sin_0 * t92);
+        let t94 = t85 * t28;
+        let t95 = t34 - t35;
+        let t96 = omega_i_x * b_in_i_x;
+        let t97 = t96 + t31;
+        let t98 = t51 + t53;
+        let t99 = rot_i_yx * t95 - rot_i_yy * t97 + rot_i_yz * t98;
+        let t100 = t86 * t42;
+        let t101 = rot_i_zx * t95 - rot_i_zy * t97 + rot_i_zz * t98;
+        let t102 = t88 * t28;
+        let t103 = rot_i_xx * t95 - rot_i_xy * t97 + rot_i_xz * t98;
+        let t104 = t86 * t47;
+        let t105 = t88 * t42;
+        let t106 = t85 * t47;
+        let t107 = rot_i_xx * t56 - rot_i_yx * t58 + rot_i_zx * t59;
+        let t108 = axis_local_x * t60 - axis_local_z * t107
+            - (t71 * t87 - t72 * t89 + t73 * t90);
+        let t109 = omega_i_x * axis_local_x;
+        let t110 = a_x * (t94 + (t94 - t99 * b_z) - (t100 + (t100 - t101 * b_y)))
+            - a_y * (t102 + (t102 - t103 * b_z) - (t104 + (t104 - t101 * b_x)))
+            + a_z * (t105 + (t105 - t103 * b_y) - (t106 + (t106 - t99 * b_x))) - t108
+            - (t75 * (t69 - t70) - t7 * (t109 + t77) + t6 * (t62 + t64) + t108);
+        let t111 = rot_i_xx * t47 + rot_i_yx * t42 + rot_i_zx * t28;
+        let t112 = b_in_i_x * t79 - b_in_i_z * t111;
+        let t113 = t112 + (t112 + (t82 * t95 - t16 * t97 + t15 * t98));
+        let t114 = motion_sin_t * (cos_0 * t92 + sin_0 * t91);
+        let t115 = rot_i_yx * b_in_i_y - rot_i_yy * b_in_i_x;
+        let t116 = rot_i_zx * b_in_i_y - rot_i_zy * b_in_i_x;
+        let t117 = t115 * b_z - t116 * b_y;
+        let t118 = rot_i_xx * b_in_i_y - rot_i_xy * b_in_i_x;
+        let t119 = t118 * b_z - t116 * b_x;
+        let t120 = t118 * b_y - t115 * b_x;
+        let t121 = axis_local_x * t7 - axis_local_y * t75
+            - (a_x * t117 - a_y * t119 + a_z * t120);
+        let t122 = b_in_i_x * t16 - b_in_i_y * t82;
+        let t123 = motion_cos_t * (cos_0 * t121 - sin_0 * t122);
+        let t124 = t115 * t28;
+        let t125 = t38 - t39;
+        let t126 = t52 - t53;
+        let t127 = t96 + t30;
+        let t128 = rot_i_yx * t125 + rot_i_yy * t126 - rot_i_yz * t127;
+        let t129 = t116 * t42;
+        let t130 = rot_i_zx * t125 + rot_i_zy * t126 - rot_i_zz * t127;
+        let t131 = t118 * t28;
+        let t132 = rot_i_xx * t125 + rot_i_xy * t126 - rot_i_xz * t127;
+        let t133 = t116 * t47;
+        let t134 = t118 * t42;
+        let t135 = t115 * t47;
+        let t136 = axis_local_x * t61 - axis_local_y * t107
+            - (t71 * t117 - t72 * t119 + t73 * t120);
+        let t137 = a_x * (t124 + (t124 + t128 * b_z) - (t129 + (t129 + t130 * b_y)))
+            - a_y * (t131 + (t131 + t132 * b_z) - (t133 + (t133 + t130 * b_x)))
+            + a_z * (t134 + (t134 + t132 * b_y) - (t135 + (t135 + t128 * b_x))) - t136
+            + (t75 * (t66 - t67) + t7 * (t63 - t64) - t6 * (t109 + t76) - t136);
+        let t138 = b_in_i_x * t80 - b_in_i_y * t111;
+        let t139 = t138 + (t138 - (t82 * t125 + t16 * t126 - t15 * t127));
+        let t140 = motion_sin_t * (cos_0 * t122 + sin_0 * t121);
+        let t141 = rot_j_zy * cross_local_z - rot_j_zz * cross_local_y;
+        let t142 = rot_j_yy * cross_local_z - rot_j_yz * cross_local_y;
+        let t143 = t0 * t141 - t1 * t142;
+        let t144 = rot_j_xy * cross_local_z - rot_j_xz * cross_local_y;
+        let t145 = t3 * t141 - t1 * t144;
+        let t146 = t3 * t142 - t0 * t144;
+        let t147 = a_x * t143 - a_y * t145 + a_z * t146;
+        let t148 = rot_j_xz * t3 + rot_j_yz * t0 + rot_j_zz * t1;
+        let t149 = rot_j_xy * t3 + rot_j_yy * t0 + rot_j_zy * t1;
+        let t150 = cross_local_y * t148 - cross_local_z * t149;
+        let t151 = motion_cos_t * (cos_0 * t147 + sin_0 * t150);
+        let t152 = t71 * t143 - t72 * t145 + t73 * t146;
+        let t153 = t54 * t141;
+        let t154 = omega_j_y * cross_local_y;
+        let t155 = omega_j_z * cross_local_z;
+        let t156 = t154 + t155;
+        let t157 = t25 + t27;
+        let t158 = t22 + t24;
+        let t159 = rot_j_zx * t156 - rot_j_zy * t157 - rot_j_zz * t158;
+        let t160 = t55 * t142;
+        let t161 = rot_j_yx * t156 - rot_j_yy * t157 - rot_j_yz * t158;
+        let t162 = t57 * t141;
+        let t163 = t55 * t144;
+        let t164 = rot_j_xx * t156 - rot_j_xy * t157 - rot_j_xz * t158;
+        let t165 = t57 * t142;
+        let t166 = t54 * t144;
+        let t167 = t152
+            + (a_x * (t153 - (t0 * t159 - t153) - (t160 - (t1 * t161 - t160)))
+                - a_y * (t162 - (t3 * t159 - t162) - (t163 - (t1 * t164 - t163)))
+                + a_z * (t165 - (t3 * t161 - t165) - (t166 - (t0 * t164 - t166)))
+                + t152);
+        let t168 = rot_j_xz * t57 + rot_j_yz * t54 + rot_j_zz * t55;
+        let t169 = rot_j_xy * t57 + rot_j_yy * t54 + rot_j_zy * t55;
+        let t170 = cross_local_y * t168 - cross_local_z * t169;
+        let t171 = rot_j_xx * t3 + rot_j_yx * t0 + rot_j_zx * t1;
+        let t172 = t170 + (t170 + (t171 * t156 - t149 * t157 - t148 * t158));
+        let t173 = motion_sin_t * (cos_0 * t150 - sin_0 * t147);
+        let t174 = rot_j_zx * cross_local_z - rot_j_zz * cross_local_x;
+        let t175 = rot_j_yx * cross_local_z - rot_j_yz * cross_local_x;
+        let t176 = t0 * t174 - t1 * t175;
+        let t177 = rot_j_xx * cross_local_z - rot_j_xz * cross_local_x;
+        let t178 = t3 * t174 - t1 * t177;
+        let t179 = t3 * t175 - t0 * t177;
+        let t180 = a_x * t176 - a_y * t178 + a_z * t179;
+        let t181 = cross_local_x * t148 - cross_local_z * t171;
+        let t182 = motion_cos_t * (cos_0 * t180 + sin_0 * t181);
+        let t183 = t71 * t176 - t72 * t178 + t73 * t179;
+        let t184 = t54 * t174;
+        let t185 = t26 - t27;
+        let t186 = omega_j_x * cross_local_x;
+        let t187 = t186 + t155;
+        let t188 = t19 + t21;
+        let t189 = rot_j_zx * t185 - rot_j_zy * t187 + rot_j_zz * t188;
+        let t190 = t55 * t175;
+        let t191 = rot_j_yx * t185 - rot_j_yy * t187 + rot_j_yz * t188;
+        let t192 = t57 * t174;
+        let t193 = t55 * t177;
+        let t194 = rot_j_xx * t185 - rot_j_xy * t187 + rot_j_xz * t188;
+        let t195 = t57 * t175;
+        let t196 = t54 * t177;
+        let t197 = t183
+            + (a_x * (t184 - (t0 * t189 - t184) - (t190 - (t1 * t191 - t190)))
+                - a_y * (t192 - (t3 * t189 - t192) - (t193 - (t1 * t194 - t193)))
+                + a_z * (t195 - (t3 * t191 - t195) - (t196 - (t0 * t194 - t196)))
+                + t183);
+        let t198 = rot_j_xx * t57 + rot_j_yx * t54 + rot_j_zx * t55;
+        let t199 = cross_local_x * t168 - cross_local_z * t198;
+        let t200 = t199 + (t199 + (t171 * t185 - t149 * t187 + t148 * t188));
+        let t201 = motion_sin_t * (cos_0 * t181 - sin_0 * t180);
+        let t202 = rot_j_zx * cross_local_y - rot_j_zy * cross_local_x;
+        let t203 = rot_j_yx * cross_local_y - rot_j_yy * cross_local_x;
+        let t204 = t0 * t202 - t1 * t203;
+        let t205 = rot_j_xx * cross_local_y - rot_j_xy * cross_local_x;
+        let t206 = t3 * t202 - t1 * t205;
+        let t207 = t3 * t203 - t0 * t205;
+        let t208 = a_x * t204 - a_y * t206 + a_z * t207;
+        let t209 = cross_local_x * t149 - cross_local_y * t171;
+        let t210 = motion_cos_t * (cos_0 * t208 + sin_0 * t209);
+        let t211 = t71 * t204 - t72 * t206 + t73 * t207;
+        let t212 = t54 * t202;
+        let t213 = t23 - t24;
+        let t214 = t20 - t21;
+        let t215 = t186 + t154;
+        let t216 = rot_j_zx * t213 + rot_j_zy * t214 - rot_j_zz * t215;
+        let t217 = t55 * t203;
+        let t218 = rot_j_yx * t213 + rot_j_yy * t214 - rot_j_yz * t215;
+        let t219 = t57 * t202;
+        let t220 = t55 * t205;
+        let t221 = rot_j_xx * t213 + rot_j_xy * t214 - rot_j_xz * t215;
+        let t222 = t57 * t203;
+        let t223 = t54 * t205;
+        let t224 = t211
+            + (a_x * (t212 + (t0 * t216 + t212) - (t217 + (t1 * t218 + t217)))
+                - a_y * (t219 + (t3 * t216 + t219) - (t220 + (t1 * t221 + t220)))
+                + a_z * (t222 + (t3 * t218 + t222) - (t223 + (t0 * t221 + t223)))
+                + t211);
+        let t225 = cross_local_x * t169 - cross_local_y * t198;
+        let t226 = t225 + (t225 - (t171 * t213 + t149 * t214 - t148 * t215));
+        let t227 = motion_sin_t * (cos_0 * t209 - sin_0 * t208);
+        out[0] = -(t18 - (motion_cos * (cos_0 * t78 + sin_0 * t83) - t18)
+            - (t84 + (motion_sin * (cos_0 * t83 - sin_0 * t78) + t84)));
+        out[1] = t93 - (motion_cos * (cos_0 * t110 + sin_0 * t113) - t93)
+            - (t114 + (motion_sin * (cos_0 * t113 - sin_0 * t110) + t114));
+        out[2] = -(t123 - (motion_cos * (cos_0 * t137 + sin_0 * t139) - t123)
+            - (t140 + (motion_sin * (cos_0 * t139 - sin_0 * t137) + t140)));
+        out[3] = t151 + (motion_cos * (cos_0 * t167 + sin_0 * t172) + t151)
+            + (t173 + (motion_sin * (cos_0 * t172 - sin_0 * t167) + t173));
+        out[4] = -(t182 + (motion_cos * (cos_0 * t197 + sin_0 * t200) + t182)
+            + (t201 + (motion_sin * (cos_0 * t200 - sin_0 * t197) + t201)));
+        out[5] = t210 + (motion_cos * (cos_0 * t224 + sin_0 * t226) + t210)
+            + (t227 + (motion_sin * (cos_0 * t226 - sin_0 * t224) + t227));
+    }
+    /// ∂(C·v − b)/∂x. Operations: 504 mul, 327 add, 2 neg.
+    fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let t1 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+        let t2 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+        let t3 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+        let t4 = rot_j_zx * t1 - rot_j_zy * t2 + rot_j_zz * t3;
+        let t5 = omega_i_y * b_in_i_z - omega_i_z * b_in_i_y;
+        let t6 = omega_i_x * b_in_i_z - omega_i_z * b_in_i_x;
+        let t7 = omega_i_x * b_in_i_y - omega_i_y * b_in_i_x;
+        let t8 = rot_i_yx * t5 - rot_i_yy * t6 + rot_i_yz * t7;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t9 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let t10 = rot_j_yx * t1 - rot_j_yy * t2 + rot_j_yz * t3;
+        let t11 = rot_i_zx * t5 - rot_i_zy * t6 + rot_i_zz * t7;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t12 = t0 * t4 + t8 * b_z - (t9 * t10 + t11 * b_y);
+        let t13 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let t14 = rot_i_xx * t5 - rot_i_xy * t6 + rot_i_xz * t7;
+        let t15 = rot_j_xx * t1 - rot_j_xy * t2 + rot_j_xz * t3;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t16 = t13 * t4 + t14 * b_z - (t9 * t15 + t11 * b_x);
+        let t17 = t13 * t10 + t14 * b_y - (t0 * t15 + t8 * b_x);
+        let t18 = rot_i_xz * t12 - rot_i_yz * t16 + rot_i_zz * t17;
+        let t19 = rot_i_xy * t12 - rot_i_yy * t16 + rot_i_zy * t17;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t20 = rot_i_yy * b_in_i_z - rot_i_yz * b_in_i_y;
+        let t21 = rot_i_yy * t7 + rot_i_yz * t6;
+        let t22 = rot_i_zy * b_in_i_z - rot_i_zz * b_in_i_y;
+        let t23 = rot_i_zy * t7 + rot_i_zz * t6;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t24 = rot_i_xy * b_in_i_z - rot_i_xz * b_in_i_y;
+        let t25 = rot_i_xy * t7 + rot_i_xz * t6;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t26 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t27 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t28 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t29 = rot_i_xx * t26 - rot_i_xy * t27 + rot_i_xz * t28;
+        let t30 = t20 * b_z - t22 * b_y;
+        let t31 = rot_i_yx * t26 - rot_i_yy * t27 + rot_i_yz * t28;
+        let t32 = t24 * b_z - t22 * b_x;
+        let t33 = rot_i_zx * t26 - rot_i_zy * t27 + rot_i_zz * t28;
+        let t34 = t24 * b_y - t20 * b_x;
+        let t35 = t0 * b_z - t9 * b_y;
+        let t36 = t13 * b_z - t9 * b_x;
+        let t37 = t13 * b_y - t0 * b_x;
+        let t38 = rot_i_xy * t35 - rot_i_yy * t36 + rot_i_zy * t37;
+        let t39 = rot_i_xz * t35 - rot_i_yz * t36 + rot_i_zz * t37;
+        let t40 = axis_local_y * t18 - axis_local_z * t19
+            - (a_x * (t20 * t4 + t21 * b_z - (t22 * t10 + t23 * b_y))
+                - a_y * (t24 * t4 + t25 * b_z - (t22 * t15 + t23 * b_x))
+                + a_z * (t24 * t10 + t25 * b_y - (t20 * t15 + t21 * b_x)))
+            - (t29 * t30 - t31 * t32 + t33 * t34 + (t38 * t28 + t39 * t27));
+        let t41 = rot_i_xz * t15 + rot_i_yz * t10 + rot_i_zz * t4;
+        let t42 = rot_i_xy * t15 + rot_i_yy * t10 + rot_i_zy * t4;
+        let t43 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t44 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t45 = b_in_i_y * t41 - b_in_i_z * t42 - (t43 * t7 + t44 * t6);
+        let t46 = axis_local_y * t39 - axis_local_z * t38
+            - (a_x * t30 - a_y * t32 + a_z * t34);
+        let t47 = b_in_i_y * t44 - b_in_i_z * t43;
+        let t48 = rot_i_xx * t12 - rot_i_yx * t16 + rot_i_zx * t17;
+        let t49 = rot_i_yx * b_in_i_z - rot_i_yz * b_in_i_x;
+        let t50 = rot_i_yx * t7 - rot_i_yz * t5;
+        let t51 = rot_i_zx * b_in_i_z - rot_i_zz * b_in_i_x;
+        let t52 = rot_i_zx * t7 - rot_i_zz * t5;
+        let t53 = rot_i_xx * b_in_i_z - rot_i_xz * b_in_i_x;
+        let t54 = rot_i_xx * t7 - rot_i_xz * t5;
+        let t55 = t49 * b_z - t51 * b_y;
+        let t56 = t53 * b_z - t51 * b_x;
+        let t57 = t53 * b_y - t49 * b_x;
+        let t58 = rot_i_xx * t35 - rot_i_yx * t36 + rot_i_zx * t37;
+        let t59 = axis_local_x * t18 - axis_local_z * t48
+            - (a_x * (t49 * t4 + t50 * b_z - (t51 * t10 + t52 * b_y))
+                - a_y * (t53 * t4 + t54 * b_z - (t51 * t15 + t52 * b_x))
+                + a_z * (t53 * t10 + t54 * b_y - (t49 * t15 + t50 * b_x)))
+            - (t29 * t55 - t31 * t56 + t33 * t57 + (t58 * t28 - t39 * t26));
+        let t60 = rot_i_xx * t15 + rot_i_yx * t10 + rot_i_zx * t4;
+        let t61 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t62 = b_in_i_x * t41 - b_in_i_z * t60 - (t61 * t7 - t44 * t5);
+        let t63 = axis_local_x * t39 - axis_local_z * t58
+            - (a_x * t55 - a_y * t56 + a_z * t57);
+        let t64 = b_in_i_x * t44 - b_in_i_z * t61;
+        let t65 = rot_i_yx * b_in_i_y - rot_i_yy * b_in_i_x;
+        let t66 = rot_i_yx * t6 + rot_i_yy * t5;
+        let t67 = rot_i_zx * b_in_i_y - rot_i_zy * b_in_i_x;
+        let t68 = rot_i_zx * t6 + rot_i_zy * t5;
+        let t69 = rot_i_xx * b_in_i_y - rot_i_xy * b_in_i_x;
+        let t70 = rot_i_xx * t6 + rot_i_xy * t5;
+        let t71 = t65 * b_z - t67 * b_y;
+        let t72 = t69 * b_z - t67 * b_x;
+        let t73 = t69 * b_y - t65 * b_x;
+        let t74 = axis_local_x * t19 - axis_local_y * t48
+            - (a_x * (t65 * t4 - t66 * b_z - (t67 * t10 - t68 * b_y))
+                - a_y * (t69 * t4 - t70 * b_z - (t67 * t15 - t68 * b_x))
+                + a_z * (t69 * t10 - t70 * b_y - (t65 * t15 - t66 * b_x)))
+            - (t29 * t71 - t31 * t72 + t33 * t73 - (t58 * t27 + t38 * t26));
+        let t75 = b_in_i_x * t42 - b_in_i_y * t60 + (t61 * t6 + t43 * t5);
+        let t76 = axis_local_x * t38 - axis_local_y * t58
+            - (a_x * t71 - a_y * t72 + a_z * t73);
+        let t77 = b_in_i_x * t43 - b_in_i_y * t61;
+        let t78 = rot_j_zy * t3 + rot_j_zz * t2;
+        let t79 = rot_j_zy * cross_local_z - rot_j_zz * cross_local_y;
+        let t80 = rot_j_yy * t3 + rot_j_yz * t2;
+        let t81 = rot_j_yy * cross_local_z - rot_j_yz * cross_local_y;
+        let t82 = rot_j_xy * t3 + rot_j_xz * t2;
+        let t83 = rot_j_xy * cross_local_z - rot_j_xz * cross_local_y;
+        let t84 = t0 * t79 - t9 * t81;
+        let t85 = t13 * t79 - t9 * t83;
+        let t86 = t13 * t81 - t0 * t83;
+        let t87 = a_x * (t0 * t78 + t8 * t79 - (t9 * t80 + t11 * t81))
+            - a_y * (t13 * t78 + t14 * t79 - (t9 * t82 + t11 * t83))
+            + a_z * (t13 * t80 + t14 * t81 - (t0 * t82 + t8 * t83))
+            + (t29 * t84 - t31 * t85 + t33 * t86);
+        let t88 = rot_j_xz * t14 + rot_j_yz * t8 + rot_j_zz * t11;
+        let t89 = rot_j_xy * t14 + rot_j_yy * t8 + rot_j_zy * t11;
+        let t90 = rot_j_xy * t13 + rot_j_yy * t0 + rot_j_zy * t9;
+        let t91 = rot_j_xz * t13 + rot_j_yz * t0 + rot_j_zz * t9;
+        let t92 = cross_local_y * t88 - cross_local_z * t89 - (t90 * t3 + t91 * t2);
+        let t93 = a_x * t84 - a_y * t85 + a_z * t86;
+        let t94 = cross_local_y * t91 - cross_local_z * t90;
+        let t95 = rot_j_zx * t3 - rot_j_zz * t1;
+        let t96 = rot_j_zx * cross_local_z - rot_j_zz * cross_local_x;
+        let t97 = rot_j_yx * t3 - rot_j_yz * t1;
+        let t98 = rot_j_yx * cross_local_z - rot_j_yz * cross_local_x;
+        let t99 = rot_j_xx * t3 - rot_j_xz * t1;
+        let t100 = rot_j_xx * cross_local_z - rot_j_xz * cross_local_x;
+        let t101 = t0 * t96 - t9 * t98;
+        let t102 = t13 * t96 - t9 * t100;
+        let t103 = t13 * t98 - t0 * t100;
+        let t104 = a_x * (t0 * t95 + t8 * t96 - (t9 * t97 + t11 * t98))
+            - a_y * (t13 * t95 + t14 * t96 - (t9 * t99 + t11 * t100))
+            + a_z * (t13 * t97 + t14 * t98 - (t0 * t99 + t8 * t100))
+            + (t29 * t101 - t31 * t102 + t33 * t103);
+        let t105 = rot_j_xx * t14 + rot_j_yx * t8 + rot_j_zx * t11;
+        let t106 = rot_j_xx * t13 + rot_j_yx * t0 + rot_j_zx * t9;
+        let t107 = cross_local_x * t88 - cross_local_z * t105 - (t106 * t3 - t91 * t1);
+        let t108 = a_x * t101 - a_y * t102 + a_z * t103;
+        let t109 = cross_local_x * t91 - cross_local_z * t106;
+        let t110 = rot_j_zx * t2 + rot_j_zy * t1;
+        let t111 = rot_j_zx * cross_local_y - rot_j_zy * cross_local_x;
+        let t112 = rot_j_yx * t2 + rot_j_yy * t1;
+        let t113 = rot_j_yx * cross_local_y - rot_j_yy * cross_local_x;
+        let t114 = rot_j_xx * t2 + rot_j_xy * t1;
+        let t115 = rot_j_xx * cross_local_y - rot_j_xy * cross_local_x;
+        let t116 = t0 * t111 - t9 * t113;
+        let t117 = t13 * t111 - t9 * t115;
+        let t118 = t13 * t113 - t0 * t115;
+        let t119 = a_x * (t0 * t110 - t8 * t111 - (t9 * t112 - t11 * t113))
+            - a_y * (t13 * t110 - t14 * t111 - (t9 * t114 - t11 * t115))
+            + a_z * (t13 * t112 - t14 * t113 - (t0 * t114 - t8 * t115))
+            - (t29 * t116 - t31 * t117 + t33 * t118);
+        let t120 = cross_local_x * t89 - cross_local_y * t105 + (t106 * t2 + t90 * t1);
+        let t121 = a_x * t116 - a_y * t117 + a_z * t118;
+        let t122 = cross_local_x * t90 - cross_local_y * t106;
+        out[0] = motion_cos * (cos_0 * t40 - sin_0 * t45)
+            + motion_cos_t * (cos_0 * t46 - sin_0 * t47)
+            - (motion_sin * (cos_0 * t45 + sin_0 * t40)
+                + motion_sin_t * (cos_0 * t47 + sin_0 * t46));
+        out[1] = -(motion_cos * (cos_0 * t59 - sin_0 * t62)
+            + motion_cos_t * (cos_0 * t63 - sin_0 * t64)
+            - (motion_sin * (cos_0 * t62 + sin_0 * t59)
+                + motion_sin_t * (cos_0 * t64 + sin_0 * t63)));
+        out[2] = motion_cos * (cos_0 * t74 - sin_0 * t75)
+            + motion_cos_t * (cos_0 * t76 - sin_0 * t77)
+            - (motion_sin * (cos_0 * t75 + sin_0 * t74)
+                + motion_sin_t * (cos_0 * t77 + sin_0 * t76));
+        out[3] = -(motion_cos * (cos_0 * t87 + sin_0 * t92)
+            + motion_cos_t * (cos_0 * t93 + sin_0 * t94)
+            + (motion_sin * (cos_0 * t92 - sin_0 * t87)
+                + motion_sin_t * (cos_0 * t94 - sin_0 * t93)));
+        out[4] = motion_cos * (cos_0 * t104 + sin_0 * t107)
+            + motion_cos_t * (cos_0 * t108 + sin_0 * t109)
+            + (motion_sin * (cos_0 * t107 - sin_0 * t104)
+                + motion_sin_t * (cos_0 * t109 - sin_0 * t108));
+        out[5] = motion_cos * (cos_0 * t119 - sin_0 * t120)
+            - motion_cos_t * (cos_0 * t121 + sin_0 * t122)
+            - (motion_sin * (cos_0 * t120 + sin_0 * t119)
+                + motion_sin_t * (cos_0 * t122 - sin_0 * t121));
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 937 mul, 759 add, 4 neg.
+    fn d_residual_dp(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let out = &mut out[..19];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let alpha_i_x = a[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let alpha_i_y = a[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let alpha_i_z = a[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let alpha_j_x = a[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let alpha_j_y = a[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let alpha_j_z = a[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_cos_tt = f[0][2];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let motion_sin_tt = f[1][2];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let lambda_0 = lambda[0];
+        let b_in_i_x = T::from(self.b_in_i[0]);
+        let b_in_i_y = T::from(self.b_in_i[1]);
+        let b_in_i_z = T::from(self.b_in_i[2]);
+        let t0 = rot_i_yx * b_in_i_x + rot_i_yy * b_in_i_y + rot_i_yz * b_in_i_z;
+        let t1 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+        let t2 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+        let t3 = omega_j_y * t1 + omega_j_z * t2
+            + (alpha_j_y * cross_local_z - alpha_j_z * cross_local_y);
+        let t4 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+        let t5 = omega_j_x * t1 - omega_j_z * t4
+            + (alpha_j_x * cross_local_z - alpha_j_z * cross_local_x);
+        let t6 = omega_j_x * t2 + omega_j_y * t4
+            - (alpha_j_x * cross_local_y - alpha_j_y * cross_local_x);
+        let t7 = rot_j_zx * t3 - rot_j_zy * t5 - rot_j_zz * t6;
+        let t8 = omega_i_y * b_in_i_z - omega_i_z * b_in_i_y;
+        let t9 = omega_i_x * b_in_i_z - omega_i_z * b_in_i_x;
+        let t10 = omega_i_x * b_in_i_y - omega_i_y * b_in_i_x;
+        let t11 = rot_i_yx * t8 - rot_i_yy * t9 + rot_i_yz * t10;
+        let t12 = rot_j_zx * t4 - rot_j_zy * t2 + rot_j_zz * t1;
+        let t13 = t11 * t12;
+        let t14 = omega_i_y * t10 + omega_i_z * t9
+            + (alpha_i_y * b_in_i_z - alpha_i_z * b_in_i_y);
+        let t15 = omega_i_x * t10 - omega_i_z * t8
+            + (alpha_i_x * b_in_i_z - alpha_i_z * b_in_i_x);
+        let t16 = omega_i_x * t9 + omega_i_y * t8
+            - (alpha_i_x * b_in_i_y - alpha_i_y * b_in_i_x);
+        let t17 = rot_i_yx * t14 - rot_i_yy * t15 - rot_i_yz * t16;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t18 = rot_i_zx * b_in_i_x + rot_i_zy * b_in_i_y + rot_i_zz * b_in_i_z;
+        let t19 = rot_j_yx * t3 - rot_j_yy * t5 - rot_j_yz * t6;
+        let t20 = rot_i_zx * t8 - rot_i_zy * t9 + rot_i_zz * t10;
+        let t21 = rot_j_yx * t4 - rot_j_yy * t2 + rot_j_yz * t1;
+        let t22 = t20 * t21;
+        let t23 = rot_i_zx * t14 - rot_i_zy * t15 - rot_i_zz * t16;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t24 = t0 * t7 + t13 + (t13 + t17 * b_z)
+            - (t18 * t19 + t22 + (t22 + t23 * b_y));
+        let t25 = rot_i_xx * b_in_i_x + rot_i_xy * b_in_i_y + rot_i_xz * b_in_i_z;
+        let t26 = rot_i_xx * t8 - rot_i_xy * t9 + rot_i_xz * t10;
+        let t27 = t26 * t12;
+        let t28 = rot_i_xx * t14 - rot_i_xy * t15 - rot_i_xz * t16;
+        let t29 = rot_j_xx * t3 - rot_j_xy * t5 - rot_j_xz * t6;
+        let t30 = rot_j_xx * t4 - rot_j_xy * t2 + rot_j_xz * t1;
+        let t31 = t20 * t30;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t32 = t25 * t7 + t27 + (t27 + t28 * b_z)
+            - (t18 * t29 + t31 + (t31 + t23 * b_x));
+        let t33 = t26 * t21;
+        let t34 = t11 * t30;
+        let t35 = t25 * t19 + t33 + (t33 + t28 * b_y)
+            - (t0 * t29 + t34 + (t34 + t17 * b_x));
+        let t36 = t0 * t12 + t11 * b_z - (t18 * t21 + t20 * b_y);
+        let t37 = t25 * t12 + t26 * b_z - (t18 * t30 + t20 * b_x);
+        let t38 = t25 * t21 + t26 * b_y - (t0 * t30 + t11 * b_x);
+        let t39 = rot_i_xz * t36 - rot_i_yz * t37 + rot_i_zz * t38;
+        let t40 = rot_i_xy * t36 - rot_i_yy * t37 + rot_i_zy * t38;
+        let t41 = omega_i_y * t39 - omega_i_z * t40;
+        let t42 = omega_i_x * omega_i_z;
+        let t43 = alpha_i_y - t42;
+        let t44 = t0 * b_z - t18 * b_y;
+        let t45 = t25 * b_z - t18 * b_x;
+        let t46 = t25 * b_y - t0 * b_x;
+        let t47 = rot_i_xz * t44 - rot_i_yz * t45 + rot_i_zz * t46;
+        let t48 = omega_i_x * omega_i_y;
+        let t49 = alpha_i_z + t48;
+        let t50 = rot_i_xy * t44 - rot_i_yy * t45 + rot_i_zy * t46;
+        let t51 = rot_i_xx * t44 - rot_i_yx * t45 + rot_i_zx * t46;
+        let t52 = omega_i_y * omega_i_y;
+        let t53 = omega_i_z * omega_i_z;
+        let t54 = t52 + t53;
+        let t55 = rot_i_xx * t24 - rot_i_yx * t32 + rot_i_zx * t35 - t41
+            - (t41 + (t43 * t47 - t49 * t50 + t51 * t54));
+        let t56 = rot_i_xx * t36 - rot_i_yx * t37 + rot_i_zx * t38;
+        let t57 = t56 - (omega_i_y * t47 - omega_i_z * t50);
+        let t58 = motion_cos_t * t57;
+        let t59 = motion_sin_t * t57;
+        let t60 = omega_i_x * t39 - omega_i_z * t56;
+        let t61 = omega_i_y * omega_i_z;
+        let t62 = alpha_i_x + t61;
+        let t63 = alpha_i_z - t48;
+        let t64 = omega_i_x * omega_i_x;
+        let t65 = t64 + t53;
+        let t66 = rot_i_xy * t24 - rot_i_yy * t32 + rot_i_zy * t35 + t60
+            + (t60 + (t62 * t47 - t63 * t51 - t50 * t65));
+        let t67 = t40 + (omega_i_x * t47 - omega_i_z * t51);
+        let t68 = motion_cos_t * t67;
+        let t69 = motion_sin_t * t67;
+        let t70 = omega_i_x * t40 - omega_i_y * t56;
+        let t71 = alpha_i_x - t61;
+        let t72 = alpha_i_y + t42;
+        let t73 = t64 + t52;
+        let t74 = rot_i_xz * t24 - rot_i_yz * t32 + rot_i_zz * t35 - t70
+            - (t70 + (t71 * t50 - t72 * t51 + t47 * t73));
+        let t75 = t39 - (omega_i_x * t50 - omega_i_y * t51);
+        let t76 = motion_cos_t * t75;
+        let t77 = motion_sin_t * t75;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t78 = rot_j_yy * omega_j_z - rot_j_yz * omega_j_y;
+        let t79 = t20 * t78;
+        let t80 = omega_j_y * omega_j_y;
+        let t81 = omega_j_z * omega_j_z;
+        let t82 = t80 + t81;
+        let t83 = omega_j_x * omega_j_y;
+        let t84 = alpha_j_z + t83;
+        let t85 = omega_j_x * omega_j_z;
+        let t86 = alpha_j_y - t85;
+        let t87 = rot_j_yx * t82 - rot_j_yy * t84 + rot_j_yz * t86;
+        let t88 = rot_j_zy * omega_j_z - rot_j_zz * omega_j_y;
+        let t89 = t11 * t88;
+        let t90 = rot_j_zx * t82 - rot_j_zy * t84 + rot_j_zz * t86;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t91 = rot_j_xy * omega_j_z - rot_j_xz * omega_j_y;
+        let t92 = t20 * t91;
+        let t93 = rot_j_xx * t82 - rot_j_xy * t84 + rot_j_xz * t86;
+        let t94 = t26 * t88;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t95 = t11 * t91;
+        let t96 = t26 * t78;
+        let t97 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t98 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t99 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t100 = rot_i_xx * t97 - rot_i_xy * t98 + rot_i_xz * t99;
+        let t101 = rot_j_yx * t20 + t18 * t78 - (rot_j_zx * t11 + t0 * t88);
+        let t102 = rot_i_yx * t97 - rot_i_yy * t98 + rot_i_yz * t99;
+        let t103 = rot_j_xx * t20 + t18 * t91 - (rot_j_zx * t26 + t25 * t88);
+        let t104 = rot_i_zx * t97 - rot_i_zy * t98 + rot_i_zz * t99;
+        let t105 = rot_j_xx * t11 + t0 * t91 - (rot_j_yx * t26 + t25 * t78);
+        let t106 = t100 * t101 - t102 * t103 + t104 * t105;
+        let t107 = omega_i_y * t99 + omega_i_z * t98
+            + (alpha_i_y * axis_local_z - alpha_i_z * axis_local_y);
+        let t108 = omega_i_x * t99 - omega_i_z * t97
+            + (alpha_i_x * axis_local_z - alpha_i_z * axis_local_x);
+        let t109 = omega_i_x * t98 + omega_i_y * t97
+            - (alpha_i_x * axis_local_y - alpha_i_y * axis_local_x);
+        let t110 = rot_i_xx * t107 - rot_i_xy * t108 - rot_i_xz * t109;
+        let t111 = rot_j_yx * t18 - rot_j_zx * t0;
+        let t112 = rot_i_yx * t107 - rot_i_yy * t108 - rot_i_yz * t109;
+        let t113 = rot_j_xx * t18 - rot_j_zx * t25;
+        let t114 = rot_i_zx * t107 - rot_i_zy * t108 - rot_i_zz * t109;
+        let t115 = rot_j_xx * t0 - rot_j_yx * t25;
+        let t116 = a_x
+            * (rot_j_yx * t23 + t79 - (t18 * t87 - t79)
+                - (rot_j_zx * t17 + t89 - (t0 * t90 - t89)))
+            - a_y
+                * (rot_j_xx * t23 + t92 - (t18 * t93 - t92)
+                    - (rot_j_zx * t28 + t94 - (t25 * t90 - t94)))
+            + a_z
+                * (rot_j_xx * t17 + t95 - (t0 * t93 - t95)
+                    - (rot_j_yx * t28 + t96 - (t25 * t87 - t96))) + t106
+            + (t106 + (t110 * t111 - t112 * t113 + t114 * t115));
+        let t117 = rot_j_xz * t26 + rot_j_yz * t11 + rot_j_zz * t20;
+        let t118 = rot_j_xy * t26 + rot_j_yy * t11 + rot_j_zy * t20;
+        let t119 = omega_j_y * t117 - omega_j_z * t118;
+        let t120 = rot_j_xz * t25 + rot_j_yz * t0 + rot_j_zz * t18;
+        let t121 = rot_j_xy * t25 + rot_j_yy * t0 + rot_j_zy * t18;
+        let t122 = rot_j_xx * t25 + rot_j_yx * t0 + rot_j_zx * t18;
+        let t123 = rot_j_xx * t28 + rot_j_yx * t17 + rot_j_zx * t23 - t119
+            - (t119 + (t86 * t120 - t84 * t121 + t122 * t82));
+        let t124 = a_x * t101 - a_y * t103 + a_z * t105
+            + (t100 * t111 - t102 * t113 + t104 * t115);
+        let t125 = rot_j_xx * t26 + rot_j_yx * t11 + rot_j_zx * t20;
+        let t126 = t125 - (omega_j_y * t120 - omega_j_z * t121);
+        let t127 = motion_cos_t * (cos_0 * t124 + sin_0 * t126);
+        let t128 = a_x * t111 - a_y * t113 + a_z * t115;
+        let t129 = motion_sin_t * (cos_0 * t126 - sin_0 * t124);
+        let t130 = rot_j_yx * omega_j_z - rot_j_yz * omega_j_x;
+        let t131 = t20 * t130;
+        let t132 = alpha_j_z - t83;
+        let t133 = omega_j_x * omega_j_x;
+        let t134 = t133 + t81;
+        let t135 = omega_j_y * omega_j_z;
+        let t136 = alpha_j_x + t135;
+        let t137 = rot_j_yx * t132 + rot_j_yy * t134 - rot_j_yz * t136;
+        let t138 = rot_j_zx * omega_j_z - rot_j_zz * omega_j_x;
+        let t139 = t11 * t138;
+        let t140 = rot_j_zx * t132 + rot_j_zy * t134 - rot_j_zz * t136;
+        let t141 = rot_j_xx * omega_j_z - rot_j_xz * omega_j_x;
+        let t142 = t20 * t141;
+        let t143 = rot_j_xx * t132 + rot_j_xy * t134 - rot_j_xz * t136;
+        let t144 = t26 * t138;
+        let t145 = t11 * t141;
+        let t146 = t26 * t130;
+        let t147 = rot_j_yy * t20 - t18 * t130 - (rot_j_zy * t11 - t0 * t138);
+        let t148 = rot_j_xy * t20 - t18 * t141 - (rot_j_zy * t26 - t25 * t138);
+        let t149 = rot_j_xy * t11 - t0 * t141 - (rot_j_yy * t26 - t25 * t130);
+        let t150 = t100 * t147 - t102 * t148 + t104 * t149;
+        let t151 = rot_j_yy * t18 - rot_j_zy * t0;
+        let t152 = rot_j_xy * t18 - rot_j_zy * t25;
+        let t153 = rot_j_xy * t0 - rot_j_yy * t25;
+        let t154 = a_x
+            * (rot_j_yy * t23 - t131 - (t18 * t137 + t131)
+                - (rot_j_zy * t17 - t139 - (t0 * t140 + t139)))
+            - a_y
+                * (rot_j_xy * t23 - t142 - (t18 * t143 + t142)
+                    - (rot_j_zy * t28 - t144 - (t25 * t140 + t144)))
+            + a_z
+                * (rot_j_xy * t17 - t145 - (t0 * t143 + t145)
+                    - (rot_j_yy * t28 - t146 - (t25 * t137 + t146))) + t150
+            + (t150 + (t110 * t151 - t112 * t152 + t114 * t153));
+        let t155 = omega_j_x * t117 - omega_j_z * t125;
+        let t156 = rot_j_xy * t28 + rot_j_yy * t17 + rot_j_zy * t23 + t155
+            + (t155 + (t136 * t120 - t132 * t122 - t121 * t134));
+        let t157 = a_x * t147 - a_y * t148 + a_z * t149
+            + (t100 * t151 - t102 * t152 + t104 * t153);
+        let t158 = t118 + (omega_j_x * t120 - omega_j_z * t122);
+        let t159 = motion_cos_t * (cos_0 * t157 + sin_0 * t158);
+        let t160 = a_x * t151 - a_y * t152 + a_z * t153;
+        let t161 = motion_sin_t * (cos_0 * t158 - sin_0 * t157);
+        let t162 = rot_j_yx * omega_j_y - rot_j_yy * omega_j_x;
+        let t163 = t20 * t162;
+        let t164 = alpha_j_y + t85;
+        let t165 = alpha_j_x - t135;
+        let t166 = t133 + t80;
+        let t167 = rot_j_yx * t164 - rot_j_yy * t165 - rot_j_yz * t166;
+        let t168 = rot_j_zx * omega_j_y - rot_j_zy * omega_j_x;
+        let t169 = t11 * t168;
+        let t170 = rot_j_zx * t164 - rot_j_zy * t165 - rot_j_zz * t166;
+        let t171 = rot_j_xx * omega_j_y - rot_j_xy * omega_j_x;
+        let t172 = t20 * t171;
+        let t173 = rot_j_xx * t164 - rot_j_xy * t165 - rot_j_xz * t166;
+        let t174 = t26 * t168;
+        let t175 = t11 * t171;
+        let t176 = t26 * t162;
+        let t177 = rot_j_yz * t20 + t18 * t162 - (rot_j_zz * t11 + t0 * t168);
+        let t178 = rot_j_xz * t20 + t18 * t171 - (rot_j_zz * t26 + t25 * t168);
+        let t179 = rot_j_xz * t11 + t0 * t171 - (rot_j_yz * t26 + t25 * t162);
+        let t180 = t100 * t177 - t102 * t178 + t104 * t179;
+        let t181 = rot_j_yz * t18 - rot_j_zz * t0;
+        let t182 = rot_j_xz * t18 - rot_j_zz * t25;
+        let t183 = rot_j_xz * t0 - rot_j_yz * t25;
+        let t184 = a_x
+            * (rot_j_yz * t23 + t163 + (t18 * t167 + t163)
+                - (rot_j_zz * t17 + t169 + (t0 * t170 + t169)))
+            - a_y
+                * (rot_j_xz * t23 + t172 + (t18 * t173 + t172)
+                    - (rot_j_zz * t28 + t174 + (t25 * t170 + t174)))
+            + a_z
+                * (rot_j_xz * t17 + t175 + (t0 * t173 + t175)
+                    - (rot_j_yz * t28 + t176 + (t25 * t167 + t176))) + t180
+            + (t180 + (t110 * t181 - t112 * t182 + t114 * t183));
+        let t185 = omega_j_x * t118 - omega_j_y * t125;
+        let t186 = rot_j_xz * t28 + rot_j_yz * t17 + rot_j_zz * t23 - t185
+            - (t185 + (t165 * t121 - t164 * t122 + t120 * t166));
+        let t187 = a_x * t177 - a_y * t178 + a_z * t179
+            + (t100 * t181 - t102 * t182 + t104 * t183);
+        let t188 = t117 - (omega_j_x * t121 - omega_j_y * t122);
+        let t189 = motion_cos_t * (cos_0 * t187 + sin_0 * t188);
+        let t190 = a_x * t181 - a_y * t182 + a_z * t183;
+        let t191 = motion_sin_t * (cos_0 * t188 - sin_0 * t187);
+        let t192 = rot_i_yy * omega_i_z - rot_i_yz * omega_i_y;
+        let t193 = t192 * t12;
+        let t194 = rot_i_yx * t54 - rot_i_yy * t49 + rot_i_yz * t43;
+        let t195 = rot_i_zy * omega_i_z - rot_i_zz * omega_i_y;
+        let t196 = t195 * t21;
+        let t197 = rot_i_zx * t54 - rot_i_zy * t49 + rot_i_zz * t43;
+        let t198 = rot_i_xy * omega_i_z - rot_i_xz * omega_i_y;
+        let t199 = t198 * t12;
+        let t200 = rot_i_xx * t54 - rot_i_xy * t49 + rot_i_xz * t43;
+        let t201 = t195 * t30;
+        let t202 = t198 * t21;
+        let t203 = t192 * t30;
+        let t204 = rot_i_yx * t12 + t192 * b_z - (rot_i_zx * t21 + t195 * b_y);
+        let t205 = rot_i_xx * t12 + t198 * b_z - (rot_i_zx * t30 + t195 * b_x);
+        let t206 = rot_i_xx * t21 + t198 * b_y - (rot_i_yx * t30 + t192 * b_x);
+        let t207 = t100 * t204 - t102 * t205 + t104 * t206;
+        let t208 = rot_i_xx * b_y - rot_i_yx * b_x;
+        let t209 = rot_i_xx * b_z - rot_i_zx * b_x;
+        let t210 = rot_i_yx * b_z - rot_i_zx * b_y;
+        let t211 = a_x
+            * (rot_i_yx * t7 + t193 - (t194 * b_z - t193)
+                - (rot_i_zx * t19 + t196 - (t197 * b_y - t196)))
+            - a_y
+                * (rot_i_xx * t7 + t199 - (t200 * b_z - t199)
+                    - (rot_i_zx * t29 + t201 - (t197 * b_x - t201)))
+            + a_z
+                * (rot_i_xx * t19 + t202 - (t200 * b_y - t202)
+                    - (rot_i_yx * t29 + t203 - (t194 * b_x - t203))) + t207
+            + (t207 + (t208 * t114 - t209 * t112 + t110 * t210));
+        let t212 = rot_i_xx * t29 + rot_i_yx * t19 + rot_i_zx * t7;
+        let t213 = rot_i_xz * t30 + rot_i_yz * t21 + rot_i_zz * t12;
+        let t214 = rot_i_xy * t30 + rot_i_yy * t21 + rot_i_zy * t12;
+        let t215 = omega_i_y * t213 - omega_i_z * t214;
+        let t216 = rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z;
+        let t217 = rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z;
+        let t218 = rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z;
+        let t219 = t212 - t215 - (t215 + (t43 * t216 - t49 * t217 + t218 * t54));
+        let t220 = a_x * t204 - a_y * t205 + a_z * t206
+            + (t100 * t210 + t208 * t104 - t209 * t102);
+        let t221 = rot_i_xx * t30 + rot_i_yx * t21 + rot_i_zx * t12;
+        let t222 = t221 - (omega_i_y * t216 - omega_i_z * t217);
+        let t223 = motion_cos_t * (cos_0 * t220 - sin_0 * t222);
+        let t224 = a_x * t210 + t208 * a_z - t209 * a_y;
+        let t225 = motion_sin_t * (cos_0 * t222 + sin_0 * t220);
+        let t226 = rot_i_yx * omega_i_z - rot_i_yz * omega_i_x;
+        let t227 = t226 * t12;
+        let t228 = rot_i_yx * t63 + rot_i_yy * t65 - rot_i_yz * t62;
+        let t229 = rot_i_zx * omega_i_z - rot_i_zz * omega_i_x;
+        let t230 = t229 * t21;
+        let t231 = rot_i_zx * t63 + rot_i_zy * t65 - rot_i_zz * t62;
+        let t232 = rot_i_xx * omega_i_z - rot_i_xz * omega_i_x;
+        let t233 = t232 * t12;
+        let t234 = rot_i_xx * t63 + rot_i_xy * t65 - rot_i_xz * t62;
+        let t235 = t229 * t30;
+        let t236 = t232 * t21;
+        let t237 = t226 * t30;
+        let t238 = rot_i_yy * t12 - t226 * b_z - (rot_i_zy * t21 - t229 * b_y);
+        let t239 = rot_i_xy * t12 - t232 * b_z - (rot_i_zy * t30 - t229 * b_x);
+        let t240 = rot_i_xy * t21 - t232 * b_y - (rot_i_yy * t30 - t226 * b_x);
+        let t241 = t100 * t238 - t102 * t239 + t104 * t240;
+        let t242 = rot_i_yy * b_z - rot_i_zy * b_y;
+        let t243 = rot_i_xy * b_y - rot_i_yy * b_x;
+        let t244 = rot_i_xy * b_z - rot_i_zy * b_x;
+        let t245 = a_x
+            * (rot_i_yy * t7 - t227 - (t227 + t228 * b_z)
+                - (rot_i_zy * t19 - t230 - (t230 + t231 * b_y)))
+            - a_y
+                * (rot_i_xy * t7 - t233 - (t233 + t234 * b_z)
+                    - (rot_i_zy * t29 - t235 - (t235 + t231 * b_x)))
+            + a_z
+                * (rot_i_xy * t19 - t236 - (t236 + t234 * b_y)
+                    - (rot_i_yy * t29 - t237 - (t237 + t228 * b_x))) + t241
+            + (t241 + (t110 * t242 + t243 * t114 - t244 * t112));
+        let t246 = rot_i_xy * t29 + rot_i_yy * t19 + rot_i_zy * t7;
+        let t247 = omega_i_x * t213 - omega_i_z * t221;
+        let t248 = t246 + t247 + (t247 + (t62 * t216 - t63 * t218 - t217 * t65));
+        let t249 = a_x * t238 - a_y * t239 + a_z * t240
+            + (t100 * t242 + t243 * t104 - t244 * t102);
+        let t250 = t214 + (omega_i_x * t216 - omega_i_z * t218);
+        let t251 = motion_cos_t * (cos_0 * t249 - sin_0 * t250);
+        let t252 = a_x * t242 + t243 * a_z - t244 * a_y;
+        let t253 = motion_sin_t * (cos_0 * t250 + sin_0 * t249);
+        let t254 = rot_i_yx * omega_i_y - rot_i_yy * omega_i_x;
+        let t255 = t254 * t12;
+        let t256 = rot_i_yx * t72 - rot_i_yy * t71 - rot_i_yz * t73;
+        let t257 = rot_i_zx * omega_i_y - rot_i_zy * omega_i_x;
+        let t258 = t257 * t21;
+        let t259 = rot_i_zx * t72 - rot_i_zy * t71 - rot_i_zz * t73;
+        let t260 = rot_i_xx * omega_i_y - rot_i_xy * omega_i_x;
+        let t261 = t260 * t12;
+        let t262 = rot_i_xx * t72 - rot_i_xy * t71 - rot_i_xz * t73;
+        let t263 = t257 * t30;
+        let t264 = t260 * t21;
+        let t265 = t254 * t30;
+        let t266 = rot_i_yz * t12 + t254 * b_z - (rot_i_zz * t21 + t257 * b_y);
+        let t267 = rot_i_xz * t12 + t260 * b_z - (rot_i_zz * t30 + t257 * b_x);
+        let t268 = rot_i_xz * t21 + t260 * b_y - (rot_i_yz * t30 + t254 * b_x);
+        let t269 = t100 * t266 - t102 * t267 + t104 * t268;
+        let t270 = rot_i_yz * b_z - rot_i_zz * b_y;
+        let t271 = rot_i_xz * b_y - rot_i_yz * b_x;
+        let t272 = rot_i_xz * b_z - rot_i_zz * b_x;
+        let t273 = a_x
+            * (rot_i_yz * t7 + t255 + (t255 + t256 * b_z)
+                - (rot_i_zz * t19 + t258 + (t258 + t259 * b_y)))
+            - a_y
+                * (rot_i_xz * t7 + t261 + (t261 + t262 * b_z)
+                    - (rot_i_zz * t29 + t263 + (t263 + t259 * b_x)))
+            + a_z
+                * (rot_i_xz * t19 + t264 + (t264 + t262 * b_y)
+                    - (rot_i_yz * t29 + t265 + (t265 + t256 * b_x))) + t269
+            + (t269 + (t110 * t270 + t271 * t114 - t272 * t112));
+        let t274 = rot_i_xz * t29 + rot_i_yz * t19 + rot_i_zz * t7;
+        let t275 = omega_i_x * t214 - omega_i_y * t221;
+        let t276 = t274 - t275 - (t275 + (t71 * t217 - t72 * t218 + t216 * t73));
+        let t277 = a_x * t266 - a_y * t267 + a_z * t268
+            + (t100 * t270 + t271 * t104 - t272 * t102);
+        let t278 = t213 - (omega_i_x * t217 - omega_i_y * t218);
+        let t279 = motion_cos_t * (cos_0 * t277 - sin_0 * t278);
+        let t280 = a_x * t270 + t271 * a_z - t272 * a_y;
+        let t281 = motion_sin_t * (cos_0 * t278 + sin_0 * t277);
+        let t282 = t221 * t8 - t214 * t9 + t213 * t10;
+        let t283 = b_in_i_x * t212 + b_in_i_y * t246 + b_in_i_z * t274 + t282
+            + (t218 * t14 - t217 * t15 - t216 * t16 + t282);
+        let t284 = t100 * t36 - t102 * t37 + t104 * t38;
+        let t285 = a_x * t24 - a_y * t32 + a_z * t35 + t284
+            + (t284 + (t110 * t44 - t112 * t45 + t114 * t46));
+        let t286 = b_in_i_x * t221 + b_in_i_y * t214 + b_in_i_z * t213
+            + (t218 * t8 - t217 * t9 + t216 * t10);
+        let t287 = a_x * t36 - a_y * t37 + a_z * t38
+            + (t100 * t44 - t102 * t45 + t104 * t46);
+        let t288 = motion_cos_t * (cos_0 * t286 + sin_0 * t287);
+        let t289 = b_in_i_x * t218 + b_in_i_y * t217 + b_in_i_z * t216;
+        let t290 = axis_local_x * t51 + axis_local_y * t50 + axis_local_z * t47;
+        let t291 = motion_sin_t * (cos_0 * t287 - sin_0 * t286);
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+        out[4] = T::from(0.0);
+        out[5] = T::from(0.0);
+        out[6] = lambda_0
+            * (cos_0 * (motion_cos * t55 + t58 + (t58 + motion_cos_tt * t51))
+                - sin_0 * (motion_sin * t55 + t59 + (t59 + motion_sin_tt * t51)));
+        out[7] = lambda_0
+            * (cos_0 * (motion_cos * t66 + t68 + (t68 + motion_cos_tt * t50))
+                - sin_0 * (motion_sin * t66 + t69 + (t69 + motion_sin_tt * t50)));
+        out[8] = lambda_0
+            * (cos_0 * (motion_cos * t74 + t76 + (t76 + motion_cos_tt * t47))
+                - sin_0 * (motion_sin * t74 + t77 + (t77 + motion_sin_tt * t47)));
+        out[9] = -(lambda_0
+            * (motion_cos * (cos_0 * t116 + sin_0 * t123) + t127
+                + (t127 + motion_cos_tt * (cos_0 * t128 + sin_0 * t122))
+                + (motion_sin * (cos_0 * t123 - sin_0 * t116) + t129
+                    + (t129 + motion_sin_tt * (cos_0 * t122 - sin_0 * t128)))));
+        out[10] = -(lambda_0
+            * (motion_cos * (cos_0 * t154 + sin_0 * t156) + t159
+                + (t159 + motion_cos_tt * (cos_0 * t160 + sin_0 * t121))
+                + (motion_sin * (cos_0 * t156 - sin_0 * t154) + t161
+                    + (t161 + motion_sin_tt * (cos_0 * t121 - sin_0 * t160)))));
+        out[11] = -(lambda_0
+            * (motion_cos * (cos_0 * t184 + sin_0 * t186) + t189
+                + (t189 + motion_cos_tt * (cos_0 * t190 + sin_0 * t120))
+                + (motion_sin * (cos_0 * t186 - sin_0 * t184) + t191
+                    + (t191 + motion_sin_tt * (cos_0 * t120 - sin_0 * t190)))));
+        out[12] = lambda_0
+            * (motion_cos * (cos_0 * t211 - sin_0 * t219) + t223
+                + (t223 + motion_cos_tt * (cos_0 * t224 - sin_0 * t218))
+                - (motion_sin * (cos_0 * t219 + sin_0 * t211) + t225
+                    + (t225 + motion_sin_tt * (cos_0 * t218 + sin_0 * t224))));
+        out[13] = lambda_0
+            * (motion_cos * (cos_0 * t245 - sin_0 * t248) + t251
+                + (t251 + motion_cos_tt * (cos_0 * t252 - sin_0 * t217))
+                - (motion_sin * (cos_0 * t248 + sin_0 * t245) + t253
+                    + (t253 + motion_sin_tt * (cos_0 * t217 + sin_0 * t252))));
+        out[14] = lambda_0
+            * (motion_cos * (cos_0 * t273 - sin_0 * t276) + t279
+                + (t279 + motion_cos_tt * (cos_0 * t280 - sin_0 * t216))
+                - (motion_sin * (cos_0 * t276 + sin_0 * t273) + t281
+                    + (t281 + motion_sin_tt * (cos_0 * t216 + sin_0 * t280))));
+        out[15] = T::from(0.0);
+        out[16] = T::from(0.0);
+        out[17] = T::from(0.0);
+        out[18] = -(lambda_0
+            * (motion_cos * (cos_0 * t283 + sin_0 * t285) + t288
+                + (t288 + motion_cos_tt * (cos_0 * t289 + sin_0 * t290))
+                + (motion_sin * (cos_0 * t285 - sin_0 * t283) + t291
+                    + (t291 + motion_sin_tt * (cos_0 * t290 - sin_0 * t289)))));
+    }
+}
+/// The second of `Universal` follows a function of time: sin(measure − initial measure − f(t)) = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UniversalSecondDrive {
+    /// The centre of the cross on body i. Point in the frame of body i (m).
+    pub s_i: [f64; 3],
+    /// The centre of the cross on body j. Point in the frame of body j (m).
+    pub s_j: [f64; 3],
+    /// The axis of the cross that is fixed in body i. Unit vector in the frame of body i.
+    pub axis: Direction,
+    /// The axis of the cross that is fixed in body j. Unit vector in the frame of body j.
+    pub cross: Direction,
+    /// Kept from the assembled start; set by `initialise`.
+    pub b_in_i: [f64; 3],
+    /// Kept from the assembled start; set by `initialise`.
+    pub a_in_j: [f64; 3],
+    /// Cosine and sine of the measure at the assembled start; set by `initialise`.
+    pub measure_0: [f64; 2],
+}
+#[allow(unused_variables)]
+impl Constraint<Space3> for UniversalSecondDrive {
+    const SPEC: ConstraintSpec = ConstraintSpec {
+        common: Spec {
+            name: "UniversalSecondDrive",
+            scene_type: "second",
+            variant: None,
+            doc: "The second of `Universal` follows a function of time: sin(measure − initial measure − f(t)) = 0.",
+            text: "",
+            slots: &["i", "j"],
+            parameters: &[
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "The centre of the cross on body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The centre of the cross on body j.",
+                ),
+                Parameter::required(
+                    "axis",
+                    Shape::Direction { slot: 0 },
+                    "The axis of the cross that is fixed in body i.",
+                ),
+                Parameter::required(
+                    "cross",
+                    Shape::Direction { slot: 1 },
+                    "The axis of the cross that is fixed in body j.",
+                ),
+                Parameter::required(
+                    "motion",
+                    Shape::Functions(&[Unit::Angle]),
+                    "The function of time that the measure follows.",
+                ),
+            ],
+            points_apart: false,
+            requirements: &["the two axes of its cross do not lie along one line"],
+        },
+        role: Role::Drive,
+        rows: &[Row::keeping_start("second")],
+        holonomic: 1,
+        c: &[
+            Entry::varying(0, 0, 3),
+            Entry::varying(0, 0, 4),
+            Entry::varying(0, 0, 5),
+            Entry::varying(0, 1, 3),
+            Entry::varying(0, 1, 4),
+            Entry::varying(0, 1, 5),
+        ],
+        rheonomic: true,
+        wrench: &[[3, 0], [4, 0], [5, 0]],
+        component: Some("drive"),
+        note: None,
+        measures: &[],
+        turning: true,
+        turns: 0,
+        d_force_dx: &[
+            [3, 3],
+            [3, 4],
+            [3, 5],
+            [3, 9],
+            [3, 10],
+            [3, 11],
+            [4, 3],
+            [4, 4],
+            [4, 5],
+            [4, 9],
+            [4, 10],
+            [4, 11],
+            [5, 3],
+            [5, 4],
+            [5, 5],
+            [5, 9],
+            [5, 10],
+            [5, 11],
+            [9, 3],
+            [9, 4],
+            [9, 5],
+            [9, 9],
+            [9, 10],
+            [9, 11],
+            [10, 3],
+            [10, 4],
+            [10, 5],
+            [10, 9],
+            [10, 10],
+            [10, 11],
+            [11, 3],
+            [11, 4],
+            [11, 5],
+            [11, 9],
+            [11, 10],
+            [11, 11],
+        ],
+        d_residual_dx: &[[0, 3], [0, 4], [0, 5], [0, 9], [0, 10], [0, 11]],
+        d_gamma_dv: &[[0, 3], [0, 4], [0, 5], [0, 9], [0, 10], [0, 11]],
+        d_velocity_dx: &[[0, 3], [0, 4], [0, 5], [0, 9], [0, 10], [0, 11]],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0, 3),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 3, 3),
+            Datum::new("axis", DatumShape::Direction { slot: 0 }, 6, 3),
+            Datum::new("cross", DatumShape::Direction { slot: 1 }, 9, 3),
+            Datum::new("b_in_i", DatumShape::KeptVector { slot: 0 }, 12, 3),
+            Datum::new("a_in_j", DatumShape::KeptVector { slot: 1 }, 15, 3),
+            Datum::new("measure_0", DatumShape::Kept(Unit::Angle), 18, 1),
+        ],
+    };
+    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
+        let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
+        let s_i = reader.point3()?;
+        let s_j = reader.point3()?;
+        let axis = reader.direction3()?;
+        let cross = reader.direction3()?;
+        reader.skip();
+        Ok(Self {
+            s_i,
+            s_j,
+            axis,
+            cross,
+            b_in_i: [0.0; 3],
+            a_in_j: [0.0; 3],
+            measure_0: [1.0, 0.0],
+        })
+    }
+    fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
+    fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {
+        self
+    }
+    fn derivatives<T: Ring>(&self) -> &dyn Derivatives<T, Space3> {
+        self
+    }
+}
+#[allow(unused_variables)]
+impl Definition<Space3> for UniversalSecondDrive {
+    fn initialise(&mut self, x: &[Pose]) {
+        self.b_in_i = {
+            let rot_i_xx = x[0].rot[0][0];
+            let rot_i_xy = x[0].rot[0][1];
+            let rot_i_xz = x[0].rot[0][2];
+            let rot_i_yx = x[0].rot[1][0];
+            let rot_i_yy = x[0].rot[1][1];
+            let rot_i_yz = x[0].rot[1][2];
+            let rot_i_zx = x[0].rot[2][0];
+            let rot_i_zy = x[0].rot[2][1];
+            let rot_i_zz = x[0].rot[2][2];
+            let rot_j_xx = x[1].rot[0][0];
+            let rot_j_xy = x[1].rot[0][1];
+            let rot_j_xz = x[1].rot[0][2];
+            let rot_j_yx = x[1].rot[1][0];
+            let rot_j_yy = x[1].rot[1][1];
+            let rot_j_yz = x[1].rot[1][2];
+            let rot_j_zx = x[1].rot[2][0];
+            let rot_j_zy = x[1].rot[2][1];
+            let rot_j_zz = x[1].rot[2][2];
+            let cross_local_x = self.cross.xyz()[0];
+            let cross_local_y = self.cross.xyz()[1];
+            let cross_local_z = self.cross.xyz()[2];
+            let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                + rot_j_xz * cross_local_z;
+            let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                + rot_j_yz * cross_local_z;
+            let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                + rot_j_zz * cross_local_z;
+            [
+                rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z,
+                rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z,
+                rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z,
+            ]
+        };
+        self.a_in_j = {
+            let rot_i_xx = x[0].rot[0][0];
+            let rot_i_xy = x[0].rot[0][1];
+            let rot_i_xz = x[0].rot[0][2];
+            let rot_i_yx = x[0].rot[1][0];
+            let rot_i_yy = x[0].rot[1][1];
+            let rot_i_yz = x[0].rot[1][2];
+            let rot_i_zx = x[0].rot[2][0];
+            let rot_i_zy = x[0].rot[2][1];
+            let rot_i_zz = x[0].rot[2][2];
+            let rot_j_xx = x[1].rot[0][0];
+            let rot_j_xy = x[1].rot[0][1];
+            let rot_j_xz = x[1].rot[0][2];
+            let rot_j_yx = x[1].rot[1][0];
+            let rot_j_yy = x[1].rot[1][1];
+            let rot_j_yz = x[1].rot[1][2];
+            let rot_j_zx = x[1].rot[2][0];
+            let rot_j_zy = x[1].rot[2][1];
+            let rot_j_zz = x[1].rot[2][2];
+            let axis_local_x = self.axis.xyz()[0];
+            let axis_local_y = self.axis.xyz()[1];
+            let axis_local_z = self.axis.xyz()[2];
+            let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+                + rot_i_xz * axis_local_z;
+            let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+                + rot_i_yz * axis_local_z;
+            let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+                + rot_i_zz * axis_local_z;
+            [
+                rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z,
+                rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z,
+                rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z,
+            ]
+        };
+        let [c, s]: [f64; 2] = {
+            let rot_i_xx = x[0].rot[0][0];
+            let rot_i_xy = x[0].rot[0][1];
+            let rot_i_xz = x[0].rot[0][2];
+            let rot_i_yx = x[0].rot[1][0];
+            let rot_i_yy = x[0].rot[1][1];
+            let rot_i_yz = x[0].rot[1][2];
+            let rot_i_zx = x[0].rot[2][0];
+            let rot_i_zy = x[0].rot[2][1];
+            let rot_i_zz = x[0].rot[2][2];
+            let rot_j_xx = x[1].rot[0][0];
+            let rot_j_xy = x[1].rot[0][1];
+            let rot_j_xz = x[1].rot[0][2];
+            let rot_j_yx = x[1].rot[1][0];
+            let rot_j_yy = x[1].rot[1][1];
+            let rot_j_yz = x[1].rot[1][2];
+            let rot_j_zx = x[1].rot[2][0];
+            let rot_j_zy = x[1].rot[2][1];
+            let rot_j_zz = x[1].rot[2][2];
+            let axis_local_x = self.axis.xyz()[0];
+            let axis_local_y = self.axis.xyz()[1];
+            let axis_local_z = self.axis.xyz()[2];
+            let cross_local_x = self.cross.xyz()[0];
+            let cross_local_y = self.cross.xyz()[1];
+            let cross_local_z = self.cross.xyz()[2];
+            let a_in_j_x = self.a_in_j[0];
+            let a_in_j_y = self.a_in_j[1];
+            let a_in_j_z = self.a_in_j[2];
+            let t0 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+            let t1 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+            let t2 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+            let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+                + rot_i_yz * axis_local_z;
+            let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+                + rot_i_zz * axis_local_z;
+            let t3 = a_y * t2 - a_z * t1;
+            let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+                + rot_i_xz * axis_local_z;
+            let t4 = a_x * t2 - a_z * t0;
+            let t5 = a_x * t1 - a_y * t0;
+            [
+                axis_local_x * (rot_i_xx * t0 + rot_i_yx * t1 + rot_i_zx * t2)
+                    + axis_local_y * (rot_i_xy * t0 + rot_i_yy * t1 + rot_i_zy * t2)
+                    + axis_local_z * (rot_i_xz * t0 + rot_i_yz * t1 + rot_i_zz * t2),
+                cross_local_x * (rot_j_xx * t3 - rot_j_yx * t4 + rot_j_zx * t5)
+                    + cross_local_y * (rot_j_xy * t3 - rot_j_yy * t4 + rot_j_zy * t5)
+                    + cross_local_z * (rot_j_xz * t3 - rot_j_yz * t4 + rot_j_zz * t5),
+            ]
+        };
+        let length = c.hypot(s);
+        self.measure_0 = if length > 0.0 {
+            [c / length, s / length]
+        } else {
+            [1.0, 0.0]
+        };
+    }
+    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
+        match k {
+            0 => {
+                let rot_i_xx = x[0].rot[0][0];
+                let rot_i_xy = x[0].rot[0][1];
+                let rot_i_xz = x[0].rot[0][2];
+                let rot_i_yx = x[0].rot[1][0];
+                let rot_i_yy = x[0].rot[1][1];
+                let rot_i_yz = x[0].rot[1][2];
+                let rot_i_zx = x[0].rot[2][0];
+                let rot_i_zy = x[0].rot[2][1];
+                let rot_i_zz = x[0].rot[2][2];
+                let rot_j_xx = x[1].rot[0][0];
+                let rot_j_xy = x[1].rot[0][1];
+                let rot_j_xz = x[1].rot[0][2];
+                let rot_j_yx = x[1].rot[1][0];
+                let rot_j_yy = x[1].rot[1][1];
+                let rot_j_yz = x[1].rot[1][2];
+                let rot_j_zx = x[1].rot[2][0];
+                let rot_j_zy = x[1].rot[2][1];
+                let rot_j_zz = x[1].rot[2][2];
+                let axis_local_x = self.axis.xyz()[0];
+                let axis_local_y = self.axis.xyz()[1];
+                let axis_local_z = self.axis.xyz()[2];
+                let cross_local_x = self.cross.xyz()[0];
+                let cross_local_y = self.cross.xyz()[1];
+                let cross_local_z = self.cross.xyz()[2];
+                let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                    + rot_j_xz * cross_local_z;
+                let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                    + rot_j_yz * cross_local_z;
+                let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                    + rot_j_zz * cross_local_z;
+                let k = axis_local_x * (rot_i_xx * b_x + rot_i_yx * b_y + rot_i_zx * b_z)
+                    + axis_local_y * (rot_i_xy * b_x + rot_i_yy * b_y + rot_i_zy * b_z)
+                    + axis_local_z * (rot_i_xz * b_x + rot_i_yz * b_y + rot_i_zz * b_z);
+                -(k * k - 1.0) > 0.000001
+            }
+            _ => true,
+        }
+    }
+    fn turned(&self, k: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
+        match k {
+            0 => {
+                let rot_i_xx = x[0].rot[0][0];
+                let rot_i_xy = x[0].rot[0][1];
+                let rot_i_xz = x[0].rot[0][2];
+                let rot_i_yx = x[0].rot[1][0];
+                let rot_i_yy = x[0].rot[1][1];
+                let rot_i_yz = x[0].rot[1][2];
+                let rot_i_zx = x[0].rot[2][0];
+                let rot_i_zy = x[0].rot[2][1];
+                let rot_i_zz = x[0].rot[2][2];
+                let omega_i_x = v[0].omega[0];
+                let omega_i_y = v[0].omega[1];
+                let omega_i_z = v[0].omega[2];
+                let rot_j_xx = x[1].rot[0][0];
+                let rot_j_xy = x[1].rot[0][1];
+                let rot_j_xz = x[1].rot[0][2];
+                let rot_j_yx = x[1].rot[1][0];
+                let rot_j_yy = x[1].rot[1][1];
+                let rot_j_yz = x[1].rot[1][2];
+                let rot_j_zx = x[1].rot[2][0];
+                let rot_j_zy = x[1].rot[2][1];
+                let rot_j_zz = x[1].rot[2][2];
+                let omega_j_x = v[1].omega[0];
+                let omega_j_y = v[1].omega[1];
+                let omega_j_z = v[1].omega[2];
+                let axis_local_x = self.axis.xyz()[0];
+                let axis_local_y = self.axis.xyz()[1];
+                let axis_local_z = self.axis.xyz()[2];
+                let cross_local_x = self.cross.xyz()[0];
+                let cross_local_y = self.cross.xyz()[1];
+                let cross_local_z = self.cross.xyz()[2];
+                let cos_0 = self.measure_0[0];
+                let sin_0 = self.measure_0[1];
+                let a_in_j_x = self.a_in_j[0];
+                let a_in_j_y = self.a_in_j[1];
+                let a_in_j_z = self.a_in_j[2];
+                let t0 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+                let t1 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+                let t2 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+                let t3 = rot_i_xx * t0 + rot_i_yx * t1 + rot_i_zx * t2;
+                let t4 = rot_i_xy * t0 + rot_i_yy * t1 + rot_i_zy * t2;
+                let t5 = rot_i_xz * t0 + rot_i_yz * t1 + rot_i_zz * t2;
+                let t6 = axis_local_x * t3 + axis_local_y * t4 + axis_local_z * t5;
+                let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+                    + rot_i_yz * axis_local_z;
+                let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+                    + rot_i_zz * axis_local_z;
+                let t7 = a_y * t2 - a_z * t1;
+                let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+                    + rot_i_xz * axis_local_z;
+                let t8 = a_x * t2 - a_z * t0;
+                let t9 = a_x * t1 - a_y * t0;
+                let t10 = cross_local_x * (rot_j_xx * t7 - rot_j_yx * t8 + rot_j_zx * t9)
+                    + cross_local_y * (rot_j_xy * t7 - rot_j_yy * t8 + rot_j_zy * t9)
+                    + cross_local_z * (rot_j_xz * t7 - rot_j_yz * t8 + rot_j_zz * t9);
+                let t11 = cos_0 * t6 + sin_0 * t10;
+                let t12 = cos_0 * t10 - sin_0 * t6;
+                let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+                    + rot_j_xz * cross_local_z;
+                let t13 = omega_j_y * a_in_j_z - omega_j_z * a_in_j_y;
+                let t14 = omega_j_x * a_in_j_z - omega_j_z * a_in_j_x;
+                let t15 = omega_j_x * a_in_j_y - omega_j_y * a_in_j_x;
+                let t16 = rot_j_zx * t13 - rot_j_zy * t14 + rot_j_zz * t15;
+                let t17 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+                let t18 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+                let t19 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+                let t20 = rot_i_yx * t17 - rot_i_yy * t18 + rot_i_yz * t19;
+                let t21 = rot_j_yx * t13 - rot_j_yy * t14 + rot_j_yz * t15;
+                let t22 = rot_i_zx * t17 - rot_i_zy * t18 + rot_i_zz * t19;
+                let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+                    + rot_j_yz * cross_local_z;
+                let t23 = rot_i_xx * t17 - rot_i_xy * t18 + rot_i_xz * t19;
+                let t24 = rot_j_xx * t13 - rot_j_xy * t14 + rot_j_xz * t15;
+                let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+                    + rot_j_zz * cross_local_z;
+                let t25 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+                let t26 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+                let t27 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+                let t28 = b_x * (a_y * t16 + t20 * t2 - (a_z * t21 + t22 * t1))
+                    - b_y * (a_x * t16 + t23 * t2 - (a_z * t24 + t22 * t0))
+                    + b_z * (a_x * t21 + t23 * t1 - (a_y * t24 + t20 * t0))
+                    + ((rot_j_xx * t25 - rot_j_xy * t26 + rot_j_xz * t27) * t7
+                        - (rot_j_yx * t25 - rot_j_yy * t26 + rot_j_yz * t27) * t8
+                        + (rot_j_zx * t25 - rot_j_zy * t26 + rot_j_zz * t27) * t9);
+                let t29 = axis_local_x
+                    * (rot_i_xx * t24 + rot_i_yx * t21 + rot_i_zx * t16)
+                    + axis_local_y * (rot_i_xy * t24 + rot_i_yy * t21 + rot_i_zy * t16)
+                    + axis_local_z * (rot_i_xz * t24 + rot_i_yz * t21 + rot_i_zz * t16)
+                    + (t3 * t17 - t4 * t18 + t5 * t19);
+                [
+                    t11,
+                    t12,
+                    t11 * (cos_0 * t28 - sin_0 * t29) - t12 * (cos_0 * t29 + sin_0 * t28),
+                ]
+            }
+            _ => [1.0, 0.0, 0.0],
+        }
+    }
+    fn points(&self) -> Vec<[f64; 3]> {
+        vec![self.s_i, self.s_j]
+    }
+    fn axes(&self) -> Option<[[f64; 3]; 3]> {
+        Axes::new(self.axis.xyz(), None).map(Axes::uvw)
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_i[2];
+        out[3] = self.s_j[0];
+        out[4] = self.s_j[1];
+        out[5] = self.s_j[2];
+        out[6] = self.axis.xyz()[0];
+        out[7] = self.axis.xyz()[1];
+        out[8] = self.axis.xyz()[2];
+        out[9] = self.cross.xyz()[0];
+        out[10] = self.cross.xyz()[1];
+        out[11] = self.cross.xyz()[2];
+        out[12] = self.b_in_i[0];
+        out[13] = self.b_in_i[1];
+        out[14] = self.b_in_i[2];
+        out[15] = self.a_in_j[0];
+        out[16] = self.a_in_j[1];
+        out[17] = self.a_in_j[2];
+        out[18] = 0.0;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1], numbers[2]];
+        self.s_j = [numbers[3], numbers[4], numbers[5]];
+        self.axis = Direction::from_data([numbers[6], numbers[7], numbers[8]]);
+        self.cross = Direction::from_data([numbers[9], numbers[10], numbers[11]]);
+        self.b_in_i = [numbers[12], numbers[13], numbers[14]];
+        self.a_in_j = [numbers[15], numbers[16], numbers[17]];
+        let (sin, cos) = f64::sin_cos(numbers[18]);
+        let [c, s] = self.measure_0;
+        self.measure_0 = [c * cos - s * sin, s * cos + c * sin];
+    }
+}
+#[allow(unused_variables)]
+#[allow(clippy::too_many_arguments)]
+impl<T: Ring> Element<T, Space3> for UniversalSecondDrive {
+    fn spec(&self) -> &'static ConstraintSpec {
+        &Self::SPEC
+    }
+    /// Φ. Operations: 54 mul, 34 add.
+    fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t0 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t1 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let t2 = a_y * t0 - a_z * t1;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t3 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let t4 = a_x * t0 - a_z * t3;
+        let t5 = a_x * t1 - a_y * t3;
+        let t6 = cross_local_x * (rot_j_xx * t2 - rot_j_yx * t4 + rot_j_zx * t5)
+            + cross_local_y * (rot_j_xy * t2 - rot_j_yy * t4 + rot_j_zy * t5)
+            + cross_local_z * (rot_j_xz * t2 - rot_j_yz * t4 + rot_j_zz * t5);
+        let t7 = axis_local_x * (rot_i_xx * t3 + rot_i_yx * t1 + rot_i_zx * t0)
+            + axis_local_y * (rot_i_xy * t3 + rot_i_yy * t1 + rot_i_zy * t0)
+            + axis_local_z * (rot_i_xz * t3 + rot_i_yz * t1 + rot_i_zz * t0);
+        out[0] = motion_cos * (cos_0 * t6 - sin_0 * t7)
+            - motion_sin * (cos_0 * t7 + sin_0 * t6);
+    }
+    /// Constant entries of C. Operations: none.
+    fn c_constant(&self, out: &mut [f64]) {}
+    /// Varying entries of C. Operations: 204 mul, 117 add, 3 neg.
+    fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t0 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t1 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let t2 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t3 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t4 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t5 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t6 = b_x * (t0 * t1 - t2 * t3) - b_y * (t4 * t1 - t2 * t5)
+            + b_z * (t4 * t3 - t0 * t5);
+        let t7 = rot_i_xz * t5 + rot_i_yz * t3 + rot_i_zz * t1;
+        let t8 = rot_i_xy * t5 + rot_i_yy * t3 + rot_i_zy * t1;
+        let t9 = axis_local_y * t7 - axis_local_z * t8;
+        let t10 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t11 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t12 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t13 = b_x * (t10 * t1 - t11 * t3) - b_y * (t12 * t1 - t11 * t5)
+            + b_z * (t12 * t3 - t10 * t5);
+        let t14 = rot_i_xx * t5 + rot_i_yx * t3 + rot_i_zx * t1;
+        let t15 = axis_local_x * t7 - axis_local_z * t14;
+        let t16 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t17 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t18 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t19 = b_x * (t16 * t1 - t17 * t3) - b_y * (t18 * t1 - t17 * t5)
+            + b_z * (t18 * t3 - t16 * t5);
+        let t20 = axis_local_x * t8 - axis_local_y * t14;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t21 = a_y * t1 - a_z * t3;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t22 = a_x * t1 - a_z * t5;
+        let t23 = a_x * t3 - a_y * t5;
+        let t24 = rot_j_xz * t21 - rot_j_yz * t22 + rot_j_zz * t23;
+        let t25 = rot_j_xy * t21 - rot_j_yy * t22 + rot_j_zy * t23;
+        let t26 = rot_j_zy * a_in_j_z - rot_j_zz * a_in_j_y;
+        let t27 = rot_j_yy * a_in_j_z - rot_j_yz * a_in_j_y;
+        let t28 = rot_j_xy * a_in_j_z - rot_j_xz * a_in_j_y;
+        let t29 = cross_local_y * t24 - cross_local_z * t25
+            - (b_x * (a_y * t26 - a_z * t27) - b_y * (a_x * t26 - a_z * t28)
+                + b_z * (a_x * t27 - a_y * t28));
+        let t30 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t31 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t32 = a_in_j_y * t30 - a_in_j_z * t31;
+        let t33 = rot_j_xx * t21 - rot_j_yx * t22 + rot_j_zx * t23;
+        let t34 = rot_j_zx * a_in_j_z - rot_j_zz * a_in_j_x;
+        let t35 = rot_j_yx * a_in_j_z - rot_j_yz * a_in_j_x;
+        let t36 = rot_j_xx * a_in_j_z - rot_j_xz * a_in_j_x;
+        let t37 = cross_local_x * t24 - cross_local_z * t33
+            - (b_x * (a_y * t34 - a_z * t35) - b_y * (a_x * t34 - a_z * t36)
+                + b_z * (a_x * t35 - a_y * t36));
+        let t38 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
+        let t39 = a_in_j_x * t30 - a_in_j_z * t38;
+        let t40 = rot_j_zx * a_in_j_y - rot_j_zy * a_in_j_x;
+        let t41 = rot_j_yx * a_in_j_y - rot_j_yy * a_in_j_x;
+        let t42 = rot_j_xx * a_in_j_y - rot_j_xy * a_in_j_x;
+        let t43 = cross_local_x * t25 - cross_local_y * t33
+            - (b_x * (a_y * t40 - a_z * t41) - b_y * (a_x * t40 - a_z * t42)
+                + b_z * (a_x * t41 - a_y * t42));
+        let t44 = a_in_j_x * t31 - a_in_j_y * t38;
+        out[0] = -(motion_cos * (cos_0 * t6 + sin_0 * t9)
+            + motion_sin * (cos_0 * t9 - sin_0 * t6));
+        out[1] = motion_cos * (cos_0 * t13 + sin_0 * t15)
+            + motion_sin * (cos_0 * t15 - sin_0 * t13);
+        out[2] = -(motion_cos * (cos_0 * t19 + sin_0 * t20)
+            + motion_sin * (cos_0 * t20 - sin_0 * t19));
+        out[3] = motion_cos * (cos_0 * t29 - sin_0 * t32)
+            - motion_sin * (cos_0 * t32 + sin_0 * t29);
+        out[4] = -(motion_cos * (cos_0 * t37 - sin_0 * t39)
+            - motion_sin * (cos_0 * t39 + sin_0 * t37));
+        out[5] = motion_cos * (cos_0 * t43 - sin_0 * t44)
+            - motion_sin * (cos_0 * t44 + sin_0 * t43);
+    }
+    /// b. Operations: 54 mul, 34 add, 1 neg.
+    fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos_t = f[0][1];
+        let motion_sin_t = f[1][1];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t0 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t1 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let t2 = a_y * t0 - a_z * t1;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t3 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let t4 = a_x * t0 - a_z * t3;
+        let t5 = a_x * t1 - a_y * t3;
+        let t6 = cross_local_x * (rot_j_xx * t2 - rot_j_yx * t4 + rot_j_zx * t5)
+            + cross_local_y * (rot_j_xy * t2 - rot_j_yy * t4 + rot_j_zy * t5)
+            + cross_local_z * (rot_j_xz * t2 - rot_j_yz * t4 + rot_j_zz * t5);
+        let t7 = axis_local_x * (rot_i_xx * t3 + rot_i_yx * t1 + rot_i_zx * t0)
+            + axis_local_y * (rot_i_xy * t3 + rot_i_yy * t1 + rot_i_zy * t0)
+            + axis_local_z * (rot_i_xz * t3 + rot_i_yz * t1 + rot_i_zz * t0);
+        out[0] = -(motion_cos_t * (cos_0 * t6 - sin_0 * t7)
+            - motion_sin_t * (cos_0 * t7 + sin_0 * t6));
+    }
+    /// Γ. Operations: 243 mul, 174 add, 1 neg.
+    fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_cos_tt = f[0][2];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let motion_sin_tt = f[1][2];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t0 = omega_j_x * a_in_j_y - omega_j_y * a_in_j_x;
+        let t1 = omega_j_x * a_in_j_z - omega_j_z * a_in_j_x;
+        let t2 = omega_j_y * t0 + omega_j_z * t1;
+        let t3 = omega_j_y * a_in_j_z - omega_j_z * a_in_j_y;
+        let t4 = omega_j_x * t0 - omega_j_z * t3;
+        let t5 = omega_j_x * t1 + omega_j_y * t3;
+        let t6 = rot_j_zx * t2 - rot_j_zy * t4 - rot_j_zz * t5;
+        let t7 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t8 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t9 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t10 = rot_i_yx * t7 - rot_i_yy * t8 + rot_i_yz * t9;
+        let t11 = rot_j_zx * t3 - rot_j_zy * t1 + rot_j_zz * t0;
+        let t12 = t10 * t11;
+        let t13 = omega_i_y * t9 + omega_i_z * t8;
+        let t14 = omega_i_x * t9 - omega_i_z * t7;
+        let t15 = omega_i_x * t8 + omega_i_y * t7;
+        let t16 = rot_i_yx * t13 - rot_i_yy * t14 - rot_i_yz * t15;
+        let t17 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t18 = rot_j_yx * t2 - rot_j_yy * t4 - rot_j_yz * t5;
+        let t19 = rot_i_zx * t7 - rot_i_zy * t8 + rot_i_zz * t9;
+        let t20 = rot_j_yx * t3 - rot_j_yy * t1 + rot_j_yz * t0;
+        let t21 = t19 * t20;
+        let t22 = rot_i_zx * t13 - rot_i_zy * t14 - rot_i_zz * t15;
+        let t23 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t24 = rot_i_xx * t7 - rot_i_xy * t8 + rot_i_xz * t9;
+        let t25 = t24 * t11;
+        let t26 = rot_i_xx * t13 - rot_i_xy * t14 - rot_i_xz * t15;
+        let t27 = rot_j_xx * t2 - rot_j_xy * t4 - rot_j_xz * t5;
+        let t28 = rot_j_xx * t3 - rot_j_xy * t1 + rot_j_xz * t0;
+        let t29 = t19 * t28;
+        let t30 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t31 = t24 * t20;
+        let t32 = t10 * t28;
+        let t33 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+        let t34 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+        let t35 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+        let t36 = rot_j_xx * t33 - rot_j_xy * t34 + rot_j_xz * t35;
+        let t37 = a_y * t11 + t10 * t17 - (a_z * t20 + t19 * t23);
+        let t38 = rot_j_yx * t33 - rot_j_yy * t34 + rot_j_yz * t35;
+        let t39 = a_x * t11 + t24 * t17 - (a_z * t28 + t19 * t30);
+        let t40 = rot_j_zx * t33 - rot_j_zy * t34 + rot_j_zz * t35;
+        let t41 = a_x * t20 + t24 * t23 - (a_y * t28 + t10 * t30);
+        let t42 = t36 * t37 - t38 * t39 + t40 * t41;
+        let t43 = omega_j_y * t35 + omega_j_z * t34;
+        let t44 = omega_j_x * t35 - omega_j_z * t33;
+        let t45 = omega_j_x * t34 + omega_j_y * t33;
+        let t46 = a_y * t17 - a_z * t23;
+        let t47 = a_x * t17 - a_z * t30;
+        let t48 = a_x * t23 - a_y * t30;
+        let t49 = b_x
+            * (a_y * t6 + t12 + (t12 + t16 * t17)
+                - (a_z * t18 + t21 + (t21 + t22 * t23)))
+            - b_y
+                * (a_x * t6 + t25 + (t25 + t26 * t17)
+                    - (a_z * t27 + t29 + (t29 + t22 * t30)))
+            + b_z
+                * (a_x * t18 + t31 + (t31 + t26 * t23)
+                    - (a_y * t27 + t32 + (t32 + t16 * t30))) + t42
+            + (t42
+                + ((rot_j_xx * t43 - rot_j_xy * t44 - rot_j_xz * t45) * t46
+                    - (rot_j_yx * t43 - rot_j_yy * t44 - rot_j_yz * t45) * t47
+                    + (rot_j_zx * t43 - rot_j_zy * t44 - rot_j_zz * t45) * t48));
+        let t50 = rot_i_xx * t28 + rot_i_yx * t20 + rot_i_zx * t11;
+        let t51 = rot_i_xy * t28 + rot_i_yy * t20 + rot_i_zy * t11;
+        let t52 = rot_i_xz * t28 + rot_i_yz * t20 + rot_i_zz * t11;
+        let t53 = t50 * t7 - t51 * t8 + t52 * t9;
+        let t54 = rot_i_xx * t30 + rot_i_yx * t23 + rot_i_zx * t17;
+        let t55 = rot_i_xy * t30 + rot_i_yy * t23 + rot_i_zy * t17;
+        let t56 = rot_i_xz * t30 + rot_i_yz * t23 + rot_i_zz * t17;
+        let t57 = axis_local_x * (rot_i_xx * t27 + rot_i_yx * t18 + rot_i_zx * t6)
+            + axis_local_y * (rot_i_xy * t27 + rot_i_yy * t18 + rot_i_zy * t6)
+            + axis_local_z * (rot_i_xz * t27 + rot_i_yz * t18 + rot_i_zz * t6) + t53
+            + (t54 * t13 - t55 * t14 - t56 * t15 + t53);
+        let t58 = b_x * t37 - b_y * t39 + b_z * t41
+            + (t36 * t46 - t38 * t47 + t40 * t48);
+        let t59 = axis_local_x * t50 + axis_local_y * t51 + axis_local_z * t52
+            + (t54 * t7 - t55 * t8 + t56 * t9);
+        let t60 = motion_cos_t * (cos_0 * t58 - sin_0 * t59);
+        let t61 = cross_local_x * (rot_j_xx * t46 - rot_j_yx * t47 + rot_j_zx * t48)
+            + cross_local_y * (rot_j_xy * t46 - rot_j_yy * t47 + rot_j_zy * t48)
+            + cross_local_z * (rot_j_xz * t46 - rot_j_yz * t47 + rot_j_zz * t48);
+        let t62 = axis_local_x * t54 + axis_local_y * t55 + axis_local_z * t56;
+        let t63 = motion_sin_t * (cos_0 * t59 + sin_0 * t58);
+        out[0] = -(motion_cos * (cos_0 * t49 - sin_0 * t57) + t60
+            + (t60 + motion_cos_tt * (cos_0 * t61 - sin_0 * t62))
+            - (motion_sin * (cos_0 * t57 + sin_0 * t49) + t63
+                + (t63 + motion_sin_tt * (cos_0 * t62 + sin_0 * t61))));
+    }
+    /// Entries of the wrench map. Operations: 105 mul, 60 add.
+    fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T])
+    where
+        T: Real,
+    {
+        let out = &mut out[..3];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t0 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t1 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let t2 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t3 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t4 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t5 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t6 = b_x * (t0 * t1 - t2 * t3) - b_y * (t4 * t1 - t2 * t5)
+            + b_z * (t4 * t3 - t0 * t5);
+        let t7 = rot_i_xz * t5 + rot_i_yz * t3 + rot_i_zz * t1;
+        let t8 = rot_i_xy * t5 + rot_i_yy * t3 + rot_i_zy * t1;
+        let t9 = axis_local_y * t7 - axis_local_z * t8;
+        let t10 = motion_cos * (cos_0 * t6 + sin_0 * t9)
+            + motion_sin * (cos_0 * t9 - sin_0 * t6);
+        let t11 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t12 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t13 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t14 = b_x * (t11 * t1 - t12 * t3) - b_y * (t13 * t1 - t12 * t5)
+            + b_z * (t13 * t3 - t11 * t5);
+        let t15 = rot_i_xx * t5 + rot_i_yx * t3 + rot_i_zx * t1;
+        let t16 = axis_local_x * t7 - axis_local_z * t15;
+        let t17 = motion_cos * (cos_0 * t14 + sin_0 * t16)
+            + motion_sin * (cos_0 * t16 - sin_0 * t14);
+        let t18 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t19 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t20 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t21 = b_x * (t18 * t1 - t19 * t3) - b_y * (t20 * t1 - t19 * t5)
+            + b_z * (t20 * t3 - t18 * t5);
+        let t22 = axis_local_x * t8 - axis_local_y * t15;
+        let t23 = motion_cos * (cos_0 * t21 + sin_0 * t22)
+            + motion_sin * (cos_0 * t22 - sin_0 * t21);
+        out[0] = rot_i_xx * t10 - rot_i_xy * t17 + rot_i_xz * t23;
+        out[1] = rot_i_yx * t10 - rot_i_yy * t17 + rot_i_yz * t23;
+        out[2] = rot_i_zx * t10 - rot_i_zy * t17 + rot_i_zz * t23;
+    }
+    /// Coefficients of the named component. Operations: 54 mul, 34 add.
+    fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let t0 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let t1 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let t2 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let t3 = axis_local_x * (rot_i_xx * t0 + rot_i_yx * t1 + rot_i_zx * t2)
+            + axis_local_y * (rot_i_xy * t0 + rot_i_yy * t1 + rot_i_zy * t2)
+            + axis_local_z * (rot_i_xz * t0 + rot_i_yz * t1 + rot_i_zz * t2);
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t4 = a_y * t2 - a_z * t1;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t5 = a_x * t2 - a_z * t0;
+        let t6 = a_x * t1 - a_y * t0;
+        let t7 = cross_local_x * (rot_j_xx * t4 - rot_j_yx * t5 + rot_j_zx * t6)
+            + cross_local_y * (rot_j_xy * t4 - rot_j_yy * t5 + rot_j_zy * t6)
+            + cross_local_z * (rot_j_xz * t4 - rot_j_yz * t5 + rot_j_zz * t6);
+        out[0] = motion_cos * (cos_0 * t3 + sin_0 * t7)
+            + motion_sin * (cos_0 * t7 - sin_0 * t3);
+    }
+    /// The place of the reaction. Operations: 9 mul, 9 add.
+    fn place(&self, x: &[Pose<T>]) -> [T; 3]
+    where
+        T: Real,
+    {
+        let r_i_x = x[0].r[0];
+        let r_i_y = x[0].r[1];
+        let r_i_z = x[0].r[2];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_i_z = T::from(self.s_i[2]);
+        let arm_i_x = rot_i_xx * s_i_x + rot_i_xy * s_i_y + rot_i_xz * s_i_z;
+        let arm_i_y = rot_i_yx * s_i_x + rot_i_yy * s_i_y + rot_i_yz * s_i_z;
+        let arm_i_z = rot_i_zx * s_i_x + rot_i_zy * s_i_y + rot_i_zz * s_i_z;
+        [r_i_x + arm_i_x, r_i_y + arm_i_y, r_i_z + arm_i_z]
+    }
+    /// ∂(λᵀΦ)/∂p. Operations: 177 mul, 95 add, 4 neg.
+    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..19];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let lambda_0 = lambda[0];
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let t0 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let t1 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t2 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t3 = (rot_i_xx * t0 - rot_i_yx * t1) * b_z
+            - (rot_i_xx * t2 - rot_i_zx * t1) * b_y
+            + (rot_i_yx * t2 - rot_i_zx * t0) * b_x;
+        let t4 = rot_i_xx * t1 + rot_i_yx * t0 + rot_i_zx * t2;
+        let t5 = (rot_i_xy * t0 - rot_i_yy * t1) * b_z
+            - (rot_i_xy * t2 - rot_i_zy * t1) * b_y
+            + (rot_i_yy * t2 - rot_i_zy * t0) * b_x;
+        let t6 = rot_i_xy * t1 + rot_i_yy * t0 + rot_i_zy * t2;
+        let t7 = (rot_i_xz * t0 - rot_i_yz * t1) * b_z
+            - (rot_i_xz * t2 - rot_i_zz * t1) * b_y
+            + (rot_i_yz * t2 - rot_i_zz * t0) * b_x;
+        let t8 = rot_i_xz * t1 + rot_i_yz * t0 + rot_i_zz * t2;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t9 = a_y * t2 - a_z * t0;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t10 = a_x * t2 - a_z * t1;
+        let t11 = a_x * t0 - a_y * t1;
+        let t12 = rot_j_xx * t9 - rot_j_yx * t10 + rot_j_zx * t11;
+        let t13 = motion_cos * cos_0 - motion_sin * sin_0;
+        let t14 = rot_j_xy * t9 - rot_j_yy * t10 + rot_j_zy * t11;
+        let t15 = rot_j_xz * t9 - rot_j_yz * t10 + rot_j_zz * t11;
+        let t16 = b_x * (rot_j_yx * a_z - rot_j_zx * a_y)
+            + (rot_j_xx * a_y - rot_j_yx * a_x) * b_z
+            - (rot_j_xx * a_z - rot_j_zx * a_x) * b_y;
+        let t17 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
+        let t18 = b_x * (rot_j_yy * a_z - rot_j_zy * a_y)
+            + (rot_j_xy * a_y - rot_j_yy * a_x) * b_z
+            - (rot_j_xy * a_z - rot_j_zy * a_x) * b_y;
+        let t19 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t20 = b_x * (rot_j_yz * a_z - rot_j_zz * a_y)
+            + (rot_j_xz * a_y - rot_j_yz * a_x) * b_z
+            - (rot_j_xz * a_z - rot_j_zz * a_x) * b_y;
+        let t21 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t22 = axis_local_x * t4 + axis_local_y * t6 + axis_local_z * t8;
+        let t23 = cross_local_x * t12 + cross_local_y * t14 + cross_local_z * t15;
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+        out[4] = T::from(0.0);
+        out[5] = T::from(0.0);
+        out[6] = lambda_0
+            * (motion_cos * (cos_0 * t3 - sin_0 * t4)
+                - motion_sin * (cos_0 * t4 + sin_0 * t3));
+        out[7] = lambda_0
+            * (motion_cos * (cos_0 * t5 - sin_0 * t6)
+                - motion_sin * (cos_0 * t6 + sin_0 * t5));
+        out[8] = lambda_0
+            * (motion_cos * (cos_0 * t7 - sin_0 * t8)
+                - motion_sin * (cos_0 * t8 + sin_0 * t7));
+        out[9] = lambda_0 * t12 * t13;
+        out[10] = lambda_0 * t14 * t13;
+        out[11] = lambda_0 * t15 * t13;
+        out[12] = T::from(0.0);
+        out[13] = T::from(0.0);
+        out[14] = T::from(0.0);
+        out[15] = -(lambda_0
+            * (motion_cos * (cos_0 * t16 + sin_0 * t17)
+                + motion_sin * (cos_0 * t17 - sin_0 * t16)));
+        out[16] = -(lambda_0
+            * (motion_cos * (cos_0 * t18 + sin_0 * t19)
+                + motion_sin * (cos_0 * t19 - sin_0 * t18)));
+        out[17] = -(lambda_0
+            * (motion_cos * (cos_0 * t20 + sin_0 * t21)
+                + motion_sin * (cos_0 * t21 - sin_0 * t20)));
+        out[18] = -(lambda_0
+            * (motion_cos * (cos_0 * t22 + sin_0 * t23)
+                + motion_sin * (cos_0 * t23 - sin_0 * t22)));
+    }
+}
+#[allow(unused_variables)]
+#[allow(clippy::too_many_arguments)]
+impl<T: Ring> Derivatives<T, Space3> for UniversalSecondDrive {
+    /// ∂(Cᵀλ)/∂x. Operations: 837 mul, 498 add, 15 neg.
+    fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        let out = &mut out[..36];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_sin = f[1][0];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let lambda_0 = lambda[0];
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t0 = rot_i_yy * axis_local_y;
+        let t1 = rot_i_yz * axis_local_z;
+        let t2 = t0 + t1;
+        let t3 = rot_j_zx * a_in_j_x;
+        let t4 = rot_j_zy * a_in_j_y;
+        let t5 = t3 + t4;
+        let t6 = rot_j_zz * a_in_j_z;
+        let t7 = t5 + t6;
+        let t8 = rot_i_zy * axis_local_y;
+        let t9 = rot_i_zz * axis_local_z;
+        let t10 = t8 + t9;
+        let t11 = rot_j_yx * a_in_j_x;
+        let t12 = rot_j_yy * a_in_j_y;
+        let t13 = t11 + t12;
+        let t14 = rot_j_yz * a_in_j_z;
+        let t15 = t13 + t14;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t16 = rot_i_xy * axis_local_y;
+        let t17 = rot_i_xz * axis_local_z;
+        let t18 = t16 + t17;
+        let t19 = rot_j_xx * a_in_j_x;
+        let t20 = rot_j_xy * a_in_j_y;
+        let t21 = t19 + t20;
+        let t22 = rot_j_xz * a_in_j_z;
+        let t23 = t21 + t22;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t24 = b_x * (t2 * t7 - t10 * t15) - b_y * (t18 * t7 - t10 * t23)
+            + b_z * (t18 * t15 - t2 * t23);
+        let t25 = rot_i_xy * t23 + rot_i_yy * t15 + rot_i_zy * t7;
+        let t26 = axis_local_y * t25;
+        let t27 = rot_i_xz * t23 + rot_i_yz * t15 + rot_i_zz * t7;
+        let t28 = axis_local_z * t27;
+        let t29 = t26 + t28;
+        let t30 = axis_local_y * lambda_0;
+        let t31 = (rot_i_xx * t15 - rot_i_yx * t23) * b_z
+            - (rot_i_xx * t7 - rot_i_zx * t23) * b_y
+            + (rot_i_yx * t7 - rot_i_zx * t15) * b_x;
+        let t32 = rot_i_xx * t23 + rot_i_yx * t15 + rot_i_zx * t7;
+        let t33 = motion_cos * (cos_0 * t31 - sin_0 * t32)
+            - motion_sin * (cos_0 * t32 + sin_0 * t31);
+        let t34 = axis_local_z * lambda_0;
+        let t35 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t36 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t37 = t35 * t7 - t36 * t15;
+        let t38 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t39 = t38 * t7 - t36 * t23;
+        let t40 = t38 * t15 - t35 * t23;
+        let t41 = rot_j_xz * t37 - rot_j_yz * t39 + rot_j_zz * t40;
+        let t42 = rot_j_xy * t37 - rot_j_yy * t39 + rot_j_zy * t40;
+        let t43 = rot_j_zy * a_in_j_z - rot_j_zz * a_in_j_y;
+        let t44 = rot_j_yy * a_in_j_z - rot_j_yz * a_in_j_y;
+        let t45 = rot_j_xy * a_in_j_z - rot_j_xz * a_in_j_y;
+        let t46 = b_x * (t35 * t43 - t36 * t44) - b_y * (t38 * t43 - t36 * t45)
+            + b_z * (t38 * t44 - t35 * t45);
+        let t47 = cross_local_y * t41 - cross_local_z * t42 - t46;
+        let t48 = rot_j_xz * t38 + rot_j_yz * t35 + rot_j_zz * t36;
+        let t49 = rot_j_xy * t38 + rot_j_yy * t35 + rot_j_zy * t36;
+        let t50 = a_in_j_y * t48 - a_in_j_z * t49;
+        let t51 = rot_j_xx * t37 - rot_j_yx * t39 + rot_j_zx * t40;
+        let t52 = rot_j_zx * a_in_j_z - rot_j_zz * a_in_j_x;
+        let t53 = rot_j_yx * a_in_j_z - rot_j_yz * a_in_j_x;
+        let t54 = rot_j_xx * a_in_j_z - rot_j_xz * a_in_j_x;
+        let t55 = b_x * (t35 * t52 - t36 * t53) - b_y * (t38 * t52 - t36 * t54)
+            + b_z * (t38 * t53 - t35 * t54);
+        let t56 = cross_local_x * t41 - cross_local_z * t51 - t55;
+        let t57 = rot_j_xx * t38 + rot_j_yx * t35 + rot_j_zx * t36;
+        let t58 = a_in_j_x * t48 - a_in_j_z * t57;
+        let t59 = rot_j_zx * a_in_j_y - rot_j_zy * a_in_j_x;
+        let t60 = rot_j_yx * a_in_j_y - rot_j_yy * a_in_j_x;
+        let t61 = rot_j_xx * a_in_j_y - rot_j_xy * a_in_j_x;
+        let t62 = b_x * (t35 * t59 - t36 * t60) - b_y * (t38 * t59 - t36 * t61)
+            + b_z * (t38 * t60 - t35 * t61);
+        let t63 = cross_local_x * t42 - cross_local_y * t51 - t62;
+        let t64 = a_in_j_x * t49 - a_in_j_y * t57;
+        let t65 = axis_local_x * lambda_0;
+        let t66 = (rot_i_xy * t15 - rot_i_yy * t23) * b_z
+            - (rot_i_xy * t7 - rot_i_zy * t23) * b_y
+            + (rot_i_yy * t7 - rot_i_zy * t15) * b_x;
+        let t67 = motion_cos * (cos_0 * t66 - sin_0 * t25)
+            - motion_sin * (cos_0 * t25 + sin_0 * t66);
+        let t68 = rot_i_yx * axis_local_x;
+        let t69 = t68 + t1;
+        let t70 = rot_i_zx * axis_local_x;
+        let t71 = t70 + t9;
+        let t72 = rot_i_xx * axis_local_x;
+        let t73 = t72 + t17;
+        let t74 = b_x * (t69 * t7 - t71 * t15) - b_y * (t73 * t7 - t71 * t23)
+            + b_z * (t73 * t15 - t69 * t23);
+        let t75 = axis_local_x * t32;
+        let t76 = t75 + t28;
+        let t77 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t78 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t79 = t77 * t7 - t78 * t15;
+        let t80 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t81 = t80 * t7 - t78 * t23;
+        let t82 = t80 * t15 - t77 * t23;
+        let t83 = rot_j_xz * t79 - rot_j_yz * t81 + rot_j_zz * t82;
+        let t84 = rot_j_xy * t79 - rot_j_yy * t81 + rot_j_zy * t82;
+        let t85 = b_x * (t77 * t43 - t78 * t44) - b_y * (t80 * t43 - t78 * t45)
+            + b_z * (t80 * t44 - t77 * t45);
+        let t86 = cross_local_y * t83 - cross_local_z * t84 - t85;
+        let t87 = rot_j_xz * t80 + rot_j_yz * t77 + rot_j_zz * t78;
+        let t88 = rot_j_xy * t80 + rot_j_yy * t77 + rot_j_zy * t78;
+        let t89 = a_in_j_y * t87 - a_in_j_z * t88;
+        let t90 = rot_j_xx * t79 - rot_j_yx * t81 + rot_j_zx * t82;
+        let t91 = b_x * (t77 * t52 - t78 * t53) - b_y * (t80 * t52 - t78 * t54)
+            + b_z * (t80 * t53 - t77 * t54);
+        let t92 = cross_local_x * t83 - cross_local_z * t90 - t91;
+        let t93 = rot_j_xx * t80 + rot_j_yx * t77 + rot_j_zx * t78;
+        let t94 = a_in_j_x * t87 - a_in_j_z * t93;
+        let t95 = b_x * (t77 * t59 - t78 * t60) - b_y * (t80 * t59 - t78 * t61)
+            + b_z * (t80 * t60 - t77 * t61);
+        let t96 = cross_local_x * t84 - cross_local_y * t90 - t95;
+        let t97 = a_in_j_x * t88 - a_in_j_y * t93;
+        let t98 = (rot_i_xz * t15 - rot_i_yz * t23) * b_z
+            - (rot_i_xz * t7 - rot_i_zz * t23) * b_y
+            + (rot_i_yz * t7 - rot_i_zz * t15) * b_x;
+        let t99 = motion_cos * (cos_0 * t98 - sin_0 * t27)
+            - motion_sin * (cos_0 * t27 + sin_0 * t98);
+        let t100 = t68 + t0;
+        let t101 = t70 + t8;
+        let t102 = t72 + t16;
+        let t103 = b_x * (t100 * t7 - t101 * t15) - b_y * (t102 * t7 - t101 * t23)
+            + b_z * (t102 * t15 - t100 * t23);
+        let t104 = t75 + t26;
+        let t105 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t106 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t107 = t105 * t7 - t106 * t15;
+        let t108 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t109 = t108 * t7 - t106 * t23;
+        let t110 = t108 * t15 - t105 * t23;
+        let t111 = rot_j_xz * t107 - rot_j_yz * t109 + rot_j_zz * t110;
+        let t112 = rot_j_xy * t107 - rot_j_yy * t109 + rot_j_zy * t110;
+        let t113 = b_x * (t105 * t43 - t106 * t44) - b_y * (t108 * t43 - t106 * t45)
+            + b_z * (t108 * t44 - t105 * t45);
+        let t114 = cross_local_y * t111 - cross_local_z * t112 - t113;
+        let t115 = rot_j_xz * t108 + rot_j_yz * t105 + rot_j_zz * t106;
+        let t116 = rot_j_xy * t108 + rot_j_yy * t105 + rot_j_zy * t106;
+        let t117 = a_in_j_y * t115 - a_in_j_z * t116;
+        let t118 = rot_j_xx * t107 - rot_j_yx * t109 + rot_j_zx * t110;
+        let t119 = b_x * (t105 * t52 - t106 * t53) - b_y * (t108 * t52 - t106 * t54)
+            + b_z * (t108 * t53 - t105 * t54);
+        let t120 = cross_local_x * t111 - cross_local_z * t118 - t119;
+        let t121 = rot_j_xx * t108 + rot_j_yx * t105 + rot_j_zx * t106;
+        let t122 = a_in_j_x * t115 - a_in_j_z * t121;
+        let t123 = b_x * (t105 * t59 - t106 * t60) - b_y * (t108 * t59 - t106 * t61)
+            + b_z * (t108 * t60 - t105 * t61);
+        let t124 = cross_local_x * t112 - cross_local_y * t118 - t123;
+        let t125 = a_in_j_x * t116 - a_in_j_y * t121;
+        let t126 = rot_j_xy * cross_local_z - rot_j_xz * cross_local_y;
+        let t127 = rot_j_yy * cross_local_z - rot_j_yz * cross_local_y;
+        let t128 = rot_j_zy * cross_local_z - rot_j_zz * cross_local_y;
+        let t129 = t46 + (t126 * t37 - t127 * t39 + t128 * t40);
+        let t130 = rot_i_xz * t45 + rot_i_yz * t44 + rot_i_zz * t43;
+        let t131 = rot_i_xy * t45 + rot_i_yy * t44 + rot_i_zy * t43;
+        let t132 = axis_local_y * t130 - axis_local_z * t131;
+        let t133 = t85 + (t126 * t79 - t127 * t81 + t128 * t82);
+        let t134 = rot_i_xx * t45 + rot_i_yx * t44 + rot_i_zx * t43;
+        let t135 = axis_local_x * t130 - axis_local_z * t134;
+        let t136 = t113 + (t126 * t107 - t127 * t109 + t128 * t110);
+        let t137 = axis_local_x * t131 - axis_local_y * t134;
+        let a_y = t100 + t1;
+        let a_z = t101 + t9;
+        let t138 = a_y * t7 - a_z * t15;
+        let a_x = t102 + t17;
+        let t139 = a_x * t7 - a_z * t23;
+        let t140 = a_x * t15 - a_y * t23;
+        let t141 = rot_j_xy * t138 - rot_j_yy * t139 + rot_j_zy * t140;
+        let t142 = cross_local_y * t141;
+        let t143 = rot_j_xz * t138 - rot_j_yz * t139 + rot_j_zz * t140;
+        let t144 = cross_local_z * t143;
+        let t145 = a_y * t43 - a_z * t44;
+        let t146 = a_x * t43 - a_z * t45;
+        let t147 = a_x * t44 - a_y * t45;
+        let t148 = rot_j_xz * t145 - rot_j_yz * t146 + rot_j_zz * t147;
+        let t149 = rot_j_xy * t145 - rot_j_yy * t146 + rot_j_zy * t147;
+        let t150 = t4 + t6;
+        let t151 = t12 + t14;
+        let t152 = t20 + t22;
+        let t153 = t142 + t144 - (t126 * t145 - t127 * t146 + t128 * t147)
+            + (cross_local_y * t148 - cross_local_z * t149
+                + (b_x * (a_y * t150 - a_z * t151) - b_y * (a_x * t150 - a_z * t152)
+                    + b_z * (a_x * t151 - a_y * t152)));
+        let t154 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t155 = a_in_j_y * t154;
+        let t156 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t157 = a_in_j_z * t156;
+        let t158 = t155 + t157;
+        let t159 = rot_j_xx * t138 - rot_j_yx * t139 + rot_j_zx * t140;
+        let t160 = a_y * t52 - a_z * t53;
+        let t161 = a_x * t52 - a_z * t54;
+        let t162 = a_x * t53 - a_y * t54;
+        let t163 = b_x * (rot_j_yx * a_z - rot_j_zx * a_y)
+            + (rot_j_xx * a_y - rot_j_yx * a_x) * b_z
+            - (rot_j_xx * a_z - rot_j_zx * a_x) * b_y;
+        let t164 = rot_j_xx * t145 - rot_j_yx * t146 + rot_j_zx * t147;
+        let t165 = cross_local_y * t159 - (t126 * t160 - t127 * t161 + t128 * t162)
+            - (a_in_j_y * t163 - (cross_local_x * t148 - cross_local_z * t164));
+        let t166 = sin_0 * a_in_j_y;
+        let t167 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
+        let t168 = cos_0 * a_in_j_y;
+        let t169 = a_y * t59 - a_z * t60;
+        let t170 = a_x * t59 - a_z * t61;
+        let t171 = a_x * t60 - a_y * t61;
+        let t172 = cross_local_z * t159 + (t126 * t169 - t127 * t170 + t128 * t171)
+            - (a_in_j_z * t163 + (cross_local_x * t149 - cross_local_y * t164));
+        let t173 = sin_0 * a_in_j_z;
+        let t174 = cos_0 * a_in_j_z;
+        let t175 = rot_j_xx * cross_local_z - rot_j_xz * cross_local_x;
+        let t176 = rot_j_yx * cross_local_z - rot_j_yz * cross_local_x;
+        let t177 = rot_j_zx * cross_local_z - rot_j_zz * cross_local_x;
+        let t178 = t55 + (t175 * t37 - t176 * t39 + t177 * t40);
+        let t179 = rot_i_xz * t54 + rot_i_yz * t53 + rot_i_zz * t52;
+        let t180 = rot_i_xy * t54 + rot_i_yy * t53 + rot_i_zy * t52;
+        let t181 = axis_local_y * t179 - axis_local_z * t180;
+        let t182 = t91 + (t175 * t79 - t176 * t81 + t177 * t82);
+        let t183 = rot_i_xx * t54 + rot_i_yx * t53 + rot_i_zx * t52;
+        let t184 = axis_local_x * t179 - axis_local_z * t183;
+        let t185 = t119 + (t175 * t107 - t176 * t109 + t177 * t110);
+        let t186 = axis_local_x * t180 - axis_local_y * t183;
+        let t187 = b_x * (rot_j_yy * a_z - rot_j_zy * a_y)
+            + (rot_j_xy * a_y - rot_j_yy * a_x) * b_z
+            - (rot_j_xy * a_z - rot_j_zy * a_x) * b_y;
+        let t188 = rot_j_xz * t160 - rot_j_yz * t161 + rot_j_zz * t162;
+        let t189 = rot_j_xy * t160 - rot_j_yy * t161 + rot_j_zy * t162;
+        let t190 = cross_local_x * t141 - (t175 * t145 - t176 * t146 + t177 * t147)
+            - (a_in_j_x * t187 - (cross_local_y * t188 - cross_local_z * t189));
+        let t191 = sin_0 * a_in_j_x;
+        let t192 = cos_0 * a_in_j_x;
+        let t193 = cross_local_x * t159;
+        let t194 = rot_j_xx * t160 - rot_j_yx * t161 + rot_j_zx * t162;
+        let t195 = t3 + t6;
+        let t196 = t11 + t14;
+        let t197 = t19 + t22;
+        let t198 = t193 + t144 - (t175 * t160 - t176 * t161 + t177 * t162)
+            + (cross_local_x * t188 - cross_local_z * t194
+                + (b_x * (a_y * t195 - a_z * t196) - b_y * (a_x * t195 - a_z * t197)
+                    + b_z * (a_x * t196 - a_y * t197)));
+        let t199 = a_in_j_x * t167;
+        let t200 = t199 + t157;
+        let t201 = cross_local_z * t141 - (t175 * t169 - t176 * t170 + t177 * t171)
+            - (a_in_j_z * t187 - (cross_local_x * t189 - cross_local_y * t194));
+        let t202 = rot_j_xx * cross_local_y - rot_j_xy * cross_local_x;
+        let t203 = rot_j_yx * cross_local_y - rot_j_yy * cross_local_x;
+        let t204 = rot_j_zx * cross_local_y - rot_j_zy * cross_local_x;
+        let t205 = t62 + (t202 * t37 - t203 * t39 + t204 * t40);
+        let t206 = rot_i_xz * t61 + rot_i_yz * t60 + rot_i_zz * t59;
+        let t207 = rot_i_xy * t61 + rot_i_yy * t60 + rot_i_zy * t59;
+        let t208 = axis_local_y * t206 - axis_local_z * t207;
+        let t209 = t95 + (t202 * t79 - t203 * t81 + t204 * t82);
+        let t210 = rot_i_xx * t61 + rot_i_yx * t60 + rot_i_zx * t59;
+        let t211 = axis_local_x * t206 - axis_local_z * t210;
+        let t212 = t123 + (t202 * t107 - t203 * t109 + t204 * t110);
+        let t213 = axis_local_x * t207 - axis_local_y * t210;
+        let t214 = b_x * (rot_j_yz * a_z - rot_j_zz * a_y)
+            + (rot_j_xz * a_y - rot_j_yz * a_x) * b_z
+            - (rot_j_xz * a_z - rot_j_zz * a_x) * b_y;
+        let t215 = rot_j_xz * t169 - rot_j_yz * t170 + rot_j_zz * t171;
+        let t216 = rot_j_xy * t169 - rot_j_yy * t170 + rot_j_zy * t171;
+        let t217 = cross_local_x * t143 + (t202 * t145 - t203 * t146 + t204 * t147)
+            - (a_in_j_x * t214 + (cross_local_y * t215 - cross_local_z * t216));
+        let t218 = rot_j_xx * t169 - rot_j_yx * t170 + rot_j_zx * t171;
+        let t219 = cross_local_y * t143 - (t202 * t160 - t203 * t161 + t204 * t162)
+            - (a_in_j_y * t214 - (cross_local_x * t215 - cross_local_z * t218));
+        let t220 = t193 + t142 - (t202 * t169 - t203 * t170 + t204 * t171)
+            + (cross_local_x * t216 - cross_local_y * t218
+                + (b_x * (a_y * t5 - a_z * t13) - b_y * (a_x * t5 - a_z * t21)
+                    + b_z * (a_x * t13 - a_y * t21)));
+        let t221 = t199 + t155;
+        out[0] = -(lambda_0
+            * (motion_cos * (cos_0 * t24 - sin_0 * t29)
+                - motion_sin * (cos_0 * t29 + sin_0 * t24)));
+        out[1] = t30 * t33;
+        out[2] = t34 * t33;
+        out[3] = -(lambda_0
+            * (motion_cos * (cos_0 * t47 - sin_0 * t50)
+                - motion_sin * (cos_0 * t50 + sin_0 * t47)));
+        out[4] = lambda_0
+            * (motion_cos * (cos_0 * t56 - sin_0 * t58)
+                - motion_sin * (cos_0 * t58 + sin_0 * t56));
+        out[5] = -(lambda_0
+            * (motion_cos * (cos_0 * t63 - sin_0 * t64)
+                - motion_sin * (cos_0 * t64 + sin_0 * t63)));
+        out[6] = t65 * t67;
+        out[7] = -(lambda_0
+            * (motion_cos * (cos_0 * t74 - sin_0 * t76)
+                - motion_sin * (cos_0 * t76 + sin_0 * t74)));
+        out[8] = t34 * t67;
+        out[9] = lambda_0
+            * (motion_cos * (cos_0 * t86 - sin_0 * t89)
+                - motion_sin * (cos_0 * t89 + sin_0 * t86));
+        out[10] = -(lambda_0
+            * (motion_cos * (cos_0 * t92 - sin_0 * t94)
+                - motion_sin * (cos_0 * t94 + sin_0 * t92)));
+        out[11] = lambda_0
+            * (motion_cos * (cos_0 * t96 - sin_0 * t97)
+                - motion_sin * (cos_0 * t97 + sin_0 * t96));
+        out[12] = t65 * t99;
+        out[13] = t30 * t99;
+        out[14] = -(lambda_0
+            * (motion_cos * (cos_0 * t103 - sin_0 * t104)
+                - motion_sin * (cos_0 * t104 + sin_0 * t103)));
+        out[15] = -(lambda_0
+            * (motion_cos * (cos_0 * t114 - sin_0 * t117)
+                - motion_sin * (cos_0 * t117 + sin_0 * t114)));
+        out[16] = lambda_0
+            * (motion_cos * (cos_0 * t120 - sin_0 * t122)
+                - motion_sin * (cos_0 * t122 + sin_0 * t120));
+        out[17] = -(lambda_0
+            * (motion_cos * (cos_0 * t124 - sin_0 * t125)
+                - motion_sin * (cos_0 * t125 + sin_0 * t124)));
+        out[18] = lambda_0
+            * (motion_cos * (cos_0 * t129 + sin_0 * t132)
+                + motion_sin * (cos_0 * t132 - sin_0 * t129));
+        out[19] = -(lambda_0
+            * (motion_cos * (cos_0 * t133 + sin_0 * t135)
+                + motion_sin * (cos_0 * t135 - sin_0 * t133)));
+        out[20] = lambda_0
+            * (motion_cos * (cos_0 * t136 + sin_0 * t137)
+                + motion_sin * (cos_0 * t137 - sin_0 * t136));
+        out[21] = -(lambda_0
+            * (motion_cos * (cos_0 * t153 - sin_0 * t158)
+                - motion_sin * (cos_0 * t158 + sin_0 * t153)));
+        out[22] = lambda_0
+            * (motion_cos * (cos_0 * t165 - t166 * t167)
+                - motion_sin * (t168 * t167 + sin_0 * t165));
+        out[23] = lambda_0
+            * (motion_cos * (cos_0 * t172 - t173 * t167)
+                - motion_sin * (t174 * t167 + sin_0 * t172));
+        out[24] = -(lambda_0
+            * (motion_cos * (cos_0 * t178 + sin_0 * t181)
+                + motion_sin * (cos_0 * t181 - sin_0 * t178)));
+        out[25] = lambda_0
+            * (motion_cos * (cos_0 * t182 + sin_0 * t184)
+                + motion_sin * (cos_0 * t184 - sin_0 * t182));
+        out[26] = -(lambda_0
+            * (motion_cos * (cos_0 * t185 + sin_0 * t186)
+                + motion_sin * (cos_0 * t186 - sin_0 * t185)));
+        out[27] = lambda_0
+            * (motion_cos * (cos_0 * t190 - t191 * t154)
+                - motion_sin * (t192 * t154 + sin_0 * t190));
+        out[28] = -(lambda_0
+            * (motion_cos * (cos_0 * t198 - sin_0 * t200)
+                - motion_sin * (cos_0 * t200 + sin_0 * t198)));
+        out[29] = lambda_0
+            * (motion_cos * (cos_0 * t201 - t173 * t154)
+                - motion_sin * (t174 * t154 + sin_0 * t201));
+        out[30] = lambda_0
+            * (motion_cos * (cos_0 * t205 + sin_0 * t208)
+                + motion_sin * (cos_0 * t208 - sin_0 * t205));
+        out[31] = -(lambda_0
+            * (motion_cos * (cos_0 * t209 + sin_0 * t211)
+                + motion_sin * (cos_0 * t211 - sin_0 * t209)));
+        out[32] = lambda_0
+            * (motion_cos * (cos_0 * t212 + sin_0 * t213)
+                + motion_sin * (cos_0 * t213 - sin_0 * t212));
+        out[33] = lambda_0
+            * (motion_cos * (cos_0 * t217 - t191 * t156)
+                - motion_sin * (t192 * t156 + sin_0 * t217));
+        out[34] = lambda_0
+            * (motion_cos * (cos_0 * t219 - t166 * t156)
+                - motion_sin * (t168 * t156 + sin_0 * t219));
+        out[35] = -(lambda_0
+            * (motion_cos * (cos_0 * t220 - sin_0 * t221)
+                - motion_sin * (cos_0 * t221 + sin_0 * t220)));
+    }
+    /// ∂(C·a − Γ)/∂x. Operations: 900 mul, 699 add, 3 neg.
+    fn d_residual_dx(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        out: &mut [T],
+    ) {
+        let out = &mut out[..6];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let alpha_i_x = a[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let alpha_i_y = a[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let alpha_i_z = a[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let alpha_j_x = a[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let alpha_j_y = a[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let alpha_j_z = a[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_cos_tt = f[0][2];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let motion_sin_tt = f[1][2];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t0 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t1 = omega_j_x * a_in_j_y - omega_j_y * a_in_j_x;
+        let t2 = omega_j_x * a_in_j_z - omega_j_z * a_in_j_x;
+        let t3 = omega_j_y * t1 + omega_j_z * t2
+            + (alpha_j_y * a_in_j_z - alpha_j_z * a_in_j_y);
+        let t4 = omega_j_y * a_in_j_z - omega_j_z * a_in_j_y;
+        let t5 = omega_j_x * t1 - omega_j_z * t4
+            + (alpha_j_x * a_in_j_z - alpha_j_z * a_in_j_x);
+        let t6 = omega_j_x * t2 + omega_j_y * t4
+            - (alpha_j_x * a_in_j_y - alpha_j_y * a_in_j_x);
+        let t7 = rot_j_zx * t3 - rot_j_zy * t5 - rot_j_zz * t6;
+        let t8 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t9 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t10 = rot_i_yy * t8 + rot_i_yz * t9;
+        let t11 = rot_j_zx * t4 - rot_j_zy * t2 + rot_j_zz * t1;
+        let t12 = t10 * t11;
+        let t13 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t14 = omega_i_x * t9 + omega_i_y * t13
+            - (alpha_i_x * axis_local_y - alpha_i_y * axis_local_x);
+        let t15 = omega_i_x * t8 - omega_i_z * t13
+            + (alpha_i_x * axis_local_z - alpha_i_z * axis_local_x);
+        let t16 = rot_i_yy * t14 - rot_i_yz * t15;
+        let t17 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let t18 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t19 = rot_j_yx * t3 - rot_j_yy * t5 - rot_j_yz * t6;
+        let t20 = rot_i_zy * t8 + rot_i_zz * t9;
+        let t21 = rot_j_yx * t4 - rot_j_yy * t2 + rot_j_yz * t1;
+        let t22 = t20 * t21;
+        let t23 = rot_i_zy * t14 - rot_i_zz * t15;
+        let t24 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t25 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t26 = rot_i_xy * t8 + rot_i_xz * t9;
+        let t27 = t26 * t11;
+        let t28 = rot_i_xy * t14 - rot_i_xz * t15;
+        let t29 = rot_j_xx * t3 - rot_j_xy * t5 - rot_j_xz * t6;
+        let t30 = rot_j_xx * t4 - rot_j_xy * t2 + rot_j_xz * t1;
+        let t31 = t20 * t30;
+        let t32 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t33 = t26 * t21;
+        let t34 = t10 * t30;
+        let t35 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+        let t36 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+        let t37 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+        let t38 = rot_j_xx * t35 - rot_j_xy * t36 + rot_j_xz * t37;
+        let t39 = t0 * t11 + t10 * t17 - (t18 * t21 + t20 * t24);
+        let t40 = rot_j_yx * t35 - rot_j_yy * t36 + rot_j_yz * t37;
+        let t41 = t25 * t11 + t26 * t17 - (t18 * t30 + t20 * t32);
+        let t42 = rot_j_zx * t35 - rot_j_zy * t36 + rot_j_zz * t37;
+        let t43 = t25 * t21 + t26 * t24 - (t0 * t30 + t10 * t32);
+        let t44 = t38 * t39 - t40 * t41 + t42 * t43;
+        let t45 = omega_j_y * t37 + omega_j_z * t36
+            + (alpha_j_y * cross_local_z - alpha_j_z * cross_local_y);
+        let t46 = omega_j_x * t37 - omega_j_z * t35
+            + (alpha_j_x * cross_local_z - alpha_j_z * cross_local_x);
+        let t47 = omega_j_x * t36 + omega_j_y * t35
+            - (alpha_j_x * cross_local_y - alpha_j_y * cross_local_x);
+        let t48 = rot_j_xx * t45 - rot_j_xy * t46 - rot_j_xz * t47;
+        let t49 = t0 * t17 - t18 * t24;
+        let t50 = rot_j_yx * t45 - rot_j_yy * t46 - rot_j_yz * t47;
+        let t51 = t25 * t17 - t18 * t32;
+        let t52 = rot_j_zx * t45 - rot_j_zy * t46 - rot_j_zz * t47;
+        let t53 = t25 * t24 - t0 * t32;
+        let t54 = b_x
+            * (t0 * t7 + t12 + (t12 - t16 * t17) - (t18 * t19 + t22 + (t22 - t23 * t24)))
+            - b_y
+                * (t25 * t7 + t27 + (t27 - t28 * t17)
+                    - (t18 * t29 + t31 + (t31 - t23 * t32)))
+            + b_z
+                * (t25 * t19 + t33 + (t33 - t28 * t24)
+                    - (t0 * t29 + t34 + (t34 - t16 * t32))) + t44
+            + (t44 + (t48 * t49 - t50 * t51 + t52 * t53));
+        let t55 = rot_i_xz * t29 + rot_i_yz * t19 + rot_i_zz * t7;
+        let t56 = rot_i_xy * t29 + rot_i_yy * t19 + rot_i_zy * t7;
+        let t57 = rot_i_xy * t30 + rot_i_yy * t21 + rot_i_zy * t11;
+        let t58 = rot_i_xz * t30 + rot_i_yz * t21 + rot_i_zz * t11;
+        let t59 = t57 * t8 + t58 * t9;
+        let t60 = rot_i_xy * t32 + rot_i_yy * t24 + rot_i_zy * t17;
+        let t61 = rot_i_xz * t32 + rot_i_yz * t24 + rot_i_zz * t17;
+        let t62 = axis_local_y * t55 - axis_local_z * t56 - t59
+            + (t60 * t14 - t61 * t15 - t59);
+        let t63 = b_x * t39 - b_y * t41 + b_z * t43
+            + (t38 * t49 - t40 * t51 + t42 * t53);
+        let t64 = axis_local_y * t58 - axis_local_z * t57 - (t60 * t8 + t61 * t9);
+        let t65 = motion_cos_t * (cos_0 * t63 + sin_0 * t64);
+        let t66 = b_x * t49 - b_y * t51 + b_z * t53;
+        let t67 = axis_local_y * t61 - axis_local_z * t60;
+        let t68 = motion_sin_t * (cos_0 * t64 - sin_0 * t63);
+        let t69 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t70 = rot_i_yx * t8 - rot_i_yz * t13;
+        let t71 = t70 * t11;
+        let t72 = omega_i_y * t8 + omega_i_z * t9
+            + (alpha_i_y * axis_local_z - alpha_i_z * axis_local_y);
+        let t73 = rot_i_yx * t14 + rot_i_yz * t72;
+        let t74 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t75 = rot_i_zx * t8 - rot_i_zz * t13;
+        let t76 = t75 * t21;
+        let t77 = rot_i_zx * t14 + rot_i_zz * t72;
+        let t78 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t79 = rot_i_xx * t8 - rot_i_xz * t13;
+        let t80 = t79 * t11;
+        let t81 = rot_i_xx * t14 + rot_i_xz * t72;
+        let t82 = t75 * t30;
+        let t83 = t79 * t21;
+        let t84 = t70 * t30;
+        let t85 = t69 * t11 + t70 * t17 - (t74 * t21 + t75 * t24);
+        let t86 = t78 * t11 + t79 * t17 - (t74 * t30 + t75 * t32);
+        let t87 = t78 * t21 + t79 * t24 - (t69 * t30 + t70 * t32);
+        let t88 = t38 * t85 - t40 * t86 + t42 * t87;
+        let t89 = t69 * t17 - t74 * t24;
+        let t90 = t78 * t17 - t74 * t32;
+        let t91 = t78 * t24 - t69 * t32;
+        let t92 = b_x
+            * (t69 * t7 + t71 + (t71 - t73 * t17)
+                - (t74 * t19 + t76 + (t76 - t77 * t24)))
+            - b_y
+                * (t78 * t7 + t80 + (t80 - t81 * t17)
+                    - (t74 * t29 + t82 + (t82 - t77 * t32)))
+            + b_z
+                * (t78 * t19 + t83 + (t83 - t81 * t24)
+                    - (t69 * t29 + t84 + (t84 - t73 * t32))) + t88
+            + (t88 + (t48 * t89 - t50 * t90 + t52 * t91));
+        let t93 = rot_i_xx * t29 + rot_i_yx * t19 + rot_i_zx * t7;
+        let t94 = rot_i_xx * t30 + rot_i_yx * t21 + rot_i_zx * t11;
+        let t95 = t94 * t8 - t58 * t13;
+        let t96 = rot_i_xx * t32 + rot_i_yx * t24 + rot_i_zx * t17;
+        let t97 = axis_local_x * t55 - axis_local_z * t93 - t95
+            + (t96 * t14 + t61 * t72 - t95);
+        let t98 = b_x * t85 - b_y * t86 + b_z * t87
+            + (t38 * t89 - t40 * t90 + t42 * t91);
+        let t99 = axis_local_x * t58 - axis_local_z * t94 - (t96 * t8 - t61 * t13);
+        let t100 = motion_cos_t * (cos_0 * t98 + sin_0 * t99);
+        let t101 = b_x * t89 - b_y * t90 + b_z * t91;
+        let t102 = axis_local_x * t61 - axis_local_z * t96;
+        let t103 = motion_sin_t * (cos_0 * t99 - sin_0 * t98);
+        let t104 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t105 = rot_i_yx * t9 + rot_i_yy * t13;
+        let t106 = t105 * t11;
+        let t107 = rot_i_yx * t15 + rot_i_yy * t72;
+        let t108 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t109 = rot_i_zx * t9 + rot_i_zy * t13;
+        let t110 = t109 * t21;
+        let t111 = rot_i_zx * t15 + rot_i_zy * t72;
+        let t112 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t113 = rot_i_xx * t9 + rot_i_xy * t13;
+        let t114 = t113 * t11;
+        let t115 = rot_i_xx * t15 + rot_i_xy * t72;
+        let t116 = t109 * t30;
+        let t117 = t113 * t21;
+        let t118 = t105 * t30;
+        let t119 = t104 * t11 - t105 * t17 - (t108 * t21 - t109 * t24);
+        let t120 = t112 * t11 - t113 * t17 - (t108 * t30 - t109 * t32);
+        let t121 = t112 * t21 - t113 * t24 - (t104 * t30 - t105 * t32);
+        let t122 = t38 * t119 - t40 * t120 + t42 * t121;
+        let t123 = t104 * t17 - t108 * t24;
+        let t124 = t112 * t17 - t108 * t32;
+        let t125 = t112 * t24 - t104 * t32;
+        let t126 = b_x
+            * (t104 * t7 - t106 - (t106 + t107 * t17)
+                - (t108 * t19 - t110 - (t110 + t111 * t24)))
+            - b_y
+                * (t112 * t7 - t114 - (t114 + t115 * t17)
+                    - (t108 * t29 - t116 - (t116 + t111 * t32)))
+            + b_z
+                * (t112 * t19 - t117 - (t117 + t115 * t24)
+                    - (t104 * t29 - t118 - (t118 + t107 * t32))) + t122
+            + (t122 + (t48 * t123 - t50 * t124 + t52 * t125));
+        let t127 = t94 * t9 + t57 * t13;
+        let t128 = axis_local_x * t56 - axis_local_y * t93 + t127
+            + (t96 * t15 + t60 * t72 + t127);
+        let t129 = b_x * t119 - b_y * t120 + b_z * t121
+            + (t38 * t123 - t40 * t124 + t42 * t125);
+        let t130 = axis_local_x * t57 - axis_local_y * t94 + (t96 * t9 + t60 * t13);
+        let t131 = motion_cos_t * (cos_0 * t129 + sin_0 * t130);
+        let t132 = b_x * t123 - b_y * t124 + b_z * t125;
+        let t133 = axis_local_x * t60 - axis_local_y * t96;
+        let t134 = motion_sin_t * (cos_0 * t130 - sin_0 * t129);
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t135 = rot_i_yx * t13 - rot_i_yy * t9 + rot_i_yz * t8;
+        let t136 = t135 * t11;
+        let t137 = rot_i_yx * t72 - rot_i_yy * t15 - rot_i_yz * t14;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t138 = rot_i_zx * t13 - rot_i_zy * t9 + rot_i_zz * t8;
+        let t139 = t138 * t21;
+        let t140 = rot_i_zx * t72 - rot_i_zy * t15 - rot_i_zz * t14;
+        let t141 = a_y * t7 + t136 + (t136 + t137 * t17)
+            - (a_z * t19 + t139 + (t139 + t140 * t24));
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t142 = rot_i_xx * t13 - rot_i_xy * t9 + rot_i_xz * t8;
+        let t143 = t142 * t11;
+        let t144 = rot_i_xx * t72 - rot_i_xy * t15 - rot_i_xz * t14;
+        let t145 = t138 * t30;
+        let t146 = a_x * t7 + t143 + (t143 + t144 * t17)
+            - (a_z * t29 + t145 + (t145 + t140 * t32));
+        let t147 = t142 * t21;
+        let t148 = t135 * t30;
+        let t149 = a_x * t19 + t147 + (t147 + t144 * t24)
+            - (a_y * t29 + t148 + (t148 + t137 * t32));
+        let t150 = rot_j_xz * t141 - rot_j_yz * t146 + rot_j_zz * t149;
+        let t151 = rot_j_xy * t141 - rot_j_yy * t146 + rot_j_zy * t149;
+        let t152 = rot_j_zy * t6 - rot_j_zz * t5;
+        let t153 = rot_j_zy * t1 + rot_j_zz * t2;
+        let t154 = t135 * t153;
+        let t155 = rot_j_zy * a_in_j_z - rot_j_zz * a_in_j_y;
+        let t156 = rot_j_yy * t6 - rot_j_yz * t5;
+        let t157 = rot_j_yy * t1 + rot_j_yz * t2;
+        let t158 = t138 * t157;
+        let t159 = rot_j_yy * a_in_j_z - rot_j_yz * a_in_j_y;
+        let t160 = t142 * t153;
+        let t161 = rot_j_xy * t6 - rot_j_xz * t5;
+        let t162 = rot_j_xy * t1 + rot_j_xz * t2;
+        let t163 = t138 * t162;
+        let t164 = rot_j_xy * a_in_j_z - rot_j_xz * a_in_j_y;
+        let t165 = t142 * t157;
+        let t166 = t135 * t162;
+        let t167 = a_y * t153 + t135 * t155 - (a_z * t157 + t138 * t159);
+        let t168 = a_x * t153 + t142 * t155 - (a_z * t162 + t138 * t164);
+        let t169 = a_x * t157 + t142 * t159 - (a_y * t162 + t135 * t164);
+        let t170 = a_y * t11 + t135 * t17 - (a_z * t21 + t138 * t24);
+        let t171 = a_x * t11 + t142 * t17 - (a_z * t30 + t138 * t32);
+        let t172 = a_x * t21 + t142 * t24 - (a_y * t30 + t135 * t32);
+        let t173 = rot_j_xy * t170 - rot_j_yy * t171 + rot_j_zy * t172;
+        let t174 = rot_j_xz * t170 - rot_j_yz * t171 + rot_j_zz * t172;
+        let t175 = t38 * t167 - t40 * t168 + t42 * t169 + (t173 * t37 + t174 * t36);
+        let t176 = a_y * t155 - a_z * t159;
+        let t177 = a_x * t155 - a_z * t164;
+        let t178 = a_x * t159 - a_y * t164;
+        let t179 = a_y * t17 - a_z * t24;
+        let t180 = a_x * t17 - a_z * t32;
+        let t181 = a_x * t24 - a_y * t32;
+        let t182 = rot_j_xy * t179 - rot_j_yy * t180 + rot_j_zy * t181;
+        let t183 = rot_j_xz * t179 - rot_j_yz * t180 + rot_j_zz * t181;
+        let t184 = cross_local_y * t150 - cross_local_z * t151
+            + (b_x
+                * (a_y * t152 - t154 - (t154 + t137 * t155)
+                    - (a_z * t156 - t158 - (t158 + t140 * t159)))
+                - b_y
+                    * (a_x * t152 - t160 - (t160 + t144 * t155)
+                        - (a_z * t161 - t163 - (t163 + t140 * t164)))
+                + b_z
+                    * (a_x * t156 - t165 - (t165 + t144 * t159)
+                        - (a_y * t161 - t166 - (t166 + t137 * t164)))) - t175
+            - (t175
+                + (t48 * t176 - t50 * t177 + t52 * t178 - (t182 * t47 - t183 * t46)));
+        let t185 = rot_j_xz * t144 + rot_j_yz * t137 + rot_j_zz * t140;
+        let t186 = rot_j_xy * t144 + rot_j_yy * t137 + rot_j_zy * t140;
+        let t187 = rot_j_xy * t142 + rot_j_yy * t135 + rot_j_zy * t138;
+        let t188 = rot_j_xz * t142 + rot_j_yz * t135 + rot_j_zz * t138;
+        let t189 = t187 * t1 + t188 * t2;
+        let t190 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t191 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t192 = a_in_j_y * t185 - a_in_j_z * t186 - t189
+            + (t190 * t6 - t191 * t5 - t189);
+        let t193 = cross_local_y * t174 - cross_local_z * t173
+            - (b_x * t167 - b_y * t168 + b_z * t169)
+            - (t38 * t176 - t40 * t177 + t42 * t178 + (t182 * t37 + t183 * t36));
+        let t194 = a_in_j_y * t188 - a_in_j_z * t187 - (t190 * t1 + t191 * t2);
+        let t195 = motion_cos_t * (cos_0 * t193 - sin_0 * t194);
+        let t196 = cross_local_y * t183 - cross_local_z * t182
+            - (b_x * t176 - b_y * t177 + b_z * t178);
+        let t197 = a_in_j_y * t191 - a_in_j_z * t190;
+        let t198 = motion_sin_t * (cos_0 * t194 + sin_0 * t193);
+        let t199 = rot_j_xx * t141 - rot_j_yx * t146 + rot_j_zx * t149;
+        let t200 = rot_j_zx * t6 + rot_j_zz * t3;
+        let t201 = rot_j_zx * t1 - rot_j_zz * t4;
+        let t202 = t135 * t201;
+        let t203 = rot_j_zx * a_in_j_z - rot_j_zz * a_in_j_x;
+        let t204 = rot_j_yx * t6 + rot_j_yz * t3;
+        let t205 = rot_j_yx * t1 - rot_j_yz * t4;
+        let t206 = t138 * t205;
+        let t207 = rot_j_yx * a_in_j_z - rot_j_yz * a_in_j_x;
+        let t208 = t142 * t201;
+        let t209 = rot_j_xx * t6 + rot_j_xz * t3;
+        let t210 = rot_j_xx * t1 - rot_j_xz * t4;
+        let t211 = t138 * t210;
+        let t212 = rot_j_xx * a_in_j_z - rot_j_xz * a_in_j_x;
+        let t213 = t142 * t205;
+        let t214 = t135 * t210;
+        let t215 = a_y * t201 + t135 * t203 - (a_z * t205 + t138 * t207);
+        let t216 = a_x * t201 + t142 * t203 - (a_z * t210 + t138 * t212);
+        let t217 = a_x * t205 + t142 * t207 - (a_y * t210 + t135 * t212);
+        let t218 = rot_j_xx * t170 - rot_j_yx * t171 + rot_j_zx * t172;
+        let t219 = t38 * t215 - t40 * t216 + t42 * t217 + (t218 * t37 - t174 * t35);
+        let t220 = rot_j_xx * t179 - rot_j_yx * t180 + rot_j_zx * t181;
+        let t221 = a_y * t203 - a_z * t207;
+        let t222 = a_x * t203 - a_z * t212;
+        let t223 = a_x * t207 - a_y * t212;
+        let t224 = cross_local_x * t150 - cross_local_z * t199
+            + (b_x
+                * (a_y * t200 - t202 - (t202 + t137 * t203)
+                    - (a_z * t204 - t206 - (t206 + t140 * t207)))
+                - b_y
+                    * (a_x * t200 - t208 - (t208 + t144 * t203)
+                        - (a_z * t209 - t211 - (t211 + t140 * t212)))
+                + b_z
+                    * (a_x * t204 - t213 - (t213 + t144 * t207)
+                        - (a_y * t209 - t214 - (t214 + t137 * t212)))) - t219
+            - (t219
+                - (t220 * t47 + t183 * t45 - (t48 * t221 - t50 * t222 + t52 * t223)));
+        let t225 = rot_j_xx * t144 + rot_j_yx * t137 + rot_j_zx * t140;
+        let t226 = rot_j_xx * t142 + rot_j_yx * t135 + rot_j_zx * t138;
+        let t227 = t226 * t1 - t188 * t4;
+        let t228 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
+        let t229 = a_in_j_x * t185 - a_in_j_z * t225 - t227
+            + (t228 * t6 + t191 * t3 - t227);
+        let t230 = cross_local_x * t174 - cross_local_z * t218
+            - (b_x * t215 - b_y * t216 + b_z * t217)
+            - (t38 * t221 - t40 * t222 + t42 * t223 + (t220 * t37 - t183 * t35));
+        let t231 = a_in_j_x * t188 - a_in_j_z * t226 - (t228 * t1 - t191 * t4);
+        let t232 = motion_cos_t * (cos_0 * t230 - sin_0 * t231);
+        let t233 = cross_local_x * t183 - cross_local_z * t220
+            - (b_x * t221 - b_y * t222 + b_z * t223);
+        let t234 = a_in_j_x * t191 - a_in_j_z * t228;
+        let t235 = motion_sin_t * (cos_0 * t231 + sin_0 * t230);
+        let t236 = rot_j_zx * t5 + rot_j_zy * t3;
+        let t237 = rot_j_zx * t2 + rot_j_zy * t4;
+        let t238 = t135 * t237;
+        let t239 = rot_j_zx * a_in_j_y - rot_j_zy * a_in_j_x;
+        let t240 = rot_j_yx * t5 + rot_j_yy * t3;
+        let t241 = rot_j_yx * t2 + rot_j_yy * t4;
+        let t242 = t138 * t241;
+        let t243 = rot_j_yx * a_in_j_y - rot_j_yy * a_in_j_x;
+        let t244 = t142 * t237;
+        let t245 = rot_j_xx * t5 + rot_j_xy * t3;
+        let t246 = rot_j_xx * t2 + rot_j_xy * t4;
+        let t247 = t138 * t246;
+        let t248 = rot_j_xx * a_in_j_y - rot_j_xy * a_in_j_x;
+        let t249 = t142 * t241;
+        let t250 = t135 * t246;
+        let t251 = a_y * t237 - t135 * t239 - (a_z * t241 - t138 * t243);
+        let t252 = a_x * t237 - t142 * t239 - (a_z * t246 - t138 * t248);
+        let t253 = a_x * t241 - t142 * t243 - (a_y * t246 - t135 * t248);
+        let t254 = t38 * t251 - t40 * t252 + t42 * t253 + (t218 * t36 + t173 * t35);
+        let t255 = a_y * t239 - a_z * t243;
+        let t256 = a_x * t239 - a_z * t248;
+        let t257 = a_x * t243 - a_y * t248;
+        let t258 = cross_local_x * t151 - cross_local_y * t199
+            + (b_x
+                * (a_y * t236 + t238 + (t238 - t137 * t239)
+                    - (a_z * t240 + t242 + (t242 - t140 * t243)))
+                - b_y
+                    * (a_x * t236 + t244 + (t244 - t144 * t239)
+                        - (a_z * t245 + t247 + (t247 - t140 * t248)))
+                + b_z
+                    * (a_x * t240 + t249 + (t249 - t144 * t243)
+                        - (a_y * t245 + t250 + (t250 - t137 * t248)))) + t254
+            + (t254
+                + (t220 * t46 + t182 * t45 - (t48 * t255 - t50 * t256 + t52 * t257)));
+        let t259 = t226 * t2 + t187 * t4;
+        let t260 = a_in_j_x * t186 - a_in_j_y * t225 + t259
+            + (t228 * t5 + t190 * t3 + t259);
+        let t261 = cross_local_x * t173 - cross_local_y * t218
+            + (b_x * t251 - b_y * t252 + b_z * t253)
+            - (t38 * t255 - t40 * t256 + t42 * t257 - (t220 * t36 + t182 * t35));
+        let t262 = a_in_j_x * t187 - a_in_j_y * t226 + (t228 * t2 + t190 * t4);
+        let t263 = motion_cos_t * (cos_0 * t261 - sin_0 * t262);
+        let t264 = cross_local_x * t182 - cross_local_y * t220
+            - (b_x * t255 - b_y * t256 + b_z * t257);
+        let t265 = a_in_j_x * t190 - a_in_j_y * t228;
+        let t266 = motion_sin_t * (cos_0 * t262 + sin_0 * t261);
+        out[0] = -(motion_cos * (cos_0 * t54 + sin_0 * t62) + t65
+            + (t65 + motion_cos_tt * (cos_0 * t66 + sin_0 * t67))
+            + (motion_sin * (cos_0 * t62 - sin_0 * t54) + t68
+                + (t68 + motion_sin_tt * (cos_0 * t67 - sin_0 * t66))));
+        out[1] = motion_cos * (cos_0 * t92 + sin_0 * t97) + t100
+            + (t100 + motion_cos_tt * (cos_0 * t101 + sin_0 * t102))
+            + (motion_sin * (cos_0 * t97 - sin_0 * t92) + t103
+                + (t103 + motion_sin_tt * (cos_0 * t102 - sin_0 * t101)));
+        out[2] = -(motion_cos * (cos_0 * t126 + sin_0 * t128) + t131
+            + (t131 + motion_cos_tt * (cos_0 * t132 + sin_0 * t133))
+            + (motion_sin * (cos_0 * t128 - sin_0 * t126) + t134
+                + (t134 + motion_sin_tt * (cos_0 * t133 - sin_0 * t132))));
+        out[3] = motion_cos * (cos_0 * t184 - sin_0 * t192) + t195
+            + (t195 + motion_cos_tt * (cos_0 * t196 - sin_0 * t197))
+            - (motion_sin * (cos_0 * t192 + sin_0 * t184) + t198
+                + (t198 + motion_sin_tt * (cos_0 * t197 + sin_0 * t196)));
+        out[4] = -(motion_cos * (cos_0 * t224 - sin_0 * t229) + t232
+            + (t232 + motion_cos_tt * (cos_0 * t233 - sin_0 * t234))
+            - (motion_sin * (cos_0 * t229 + sin_0 * t224) + t235
+                + (t235 + motion_sin_tt * (cos_0 * t234 + sin_0 * t233))));
+        out[5] = motion_cos * (cos_0 * t258 - sin_0 * t260) + t263
+            + (t263 + motion_cos_tt * (cos_0 * t264 - sin_0 * t265))
+            - (motion_sin * (cos_0 * t260 + sin_0 * t258) + t266
+                + (t266 + motion_sin_tt * (cos_0 * t265 + sin_0 * t264)));
+    }
+    /// ∂Γ/∂v. Operations: 540 mul, 441 add, 3 neg.
+    fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t0 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t1 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let t2 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t3 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let t4 = t0 * t1 - t2 * t3;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t5 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t6 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let t7 = t5 * t1 - t2 * t6;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t8 = t5 * t3 - t0 * t6;
+        let t9 = b_x * t4 - b_y * t7 + b_z * t8;
+        let t10 = rot_i_xz * t6 + rot_i_yz * t3 + rot_i_zz * t1;
+        let t11 = rot_i_xy * t6 + rot_i_yy * t3 + rot_i_zy * t1;
+        let t12 = axis_local_y * t10 - axis_local_z * t11;
+        let t13 = motion_cos_t * (cos_0 * t9 + sin_0 * t12);
+        let t14 = omega_j_y * cross_local_z;
+        let t15 = omega_j_z * cross_local_y;
+        let t16 = t14 - t15;
+        let t17 = omega_j_x * cross_local_z;
+        let t18 = omega_j_z * cross_local_x;
+        let t19 = t17 - t18;
+        let t20 = omega_j_x * cross_local_y;
+        let t21 = omega_j_y * cross_local_x;
+        let t22 = t20 - t21;
+        let t23 = rot_j_xx * t16 - rot_j_xy * t19 + rot_j_xz * t22;
+        let t24 = rot_j_yx * t16 - rot_j_yy * t19 + rot_j_yz * t22;
+        let t25 = rot_j_zx * t16 - rot_j_zy * t19 + rot_j_zz * t22;
+        let t26 = t23 * t4 - t24 * t7 + t25 * t8;
+        let t27 = omega_j_y * a_in_j_z;
+        let t28 = omega_j_z * a_in_j_y;
+        let t29 = t27 - t28;
+        let t30 = omega_j_x * a_in_j_z;
+        let t31 = omega_j_z * a_in_j_x;
+        let t32 = t30 - t31;
+        let t33 = omega_j_x * a_in_j_y;
+        let t34 = omega_j_y * a_in_j_x;
+        let t35 = t33 - t34;
+        let t36 = rot_j_zx * t29 - rot_j_zy * t32 + rot_j_zz * t35;
+        let t37 = t0 * t36;
+        let t38 = omega_i_y * axis_local_y;
+        let t39 = omega_i_z * axis_local_z;
+        let t40 = t38 + t39;
+        let t41 = omega_i_x * axis_local_y;
+        let t42 = omega_i_y * axis_local_x;
+        let t43 = t41 - t42;
+        let t44 = t41 + t43;
+        let t45 = omega_i_x * axis_local_z;
+        let t46 = omega_i_z * axis_local_x;
+        let t47 = t45 - t46;
+        let t48 = t45 + t47;
+        let t49 = rot_i_yx * t40 - rot_i_yy * t44 - rot_i_yz * t48;
+        let t50 = rot_j_yx * t29 - rot_j_yy * t32 + rot_j_yz * t35;
+        let t51 = t2 * t50;
+        let t52 = rot_i_zx * t40 - rot_i_zy * t44 - rot_i_zz * t48;
+        let t53 = t5 * t36;
+        let t54 = rot_i_xx * t40 - rot_i_xy * t44 - rot_i_xz * t48;
+        let t55 = rot_j_xx * t29 - rot_j_xy * t32 + rot_j_xz * t35;
+        let t56 = t2 * t55;
+        let t57 = t5 * t50;
+        let t58 = t0 * t55;
+        let t59 = t26
+            + (b_x * (t37 - (t49 * t1 - t37) - (t51 - (t52 * t3 - t51)))
+                - b_y * (t53 - (t54 * t1 - t53) - (t56 - (t52 * t6 - t56)))
+                + b_z * (t57 - (t54 * t3 - t57) - (t58 - (t49 * t6 - t58))) + t26);
+        let t60 = rot_i_xz * t55 + rot_i_yz * t50 + rot_i_zz * t36;
+        let t61 = rot_i_xy * t55 + rot_i_yy * t50 + rot_i_zy * t36;
+        let t62 = axis_local_y * t60 - axis_local_z * t61;
+        let t63 = rot_i_xx * t6 + rot_i_yx * t3 + rot_i_zx * t1;
+        let t64 = t62 + (t62 + (t63 * t40 - t11 * t44 - t10 * t48));
+        let t65 = motion_sin_t * (cos_0 * t12 - sin_0 * t9);
+        let t66 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t67 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t68 = t66 * t1 - t67 * t3;
+        let t69 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t70 = t69 * t1 - t67 * t6;
+        let t71 = t69 * t3 - t66 * t6;
+        let t72 = b_x * t68 - b_y * t70 + b_z * t71;
+        let t73 = axis_local_x * t10 - axis_local_z * t63;
+        let t74 = motion_cos_t * (cos_0 * t72 + sin_0 * t73);
+        let t75 = t23 * t68 - t24 * t70 + t25 * t71;
+        let t76 = t66 * t36;
+        let t77 = t42 - t43;
+        let t78 = omega_i_x * axis_local_x;
+        let t79 = t78 + t39;
+        let t80 = omega_i_y * axis_local_z;
+        let t81 = omega_i_z * axis_local_y;
+        let t82 = t80 - t81;
+        let t83 = t80 + t82;
+        let t84 = rot_i_yx * t77 - rot_i_yy * t79 + rot_i_yz * t83;
+        let t85 = t67 * t50;
+        let t86 = rot_i_zx * t77 - rot_i_zy * t79 + rot_i_zz * t83;
+        let t87 = t69 * t36;
+        let t88 = rot_i_xx * t77 - rot_i_xy * t79 + rot_i_xz * t83;
+        let t89 = t67 * t55;
+        let t90 = t69 * t50;
+        let t91 = t66 * t55;
+        let t92 = t75
+            + (b_x * (t76 + (t76 - t84 * t1) - (t85 + (t85 - t86 * t3)))
+                - b_y * (t87 + (t87 - t88 * t1) - (t89 + (t89 - t86 * t6)))
+                + b_z * (t90 + (t90 - t88 * t3) - (t91 + (t91 - t84 * t6))) + t75);
+        let t93 = rot_i_xx * t55 + rot_i_yx * t50 + rot_i_zx * t36;
+        let t94 = axis_local_x * t60 - axis_local_z * t93;
+        let t95 = t94 + (t94 + (t63 * t77 - t11 * t79 + t10 * t83));
+        let t96 = motion_sin_t * (cos_0 * t73 - sin_0 * t72);
+        let t97 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t98 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t99 = t97 * t1 - t98 * t3;
+        let t100 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t101 = t100 * t1 - t98 * t6;
+        let t102 = t100 * t3 - t97 * t6;
+        let t103 = b_x * t99 - b_y * t101 + b_z * t102;
+        let t104 = axis_local_x * t11 - axis_local_y * t63;
+        let t105 = motion_cos_t * (cos_0 * t103 + sin_0 * t104);
+        let t106 = t23 * t99 - t24 * t101 + t25 * t102;
+        let t107 = t97 * t36;
+        let t108 = t46 - t47;
+        let t109 = t81 - t82;
+        let t110 = t78 + t38;
+        let t111 = rot_i_yx * t108 + rot_i_yy * t109 - rot_i_yz * t110;
+        let t112 = t98 * t50;
+        let t113 = rot_i_zx * t108 + rot_i_zy * t109 - rot_i_zz * t110;
+        let t114 = t100 * t36;
+        let t115 = rot_i_xx * t108 + rot_i_xy * t109 - rot_i_xz * t110;
+        let t116 = t98 * t55;
+        let t117 = t100 * t50;
+        let t118 = t97 * t55;
+        let t119 = t106
+            + (b_x * (t107 + (t107 + t111 * t1) - (t112 + (t112 + t113 * t3)))
+                - b_y * (t114 + (t114 + t115 * t1) - (t116 + (t116 + t113 * t6)))
+                + b_z * (t117 + (t117 + t115 * t3) - (t118 + (t118 + t111 * t6)))
+                + t106);
+        let t120 = axis_local_x * t61 - axis_local_y * t93;
+        let t121 = t120 + (t120 - (t63 * t108 + t11 * t109 - t10 * t110));
+        let t122 = motion_sin_t * (cos_0 * t104 - sin_0 * t103);
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t123 = a_y * t1 - a_z * t3;
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t124 = a_x * t1 - a_z * t6;
+        let t125 = a_x * t3 - a_y * t6;
+        let t126 = rot_j_xz * t123 - rot_j_yz * t124 + rot_j_zz * t125;
+        let t127 = rot_j_xy * t123 - rot_j_yy * t124 + rot_j_zy * t125;
+        let t128 = rot_j_zy * a_in_j_z - rot_j_zz * a_in_j_y;
+        let t129 = rot_j_yy * a_in_j_z - rot_j_yz * a_in_j_y;
+        let t130 = a_y * t128 - a_z * t129;
+        let t131 = rot_j_xy * a_in_j_z - rot_j_xz * a_in_j_y;
+        let t132 = a_x * t128 - a_z * t131;
+        let t133 = a_x * t129 - a_y * t131;
+        let t134 = cross_local_y * t126 - cross_local_z * t127
+            - (b_x * t130 - b_y * t132 + b_z * t133);
+        let t135 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t136 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t137 = a_in_j_y * t135 - a_in_j_z * t136;
+        let t138 = motion_cos_t * (cos_0 * t134 - sin_0 * t137);
+        let t139 = rot_i_yx * t82 - rot_i_yy * t47 + rot_i_yz * t43;
+        let t140 = t139 * t128;
+        let t141 = omega_j_y * a_in_j_y;
+        let t142 = omega_j_z * a_in_j_z;
+        let t143 = t141 + t142;
+        let t144 = t33 + t35;
+        let t145 = t30 + t32;
+        let t146 = rot_j_zx * t143 - rot_j_zy * t144 - rot_j_zz * t145;
+        let t147 = rot_i_zx * t82 - rot_i_zy * t47 + rot_i_zz * t43;
+        let t148 = t147 * t129;
+        let t149 = rot_j_yx * t143 - rot_j_yy * t144 - rot_j_yz * t145;
+        let t150 = rot_i_xx * t82 - rot_i_xy * t47 + rot_i_xz * t43;
+        let t151 = t150 * t128;
+        let t152 = t147 * t131;
+        let t153 = rot_j_xx * t143 - rot_j_xy * t144 - rot_j_xz * t145;
+        let t154 = t150 * t129;
+        let t155 = t139 * t131;
+        let t156 = a_y * t36 + t139 * t1 - (a_z * t50 + t147 * t3);
+        let t157 = a_x * t36 + t150 * t1 - (a_z * t55 + t147 * t6);
+        let t158 = a_x * t50 + t150 * t3 - (a_y * t55 + t139 * t6);
+        let t159 = rot_j_xz * t156 - rot_j_yz * t157 + rot_j_zz * t158;
+        let t160 = rot_j_xy * t156 - rot_j_yy * t157 + rot_j_zy * t158;
+        let t161 = cross_local_y * t159 - cross_local_z * t160
+            - (t23 * t130 - t24 * t132 + t25 * t133);
+        let t162 = rot_j_xx * t123 - rot_j_yx * t124 + rot_j_zx * t125;
+        let t163 = omega_j_y * cross_local_y;
+        let t164 = omega_j_z * cross_local_z;
+        let t165 = b_x * (t140 - (a_y * t146 - t140) - (t148 - (a_z * t149 - t148)))
+            - b_y * (t151 - (a_x * t146 - t151) - (t152 - (a_z * t153 - t152)))
+            + b_z * (t154 - (a_x * t149 - t154) - (t155 - (a_y * t153 - t155))) - t161
+            - (t162 * (t163 + t164) - t127 * (t20 + t22) - t126 * (t17 + t19) + t161);
+        let t166 = rot_j_xz * t150 + rot_j_yz * t139 + rot_j_zz * t147;
+        let t167 = rot_j_xy * t150 + rot_j_yy * t139 + rot_j_zy * t147;
+        let t168 = a_in_j_y * t166 - a_in_j_z * t167;
+        let t169 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
+        let t170 = t168 + (t168 + (t169 * t143 - t136 * t144 - t135 * t145));
+        let t171 = motion_sin_t * (cos_0 * t137 + sin_0 * t134);
+        let t172 = rot_j_zx * a_in_j_z - rot_j_zz * a_in_j_x;
+        let t173 = rot_j_yx * a_in_j_z - rot_j_yz * a_in_j_x;
+        let t174 = a_y * t172 - a_z * t173;
+        let t175 = rot_j_xx * a_in_j_z - rot_j_xz * a_in_j_x;
+        let t176 = a_x * t172 - a_z * t175;
+        let t177 = a_x * t173 - a_y * t175;
+        let t178 = cross_local_x * t126 - cross_local_z * t162
+            - (b_x * t174 - b_y * t176 + b_z * t177);
+        let t179 = a_in_j_x * t135 - a_in_j_z * t169;
+        let t180 = motion_cos_t * (cos_0 * t178 - sin_0 * t179);
+        let t181 = t139 * t172;
+        let t182 = t34 - t35;
+        let t183 = omega_j_x * a_in_j_x;
+        let t184 = t183 + t142;
+        let t185 = t27 + t29;
+        let t186 = rot_j_zx * t182 - rot_j_zy * t184 + rot_j_zz * t185;
+        let t187 = t147 * t173;
+        let t188 = rot_j_yx * t182 - rot_j_yy * t184 + rot_j_yz * t185;
+        let t189 = t150 * t172;
+        let t190 = t147 * t175;
+        let t191 = rot_j_xx * t182 - rot_j_xy * t184 + rot_j_xz * t185;
+        let t192 = t150 * t173;
+        let t193 = t139 * t175;
+        let t194 = rot_j_xx * t156 - rot_j_yx * t157 + rot_j_zx * t158;
+        let t195 = cross_local_x * t159 - cross_local_z * t194
+            - (t23 * t174 - t24 * t176 + t25 * t177);
+        let t196 = omega_j_x * cross_local_x;
+        let t197 = b_x * (t181 - (a_y * t186 - t181) - (t187 - (a_z * t188 - t187)))
+            - b_y * (t189 - (a_x * t186 - t189) - (t190 - (a_z * t191 - t190)))
+            + b_z * (t192 - (a_x * t188 - t192) - (t193 - (a_y * t191 - t193))) - t195
+            - (t162 * (t21 - t22) - t127 * (t196 + t164) + t126 * (t14 + t16) + t195);
+        let t198 = rot_j_xx * t150 + rot_j_yx * t139 + rot_j_zx * t147;
+        let t199 = a_in_j_x * t166 - a_in_j_z * t198;
+        let t200 = t199 + (t199 + (t169 * t182 - t136 * t184 + t135 * t185));
+        let t201 = motion_sin_t * (cos_0 * t179 + sin_0 * t178);
+        let t202 = rot_j_zx * a_in_j_y - rot_j_zy * a_in_j_x;
+        let t203 = rot_j_yx * a_in_j_y - rot_j_yy * a_in_j_x;
+        let t204 = a_y * t202 - a_z * t203;
+        let t205 = rot_j_xx * a_in_j_y - rot_j_xy * a_in_j_x;
+        let t206 = a_x * t202 - a_z * t205;
+        let t207 = a_x * t203 - a_y * t205;
+        let t208 = cross_local_x * t127 - cross_local_y * t162
+            - (b_x * t204 - b_y * t206 + b_z * t207);
+        let t209 = a_in_j_x * t136 - a_in_j_y * t169;
+        let t210 = motion_cos_t * (cos_0 * t208 - sin_0 * t209);
+        let t211 = t139 * t202;
+        let t212 = t31 - t32;
+        let t213 = t28 - t29;
+        let t214 = t183 + t141;
+        let t215 = rot_j_zx * t212 + rot_j_zy * t213 - rot_j_zz * t214;
+        let t216 = t147 * t203;
+        let t217 = rot_j_yx * t212 + rot_j_yy * t213 - rot_j_yz * t214;
+        let t218 = t150 * t202;
+        let t219 = t147 * t205;
+        let t220 = rot_j_xx * t212 + rot_j_xy * t213 - rot_j_xz * t214;
+        let t221 = t150 * t203;
+        let t222 = t139 * t205;
+        let t223 = cross_local_x * t160 - cross_local_y * t194
+            - (t23 * t204 - t24 * t206 + t25 * t207);
+        let t224 = b_x * (t211 + (a_y * t215 + t211) - (t216 + (a_z * t217 + t216)))
+            - b_y * (t218 + (a_x * t215 + t218) - (t219 + (a_z * t220 + t219)))
+            + b_z * (t221 + (a_x * t217 + t221) - (t222 + (a_y * t220 + t222))) - t223
+            + (t162 * (t18 - t19) + t127 * (t15 - t16) - t126 * (t196 + t163) - t223);
+        let t225 = a_in_j_x * t167 - a_in_j_y * t198;
+        let t226 = t225 + (t225 - (t169 * t212 + t136 * t213 - t135 * t214));
+        let t227 = motion_sin_t * (cos_0 * t209 + sin_0 * t208);
+        out[0] = t13 + (motion_cos * (cos_0 * t59 + sin_0 * t64) + t13)
+            + (t65 + (motion_sin * (cos_0 * t64 - sin_0 * t59) + t65));
+        out[1] = -(t74 + (motion_cos * (cos_0 * t92 + sin_0 * t95) + t74)
+            + (t96 + (motion_sin * (cos_0 * t95 - sin_0 * t92) + t96)));
+        out[2] = t105 + (motion_cos * (cos_0 * t119 + sin_0 * t121) + t105)
+            + (t122 + (motion_sin * (cos_0 * t121 - sin_0 * t119) + t122));
+        out[3] = -(t138 - (motion_cos * (cos_0 * t165 + sin_0 * t170) - t138)
+            - (t171 + (motion_sin * (cos_0 * t170 - sin_0 * t165) + t171)));
+        out[4] = t180 - (motion_cos * (cos_0 * t197 + sin_0 * t200) - t180)
+            - (t201 + (motion_sin * (cos_0 * t200 - sin_0 * t197) + t201));
+        out[5] = -(t210 - (motion_cos * (cos_0 * t224 + sin_0 * t226) - t210)
+            - (t227 + (motion_sin * (cos_0 * t226 - sin_0 * t224) + t227)));
+    }
+    /// ∂(C·v − b)/∂x. Operations: 504 mul, 327 add, 3 neg.
+    fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        let out = &mut out[..6];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t0 = rot_i_yy * axis_local_z - rot_i_yz * axis_local_y;
+        let t1 = omega_j_y * a_in_j_z - omega_j_z * a_in_j_y;
+        let t2 = omega_j_x * a_in_j_z - omega_j_z * a_in_j_x;
+        let t3 = omega_j_x * a_in_j_y - omega_j_y * a_in_j_x;
+        let t4 = rot_j_zx * t1 - rot_j_zy * t2 + rot_j_zz * t3;
+        let t5 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t6 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t7 = rot_i_yy * t5 + rot_i_yz * t6;
+        let t8 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let t9 = rot_i_zy * axis_local_z - rot_i_zz * axis_local_y;
+        let t10 = rot_j_yx * t1 - rot_j_yy * t2 + rot_j_yz * t3;
+        let t11 = rot_i_zy * t5 + rot_i_zz * t6;
+        let t12 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t13 = rot_i_xy * axis_local_z - rot_i_xz * axis_local_y;
+        let t14 = rot_i_xy * t5 + rot_i_xz * t6;
+        let t15 = rot_j_xx * t1 - rot_j_xy * t2 + rot_j_xz * t3;
+        let t16 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t17 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+        let t18 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+        let t19 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+        let t20 = rot_j_xx * t17 - rot_j_xy * t18 + rot_j_xz * t19;
+        let t21 = t0 * t8 - t9 * t12;
+        let t22 = rot_j_yx * t17 - rot_j_yy * t18 + rot_j_yz * t19;
+        let t23 = t13 * t8 - t9 * t16;
+        let t24 = rot_j_zx * t17 - rot_j_zy * t18 + rot_j_zz * t19;
+        let t25 = t13 * t12 - t0 * t16;
+        let t26 = b_x * (t0 * t4 + t7 * t8 - (t9 * t10 + t11 * t12))
+            - b_y * (t13 * t4 + t14 * t8 - (t9 * t15 + t11 * t16))
+            + b_z * (t13 * t10 + t14 * t12 - (t0 * t15 + t7 * t16))
+            + (t20 * t21 - t22 * t23 + t24 * t25);
+        let t27 = rot_i_xz * t15 + rot_i_yz * t10 + rot_i_zz * t4;
+        let t28 = rot_i_xy * t15 + rot_i_yy * t10 + rot_i_zy * t4;
+        let t29 = rot_i_xy * t16 + rot_i_yy * t12 + rot_i_zy * t8;
+        let t30 = rot_i_xz * t16 + rot_i_yz * t12 + rot_i_zz * t8;
+        let t31 = axis_local_y * t27 - axis_local_z * t28 - (t29 * t5 + t30 * t6);
+        let t32 = b_x * t21 - b_y * t23 + b_z * t25;
+        let t33 = axis_local_y * t30 - axis_local_z * t29;
+        let t34 = rot_i_yx * axis_local_z - rot_i_yz * axis_local_x;
+        let t35 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t36 = rot_i_yx * t5 - rot_i_yz * t35;
+        let t37 = rot_i_zx * axis_local_z - rot_i_zz * axis_local_x;
+        let t38 = rot_i_zx * t5 - rot_i_zz * t35;
+        let t39 = rot_i_xx * axis_local_z - rot_i_xz * axis_local_x;
+        let t40 = rot_i_xx * t5 - rot_i_xz * t35;
+        let t41 = t34 * t8 - t37 * t12;
+        let t42 = t39 * t8 - t37 * t16;
+        let t43 = t39 * t12 - t34 * t16;
+        let t44 = b_x * (t34 * t4 + t36 * t8 - (t37 * t10 + t38 * t12))
+            - b_y * (t39 * t4 + t40 * t8 - (t37 * t15 + t38 * t16))
+            + b_z * (t39 * t10 + t40 * t12 - (t34 * t15 + t36 * t16))
+            + (t20 * t41 - t22 * t42 + t24 * t43);
+        let t45 = rot_i_xx * t15 + rot_i_yx * t10 + rot_i_zx * t4;
+        let t46 = rot_i_xx * t16 + rot_i_yx * t12 + rot_i_zx * t8;
+        let t47 = axis_local_x * t27 - axis_local_z * t45 - (t46 * t5 - t30 * t35);
+        let t48 = b_x * t41 - b_y * t42 + b_z * t43;
+        let t49 = axis_local_x * t30 - axis_local_z * t46;
+        let t50 = rot_i_yx * axis_local_y - rot_i_yy * axis_local_x;
+        let t51 = rot_i_yx * t6 + rot_i_yy * t35;
+        let t52 = rot_i_zx * axis_local_y - rot_i_zy * axis_local_x;
+        let t53 = rot_i_zx * t6 + rot_i_zy * t35;
+        let t54 = rot_i_xx * axis_local_y - rot_i_xy * axis_local_x;
+        let t55 = rot_i_xx * t6 + rot_i_xy * t35;
+        let t56 = t50 * t8 - t52 * t12;
+        let t57 = t54 * t8 - t52 * t16;
+        let t58 = t54 * t12 - t50 * t16;
+        let t59 = b_x * (t50 * t4 - t51 * t8 - (t52 * t10 - t53 * t12))
+            - b_y * (t54 * t4 - t55 * t8 - (t52 * t15 - t53 * t16))
+            + b_z * (t54 * t10 - t55 * t12 - (t50 * t15 - t51 * t16))
+            + (t20 * t56 - t22 * t57 + t24 * t58);
+        let t60 = axis_local_x * t28 - axis_local_y * t45 + (t46 * t6 + t29 * t35);
+        let t61 = b_x * t56 - b_y * t57 + b_z * t58;
+        let t62 = axis_local_x * t29 - axis_local_y * t46;
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t63 = rot_i_yx * t35 - rot_i_yy * t6 + rot_i_yz * t5;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t64 = rot_i_zx * t35 - rot_i_zy * t6 + rot_i_zz * t5;
+        let t65 = a_y * t4 + t63 * t8 - (a_z * t10 + t64 * t12);
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t66 = rot_i_xx * t35 - rot_i_xy * t6 + rot_i_xz * t5;
+        let t67 = a_x * t4 + t66 * t8 - (a_z * t15 + t64 * t16);
+        let t68 = a_x * t10 + t66 * t12 - (a_y * t15 + t63 * t16);
+        let t69 = rot_j_xz * t65 - rot_j_yz * t67 + rot_j_zz * t68;
+        let t70 = rot_j_xy * t65 - rot_j_yy * t67 + rot_j_zy * t68;
+        let t71 = rot_j_zy * t3 + rot_j_zz * t2;
+        let t72 = rot_j_zy * a_in_j_z - rot_j_zz * a_in_j_y;
+        let t73 = rot_j_yy * t3 + rot_j_yz * t2;
+        let t74 = rot_j_yy * a_in_j_z - rot_j_yz * a_in_j_y;
+        let t75 = rot_j_xy * t3 + rot_j_xz * t2;
+        let t76 = rot_j_xy * a_in_j_z - rot_j_xz * a_in_j_y;
+        let t77 = a_y * t72 - a_z * t74;
+        let t78 = a_x * t72 - a_z * t76;
+        let t79 = a_x * t74 - a_y * t76;
+        let t80 = a_y * t8 - a_z * t12;
+        let t81 = a_x * t8 - a_z * t16;
+        let t82 = a_x * t12 - a_y * t16;
+        let t83 = rot_j_xy * t80 - rot_j_yy * t81 + rot_j_zy * t82;
+        let t84 = rot_j_xz * t80 - rot_j_yz * t81 + rot_j_zz * t82;
+        let t85 = cross_local_y * t69 - cross_local_z * t70
+            - (b_x * (a_y * t71 + t63 * t72 - (a_z * t73 + t64 * t74))
+                - b_y * (a_x * t71 + t66 * t72 - (a_z * t75 + t64 * t76))
+                + b_z * (a_x * t73 + t66 * t74 - (a_y * t75 + t63 * t76)))
+            - (t20 * t77 - t22 * t78 + t24 * t79 + (t83 * t19 + t84 * t18));
+        let t86 = rot_j_xz * t66 + rot_j_yz * t63 + rot_j_zz * t64;
+        let t87 = rot_j_xy * t66 + rot_j_yy * t63 + rot_j_zy * t64;
+        let t88 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t89 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t90 = a_in_j_y * t86 - a_in_j_z * t87 - (t88 * t3 + t89 * t2);
+        let t91 = cross_local_y * t84 - cross_local_z * t83
+            - (b_x * t77 - b_y * t78 + b_z * t79);
+        let t92 = a_in_j_y * t89 - a_in_j_z * t88;
+        let t93 = rot_j_xx * t65 - rot_j_yx * t67 + rot_j_zx * t68;
+        let t94 = rot_j_zx * t3 - rot_j_zz * t1;
+        let t95 = rot_j_zx * a_in_j_z - rot_j_zz * a_in_j_x;
+        let t96 = rot_j_yx * t3 - rot_j_yz * t1;
+        let t97 = rot_j_yx * a_in_j_z - rot_j_yz * a_in_j_x;
+        let t98 = rot_j_xx * t3 - rot_j_xz * t1;
+        let t99 = rot_j_xx * a_in_j_z - rot_j_xz * a_in_j_x;
+        let t100 = a_y * t95 - a_z * t97;
+        let t101 = a_x * t95 - a_z * t99;
+        let t102 = a_x * t97 - a_y * t99;
+        let t103 = rot_j_xx * t80 - rot_j_yx * t81 + rot_j_zx * t82;
+        let t104 = cross_local_x * t69 - cross_local_z * t93
+            - (b_x * (a_y * t94 + t63 * t95 - (a_z * t96 + t64 * t97))
+                - b_y * (a_x * t94 + t66 * t95 - (a_z * t98 + t64 * t99))
+                + b_z * (a_x * t96 + t66 * t97 - (a_y * t98 + t63 * t99)))
+            - (t20 * t100 - t22 * t101 + t24 * t102 + (t103 * t19 - t84 * t17));
+        let t105 = rot_j_xx * t66 + rot_j_yx * t63 + rot_j_zx * t64;
+        let t106 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
+        let t107 = a_in_j_x * t86 - a_in_j_z * t105 - (t106 * t3 - t89 * t1);
+        let t108 = cross_local_x * t84 - cross_local_z * t103
+            - (b_x * t100 - b_y * t101 + b_z * t102);
+        let t109 = a_in_j_x * t89 - a_in_j_z * t106;
+        let t110 = rot_j_zx * t2 + rot_j_zy * t1;
+        let t111 = rot_j_zx * a_in_j_y - rot_j_zy * a_in_j_x;
+        let t112 = rot_j_yx * t2 + rot_j_yy * t1;
+        let t113 = rot_j_yx * a_in_j_y - rot_j_yy * a_in_j_x;
+        let t114 = rot_j_xx * t2 + rot_j_xy * t1;
+        let t115 = rot_j_xx * a_in_j_y - rot_j_xy * a_in_j_x;
+        let t116 = a_y * t111 - a_z * t113;
+        let t117 = a_x * t111 - a_z * t115;
+        let t118 = a_x * t113 - a_y * t115;
+        let t119 = cross_local_x * t70 - cross_local_y * t93
+            + (b_x * (a_y * t110 - t63 * t111 - (a_z * t112 - t64 * t113))
+                - b_y * (a_x * t110 - t66 * t111 - (a_z * t114 - t64 * t115))
+                + b_z * (a_x * t112 - t66 * t113 - (a_y * t114 - t63 * t115)))
+            - (t20 * t116 - t22 * t117 + t24 * t118 - (t103 * t18 + t83 * t17));
+        let t120 = a_in_j_x * t87 - a_in_j_y * t105 + (t106 * t2 + t88 * t1);
+        let t121 = cross_local_x * t83 - cross_local_y * t103
+            - (b_x * t116 - b_y * t117 + b_z * t118);
+        let t122 = a_in_j_x * t88 - a_in_j_y * t106;
+        out[0] = -(motion_cos * (cos_0 * t26 + sin_0 * t31)
+            + motion_cos_t * (cos_0 * t32 + sin_0 * t33)
+            + (motion_sin * (cos_0 * t31 - sin_0 * t26)
+                + motion_sin_t * (cos_0 * t33 - sin_0 * t32)));
+        out[1] = motion_cos * (cos_0 * t44 + sin_0 * t47)
+            + motion_cos_t * (cos_0 * t48 + sin_0 * t49)
+            + (motion_sin * (cos_0 * t47 - sin_0 * t44)
+                + motion_sin_t * (cos_0 * t49 - sin_0 * t48));
+        out[2] = -(motion_cos * (cos_0 * t59 + sin_0 * t60)
+            + motion_cos_t * (cos_0 * t61 + sin_0 * t62)
+            + (motion_sin * (cos_0 * t60 - sin_0 * t59)
+                + motion_sin_t * (cos_0 * t62 - sin_0 * t61)));
+        out[3] = motion_cos * (cos_0 * t85 - sin_0 * t90)
+            + motion_cos_t * (cos_0 * t91 - sin_0 * t92)
+            - (motion_sin * (cos_0 * t90 + sin_0 * t85)
+                + motion_sin_t * (cos_0 * t92 + sin_0 * t91));
+        out[4] = -(motion_cos * (cos_0 * t104 - sin_0 * t107)
+            + motion_cos_t * (cos_0 * t108 - sin_0 * t109)
+            - (motion_sin * (cos_0 * t107 + sin_0 * t104)
+                + motion_sin_t * (cos_0 * t109 + sin_0 * t108)));
+        out[5] = motion_cos * (cos_0 * t119 - sin_0 * t120)
+            + motion_cos_t * (cos_0 * t121 - sin_0 * t122)
+            - (motion_sin * (cos_0 * t120 + sin_0 * t119)
+                + motion_sin_t * (cos_0 * t122 + sin_0 * t121));
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 937 mul, 759 add, 4 neg.
+    fn d_residual_dp(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let out = &mut out[..19];
+        let rot_i_xx = x[0].rot[0][0];
+        let rot_i_xy = x[0].rot[0][1];
+        let rot_i_xz = x[0].rot[0][2];
+        let rot_i_yx = x[0].rot[1][0];
+        let rot_i_yy = x[0].rot[1][1];
+        let rot_i_yz = x[0].rot[1][2];
+        let rot_i_zx = x[0].rot[2][0];
+        let rot_i_zy = x[0].rot[2][1];
+        let rot_i_zz = x[0].rot[2][2];
+        let omega_i_x = v[0].omega[0];
+        let alpha_i_x = a[0].omega[0];
+        let omega_i_y = v[0].omega[1];
+        let alpha_i_y = a[0].omega[1];
+        let omega_i_z = v[0].omega[2];
+        let alpha_i_z = a[0].omega[2];
+        let rot_j_xx = x[1].rot[0][0];
+        let rot_j_xy = x[1].rot[0][1];
+        let rot_j_xz = x[1].rot[0][2];
+        let rot_j_yx = x[1].rot[1][0];
+        let rot_j_yy = x[1].rot[1][1];
+        let rot_j_yz = x[1].rot[1][2];
+        let rot_j_zx = x[1].rot[2][0];
+        let rot_j_zy = x[1].rot[2][1];
+        let rot_j_zz = x[1].rot[2][2];
+        let omega_j_x = v[1].omega[0];
+        let alpha_j_x = a[1].omega[0];
+        let omega_j_y = v[1].omega[1];
+        let alpha_j_y = a[1].omega[1];
+        let omega_j_z = v[1].omega[2];
+        let alpha_j_z = a[1].omega[2];
+        let axis_local_x = T::from(self.axis.xyz()[0]);
+        let axis_local_y = T::from(self.axis.xyz()[1]);
+        let axis_local_z = T::from(self.axis.xyz()[2]);
+        let cross_local_x = T::from(self.cross.xyz()[0]);
+        let cross_local_y = T::from(self.cross.xyz()[1]);
+        let cross_local_z = T::from(self.cross.xyz()[2]);
+        let motion_cos = f[0][0];
+        let motion_cos_t = f[0][1];
+        let motion_cos_tt = f[0][2];
+        let motion_sin = f[1][0];
+        let motion_sin_t = f[1][1];
+        let motion_sin_tt = f[1][2];
+        let cos_0 = T::from(self.measure_0[0]);
+        let sin_0 = T::from(self.measure_0[1]);
+        let lambda_0 = lambda[0];
+        let a_in_j_x = T::from(self.a_in_j[0]);
+        let a_in_j_y = T::from(self.a_in_j[1]);
+        let a_in_j_z = T::from(self.a_in_j[2]);
+        let t0 = rot_j_yx * a_in_j_x + rot_j_yy * a_in_j_y + rot_j_yz * a_in_j_z;
+        let t1 = rot_j_xx * a_in_j_x + rot_j_xy * a_in_j_y + rot_j_xz * a_in_j_z;
+        let t2 = rot_i_xx * t0 - rot_i_yx * t1;
+        let t3 = omega_j_x * cross_local_y - omega_j_y * cross_local_x;
+        let t4 = omega_j_x * cross_local_z - omega_j_z * cross_local_x;
+        let t5 = omega_j_y * t3 + omega_j_z * t4
+            + (alpha_j_y * cross_local_z - alpha_j_z * cross_local_y);
+        let t6 = omega_j_y * cross_local_z - omega_j_z * cross_local_y;
+        let t7 = omega_j_x * t3 - omega_j_z * t6
+            + (alpha_j_x * cross_local_z - alpha_j_z * cross_local_x);
+        let t8 = omega_j_x * t4 + omega_j_y * t6
+            - (alpha_j_x * cross_local_y - alpha_j_y * cross_local_x);
+        let t9 = rot_j_zx * t5 - rot_j_zy * t7 - rot_j_zz * t8;
+        let t10 = rot_j_zx * a_in_j_x + rot_j_zy * a_in_j_y + rot_j_zz * a_in_j_z;
+        let t11 = rot_i_xx * t10 - rot_i_zx * t1;
+        let t12 = rot_j_yx * t5 - rot_j_yy * t7 - rot_j_yz * t8;
+        let t13 = rot_i_yx * t10 - rot_i_zx * t0;
+        let t14 = rot_j_xx * t5 - rot_j_xy * t7 - rot_j_xz * t8;
+        let t15 = rot_j_xx * t6 - rot_j_xy * t4 + rot_j_xz * t3;
+        let t16 = omega_j_y * a_in_j_z - omega_j_z * a_in_j_y;
+        let t17 = omega_j_x * a_in_j_z - omega_j_z * a_in_j_x;
+        let t18 = omega_j_x * a_in_j_y - omega_j_y * a_in_j_x;
+        let t19 = rot_j_zx * t16 - rot_j_zy * t17 + rot_j_zz * t18;
+        let t20 = rot_i_yy * omega_i_z - rot_i_yz * omega_i_y;
+        let t21 = rot_j_yx * t16 - rot_j_yy * t17 + rot_j_yz * t18;
+        let t22 = rot_i_zy * omega_i_z - rot_i_zz * omega_i_y;
+        let t23 = rot_i_yx * t19 + t20 * t10 - (rot_i_zx * t21 + t22 * t0);
+        let t24 = rot_j_yx * t6 - rot_j_yy * t4 + rot_j_yz * t3;
+        let t25 = rot_i_xy * omega_i_z - rot_i_xz * omega_i_y;
+        let t26 = rot_j_xx * t16 - rot_j_xy * t17 + rot_j_xz * t18;
+        let t27 = rot_i_xx * t19 + t25 * t10 - (rot_i_zx * t26 + t22 * t1);
+        let t28 = rot_j_zx * t6 - rot_j_zy * t4 + rot_j_zz * t3;
+        let t29 = rot_i_xx * t21 + t25 * t0 - (rot_i_yx * t26 + t20 * t1);
+        let t30 = t15 * t23 - t24 * t27 + t28 * t29;
+        let b_x = rot_j_xx * cross_local_x + rot_j_xy * cross_local_y
+            + rot_j_xz * cross_local_z;
+        let t31 = omega_j_y * t18 + omega_j_z * t17
+            + (alpha_j_y * a_in_j_z - alpha_j_z * a_in_j_y);
+        let t32 = omega_j_x * t18 - omega_j_z * t16
+            + (alpha_j_x * a_in_j_z - alpha_j_z * a_in_j_x);
+        let t33 = omega_j_x * t17 + omega_j_y * t16
+            - (alpha_j_x * a_in_j_y - alpha_j_y * a_in_j_x);
+        let t34 = rot_j_zx * t31 - rot_j_zy * t32 - rot_j_zz * t33;
+        let t35 = t20 * t19;
+        let t36 = omega_i_y * omega_i_y;
+        let t37 = omega_i_z * omega_i_z;
+        let t38 = t36 + t37;
+        let t39 = omega_i_x * omega_i_y;
+        let t40 = alpha_i_z + t39;
+        let t41 = omega_i_x * omega_i_z;
+        let t42 = alpha_i_y - t41;
+        let t43 = rot_i_yx * t38 - rot_i_yy * t40 + rot_i_yz * t42;
+        let t44 = rot_j_yx * t31 - rot_j_yy * t32 - rot_j_yz * t33;
+        let t45 = t22 * t21;
+        let t46 = rot_i_zx * t38 - rot_i_zy * t40 + rot_i_zz * t42;
+        let b_y = rot_j_yx * cross_local_x + rot_j_yy * cross_local_y
+            + rot_j_yz * cross_local_z;
+        let t47 = t25 * t19;
+        let t48 = rot_i_xx * t38 - rot_i_xy * t40 + rot_i_xz * t42;
+        let t49 = rot_j_xx * t31 - rot_j_xy * t32 - rot_j_xz * t33;
+        let t50 = t22 * t26;
+        let b_z = rot_j_zx * cross_local_x + rot_j_zy * cross_local_y
+            + rot_j_zz * cross_local_z;
+        let t51 = t25 * t21;
+        let t52 = t20 * t26;
+        let t53 = t2 * t9 - t11 * t12 + t13 * t14 + t30
+            + (b_x
+                * (rot_i_yx * t34 + t35 - (t43 * t10 - t35)
+                    - (rot_i_zx * t44 + t45 - (t46 * t0 - t45)))
+                - b_y
+                    * (rot_i_xx * t34 + t47 - (t48 * t10 - t47)
+                        - (rot_i_zx * t49 + t50 - (t46 * t1 - t50)))
+                + b_z
+                    * (rot_i_xx * t44 + t51 - (t48 * t0 - t51)
+                        - (rot_i_yx * t49 + t52 - (t43 * t1 - t52))) + t30);
+        let t54 = rot_i_xx * t49 + rot_i_yx * t44 + rot_i_zx * t34;
+        let t55 = rot_i_xz * t26 + rot_i_yz * t21 + rot_i_zz * t19;
+        let t56 = rot_i_xy * t26 + rot_i_yy * t21 + rot_i_zy * t19;
+        let t57 = omega_i_y * t55 - omega_i_z * t56;
+        let t58 = rot_i_xz * t1 + rot_i_yz * t0 + rot_i_zz * t10;
+        let t59 = rot_i_xy * t1 + rot_i_yy * t0 + rot_i_zy * t10;
+        let t60 = rot_i_xx * t1 + rot_i_yx * t0 + rot_i_zx * t10;
+        let t61 = t54 - t57 - (t57 + (t42 * t58 - t40 * t59 + t60 * t38));
+        let t62 = t2 * t28 - t11 * t24 + t13 * t15 + (b_x * t23 - b_y * t27 + b_z * t29);
+        let t63 = rot_i_xx * t26 + rot_i_yx * t21 + rot_i_zx * t19;
+        let t64 = t63 - (omega_i_y * t58 - omega_i_z * t59);
+        let t65 = motion_cos_t * (cos_0 * t62 - sin_0 * t64);
+        let t66 = t2 * b_z - t11 * b_y + t13 * b_x;
+        let t67 = motion_sin_t * (cos_0 * t64 + sin_0 * t62);
+        let t68 = rot_i_xy * t0 - rot_i_yy * t1;
+        let t69 = rot_i_xy * t10 - rot_i_zy * t1;
+        let t70 = rot_i_yy * t10 - rot_i_zy * t0;
+        let t71 = rot_i_yx * omega_i_z - rot_i_yz * omega_i_x;
+        let t72 = rot_i_zx * omega_i_z - rot_i_zz * omega_i_x;
+        let t73 = rot_i_yy * t19 - t71 * t10 - (rot_i_zy * t21 - t72 * t0);
+        let t74 = rot_i_xx * omega_i_z - rot_i_xz * omega_i_x;
+        let t75 = rot_i_xy * t19 - t74 * t10 - (rot_i_zy * t26 - t72 * t1);
+        let t76 = rot_i_xy * t21 - t74 * t0 - (rot_i_yy * t26 - t71 * t1);
+        let t77 = t15 * t73 - t24 * t75 + t28 * t76;
+        let t78 = t71 * t19;
+        let t79 = alpha_i_z - t39;
+        let t80 = omega_i_x * omega_i_x;
+        let t81 = t80 + t37;
+        let t82 = omega_i_y * omega_i_z;
+        let t83 = alpha_i_x + t82;
+        let t84 = rot_i_yx * t79 + rot_i_yy * t81 - rot_i_yz * t83;
+        let t85 = t72 * t21;
+        let t86 = rot_i_zx * t79 + rot_i_zy * t81 - rot_i_zz * t83;
+        let t87 = t74 * t19;
+        let t88 = rot_i_xx * t79 + rot_i_xy * t81 - rot_i_xz * t83;
+        let t89 = t72 * t26;
+        let t90 = t74 * t21;
+        let t91 = t71 * t26;
+        let t92 = t68 * t9 - t69 * t12 + t70 * t14 + t77
+            + (b_x
+                * (rot_i_yy * t34 - t78 - (t78 + t84 * t10)
+                    - (rot_i_zy * t44 - t85 - (t85 + t86 * t0)))
+                - b_y
+                    * (rot_i_xy * t34 - t87 - (t87 + t88 * t10)
+                        - (rot_i_zy * t49 - t89 - (t89 + t86 * t1)))
+                + b_z
+                    * (rot_i_xy * t44 - t90 - (t90 + t88 * t0)
+                        - (rot_i_yy * t49 - t91 - (t91 + t84 * t1))) + t77);
+        let t93 = rot_i_xy * t49 + rot_i_yy * t44 + rot_i_zy * t34;
+        let t94 = omega_i_x * t55 - omega_i_z * t63;
+        let t95 = t93 + t94 + (t94 + (t83 * t58 - t79 * t60 - t59 * t81));
+        let t96 = t68 * t28 - t69 * t24 + t70 * t15
+            + (b_x * t73 - b_y * t75 + b_z * t76);
+        let t97 = t56 + (omega_i_x * t58 - omega_i_z * t60);
+        let t98 = motion_cos_t * (cos_0 * t96 - sin_0 * t97);
+        let t99 = t68 * b_z - t69 * b_y + t70 * b_x;
+        let t100 = motion_sin_t * (cos_0 * t97 + sin_0 * t96);
+        let t101 = rot_i_xz * t0 - rot_i_yz * t1;
+        let t102 = rot_i_xz * t10 - rot_i_zz * t1;
+        let t103 = rot_i_yz * t10 - rot_i_zz * t0;
+        let t104 = rot_i_yx * omega_i_y - rot_i_yy * omega_i_x;
+        let t105 = rot_i_zx * omega_i_y - rot_i_zy * omega_i_x;
+        let t106 = rot_i_yz * t19 + t104 * t10 - (rot_i_zz * t21 + t105 * t0);
+        let t107 = rot_i_xx * omega_i_y - rot_i_xy * omega_i_x;
+        let t108 = rot_i_xz * t19 + t107 * t10 - (rot_i_zz * t26 + t105 * t1);
+        let t109 = rot_i_xz * t21 + t107 * t0 - (rot_i_yz * t26 + t104 * t1);
+        let t110 = t15 * t106 - t24 * t108 + t28 * t109;
+        let t111 = t104 * t19;
+        let t112 = alpha_i_y + t41;
+        let t113 = alpha_i_x - t82;
+        let t114 = t80 + t36;
+        let t115 = rot_i_yx * t112 - rot_i_yy * t113 - rot_i_yz * t114;
+        let t116 = t105 * t21;
+        let t117 = rot_i_zx * t112 - rot_i_zy * t113 - rot_i_zz * t114;
+        let t118 = t107 * t19;
+        let t119 = rot_i_xx * t112 - rot_i_xy * t113 - rot_i_xz * t114;
+        let t120 = t105 * t26;
+        let t121 = t107 * t21;
+        let t122 = t104 * t26;
+        let t123 = t101 * t9 - t102 * t12 + t103 * t14 + t110
+            + (b_x
+                * (rot_i_yz * t34 + t111 + (t111 + t115 * t10)
+                    - (rot_i_zz * t44 + t116 + (t116 + t117 * t0)))
+                - b_y
+                    * (rot_i_xz * t34 + t118 + (t118 + t119 * t10)
+                        - (rot_i_zz * t49 + t120 + (t120 + t117 * t1)))
+                + b_z
+                    * (rot_i_xz * t44 + t121 + (t121 + t119 * t0)
+                        - (rot_i_yz * t49 + t122 + (t122 + t115 * t1))) + t110);
+        let t124 = rot_i_xz * t49 + rot_i_yz * t44 + rot_i_zz * t34;
+        let t125 = omega_i_x * t56 - omega_i_y * t63;
+        let t126 = t124 - t125 - (t125 + (t113 * t59 - t112 * t60 + t58 * t114));
+        let t127 = t101 * t28 - t102 * t24 + t103 * t15
+            + (b_x * t106 - b_y * t108 + b_z * t109);
+        let t128 = t55 - (omega_i_x * t59 - omega_i_y * t60);
+        let t129 = motion_cos_t * (cos_0 * t127 - sin_0 * t128);
+        let t130 = t101 * b_z - t102 * b_y + t103 * b_x;
+        let t131 = motion_sin_t * (cos_0 * t128 + sin_0 * t127);
+        let a_y = rot_i_yx * axis_local_x + rot_i_yy * axis_local_y
+            + rot_i_yz * axis_local_z;
+        let t132 = omega_i_y * axis_local_z - omega_i_z * axis_local_y;
+        let t133 = omega_i_x * axis_local_z - omega_i_z * axis_local_x;
+        let t134 = omega_i_x * axis_local_y - omega_i_y * axis_local_x;
+        let t135 = rot_i_yx * t132 - rot_i_yy * t133 + rot_i_yz * t134;
+        let t136 = t135 * t19;
+        let t137 = omega_i_y * t134 + omega_i_z * t133
+            + (alpha_i_y * axis_local_z - alpha_i_z * axis_local_y);
+        let t138 = omega_i_x * t134 - omega_i_z * t132
+            + (alpha_i_x * axis_local_z - alpha_i_z * axis_local_x);
+        let t139 = omega_i_x * t133 + omega_i_y * t132
+            - (alpha_i_x * axis_local_y - alpha_i_y * axis_local_x);
+        let t140 = rot_i_yx * t137 - rot_i_yy * t138 - rot_i_yz * t139;
+        let a_z = rot_i_zx * axis_local_x + rot_i_zy * axis_local_y
+            + rot_i_zz * axis_local_z;
+        let t141 = rot_i_zx * t132 - rot_i_zy * t133 + rot_i_zz * t134;
+        let t142 = t141 * t21;
+        let t143 = rot_i_zx * t137 - rot_i_zy * t138 - rot_i_zz * t139;
+        let t144 = a_y * t34 + t136 + (t136 + t140 * t10)
+            - (a_z * t44 + t142 + (t142 + t143 * t0));
+        let a_x = rot_i_xx * axis_local_x + rot_i_xy * axis_local_y
+            + rot_i_xz * axis_local_z;
+        let t145 = rot_i_xx * t132 - rot_i_xy * t133 + rot_i_xz * t134;
+        let t146 = t145 * t19;
+        let t147 = rot_i_xx * t137 - rot_i_xy * t138 - rot_i_xz * t139;
+        let t148 = t141 * t26;
+        let t149 = a_x * t34 + t146 + (t146 + t147 * t10)
+            - (a_z * t49 + t148 + (t148 + t143 * t1));
+        let t150 = t145 * t21;
+        let t151 = t135 * t26;
+        let t152 = a_x * t44 + t150 + (t150 + t147 * t0)
+            - (a_y * t49 + t151 + (t151 + t140 * t1));
+        let t153 = a_y * t19 + t135 * t10 - (a_z * t21 + t141 * t0);
+        let t154 = a_x * t19 + t145 * t10 - (a_z * t26 + t141 * t1);
+        let t155 = a_x * t21 + t145 * t0 - (a_y * t26 + t135 * t1);
+        let t156 = rot_j_xz * t153 - rot_j_yz * t154 + rot_j_zz * t155;
+        let t157 = rot_j_xy * t153 - rot_j_yy * t154 + rot_j_zy * t155;
+        let t158 = omega_j_y * t156 - omega_j_z * t157;
+        let t159 = omega_j_x * omega_j_z;
+        let t160 = alpha_j_y - t159;
+        let t161 = a_y * t10 - a_z * t0;
+        let t162 = a_x * t10 - a_z * t1;
+        let t163 = a_x * t0 - a_y * t1;
+        let t164 = rot_j_xz * t161 - rot_j_yz * t162 + rot_j_zz * t163;
+        let t165 = omega_j_x * omega_j_y;
+        let t166 = alpha_j_z + t165;
+        let t167 = rot_j_xy * t161 - rot_j_yy * t162 + rot_j_zy * t163;
+        let t168 = rot_j_xx * t161 - rot_j_yx * t162 + rot_j_zx * t163;
+        let t169 = omega_j_y * omega_j_y;
+        let t170 = omega_j_z * omega_j_z;
+        let t171 = t169 + t170;
+        let t172 = rot_j_xx * t144 - rot_j_yx * t149 + rot_j_zx * t152 - t158
+            - (t158 + (t160 * t164 - t166 * t167 + t168 * t171));
+        let t173 = rot_j_xx * t153 - rot_j_yx * t154 + rot_j_zx * t155;
+        let t174 = t173 - (omega_j_y * t164 - omega_j_z * t167);
+        let t175 = motion_cos_t * t174;
+        let t176 = motion_sin_t * t174;
+        let t177 = omega_j_x * t156 - omega_j_z * t173;
+        let t178 = omega_j_y * omega_j_z;
+        let t179 = alpha_j_x + t178;
+        let t180 = alpha_j_z - t165;
+        let t181 = omega_j_x * omega_j_x;
+        let t182 = t181 + t170;
+        let t183 = rot_j_xy * t144 - rot_j_yy * t149 + rot_j_zy * t152 + t177
+            + (t177 + (t179 * t164 - t180 * t168 - t167 * t182));
+        let t184 = t157 + (omega_j_x * t164 - omega_j_z * t168);
+        let t185 = motion_cos_t * t184;
+        let t186 = motion_sin_t * t184;
+        let t187 = omega_j_x * t157 - omega_j_y * t173;
+        let t188 = alpha_j_x - t178;
+        let t189 = alpha_j_y + t159;
+        let t190 = t181 + t169;
+        let t191 = rot_j_xz * t144 - rot_j_yz * t149 + rot_j_zz * t152 - t187
+            - (t187 + (t188 * t167 - t189 * t168 + t164 * t190));
+        let t192 = t156 - (omega_j_x * t167 - omega_j_y * t168);
+        let t193 = motion_cos_t * t192;
+        let t194 = motion_sin_t * t192;
+        let t195 = rot_j_yy * omega_j_z - rot_j_yz * omega_j_y;
+        let t196 = t141 * t195;
+        let t197 = rot_j_yx * t171 - rot_j_yy * t166 + rot_j_yz * t160;
+        let t198 = rot_j_zy * omega_j_z - rot_j_zz * omega_j_y;
+        let t199 = t135 * t198;
+        let t200 = rot_j_zx * t171 - rot_j_zy * t166 + rot_j_zz * t160;
+        let t201 = rot_j_xy * omega_j_z - rot_j_xz * omega_j_y;
+        let t202 = t141 * t201;
+        let t203 = rot_j_xx * t171 - rot_j_xy * t166 + rot_j_xz * t160;
+        let t204 = t145 * t198;
+        let t205 = t135 * t201;
+        let t206 = t145 * t195;
+        let t207 = rot_j_yx * t141 + a_z * t195 - (rot_j_zx * t135 + a_y * t198);
+        let t208 = rot_j_xx * t141 + a_z * t201 - (rot_j_zx * t145 + a_x * t198);
+        let t209 = rot_j_xx * t135 + a_y * t201 - (rot_j_yx * t145 + a_x * t195);
+        let t210 = t15 * t207 - t24 * t208 + t28 * t209;
+        let t211 = rot_j_xx * a_y - rot_j_yx * a_x;
+        let t212 = rot_j_xx * a_z - rot_j_zx * a_x;
+        let t213 = rot_j_yx * a_z - rot_j_zx * a_y;
+        let t214 = b_x
+            * (rot_j_yx * t143 + t196 - (a_z * t197 - t196)
+                - (rot_j_zx * t140 + t199 - (a_y * t200 - t199)))
+            - b_y
+                * (rot_j_xx * t143 + t202 - (a_z * t203 - t202)
+                    - (rot_j_zx * t147 + t204 - (a_x * t200 - t204)))
+            + b_z
+                * (rot_j_xx * t140 + t205 - (a_y * t203 - t205)
+                    - (rot_j_yx * t147 + t206 - (a_x * t197 - t206))) + t210
+            + (t211 * t9 - t212 * t12 + t14 * t213 + t210);
+        let t215 = rot_j_xz * t145 + rot_j_yz * t135 + rot_j_zz * t141;
+        let t216 = rot_j_xy * t145 + rot_j_yy * t135 + rot_j_zy * t141;
+        let t217 = omega_j_y * t215 - omega_j_z * t216;
+        let t218 = rot_j_xz * a_x + rot_j_yz * a_y + rot_j_zz * a_z;
+        let t219 = rot_j_xy * a_x + rot_j_yy * a_y + rot_j_zy * a_z;
+        let t220 = rot_j_xx * a_x + rot_j_yx * a_y + rot_j_zx * a_z;
+        let t221 = rot_j_xx * t147 + rot_j_yx * t140 + rot_j_zx * t143 - t217
+            - (t217 + (t160 * t218 - t166 * t219 + t220 * t171));
+        let t222 = b_x * t207 - b_y * t208 + b_z * t209
+            + (t211 * t28 - t212 * t24 + t15 * t213);
+        let t223 = rot_j_xx * t145 + rot_j_yx * t135 + rot_j_zx * t141;
+        let t224 = t223 - (omega_j_y * t218 - omega_j_z * t219);
+        let t225 = motion_cos_t * (cos_0 * t222 + sin_0 * t224);
+        let t226 = b_x * t213 + t211 * b_z - t212 * b_y;
+        let t227 = motion_sin_t * (cos_0 * t224 - sin_0 * t222);
+        let t228 = rot_j_yx * omega_j_z - rot_j_yz * omega_j_x;
+        let t229 = t141 * t228;
+        let t230 = rot_j_yx * t180 + rot_j_yy * t182 - rot_j_yz * t179;
+        let t231 = rot_j_zx * omega_j_z - rot_j_zz * omega_j_x;
+        let t232 = t135 * t231;
+        let t233 = rot_j_zx * t180 + rot_j_zy * t182 - rot_j_zz * t179;
+        let t234 = rot_j_xx * omega_j_z - rot_j_xz * omega_j_x;
+        let t235 = t141 * t234;
+        let t236 = rot_j_xx * t180 + rot_j_xy * t182 - rot_j_xz * t179;
+        let t237 = t145 * t231;
+        let t238 = t135 * t234;
+        let t239 = t145 * t228;
+        let t240 = rot_j_yy * t141 - a_z * t228 - (rot_j_zy * t135 - a_y * t231);
+        let t241 = rot_j_xy * t141 - a_z * t234 - (rot_j_zy * t145 - a_x * t231);
+        let t242 = rot_j_xy * t135 - a_y * t234 - (rot_j_yy * t145 - a_x * t228);
+        let t243 = t15 * t240 - t24 * t241 + t28 * t242;
+        let t244 = rot_j_yy * a_z - rot_j_zy * a_y;
+        let t245 = rot_j_xy * a_y - rot_j_yy * a_x;
+        let t246 = rot_j_xy * a_z - rot_j_zy * a_x;
+        let t247 = b_x
+            * (rot_j_yy * t143 - t229 - (a_z * t230 + t229)
+                - (rot_j_zy * t140 - t232 - (a_y * t233 + t232)))
+            - b_y
+                * (rot_j_xy * t143 - t235 - (a_z * t236 + t235)
+                    - (rot_j_zy * t147 - t237 - (a_x * t233 + t237)))
+            + b_z
+                * (rot_j_xy * t140 - t238 - (a_y * t236 + t238)
+                    - (rot_j_yy * t147 - t239 - (a_x * t230 + t239))) + t243
+            + (t243 + (t14 * t244 + t245 * t9 - t246 * t12));
+        let t248 = omega_j_x * t215 - omega_j_z * t223;
+        let t249 = rot_j_xy * t147 + rot_j_yy * t140 + rot_j_zy * t143 + t248
+            + (t248 + (t179 * t218 - t180 * t220 - t219 * t182));
+        let t250 = b_x * t240 - b_y * t241 + b_z * t242
+            + (t15 * t244 + t245 * t28 - t246 * t24);
+        let t251 = t216 + (omega_j_x * t218 - omega_j_z * t220);
+        let t252 = motion_cos_t * (cos_0 * t250 + sin_0 * t251);
+        let t253 = b_x * t244 + t245 * b_z - t246 * b_y;
+        let t254 = motion_sin_t * (cos_0 * t251 - sin_0 * t250);
+        let t255 = rot_j_yx * omega_j_y - rot_j_yy * omega_j_x;
+        let t256 = t141 * t255;
+        let t257 = rot_j_yx * t189 - rot_j_yy * t188 - rot_j_yz * t190;
+        let t258 = rot_j_zx * omega_j_y - rot_j_zy * omega_j_x;
+        let t259 = t135 * t258;
+        let t260 = rot_j_zx * t189 - rot_j_zy * t188 - rot_j_zz * t190;
+        let t261 = rot_j_xx * omega_j_y - rot_j_xy * omega_j_x;
+        let t262 = t141 * t261;
+        let t263 = rot_j_xx * t189 - rot_j_xy * t188 - rot_j_xz * t190;
+        let t264 = t145 * t258;
+        let t265 = t135 * t261;
+        let t266 = t145 * t255;
+        let t267 = rot_j_yz * t141 + a_z * t255 - (rot_j_zz * t135 + a_y * t258);
+        let t268 = rot_j_xz * t141 + a_z * t261 - (rot_j_zz * t145 + a_x * t258);
+        let t269 = rot_j_xz * t135 + a_y * t261 - (rot_j_yz * t145 + a_x * t255);
+        let t270 = t15 * t267 - t24 * t268 + t28 * t269;
+        let t271 = rot_j_yz * a_z - rot_j_zz * a_y;
+        let t272 = rot_j_xz * a_y - rot_j_yz * a_x;
+        let t273 = rot_j_xz * a_z - rot_j_zz * a_x;
+        let t274 = b_x
+            * (rot_j_yz * t143 + t256 + (a_z * t257 + t256)
+                - (rot_j_zz * t140 + t259 + (a_y * t260 + t259)))
+            - b_y
+                * (rot_j_xz * t143 + t262 + (a_z * t263 + t262)
+                    - (rot_j_zz * t147 + t264 + (a_x * t260 + t264)))
+            + b_z
+                * (rot_j_xz * t140 + t265 + (a_y * t263 + t265)
+                    - (rot_j_yz * t147 + t266 + (a_x * t257 + t266))) + t270
+            + (t270 + (t14 * t271 + t272 * t9 - t273 * t12));
+        let t275 = omega_j_x * t216 - omega_j_y * t223;
+        let t276 = rot_j_xz * t147 + rot_j_yz * t140 + rot_j_zz * t143 - t275
+            - (t275 + (t188 * t219 - t189 * t220 + t218 * t190));
+        let t277 = b_x * t267 - b_y * t268 + b_z * t269
+            + (t15 * t271 + t272 * t28 - t273 * t24);
+        let t278 = t215 - (omega_j_x * t219 - omega_j_y * t220);
+        let t279 = motion_cos_t * (cos_0 * t277 + sin_0 * t278);
+        let t280 = b_x * t271 + t272 * b_z - t273 * b_y;
+        let t281 = motion_sin_t * (cos_0 * t278 - sin_0 * t277);
+        let t282 = t63 * t132 - t56 * t133 + t55 * t134;
+        let t283 = axis_local_x * t54 + axis_local_y * t93 + axis_local_z * t124 + t282
+            + (t60 * t137 - t59 * t138 - t58 * t139 + t282);
+        let t284 = t15 * t153 - t24 * t154 + t28 * t155;
+        let t285 = b_x * t144 - b_y * t149 + b_z * t152 + t284
+            + (t284 + (t14 * t161 - t12 * t162 + t9 * t163));
+        let t286 = axis_local_x * t63 + axis_local_y * t56 + axis_local_z * t55
+            + (t60 * t132 - t59 * t133 + t58 * t134);
+        let t287 = b_x * t153 - b_y * t154 + b_z * t155
+            + (t15 * t161 - t24 * t162 + t28 * t163);
+        let t288 = motion_cos_t * (cos_0 * t286 + sin_0 * t287);
+        let t289 = axis_local_x * t60 + axis_local_y * t59 + axis_local_z * t58;
+        let t290 = cross_local_x * t168 + cross_local_y * t167 + cross_local_z * t164;
+        let t291 = motion_sin_t * (cos_0 * t287 - sin_0 * t286);
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+        out[4] = T::from(0.0);
+        out[5] = T::from(0.0);
+        out[6] = lambda_0
+            * (motion_cos * (cos_0 * t53 - sin_0 * t61) + t65
+                + (t65 + motion_cos_tt * (cos_0 * t66 - sin_0 * t60))
+                - (motion_sin * (cos_0 * t61 + sin_0 * t53) + t67
+                    + (t67 + motion_sin_tt * (cos_0 * t60 + sin_0 * t66))));
+        out[7] = lambda_0
+            * (motion_cos * (cos_0 * t92 - sin_0 * t95) + t98
+                + (t98 + motion_cos_tt * (cos_0 * t99 - sin_0 * t59))
+                - (motion_sin * (cos_0 * t95 + sin_0 * t92) + t100
+                    + (t100 + motion_sin_tt * (cos_0 * t59 + sin_0 * t99))));
+        out[8] = lambda_0
+            * (motion_cos * (cos_0 * t123 - sin_0 * t126) + t129
+                + (t129 + motion_cos_tt * (cos_0 * t130 - sin_0 * t58))
+                - (motion_sin * (cos_0 * t126 + sin_0 * t123) + t131
+                    + (t131 + motion_sin_tt * (cos_0 * t58 + sin_0 * t130))));
+        out[9] = lambda_0
+            * (cos_0 * (motion_cos * t172 + t175 + (t175 + motion_cos_tt * t168))
+                - sin_0 * (motion_sin * t172 + t176 + (t176 + motion_sin_tt * t168)));
+        out[10] = lambda_0
+            * (cos_0 * (motion_cos * t183 + t185 + (t185 + motion_cos_tt * t167))
+                - sin_0 * (motion_sin * t183 + t186 + (t186 + motion_sin_tt * t167)));
+        out[11] = lambda_0
+            * (cos_0 * (motion_cos * t191 + t193 + (t193 + motion_cos_tt * t164))
+                - sin_0 * (motion_sin * t191 + t194 + (t194 + motion_sin_tt * t164)));
+        out[12] = T::from(0.0);
+        out[13] = T::from(0.0);
+        out[14] = T::from(0.0);
+        out[15] = -(lambda_0
+            * (motion_cos * (cos_0 * t214 + sin_0 * t221) + t225
+                + (t225 + motion_cos_tt * (cos_0 * t226 + sin_0 * t220))
+                + (motion_sin * (cos_0 * t221 - sin_0 * t214) + t227
+                    + (t227 + motion_sin_tt * (cos_0 * t220 - sin_0 * t226)))));
+        out[16] = -(lambda_0
+            * (motion_cos * (cos_0 * t247 + sin_0 * t249) + t252
+                + (t252 + motion_cos_tt * (cos_0 * t253 + sin_0 * t219))
+                + (motion_sin * (cos_0 * t249 - sin_0 * t247) + t254
+                    + (t254 + motion_sin_tt * (cos_0 * t219 - sin_0 * t253)))));
+        out[17] = -(lambda_0
+            * (motion_cos * (cos_0 * t274 + sin_0 * t276) + t279
+                + (t279 + motion_cos_tt * (cos_0 * t280 + sin_0 * t218))
+                + (motion_sin * (cos_0 * t276 - sin_0 * t274) + t281
+                    + (t281 + motion_sin_tt * (cos_0 * t218 - sin_0 * t280)))));
+        out[18] = -(lambda_0
+            * (motion_cos * (cos_0 * t283 + sin_0 * t285) + t288
+                + (t288 + motion_cos_tt * (cos_0 * t289 + sin_0 * t290))
+                + (motion_sin * (cos_0 * t285 - sin_0 * t283) + t291
+                    + (t291 + motion_sin_tt * (cos_0 * t290 - sin_0 * t289)))));
     }
 }

@@ -1,0 +1,337 @@
+//! The kernels of couplings against differences, at poses that need not satisfy their joints.
+
+use joints::space3::{
+    Axes, CylindricalAngleDrive, CylindricalDisplacementDrive, Pose, RevoluteAngleDrive, Twist,
+};
+use joints::{Constraint, Space3};
+
+use super::*;
+use crate::BodyRef::{Body, Ground};
+use crate::space::SpaceKind;
+
+/// Central differences: an error of H² and of rounding divided by H.
+const H: f64 = 1e-5;
+const CLOSE: f64 = 2e-8;
+
+type Kernels = Box<dyn ConstraintKernels<Space3>>;
+
+fn triad(axis: [f64; 3], across: [f64; 3]) -> Axes {
+    Axes::new(axis, Some(across)).expect("axes")
+}
+
+fn arguments() -> Vec<joints::Argument> {
+    use joints::Argument as A;
+    vec![
+        A::Triple([0.3, -0.2, 0.5]),
+        A::Triple([-0.1, 0.4, 0.2]),
+        A::Axes(triad([0.2, 0.9, -0.4], [1.0, 0.1, 0.3])),
+        A::Axes(triad([-0.5, 0.3, 0.8], [0.2, 1.0, 0.0])),
+        A::Absent,
+    ]
+}
+
+fn drive<K: Constraint<Space3>>() -> Kernels {
+    Box::new(K::from_arguments(&arguments()).expect("arguments"))
+}
+
+/// Couplings of an angle with an angle and with a length, with and without a common body.
+fn couplings() -> Vec<Placed<Space3>> {
+    let angle = drive::<RevoluteAngleDrive>;
+    let length = drive::<CylindricalDisplacementDrive>;
+    let other = drive::<CylindricalAngleDrive>;
+    let placed = [
+        couple(
+            [
+                (vec![Body(0), Body(1)], angle()),
+                (vec![Body(2), Body(3)], length()),
+            ],
+            &[0.7, -0.2, 0.05],
+        ),
+        couple(
+            [
+                (vec![Body(0), Body(1)], length()),
+                (vec![Body(1), Body(2)], angle()),
+            ],
+            &[-1.3],
+        ),
+        couple(
+            [
+                (vec![Ground, Body(1)], angle()),
+                (vec![Ground, Body(2)], other()),
+            ],
+            &[0.4, 0.3],
+        ),
+    ];
+    placed.into_iter().map(|p| p.expect("coupled")).collect()
+}
+
+/// A number between −1 and 1 for each seed.
+fn noise(seed: usize) -> f64 {
+    (seed as f64 * 12.9898 + 4.1).sin()
+}
+
+/// Poses and twists of some slots, and how poses move.
+struct State {
+    q: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+}
+
+impl State {
+    fn new(slots: usize, seed: usize) -> Self {
+        let quaternion = |k: usize| if k % 7 < 3 { 0.0 } else { 0.4 };
+        Self {
+            q: (0..7 * slots)
+                .map(|k| noise(seed + k) + quaternion(k))
+                .collect(),
+            v: (0..6 * slots).map(|k| noise(2 * seed + k + 100)).collect(),
+            a: (0..6 * slots).map(|k| noise(3 * seed + k + 200)).collect(),
+        }
+    }
+
+    fn poses(&self, d: &[f64]) -> Vec<Pose> {
+        let q = SpaceKind::Space3.displaced(&self.q, 1.0, d);
+        let pose = |q: &[f64]| Pose::new([q[0], q[1], q[2]], [q[3], q[4], q[5], q[6]]);
+        q.chunks(7).map(pose).collect()
+    }
+
+    fn still(&self) -> Vec<f64> {
+        vec![0.0; self.v.len()]
+    }
+}
+
+fn twists(v: &[f64]) -> Vec<Twist> {
+    let twist = |v: &[f64]| Twist {
+        v: [v[0], v[1], v[2]],
+        omega: [v[3], v[4], v[5]],
+    };
+    v.chunks(6).map(twist).collect()
+}
+
+fn given(turns: usize) -> Vec<[f64; 3]> {
+    let of = |k: usize| {
+        let angle = 9.0 * noise(17 * k + 3);
+        [
+            [angle, 0.0, 0.0],
+            [angle.cos(), 0.0, 0.0],
+            [angle.sin(), 0.0, 0.0],
+        ]
+    };
+    (0..turns).flat_map(of).collect()
+}
+
+struct Case {
+    kernels: Kernels,
+    state: State,
+    f: Vec<[f64; 3]>,
+}
+
+impl Case {
+    fn dense(&self, x: &[Pose]) -> Vec<f64> {
+        let spec = self.kernels.spec();
+        let mut values = vec![0.0; spec.c.len()];
+        self.kernels.c(x, &self.f, &mut values);
+        let mut row = vec![0.0; self.state.v.len()];
+        for (e, value) in spec.c.iter().zip(values) {
+            row[6 * e.slot + e.dof] += value;
+        }
+        row
+    }
+
+    fn phi(&self, x: &[Pose]) -> f64 {
+        let mut phi = [0.0];
+        self.kernels.phi(x, &self.f, &mut phi);
+        phi[0]
+    }
+
+    fn gamma(&self, x: &[Pose], v: &[f64]) -> f64 {
+        let mut gamma = [0.0];
+        self.kernels.gamma(x, &twists(v), &self.f, &mut gamma);
+        gamma[0]
+    }
+
+    fn residual(&self, x: &[Pose]) -> f64 {
+        dot(&self.dense(x), &self.state.a) - self.gamma(x, &self.state.v)
+    }
+
+    fn unit(&self, k: usize, h: f64) -> Vec<f64> {
+        let mut d = self.state.still();
+        d[k] = h;
+        d
+    }
+
+    /// A slope along each column of the block.
+    fn slopes(&self, f: impl Fn(&[Pose]) -> f64) -> Vec<f64> {
+        let along = |k| {
+            let at = |h| f(&self.state.poses(&self.unit(k, h)));
+            (at(H) - at(-H)) / (2.0 * H)
+        };
+        (0..self.state.v.len()).map(along).collect()
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn close(found: &[f64], expected: &[f64], what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (k, (a, b)) in found.iter().zip(expected).enumerate() {
+        assert!(
+            (a - b).abs() < CLOSE * b.abs().max(1.0),
+            "{what} {k}: {a}, by differences {b}"
+        );
+    }
+}
+
+fn cases() -> Vec<Case> {
+    let case = |(seed, (bodies, mut kernels)): (usize, Placed<Space3>)| {
+        let n = bodies.len();
+        let start = State::new(n, 31 * seed + 7);
+        kernels.initialise(&start.poses(&start.still()));
+        Case {
+            f: given(kernels.spec().turns),
+            state: State::new(n, 57 * seed + 11),
+            kernels,
+        }
+    };
+    couplings().into_iter().enumerate().map(case).collect()
+}
+
+/// A row of the block from a sparse one.
+fn row(pattern: &[[usize; 2]], values: &[f64], columns: usize) -> Vec<f64> {
+    let mut row = vec![0.0; columns];
+    for (&[_, k], value) in pattern.iter().zip(values) {
+        row[k] += value;
+    }
+    row
+}
+
+#[test]
+fn kernels_agree_with_differences() {
+    for (number, case) in cases().iter().enumerate() {
+        let (state, kernels, spec) = (&case.state, &case.kernels, case.kernels.spec());
+        let (x, n) = (state.poses(&state.still()), state.v.len());
+        let (v, a) = (twists(&state.v), twists(&state.a));
+        let what = |name: &str| format!("coupling {number}: {name}");
+        close(&case.dense(&x), &case.slopes(|x| case.phi(x)), &what("C"));
+        // Γ = −d(C·v)/dt along x + τ·v.
+        let moved = |h: f64| {
+            let d: Vec<f64> = state.v.iter().map(|v| h * v).collect();
+            dot(&case.dense(&state.poses(&d)), &state.v)
+        };
+        let expected = -(moved(H) - moved(-H)) / (2.0 * H);
+        close(&[case.gamma(&x, &state.v)], &[expected], &what("Γ"));
+        let mut values = vec![0.0; spec.d_velocity_dx.len()];
+        kernels.d_velocity_dx(&x, &v, &case.f, &mut values);
+        let expected = case.slopes(|x| dot(&case.dense(x), &state.v));
+        close(
+            &row(spec.d_velocity_dx, &values, n),
+            &expected,
+            &what("∂(C·v)/∂x"),
+        );
+        let mut values = vec![0.0; spec.d_residual_dx.len()];
+        kernels.d_residual_dx(&x, &v, &a, &case.f, &mut values);
+        let expected = case.slopes(|x| case.residual(x));
+        close(
+            &row(spec.d_residual_dx, &values, n),
+            &expected,
+            &what("∂(C·a − Γ)/∂x"),
+        );
+        let mut values = vec![0.0; spec.d_gamma_dv.len()];
+        kernels.d_gamma_dv(&x, &v, &case.f, &mut values);
+        let by_v = |k: usize| {
+            let at = |h: f64| {
+                let mut v = state.v.clone();
+                v[k] += h;
+                case.gamma(&x, &v)
+            };
+            (at(H) - at(-H)) / (2.0 * H)
+        };
+        let expected: Vec<f64> = (0..n).map(by_v).collect();
+        close(&row(spec.d_gamma_dv, &values, n), &expected, &what("∂Γ/∂v"));
+        let mut values = vec![0.0; spec.d_force_dx.len()];
+        kernels.d_force_dx(&x, &case.f, &[1.7], &mut values);
+        for i in 0..n {
+            let own = spec
+                .d_force_dx
+                .iter()
+                .zip(&values)
+                .filter(|(pair, _)| pair[0] == i);
+            let (pattern, values): (Vec<[usize; 2]>, Vec<f64>) = own.map(|(p, v)| (*p, *v)).unzip();
+            let expected = case.slopes(|x| 1.7 * case.dense(x)[i]);
+            close(&row(&pattern, &values, n), &expected, &what("∂(Cᵀλ)/∂x"));
+        }
+    }
+}
+
+#[test]
+fn derivatives_by_data_agree_with_differences() {
+    for (number, case) in cases().iter().enumerate() {
+        let (state, kernels, spec) = (&case.state, &case.kernels, case.kernels.spec());
+        let x = state.poses(&state.still());
+        let (v, a) = (twists(&state.v), twists(&state.a));
+        let mut numbers = vec![0.0; spec.n_data()];
+        kernels.data(&mut numbers);
+        let slopes = |f: &dyn Fn(&Case) -> f64| -> Vec<f64> {
+            let along = |k: usize| {
+                let at = |h: f64| {
+                    let mut other = numbers.clone();
+                    other[k] += h;
+                    let mut kernels = kernels.boxed();
+                    kernels.set_data(&other);
+                    f(&Case {
+                        kernels,
+                        state: State {
+                            q: state.q.clone(),
+                            v: state.v.clone(),
+                            a: state.a.clone(),
+                        },
+                        f: case.f.clone(),
+                    })
+                };
+                (at(H) - at(-H)) / (2.0 * H)
+            };
+            (0..numbers.len()).map(along).collect()
+        };
+        let mut found = vec![0.0; numbers.len()];
+        kernels.d_phi_dp(&x, &case.f, &[1.3], &mut found);
+        let expected = slopes(&|case| 1.3 * case.phi(&x));
+        close(&found, &expected, &format!("coupling {number}: ∂(λᵀΦ)/∂p"));
+        kernels.d_residual_dp(&x, &v, &a, &case.f, &[1.3], &mut found);
+        let expected = slopes(&|case| 1.3 * case.residual(&x));
+        close(
+            &found,
+            &expected,
+            &format!("coupling {number}: ∂(λᵀ(C·a − Γ))/∂p"),
+        );
+    }
+}
+
+/// The wrench on the first body is −C of it, moved to the place.
+#[test]
+fn the_wrench_is_what_the_row_does_to_the_first_body() {
+    for case in cases() {
+        let x = case.state.poses(&case.state.still());
+        let mut wrench = [0.0; 6];
+        case.kernels.wrench(&x, &case.f, &mut wrench);
+        let c = case.dense(&x);
+        let force = [-c[0], -c[1], -c[2]];
+        close(&wrench[..3], &force, "force");
+        let torque = x[0].direction_to_global([-c[3], -c[4], -c[5]]);
+        let place = case.kernels.place(&x);
+        let arm: [f64; 3] = std::array::from_fn(|k| place[k] - x[0].r[k]);
+        let moved = joints::space3::cross(arm, force);
+        let expected: Vec<f64> = (0..3).map(|k| torque[k] - moved[k]).collect();
+        close(&wrench[3..], &expected, "torque");
+    }
+}
+
+#[test]
+fn what_cannot_be_coupled_is_refused() {
+    let angle = || (vec![Body(0), Body(1)], drive::<RevoluteAngleDrive>());
+    for coefficients in [&[0.0, 0.0][..], &[], &[f64::NAN]] {
+        let refused = couple([angle(), angle()], coefficients).err();
+        assert_eq!(refused, Some(CouplingError::Coefficients));
+    }
+}
