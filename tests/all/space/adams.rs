@@ -151,6 +151,8 @@ impl Case {
                         s_j,
                         axis,
                         cross,
+                        b_in_i: [0.0; 3],
+                        a_in_j: [0.0; 3],
                     },
                 );
             }

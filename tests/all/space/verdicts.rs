@@ -113,6 +113,8 @@ impl Sketch {
                 s_j,
                 axis,
                 cross,
+                b_in_i: [0.0; 3],
+                a_in_j: [0.0; 3],
             },
         );
     }

@@ -166,7 +166,9 @@ fn other_joints_have_no_axis() {
             s_i,
             s_j,
             axis,
-            cross
+            cross,
+            b_in_i: [0.0; 3],
+            a_in_j: [0.0; 3],
         })
         .symbol,
         Symbol::Pin
