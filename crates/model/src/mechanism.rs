@@ -241,6 +241,14 @@ impl Mechanism {
         d
     }
 
+    /// Copies the freedoms of these columns of C from another configuration, exactly, and all counted
+    /// angles.
+    pub fn take(&self, q: &mut [f64], from: &[f64], columns: &[usize]) {
+        self.space().take(q, from, columns);
+        let first = self.layout.n_q - self.layout.turns;
+        q[first..].copy_from_slice(&from[first..]);
+    }
+
     /// The column of C along which two configurations differ most, and the difference: lengths as a
     /// fraction of `size`, angles in radians.
     #[must_use]

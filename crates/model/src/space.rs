@@ -369,7 +369,7 @@ impl SpaceKind {
     }
 
     /// Copies the freedoms of these columns of C from another configuration, exactly.
-    pub fn take(self, q: &mut [f64], from: &[f64], columns: &[usize]) {
+    pub(crate) fn take(self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         in_space!(self, S => {
             for column in columns {
                 let body = self.coordinates(column / S::N_V);
