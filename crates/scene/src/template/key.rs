@@ -109,8 +109,22 @@ fn inside(parts: &[String]) -> String {
     }
 }
 
+/// What may stand at the place of a key.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// A number.
+    Number,
+    /// Any value, but not the header of a table.
+    Value,
+}
+
 /// The place of a key in the text.
-pub(super) fn find(key: &str, text: &str, root: &DeTable) -> Result<Slot, KeyError> {
+pub(super) fn find(
+    key: &str,
+    text: &str,
+    root: &DeTable,
+    wanted: Wanted,
+) -> Result<Slot, KeyError> {
     let mut walk = Walk {
         key,
         rest: key,
@@ -119,6 +133,7 @@ pub(super) fn find(key: &str, text: &str, root: &DeTable) -> Result<Slot, KeyErr
     let mut node = walk.first(root)?;
     loop {
         node = match node.get_ref() {
+            _ if walk.rest.is_empty() && wanted == Wanted::Value => return walk.value(node, text),
             _ if walk.rest.is_empty() => return walk.number(node),
             DeValue::Table(table) => match walk.entry(table) {
                 Ok(next) => next,
@@ -253,6 +268,21 @@ impl<'k> Walk<'k> {
         as_number(value).is_some()
             || self.computes && value.is_str()
             || is_switch && value.is_bool()
+    }
+
+    /// The value at the end of the key, if it is in one place.
+    fn value(&self, node: &Spanned<DeValue>, text: &str) -> Result<Slot, KeyError> {
+        let span = node.span();
+        let is_table = node.get_ref().is_table();
+        if is_table && !text[span.clone()].starts_with('{') {
+            let key = self.key.to_owned();
+            return Err(KeyError::NoRoom { key });
+        }
+        Ok(Slot {
+            span,
+            before: String::new(),
+            after: "",
+        })
     }
 
     /// The number at the end of the key.
