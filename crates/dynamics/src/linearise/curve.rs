@@ -16,7 +16,7 @@ use crate::prepare::Prepared;
 pub(crate) const BODY: usize = 6;
 
 /// Weights of central differences of orders eight and six, for the distances of one to four steps.
-const ORDER_8: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+pub(crate) const ORDER_8: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 const ORDER_6: [f64; 4] = [3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0, 0.0];
 
 /// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances: its
