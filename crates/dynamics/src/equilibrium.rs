@@ -15,13 +15,13 @@ mod error;
 mod stiffness;
 mod words;
 
-use linalg::kernels::{dot, norm};
 use crate::limits::{
     REST_LEFT, REST_LONGEST, REST_PUSH, REST_PUSHES, REST_RADIUS, REST_ROUNDINGS, REST_SHORTEST,
     REST_STALLED, REST_STEPS, UNRESISTED, UNRESISTED_FORCE, UNRESISTED_STEPS,
 };
 use crate::prepare::Prepared;
 use balance::{Balance, Statics};
+use linalg::kernels::{dot, norm};
 use stiffness::{Stiffness, Way};
 
 pub use error::EquilibriumError;
@@ -279,8 +279,13 @@ impl Search<'_> {
 
     /// Leaves a place at which the potential is not least.
     fn push(&mut self, along: &[f64]) -> Result<(), EquilibriumError> {
-        let largest = along.iter().fold(0.0, |a: f64, x| if x.abs() > a.abs() { *x } else { a });
-        let y: Vec<f64> = along.iter().map(|x| REST_PUSH * x * largest.signum()).collect();
+        let largest = along
+            .iter()
+            .fold(0.0, |a: f64, x| if x.abs() > a.abs() { *x } else { a });
+        let y: Vec<f64> = along
+            .iter()
+            .map(|x| REST_PUSH * x * largest.signum())
+            .collect();
         let moved = self.statics.moved(&self.at, &y);
         let q = self.statics.placed(&self.at, &moved)?;
         self.at = self.statics.balance(q)?;
@@ -295,8 +300,7 @@ impl Search<'_> {
         stiffness: &Stiffness,
         prepared: &Prepared,
     ) -> Result<Equilibrium, EquilibriumError> {
-        let depends_on_way =
-            prepared.decision.rank > prepared.position_decision.rank;
+        let depends_on_way = prepared.decision.rank > prepared.position_decision.rank;
         let (idle, falling) = (stiffness.idle(), stiffness.falling());
         let stability = if self.at.free.is_empty() {
             RestStability::Immovable

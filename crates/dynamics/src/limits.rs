@@ -59,6 +59,11 @@ pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
 
 // Places of rest.
 
+/// A run whose kinetic energy and gap are below so many roundings of the potential is at rest.
+/// Unit: roundings. Less: a start at rest is warned of. More: gaps of slow motions are not seen.
+/// Test: `what_is_written_starts_at_rest_and_stays_there`.
+pub(crate) const ENERGY_ROUNDINGS: f64 = 64.0;
+
 /// A row that prescribes less per second rests.
 /// Unit: sizes or rad per second. Less: the rounding of a cosine at a quarter turn is a motion.
 /// More: slow drives are held. Test: `a_drive_that_moves_at_the_start_is_refused_by_name`.

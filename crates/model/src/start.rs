@@ -155,14 +155,7 @@ fn closest(
     let (rows, _) = restricting;
     let within = mechanism.has_tolerances();
     let start = (0.0, within);
-    let q = nearest(
-        mechanism,
-        s,
-        start,
-        restricting,
-        described,
-        described,
-    );
+    let q = nearest(mechanism, s, start, restricting, described, described);
     let q = if within {
         within::within_data(mechanism, s, restricting, described, size, q)
     } else {

@@ -32,9 +32,7 @@ pub(crate) fn run(arguments: &Equilibrium, console: &Console<'_>) -> Outcome {
     let options = EquilibriumOptions {
         stable: arguments.stable,
     };
-    let (found, there) = study
-        .equilibrium(&options)
-        .map_err(|e| source.failure(e))?;
+    let (found, there) = study.equilibrium(&options).map_err(|e| source.failure(e))?;
     let motion = there
         .motion(&MotionOptions::to(0.0))
         .map_err(|e| e.to_string());
@@ -48,8 +46,7 @@ pub(crate) fn run(arguments: &Equilibrium, console: &Console<'_>) -> Outcome {
     let written = match &arguments.out {
         Some(path) => {
             let text = study.text_at_rest(&found.q);
-            let text = text
-                .map_err(|e| Failure::input(e.to_string()).coded(e.code()))?;
+            let text = text.map_err(|e| Failure::input(e.to_string()).coded(e.code()))?;
             write(path, arguments.force, &source, &text, &mut document)?
         }
         None => String::new(),
@@ -69,8 +66,9 @@ fn write(
     document: &mut EquilibriumDocument,
 ) -> Result<String, Failure> {
     // What is written has to start where it says.
-    Study::read(SCENE, text, source.registry, &Overrides::default())
-        .map_err(|e| Failure::stopped(format!("the scene that starts at rest cannot be read: {e}")))?;
+    Study::read(SCENE, text, source.registry, &Overrides::default()).map_err(|e| {
+        Failure::stopped(format!("the scene that starts at rest cannot be read: {e}"))
+    })?;
     let place = directory(path, &[SCENE, DOCUMENT], force)?;
     let put = |name: &str, content: &[u8]| place.write(name, content).map_err(|e| unwritten(&e));
     let head = format!("{PROVENANCE} equilibrium: `start` says where bodies start, at rest\n");
@@ -88,13 +86,22 @@ fn write(
 }
 
 fn describe(d: &EquilibriumDocument) -> String {
+    let balance = match d.residual {
+        0.0 => "forces balance".to_owned(),
+        left => format!("forces balance to {left:.1e} of the largest"),
+    };
+    let found = match (d.steps, d.pushes) {
+        (0, 0) => "rests where it starts".to_owned(),
+        (steps, 0) => format!("rests, found in {}", count(steps, "step", "steps")),
+        (steps, pushes) => format!(
+            "rests, found in {} after {}",
+            count(steps, "step", "steps"),
+            count(pushes, "push", "pushes")
+        ),
+    };
     let mut text = format!(
-        "{} rests at t = {} s, {} from the start: forces balance to {:.1e} of the largest, {:.6} N\n",
-        d.scene,
-        d.time,
-        count(d.steps, "step", "steps"),
-        d.residual,
-        d.largest_force,
+        "{} {found}, with functions of time at t = {} s: {balance}\n",
+        d.scene, d.time
     );
     text.push_str(&wrapped("", &stability(d)));
     let listed = |names: &[String]| {
@@ -103,7 +110,10 @@ fn describe(d: &EquilibriumDocument) -> String {
     };
     let mut say = |lead: &str, what: String| text.push_str(&wrapped("", &format!("{lead}{what}")));
     if !d.idle.is_empty() {
-        say("free motions that nothing pushes, left as they were: ", d.idle.join("; "));
+        say(
+            "free motions that nothing pushes, left as they were: ",
+            d.idle.join("; "),
+        );
     }
     if d.depends_on_way {
         say(
@@ -115,14 +125,21 @@ fn describe(d: &EquilibriumDocument) -> String {
         say("drives held as at the start: ", listed(&d.held));
     }
     if !d.moving_on.is_empty() {
-        say("functions of time accelerate at once what is held here: ", listed(&d.moving_on));
+        say(
+            "functions of time accelerate at once what is held here: ",
+            listed(&d.moving_on),
+        );
     }
     text.push('\n');
     let places = d.bodies.0.iter().flat_map(|(_, body)| body.at.0.iter());
     let largest = places.fold(0.0, |a: f64, (_, x)| a.max(x.abs()));
     let header = ["body", "moved (m)", "turned (rad)", "is at"].map(str::to_owned);
     let bodies = d.bodies.0.iter().map(|(name, body)| {
-        let at = body.at.0.iter().map(|(name, x)| format!("{name} = {}", short(*x, largest)));
+        let at = body
+            .at
+            .0
+            .iter()
+            .map(|(name, x)| format!("{name} = {}", short(*x, largest)));
         vec![
             name.clone(),
             short(body.moved, largest),

@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use joints::{Plane, Space3};
 use model::{
-    AnyDescription, BuildError, Described, Mechanism, Observed, Registry, StartOptions, Stated, Tolerance,
+    AnyDescription, BuildError, Described, Mechanism, Observed, Registry, StartOptions, Stated,
+    Tolerance,
 };
 use toml::de::DeTable;
 

@@ -135,7 +135,13 @@ impl<'m> Statics<'m> {
         let positions = positions.kept().to_vec();
         let basis = RowBasis::most_independent(c, r);
         let qr = basis.factored();
-        let mut x: Vec<f64> = self.s.force.iter().zip(&self.units).map(|(f, u)| f * u).collect();
+        let mut x: Vec<f64> = self
+            .s
+            .force
+            .iter()
+            .zip(&self.units)
+            .map(|(f, u)| f * u)
+            .collect();
         let mut scale = self.largest_part();
         qr.q_transpose_mul(&mut x);
         let free = x.split_off(r);
@@ -188,6 +194,12 @@ impl<'m> Statics<'m> {
         let step: Vec<f64> = moved.iter().zip(&self.units).map(|(x, u)| x * u).collect();
         let q = self.mechanism.space().displaced(&at.q, 1.0, &step);
         let rows = &at.positions;
-        Ok(nearest_configuration(self.mechanism, self.t, rows, &q, Metric::Length)?)
+        Ok(nearest_configuration(
+            self.mechanism,
+            self.t,
+            rows,
+            &q,
+            Metric::Length,
+        )?)
     }
 }

@@ -2,7 +2,7 @@
 
 use model::StartError;
 use model::codes::Code;
-use model::words::listed;
+use model::words::{listed, rounded};
 
 use super::words::Pushed;
 
@@ -26,21 +26,25 @@ pub enum EquilibriumError {
     },
     /// A free motion is pushed, and nothing resists it.
     #[error("there is no rest: {}, wherever it goes; add what resists it, or hold it", push(.0))]
-    Pushed(Pushed),
+    Pushed(Vec<Pushed>),
     /// The search did not end.
     #[error(
         "no place of rest was found in {steps} steps: {}, a share of {left:.1e} of the largest force; \
-         describe a start nearer to rest", push(pushed))]
+         describe a start nearer to rest",
+        push(pushed)
+    )]
     NotFound {
         /// Number of steps.
         steps: usize,
         /// What is left, as a share of the largest force.
         left: f64,
         /// What is pushed there.
-        pushed: Pushed,
+        pushed: Vec<Pushed>,
     },
     /// A force has no finite value.
-    #[error("{what} on body `{body}` is not finite on the way to rest; describe a start nearer to rest")]
+    #[error(
+        "{what} on body `{body}` is not finite on the way to rest; describe a start nearer to rest"
+    )]
     NotFinite {
         /// The force.
         what: String,
@@ -52,12 +56,16 @@ pub enum EquilibriumError {
     Start(#[from] StartError),
 }
 
-fn push(Pushed { motion, force, unit, by }: &Pushed) -> String {
-    let by = match by.as_slice() {
-        [] => String::new(),
-        by => format!(" by {}", listed(by)),
-    };
-    format!("{motion}, pushed with {force:.3e} {unit}{by}")
+fn push(pushed: &[Pushed]) -> String {
+    let each = pushed.iter().map(|pushed| {
+        let by = match pushed.by.as_slice() {
+            [] => String::new(),
+            by => format!(" by {}", listed(by)),
+        };
+        let force = rounded(pushed.force);
+        format!("{}, pushed with {force} {}{by}", pushed.motion, pushed.unit)
+    });
+    each.collect::<Vec<_>>().join("; ")
 }
 
 impl EquilibriumError {

@@ -58,8 +58,13 @@ impl Statics<'_> {
         }
         if let Some((_, column, _)) = k.first_non_finite() {
             let shift = self.velocity(at, &unit(d, column));
-            let body = (0..shift.len())
-                .fold(0, |a, b| if shift[b].abs() > shift[a].abs() { b } else { a });
+            let body = (0..shift.len()).fold(0, |a, b| {
+                if shift[b].abs() > shift[a].abs() {
+                    b
+                } else {
+                    a
+                }
+            });
             return Err(EquilibriumError::NotFinite {
                 what: "a force".to_owned(),
                 body: self.mechanism.coordinate(body).0.to_owned(),
@@ -177,7 +182,8 @@ impl Stiffness {
         let svd = small_svd(&self.k);
         let mut y = vec![0.0; free.len()];
         for (i, &sigma) in svd.sigma.iter().enumerate() {
-            let column = |of: &Matrix| -> Vec<f64> { (0..of.nrows()).map(|k| of[(k, i)]).collect() };
+            let column =
+                |of: &Matrix| -> Vec<f64> { (0..of.nrows()).map(|k| of[(k, i)]).collect() };
             let force = linalg::kernels::dot(&column(&svd.u), free);
             if sigma > self.nothing {
                 linalg::kernels::axpy(force / sigma, &column(&svd.v), &mut y);

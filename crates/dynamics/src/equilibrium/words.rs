@@ -1,6 +1,5 @@
 //! Free motions in words, and what pushes them.
 
-use linalg::kernels::dot;
 use solvability::motions_among;
 
 use super::balance::{Balance, Statics};
@@ -28,14 +27,55 @@ pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> V
     told.map(|motion| motion.text).collect()
 }
 
-/// What pushes along a free motion.
-pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> Pushed {
-    let told = motions(statics, at, &[along.to_vec()]);
-    let mut v = statics.velocity(at, along);
+/// What pushes along a free motion, for each set of bodies that move.
+pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> Vec<Pushed> {
+    let v = statics.velocity(at, along);
+    let told = motions_among(
+        statics.mechanism,
+        statics.t,
+        &at.q,
+        std::slice::from_ref(&v),
+    );
+    let told = told.unwrap_or_default();
+    statics.evaluate(&at.q);
+    let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
+    let forces = statics.mechanism.applied_forces().parts(&mut statics.s);
+    let forces = forces.map(|(name, q)| (format!("`{name}`"), q));
+    let forces: Vec<(String, Vec<f64>)> = std::iter::once(weight).chain(forces).collect();
+    let all: Vec<Pushed> = told
+        .iter()
+        .map(|motion| {
+            let bodies: Vec<usize> = motion
+                .velocities
+                .iter()
+                .flatten()
+                .map(|(b, _)| *b)
+                .collect();
+            of_bodies(statics, &forces, &v, (&motion.text, &bodies))
+        })
+        .collect();
+    if all.is_empty() {
+        let bodies: Vec<usize> = (0..statics.bodies()).collect();
+        return vec![of_bodies(statics, &forces, &v, ("a free motion", &bodies))];
+    }
+    let largest = all.iter().fold(0.0, |a: f64, p| a.max(p.force.abs()));
+    let takes_part = |p: &Pushed| p.force.abs() > UNRESISTED * largest;
+    all.into_iter().filter(takes_part).collect()
+}
+
+/// What pushes some bodies along their part of a motion.
+fn of_bodies(
+    statics: &Statics<'_>,
+    forces: &[(String, Vec<f64>)],
+    v: &[f64],
+    (motion, bodies): (&str, &[usize]),
+) -> Pushed {
     let space = statics.mechanism.space();
+    let own = |j: &usize| bodies.contains(&space.body_of(*j));
+    let columns: Vec<usize> = (0..v.len()).filter(own).collect();
     let fastest = |turns: bool| {
-        let own = (0..v.len()).filter(|&j| space.is_rotation(j) == turns);
-        own.map(|j| v[j].abs()).fold(0.0, f64::max)
+        let own = columns.iter().filter(|&&j| space.is_rotation(j) == turns);
+        own.map(|&j| v[j].abs()).fold(0.0, f64::max)
     };
     let (turn, slide) = (fastest(true), fastest(false));
     // What is a rounding of a translation is no rotation.
@@ -44,19 +84,15 @@ pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> 
     } else {
         (slide, "N")
     };
-    v.iter_mut().for_each(|v| *v /= largest);
-    statics.evaluate(&at.q);
-    let weight = dot(statics.mechanism.weight(), &v);
-    let mut parts = vec![("the weight".to_owned(), weight)];
-    let forces = statics.mechanism.applied_forces().parts(&mut statics.s);
-    parts.extend(forces.map(|(name, q)| (format!("`{name}`"), dot(&q, &v))));
+    let power = |q: &[f64]| columns.iter().map(|&j| q[j] * v[j] / largest).sum::<f64>();
+    let parts: Vec<(&String, f64)> = forces.iter().map(|(name, q)| (name, power(q))).collect();
     let force: f64 = parts.iter().map(|(_, power)| power).sum();
     let by = parts
         .into_iter()
         .filter(|(_, power)| power.abs() > TAKES_PART * force.abs())
-        .map(|(name, _)| name);
+        .map(|(name, _)| name.clone());
     Pushed {
-        motion: told.join("; "),
+        motion: motion.to_owned(),
         force,
         unit,
         by: by.collect(),

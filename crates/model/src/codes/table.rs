@@ -794,7 +794,9 @@ pub const TABLE: &[Entry] = &[
         "Let the function of the drive begin with rate zero, or leave the drive out with `active = false`.",
         Example::Scene(
             "equilibrium -",
-            bar!("\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"A\"\ntype = \"angle\"\nmotion = { type = \"constant-rate\", rate = 1.0 }\n"),
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"A\"\ntype = \"angle\"\nmotion = { type = \"constant-rate\", rate = 1.0 }\n"
+            ),
         ),
     ),
     entry(

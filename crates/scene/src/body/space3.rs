@@ -44,7 +44,9 @@ const START_KEYS: [Key; 2] = [
     Key::triple("position")
         .unit(Dimension::LENGTH)
         .doc("Origin [x, y, z] of the body's frame where it starts"),
-    orientation::ORIENTATION.doc("Orientation of the body's frame where it starts, in any of the ways of `orientation`"),
+    orientation::ORIENTATION.doc(
+        "Orientation of the body's frame where it starts, in any of the ways of `orientation`",
+    ),
 ];
 
 impl SceneBody for Space3 {

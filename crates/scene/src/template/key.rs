@@ -308,8 +308,8 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// A place for a last key that is not in the text: after the header of its table, or after its
-    /// brace. Whether the key is valid is checked by the reader of scenes.
+    /// A place for a last key that is not in the text: after the line of the header of its table, or
+    /// after its brace. Whether the key is valid is checked by the reader of scenes.
     fn addition(
         &self,
         node: &Spanned<DeValue>,
@@ -325,7 +325,10 @@ impl<'k> Walk<'k> {
         let span = node.span();
         let written = &text[span.clone()];
         let (at, before, after) = match (written.as_bytes().first(), table.is_empty()) {
-            (Some(b'['), _) => (span.end, format!("\n{name} = "), ""),
+            (Some(b'['), _) => {
+                let rest = text[span.end..].lines().next().unwrap_or_default();
+                (span.end + rest.len(), format!("\n{name} = "), "")
+            }
             (Some(b'{'), false) => (span.start + 1, format!(" {name} = "), ","),
             (Some(b'{'), true) => (span.start + 1, format!(" {name} = "), " "),
             _ => {

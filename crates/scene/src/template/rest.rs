@@ -41,7 +41,9 @@ pub fn at_rest(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
             let each = parts.into_iter();
             values.extend(each.map(|(name, value)| (key(&format!("start.{name}")), value)));
         } else {
-            let each = parts.iter().map(|(name, value)| format!("{name} = {value}"));
+            let each = parts
+                .iter()
+                .map(|(name, value)| format!("{name} = {value}"));
             let table = format!("{{ {} }}", each.collect::<Vec<_>>().join(", "));
             values.push((key("start"), table));
         }

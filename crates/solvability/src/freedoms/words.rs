@@ -56,7 +56,11 @@ pub(super) fn alone(mechanism: &Mechanism, body: usize, movement: Movement, size
     let shown = |p: [f64; 3], size: f64| components(&p[space.forces()], size);
     let line = |Line { point, along }: Line| match space.n_rotations() {
         1 => shown(point, size),
-        _ => format!("the line through {} along {}", shown(point, size), shown(along, 1.0)),
+        _ => format!(
+            "the line through {} along {}",
+            shown(point, size),
+            shown(along, 1.0)
+        ),
     };
     match movement {
         Movement::Turn(about) => format!("{name} turns about {}", line(about)),
