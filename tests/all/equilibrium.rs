@@ -830,7 +830,7 @@ damping = \"0.1 N*m*s\"
     assert_eq!(layout.rows(), 5);
 }
 
-/// In space: a fixed joint, a coupling and a drive keep what they were described with.
+/// In space a fixed joint and a spring keep what they were described with.
 #[test]
 fn a_start_elsewhere_in_space_keeps_places_and_zeros() {
     let text = format!(
@@ -843,12 +843,13 @@ joint = [
   {{ name = \"A\", type = \"revolute\", bodies = [\"ground\", \"arm\"], at = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0] }},
   {{ name = \"weld\", type = \"fixed\", bodies = [\"arm\", \"head\"], at = [1.0, 0.0, 0.0] }},
 ]
-drive = [{{ name = \"coil\", joint = \"A\", type = \"angle\", torque = \"-30*measure - rate\" }}]\n"
+force = [{{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"arm\"], at = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], stiffness = 300.0, damping = 1.0 }}]\n"
     );
     let (found, read) = rest(&text);
-    // The centres of mass are in the plane z = 0 at x = 0.5 and 1; positive angles about y lower x.
-    let moment = (2.0 * 0.5 + 1.0) * G;
-    let exact = bisected(|phi: f64| 30.0 * phi - moment * phi.cos(), (0.0, 1.5));
+    // Centres of mass are at x = 0.5 and 1, and the spring is free at its length √2 as described:
+    // k·(l − √2)/l = (2·0.5 + 1)·g with l² = 2 + 2·sin φ.
+    let l = 2f64.sqrt() / (1.0 - 2.0 * G / 300.0);
+    let exact = (0.5 * l * l - 1.0).asin();
     let phi = (-found.q[2]).atan2(found.q[0]);
     assert!((phi - exact).abs() < 1e-13, "{phi} {exact}");
     let head = read
@@ -900,7 +901,7 @@ fn starts_elsewhere_are_checked() {
     for (start, code) in [
         ("{ position = [0.0, 1.0] }", "P0202"),
         ("{ angel = 1.0 }", "P0102"),
-        ("{ position = [0.0, 1.0, 0.0] }", "P0105"),
+        ("{ position = [0.0, 1.0, 0.0] }", "P0151"),
         ("1.0", "P0105"),
     ] {
         let error = bar(start).err().unwrap_or_else(|| panic!("{start}"));

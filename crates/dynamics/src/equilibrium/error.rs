@@ -12,8 +12,8 @@ use super::words::Pushed;
 pub enum EquilibriumError {
     /// A row prescribes a velocity.
     #[error(
-        "nothing rests: {} `{name}` prescribes {rate:.3e} {unit} at the start; let its function begin with rate zero, \
-         or leave it out (`active = false`)", if *is_drive { "drive" } else { "joint" })]
+        "nothing rests: {} `{name}` prescribes {} {unit} at the start; let its function begin with rate zero, \
+         or leave it out (`active = false`)", if *is_drive { "drive" } else { "joint" }, rounded(*rate))]
     Prescribed {
         /// The drive or joint.
         name: String,
