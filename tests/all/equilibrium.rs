@@ -45,8 +45,9 @@ fn rest_of(text: &str, stable: bool) -> (Equilibrium, Study) {
     linear.unwrap_or_else(|e| panic!("{e}\n{written}"));
     if found.stability == RestStability::Stable {
         let rows = read.motion(&MotionOptions::to(1.0));
-        let rows = rows.unwrap_or_else(|e| panic!("{e}\n{written}")).rows;
-        let last = &rows.last().expect("an end").bodies;
+        let run = rows.unwrap_or_else(|e| panic!("{e}\n{written}"));
+        assert!(run.summary.energy_balance < 1e-6, "{:e}", run.summary.energy_balance);
+        let last = &run.rows.last().expect("an end").bodies;
         for (name, body) in &last.0 {
             for (what, x) in body
                 .0
