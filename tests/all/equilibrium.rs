@@ -46,7 +46,11 @@ fn rest_of(text: &str, stable: bool) -> (Equilibrium, Study) {
     if found.stability == RestStability::Stable {
         let rows = read.motion(&MotionOptions::to(1.0));
         let run = rows.unwrap_or_else(|e| panic!("{e}\n{written}"));
-        assert!(run.summary.energy_balance < 1e-6, "{:e}", run.summary.energy_balance);
+        assert!(
+            run.summary.energy_balance < 1e-6,
+            "{:e}",
+            run.summary.energy_balance
+        );
         let last = &run.rows.last().expect("an end").bodies;
         for (name, body) in &last.0 {
             for (what, x) in body
