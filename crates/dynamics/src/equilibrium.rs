@@ -2,9 +2,9 @@
 //! of the velocities that the rows allow, at the time of the start.
 //!
 //! Forces are followed downhill: a step solves `(K + μ·I)·y = Zᵀ·Q` with the stiffness K of the
-//! forces and of the multipliers, and μ such that `K + μ·I` is positive definite and the step is not
-//! too long. Near a place of rest it is Newton's method. So a potential falls at each step and a
-//! place is left where it has a maximum, if forces push there at all. Masses play no part.
+//! forces and of the multipliers, and μ such that `K + μ·I` is positive definite and the step is
+//! not too long. Near a place of rest it is Newton's method. So a potential falls at each step and
+//! a place is left where it has a maximum, if forces push there at all. Masses play no part.
 //!
 //! Sources: C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM
 //! J. Numer. Anal. 35 (1998) 508–523; J. J. Moré, D. C. Sorensen, Computing a trust region step,
@@ -133,8 +133,8 @@ impl RestStability {
 /// - [`EquilibriumError::Prescribed`]: a drive or a joint prescribes a velocity.
 /// - [`EquilibriumError::Pushed`]: a free motion is pushed, however far it goes.
 /// - [`EquilibriumError::NotFound`]: the search did not end.
-/// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: a configuration on the way cannot
-///   be reached, or a force has no value there.
+/// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: a configuration on the way
+///   cannot be reached, or a force has no value there.
 pub fn equilibrium(
     prepared: &Prepared,
     options: &EquilibriumOptions,

@@ -178,9 +178,9 @@ impl Study {
         Ok(linearise(&self.prepared, (t, &q, &v), options)?)
     }
 
-    /// A configuration at rest near the start, and the study of the same scene that starts there, at
-    /// rest, for all further questions. Places, initial values and the zeros of measures stay those
-    /// of the described start.
+    /// A configuration at rest near the start, and the study of the same scene that starts there,
+    /// at rest, for all further questions. Places, initial values and the zeros of measures stay
+    /// those of the described start.
     ///
     /// ```
     /// use pfaff::prelude::*;

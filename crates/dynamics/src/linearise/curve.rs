@@ -48,8 +48,8 @@ pub(crate) struct Curves<'m> {
     c: Matrix,
     /// Natural rate of the mechanism (1/s): of its velocities, or of its accelerations.
     rate: f64,
-    /// The largest acceleration of a body by one of the forces, without constraints, in sizes of the
-    /// mechanism (1/s²).
+    /// The largest acceleration of a body by one of the forces, without constraints, in sizes of
+    /// the mechanism (1/s²).
     applied: f64,
     /// The largest derivative of an acceleration, and the largest doubt about one, both without
     /// dimensions.

@@ -308,8 +308,8 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// A place for a last key that is not in the text: after the line of the header of its table, or
-    /// after its brace. Whether the key is valid is checked by the reader of scenes.
+    /// A place for a last key that is not in the text: after the line of the header of its table,
+    /// or after its brace. Whether the key is valid is checked by the reader of scenes.
     fn addition(
         &self,
         node: &Spanned<DeValue>,
