@@ -1,7 +1,7 @@
-//! Times of right-hand sides (q̇ and v̇) of scenes, interpreted and on generated code, one state at a
-//! time and in lanes, with the size of the code and the time of its compilation:
-//! `cargo run --release -p pfaff-scene-codegen --example right_hand_side -- examples/hexapod.toml`.
-//! States are those of the run that a scene asks for; times are the least of several rounds.
+//! Times of right-hand sides (q̇ and v̇) of scenes, interpreted and on generated code, one state at
+//! a time and in lanes, with the size of the code and the time of its compilation: `cargo run
+//! --release -p pfaff-scene-codegen --example right_hand_side -- examples/hexapod.toml`. States are
+//! those of the run that a scene asks for; times are the least of several rounds.
 
 use std::fmt::Write as _;
 use std::hint::black_box;

@@ -1,7 +1,8 @@
 //! The axes in which velocities of spatial bodies are eliminated. The equations have angular
 //! velocities in principal axes of each body, where the mass is a constant; in these axes a hinge
 //! that turns has no entry of C that stays away from 0. In the axes of the ground, or of one of the
-//! bodies (a vehicle), most entries are arms and directions that exist already, zeros, or constants.
+//! bodies (a vehicle), most entries are arms and directions that exist already, zeros, or
+//! constants.
 //!
 //! The columns and the rows of C are turned as they are, whatever the joints are. Which of the
 //! products are zero, constant, or known already is seen from their values at states that satisfy

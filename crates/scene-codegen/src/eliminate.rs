@@ -2,8 +2,8 @@
 //! sampled states: the pivot with the least fill among those that are large compared with their row
 //! and their column at every state (Markowitz with a threshold).
 //!
-//! Rows are given along axes in which few entries vary ([`crate::axes`]); masses, forces and results
-//! are along those of the equations.
+//! Rows are given along axes in which few entries vary ([`crate::axes`]); masses, forces and
+//! results are along those of the equations.
 //!
 //! The rows determine r dependent coordinates; the others are free. Every solve uses the null
 //! space: x = x₀ + N·w, where x₀ satisfies the rows with the free coordinates at zero, the columns
