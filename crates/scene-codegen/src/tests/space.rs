@@ -83,9 +83,9 @@ fn accelerations_do_not_depend_on_lengths_of_quaternions() {
     }
 }
 
-/// Shafts that turn by more than half a turn, and a cart that turns as far: no entry of C along
-/// fixed axes stays away from 0, but along those of the bodies that carry others, or of the
-/// chassis.
+/// Shafts that turn by more than half a turn, and a cart that turns by more than a right angle: no
+/// entry of C along fixed axes stays away from 0, but along those of the bodies that carry others,
+/// or of the chassis.
 #[test]
 fn what_turns_keeps_its_pivots() {
     let view = |name: &str| {
