@@ -9,6 +9,7 @@ mod cases;
 mod choices;
 mod deletions;
 mod drives_that_jump;
+mod equilibrium;
 mod exact_oracle;
 mod examples;
 mod existence;

@@ -20,6 +20,7 @@
 mod choose;
 pub mod code;
 mod counts;
+pub mod equilibrium;
 mod error;
 pub mod events;
 mod guards;

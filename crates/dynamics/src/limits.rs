@@ -57,6 +57,97 @@ pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
 /// digits of their orientation. Test: `a_quaternion_that_has_drifted_far_is_scaled`.
 pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
 
+// Places of rest.
+
+/// A run whose kinetic energy and gap are below so many roundings of the potential is at rest.
+/// Unit: roundings. Less: a start at rest is warned of. More: gaps of slow motions are not seen.
+/// Test: `what_is_written_starts_at_rest_and_stays_there`.
+pub(crate) const ENERGY_ROUNDINGS: f64 = 64.0;
+
+/// A row that prescribes less per second rests.
+/// Unit: sizes or rad per second. Less: the rounding of a cosine at a quarter turn is a motion.
+/// More: slow drives are held. Test: `a_drive_that_moves_at_the_start_is_refused_by_name`.
+pub(crate) const RESTING_RATE: f64 = 1e-12;
+
+/// Length of a step of the differences of forces; the longest is four times as long.
+/// Unit: share of the size, or rad. Less: rounding is divided by it. More: short springs are not
+/// seen as they are. Test: `a_short_spring_on_a_long_bar_is_stiff_enough`.
+pub(crate) const STIFFNESS_STEP: f64 = 1.0 / 512.0;
+
+/// First length of a step, for each body.
+/// Unit: share of the size, or rad. Less: more steps. More: other places of rest are found than the
+/// nearest. Test: none, work only.
+pub(crate) const REST_RADIUS: f64 = 0.1;
+
+/// Largest length of a step, for each body.
+/// Unit: share of the size, or rad. Less: more steps. More: other places of rest are found than the
+/// nearest. Test: none, work only.
+pub(crate) const REST_LONGEST: f64 = 0.8;
+
+/// Shorter steps are given up.
+/// Unit: share of the size, or rad. Less: time. More: searches end that could go on. Test: none,
+/// work only.
+pub(crate) const REST_SHORTEST: f64 = 1e-10;
+
+/// Steps of a search at most.
+/// Unit: steps. Less: far places are not found. More: searches without an end are long. Test:
+/// `a_motor_that_is_too_strong_finds_no_rest`.
+pub(crate) const REST_STEPS: usize = 500;
+
+/// Bisections of the length of a step.
+/// Unit: halvings. Less: steps are shorter than allowed. More: time. Test: none, work only.
+pub(crate) const REST_BISECTIONS: usize = 50;
+
+/// Forces below so many roundings of those that act are none.
+/// Unit: roundings. Less: searches go on until they stall. More: digits of the place are lost.
+/// Test: `a_pendulum_on_a_torsion_spring_leans_as_bisection_says`.
+pub(crate) const REST_ROUNDINGS: f64 = 16.0;
+
+/// The same if further steps do not help.
+/// Unit: roundings. Less: places where forces cancel are not accepted. More: a place is accepted
+/// that has no balance. Test: `forces_that_cancel_are_balanced_to_their_rounding`.
+pub(crate) const REST_LEFT: f64 = 4096.0;
+
+/// Steps without a force half as large after which a search has stalled.
+/// Unit: steps. Less: slow searches end early. More: time. Test: none, work only.
+pub(crate) const REST_STALLED: usize = 4;
+
+/// Length of a push away from a place that is not stable.
+/// Unit: share of the size, or rad. Less: forces there are rounding. More: a shallow place nearby
+/// is passed over. Test: `a_push_lets_an_upright_pendulum_fall`.
+pub(crate) const REST_PUSH: f64 = 1e-2;
+
+/// Pushes at most.
+/// Unit: pushes. Less: chains that stand upright are left halfway. More: time. Test:
+/// `a_push_lets_an_upright_pendulum_fall`.
+pub(crate) const REST_PUSHES: usize = 40;
+
+/// A motion is not resisted if a displacement by one changes its force by no more than this share
+/// of all forces.
+/// Unit: share. Less: rounding resists. More: soft springs do not. Test:
+/// `what_nothing_holds_is_refused_with_what_pushes_it`.
+pub(crate) const UNRESISTED: f64 = 1e-9;
+
+/// And is refused if its force is more than this share of the largest.
+/// Unit: share. Less: what is left of slow searches is refused. More: light bodies fall for many
+/// steps before they are refused. Test: `what_nothing_holds_is_refused_with_what_pushes_it`.
+pub(crate) const UNRESISTED_FORCE: f64 = 1e-6;
+
+/// And over so many steps.
+/// Unit: steps. Less: a horizontal pendulum, whose weight is an extremum there, is refused. More:
+/// time. Test: `a_horizontal_pendulum_falls`.
+pub(crate) const UNRESISTED_STEPS: usize = 3;
+
+/// Stiffness below this share of the largest, or of all forces, is none.
+/// Unit: share. Less: rounding of differences decides on stability. More: soft springs are called
+/// idle. Test: `a_soft_spring_beside_a_stiff_one_still_counts`.
+pub(crate) const IDLE: f64 = 1e-10;
+
+/// Stiffness with a skew part above this share has no potential.
+/// Unit: share. Less: rounding of differences has none. More: followers are judged by a potential
+/// that they do not have. Test: `a_follower_force_is_not_judged`.
+pub(crate) const ASYMMETRIC: f64 = 1e-7;
+
 // Linearised motions.
 
 /// Length of a step along a curve, in sizes of the mechanism or radians; the longest of the eight

@@ -27,6 +27,8 @@ use coordinates::Chosen;
 use curve::{BODY, Curves, Derivative};
 use reduce::Followed;
 
+pub(crate) use curve::ORDER_8;
+
 pub use coordinates::Coordinate;
 pub use error::LineariseError;
 pub use inputs::Input;

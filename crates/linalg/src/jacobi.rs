@@ -62,6 +62,42 @@ pub fn small_svd(a: &Matrix) -> SmallSvd {
     }
 }
 
+/// Eigenvalues and eigenvectors of a small symmetric matrix.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SymmetricEigen {
+    /// Eigenvalues, largest first.
+    pub values: Vec<f64>,
+    /// Orthonormal eigenvectors in columns.
+    pub vectors: Matrix,
+}
+
+/// Eigenvalues and eigenvectors of a small symmetric matrix A of finite entries, from the singular
+/// values of `A + ‖A‖·I`: to roundings of ‖A‖.
+///
+/// ```
+/// use linalg::{Matrix, symmetric_eigen};
+/// let eigen = symmetric_eigen(&Matrix::from_rows(&[[0.0, 2.0], [2.0, 3.0]]));
+/// assert!((eigen.values[0] - 4.0).abs() < 1e-14 && (eigen.values[1] + 1.0).abs() < 1e-14);
+/// ```
+///
+/// # Panics
+/// If A is not square.
+#[must_use]
+pub fn symmetric_eigen(a: &Matrix) -> SymmetricEigen {
+    let n = a.nrows();
+    assert_eq!(n, a.ncols(), "a square matrix");
+    let shift = a.frobenius_norm();
+    let shifted = Matrix::from_fn(n, n, |i, k| {
+        let own = if i == k { shift } else { 0.0 };
+        0.5 * (a[(i, k)] + a[(k, i)]) + own
+    });
+    let SmallSvd { sigma, v, .. } = small_svd(&shifted);
+    SymmetricEigen {
+        values: sigma.into_iter().map(|s| s - shift).collect(),
+        vectors: v,
+    }
+}
+
 /// Makes columns p and q orthogonal; returns whether a rotation was necessary.
 fn rotate(columns: &mut Matrix, turned: &mut Matrix, p: usize, q: usize) -> bool {
     let (a, b) = (kernels::norm(columns.row(p)), kernels::norm(columns.row(q)));
@@ -98,6 +134,27 @@ mod tests {
             for (x, y) in back.as_slice().iter().zip(a.as_slice()) {
                 assert!((x - y).abs() < 1e-14, "{m}×{n}: {x} {y}");
             }
+        }
+    }
+
+    /// Indefinite and singular: A·W = W·diag(λ), WᵀW = I.
+    #[test]
+    fn eigenvectors_of_symmetric_matrices_are_put_back() {
+        let given = [5.0, 1e-3, 0.0, 0.0, -2.0];
+        let frame = small_svd(&Matrix::from_fn(5, 5, |i, j| {
+            (1.0 + (3 * i + 7 * j * j) as f64).sin()
+        }))
+        .u;
+        let scaled = Matrix::from_fn(5, 5, |i, k| frame[(i, k)] * given[k]);
+        let SymmetricEigen { values, vectors } =
+            symmetric_eigen(&scaled.product(&frame.transpose()));
+        for (value, exact) in values.iter().zip(given) {
+            assert!((value - exact).abs() < 1e-14, "{values:?}");
+        }
+        let square = vectors.transpose().product(&vectors);
+        for (i, k) in (0..5).flat_map(|i| (0..5).map(move |k| (i, k))) {
+            let one = f64::from(u8::from(i == k));
+            assert!((square[(i, k)] - one).abs() < 1e-14);
         }
     }
 

@@ -29,7 +29,7 @@ pub use double_double::Dd;
 #[cfg(feature = "eigen")]
 pub use eigen::{Eigenpair, eigenpairs};
 pub use equilibrate::{Scaling, equilibrate, equilibrate_blocks, equilibrate_sparse};
-pub use jacobi::{SmallSvd, small_svd};
+pub use jacobi::{SmallSvd, SymmetricEigen, small_svd, symmetric_eigen};
 pub use limits::GRADED_MASSES;
 pub use lu::{Determinant, Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};

@@ -113,6 +113,25 @@ pub enum DescribedBody {
     Space3(SpatialBody),
 }
 
+/// Position and orientation of the frame of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FramePose {
+    /// In the plane.
+    Plane {
+        /// Origin of the frame (m).
+        position: [f64; 2],
+        /// Its angle (rad).
+        angle: f64,
+    },
+    /// In space.
+    Space3 {
+        /// Origin of the frame (m).
+        position: [f64; 3],
+        /// A quaternion (w, x, y, z) of any length but zero, body to ground.
+        orientation: [f64; 4],
+    },
+}
+
 impl From<Body> for DescribedBody {
     fn from(body: Body) -> Self {
         Self::Plane(body)
@@ -190,6 +209,36 @@ impl BodyRecord {
             (_, DescribedBody::Plane(b)) => b.angular_velocity.into_iter().collect(),
             (_, DescribedBody::Space3(b)) => b.angular_velocity.into_iter().flatten().collect(),
         }
+    }
+
+    /// The body with its frame elsewhere; `None` for a pose of another space.
+    #[must_use]
+    pub fn at(&self, frame: &FramePose) -> Option<Self> {
+        let described = match (&self.described, *frame) {
+            (DescribedBody::Plane(body), FramePose::Plane { position, angle }) => Body {
+                position,
+                angle,
+                ..body.clone()
+            }
+            .into(),
+            (
+                DescribedBody::Space3(body),
+                FramePose::Space3 {
+                    position,
+                    orientation,
+                },
+            ) => SpatialBody {
+                position,
+                orientation,
+                ..body.clone()
+            }
+            .into(),
+            _ => return None,
+        };
+        Some(Self {
+            described,
+            ..self.clone()
+        })
     }
 
     /// Whether the description gives a velocity of its frame.

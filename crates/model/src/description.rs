@@ -4,7 +4,7 @@
 use joints::spec::ConstraintSpec;
 use joints::{Plane, Space3};
 
-pub use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
+pub use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, FramePose, SpatialBody};
 use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
 use crate::function::Function;
 use crate::observed::Observed;

@@ -72,7 +72,7 @@ pub mod words;
 pub use data::{Data, DataBlock, DataGradients, DataUnit, ForceDerivatives, SHARED, explained};
 pub use description::{
     AnyDescription, Body, BodyRecord, BodyRef, Described, DescribedBody, Description, Drive, Force,
-    Joint, Motion, SpatialBody, SpatialDescription,
+    FramePose, Joint, Motion, SpatialBody, SpatialDescription,
 };
 pub use element::{Bodies, BodySpace, ConstraintKernels, ForceKernels};
 pub use extended::Polished;
@@ -93,7 +93,7 @@ pub use registry::{ConstraintDefinition, Definitions, ForceDefinition, Registry}
 pub use rows::RowRanges;
 pub use scale::Scales;
 pub use space::{Space, SpaceKind};
-pub use start::{Assembly, Coordinate, StartError, StartOptions};
+pub use start::{Assembly, Coordinate, StartError, StartOptions, StartPose};
 pub use system::{Layout, RowLabel, Scratch, System};
 pub use tolerance::{Stated, Tolerance};
 pub use uncertainty::{Known, ROUNDING};

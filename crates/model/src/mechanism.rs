@@ -31,6 +31,7 @@ pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
 pub use forces::{AppliedForce, AppliedForces, Push};
 pub(crate) use initial::{initialise, unmet_requirement, unmet_rows};
+pub(crate) use kernels::gyroscopic;
 pub use part::{Part, Places};
 pub use work::Work;
 
@@ -134,8 +135,8 @@ impl Elements {
 }
 
 /// A function of time as passed to an element.
-#[derive(Clone)]
-pub(crate) struct TimeFunction {
+#[derive(Clone, Debug)]
+pub struct TimeFunction {
     function: Function,
     /// f(0) for drives, which follow f(t) − f(0); otherwise zero.
     offset: f64,
@@ -143,23 +144,33 @@ pub(crate) struct TimeFunction {
 }
 
 /// The form in which a function enters.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FunctionForm {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FunctionForm {
     /// The function itself.
     Value,
-    /// Its cosine; its sine follows.
+    /// Its cosine; the next function is its sine.
     Cosine,
     /// Its sine.
     Sine,
 }
 
 impl TimeFunction {
-    /// The function, and the value that is subtracted from it.
-    pub(crate) fn parts(&self) -> (&Function, f64) {
+    /// The function, and the value that is subtracted from it: f(0) for drives.
+    #[must_use]
+    pub fn parts(&self) -> (&Function, f64) {
         (&self.function, self.offset)
     }
 
-    pub(crate) fn jet(&self, t: f64) -> [f64; 3] {
+    /// The form in which the difference enters: drives of angles in space take its cosine and its
+    /// sine.
+    #[must_use]
+    pub fn form(&self) -> FunctionForm {
+        self.form
+    }
+
+    /// Its value at t, in this form, with two derivatives.
+    #[must_use]
+    pub fn jet(&self, t: f64) -> [f64; 3] {
         let [f, d, dd] = self.function.jet(t);
         self.formed([f - self.offset, d, dd], f64::sin_cos)
     }

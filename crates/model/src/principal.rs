@@ -5,6 +5,7 @@
 //! is built, and what is told of a body is written in the axes of its frame again
 //! ([`crate::frame`]). Where the given tensor is diagonal nothing is turned and nothing is rounded.
 
+use joints::Ring;
 use joints::space3::Pose;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
@@ -45,14 +46,20 @@ impl Principal {
         })
     }
 
+    /// The rotation from these axes to those of the frame (w, x, y, z).
+    #[must_use]
+    pub fn quaternion(&self) -> [f64; 4] {
+        self.quaternion
+    }
+
     /// A vector of the frame in the principal axes.
-    pub(crate) fn own(&self, v: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|k| (0..3).map(|row| self.axes[row][k] * v[row]).sum())
+    pub(crate) fn own<T: Ring>(&self, v: [T; 3]) -> [T; 3] {
+        std::array::from_fn(|k| sum_of([0, 1, 2].map(|row| T::from(self.axes[row][k]) * v[row])))
     }
 
     /// A vector of the principal axes in the frame.
-    pub(crate) fn to_frame(&self, own: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|row| (0..3).map(|k| self.axes[row][k] * own[k]).sum())
+    pub(crate) fn to_frame<T: Ring>(&self, own: [T; 3]) -> [T; 3] {
+        std::array::from_fn(|row| sum_of([0, 1, 2].map(|k| T::from(self.axes[row][k]) * own[k])))
     }
 
     /// The axes of the frame, each a vector of something, from those of the principal axes.
@@ -80,6 +87,10 @@ impl Principal {
         let q = nalgebra::Quaternion::new(w, -x, -y, -z);
         UnitQuaternion::from_quaternion(q).scaled_axis().into()
     }
+}
+
+fn sum_of<T: Ring>([a, b, c]: [T; 3]) -> T {
+    a + b + c
 }
 
 #[cfg(test)]

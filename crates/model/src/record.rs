@@ -6,8 +6,8 @@ use joints::recorded::{Operation, Recorded, record};
 
 pub use crate::element::Input;
 use crate::element::{PlacedConstraint, RecordedSlots};
-use crate::function::Function;
-use crate::mechanism::{Mechanism, TimeFunction};
+pub use crate::mechanism::{FunctionForm, TimeFunction};
+use crate::mechanism::{Mechanism, gyroscopic};
 use crate::space::SpaceKind;
 use crate::system::System;
 
@@ -26,8 +26,10 @@ pub struct RecordedEquations {
     pub b: Vec<Recorded>,
     /// Γ, m + h values.
     pub gamma: Vec<Recorded>,
-    /// Q, n_v values, including the weight.
+    /// Q, n_v values, including the weight and, in space, −ω × J·ω.
     pub force: Vec<Recorded>,
+    /// q̇ = T(q)·v, n_q values.
+    pub rate: Vec<Recorded>,
 }
 
 /// Results collected while the kernels run.
@@ -37,18 +39,18 @@ struct Results {
     b: Vec<Recorded>,
     gamma: Vec<Recorded>,
     force: Vec<Recorded>,
+    rate: Vec<Recorded>,
 }
 
 impl Mechanism {
-    /// The functions of time of its joints, drives and forces, each with the value that is
-    /// subtracted from it: f(0) for drives.
-    pub fn functions(&self) -> impl Iterator<Item = (&Function, f64)> {
-        self.elements.functions().map(TimeFunction::parts)
+    /// The functions of time of its joints, drives and forces, as its kernels take them.
+    pub fn functions(&self) -> impl Iterator<Item = &TimeFunction> {
+        self.elements.functions()
     }
 }
 
 impl RecordedEquations {
-    /// Records Φ, C, b, Γ and Q of a mechanism in [`SpaceKind::Plane`].
+    /// Records Φ, C, b, Γ, Q and q̇ of a mechanism in the plane or in space.
     ///
     /// ```
     /// use model::{Body, Description, Mechanism, RecordedEquations, record::Input};
@@ -63,10 +65,14 @@ impl RecordedEquations {
     /// ```
     ///
     /// # Panics
-    /// If the bodies of the mechanism have other coordinates than x, y and their angle.
+    /// If the mechanism is neither in [`SpaceKind::Plane`] nor in [`SpaceKind::Space3`].
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
-        assert_eq!(mechanism.space(), SpaceKind::Plane, "planar bodies");
+        let space = mechanism.space();
+        assert!(
+            matches!(space, SpaceKind::Plane | SpaceKind::Space3),
+            "bodies with an angle or a quaternion, not {space:?}"
+        );
         let layout = mechanism.layout();
         let n_functions = mechanism.elements.given.len();
         let (tape, (inputs, results)) = record(|| {
@@ -75,7 +81,7 @@ impl RecordedEquations {
                 list.push(what);
                 Recorded::input(list.len() - 1)
             };
-            let slots = RecordedSlots::new(mechanism.bodies().len(), n_functions, input);
+            let slots = RecordedSlots::new(space, mechanism.bodies().len(), n_functions, input);
             let results = run_on(mechanism, &slots);
             (list, results)
         });
@@ -96,6 +102,7 @@ impl RecordedEquations {
             b: results.b,
             gamma: results.gamma,
             force: results.force,
+            rate: results.rate,
         }
     }
 }
@@ -110,7 +117,17 @@ fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
         b: vec![zero; layout.rows()],
         gamma: vec![zero; layout.rows()],
         force: numbers(mechanism.weight()),
+        rate: vec![zero; layout.n_q],
     };
+    let (q, v) = inputs.state();
+    mechanism.space().rate(q, v, &mut r.rate);
+    for (body, omega) in inputs.spins().enumerate() {
+        let at = layout.space.rotations_of(body);
+        let moments = [0, 1, 2].map(|k| mechanism.mass()[at.start + k]);
+        for (force, torque) in r.force[at].iter_mut().zip(gyroscopic(moments, omega)) {
+            *force = *force + torque;
+        }
+    }
     for c in &elements.constraints {
         record_constraint(c, inputs, &mut r);
     }

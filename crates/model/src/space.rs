@@ -27,6 +27,8 @@ pub use joints::space3::{cross, dot};
 
 use std::ops::{Range, RangeInclusive};
 
+use joints::Ring;
+
 /// Axes in which the force of a reaction is expressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
@@ -318,6 +320,16 @@ impl SpaceKind {
     pub fn coordinates(self, body: usize) -> Range<usize> {
         let n = self.n_q();
         n * body..n * (body + 1)
+    }
+
+    /// q̇ = T(q)·v of all bodies.
+    pub(crate) fn rate<T: Ring>(self, q: &[T], v: &[T], qd: &mut [T]) {
+        in_space!(self, S => {
+            let bodies = q.chunks_exact(S::N_Q).zip(v.chunks_exact(S::N_V));
+            for ((q, v), qd) in bodies.zip(qd.chunks_exact_mut(S::N_Q)) {
+                S::rate(q, v, qd);
+            }
+        });
     }
 
     /// Moves the configuration q by d (n_v).

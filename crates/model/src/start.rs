@@ -8,6 +8,9 @@
 //! No rank is decided here: at a configuration that violates the constraints, a redundant row is
 //! not yet redundant. The correction is the regularised least-squares step of `linalg`, repeated to
 //! rounding.
+//!
+//! A start may be apart from the description ([`StartOptions::poses`]): initial values are those of
+//! the described start, and the bodies are moved on the constraints that these define.
 
 mod approach;
 mod blame;
@@ -31,7 +34,7 @@ use options::kept_columns;
 pub use crate::size::scene_size;
 pub use conflict::{HeldVelocity, VelocityConflict};
 pub use error::{Misfit, StartError};
-pub use options::{Coordinate, CorrectionLimit, KeepLevel, StartOptions};
+pub use options::{Coordinate, CorrectionLimit, KeepLevel, StartOptions, StartPose};
 pub use velocity::{StartVelocity, consistent_velocity};
 
 /// An assembled configuration.
@@ -39,7 +42,7 @@ pub use velocity::{StartVelocity, consistent_velocity};
 pub struct Assembly {
     /// Coordinates on the constraints.
     pub q: Vec<f64>,
-    /// Displacement from the described coordinates, n_v.
+    /// Displacement from the described coordinates, or from the poses of the start, n_v.
     pub correction: Vec<f64>,
     /// Largest |Φ|.
     pub residual: f64,
@@ -62,13 +65,17 @@ const PATIENCE: usize = 12;
 /// inertia have the weight of the smallest one with mass or inertia, and kept coordinates do not
 /// move.
 ///
+/// With [`StartOptions::poses`] this is the described start, which defines the initial values, and
+/// the bodies start at the configuration on the same constraints that is closest to the poses.
+///
 /// # Errors
 /// - [`StartError::NoAssembly`]: the constraints contradict each other or the start is too far
 ///   away.
 /// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
 /// - [`StartError::TooLarge`]: the correction needs a matrix that is too large for the memory.
 /// - [`StartError::Requirement`]: a requirement of a definition does not hold.
-/// - [`StartError::NoCoordinate`]: a coordinate that `options` keep does not exist.
+/// - [`StartError::NoCoordinate`], [`StartError::NoPose`]: what `options` keep or place does not
+///   exist.
 pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Assembly, StartError> {
     let (described, _) = mechanism.described_state();
     initialise(mechanism, &described);
@@ -76,31 +83,94 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let rows = restricting_rows(mechanism);
     let weights = position_weights(mechanism, options, size)?;
     let mut s = mechanism.scratch();
+    let mut q = closest(mechanism, &mut s, (&rows, &weights), &described, size)?;
+    initialise(mechanism, &q);
+    check_requirements(mechanism, &q)?;
+    let mut correction = mechanism.difference_of(&q, &described);
+    if options.correction == CorrectionLimit::Small {
+        check_correction(mechanism, &correction, size)?;
+    }
+    if !options.poses.is_empty() {
+        let posed = posed(mechanism, &options.poses, &q)?;
+        // All rows: those of initial values restrict it, too.
+        let rows: Vec<usize> = (0..mechanism.layout().m).collect();
+        q = closest(mechanism, &mut s, (&rows, &weights), &posed, size)?;
+        mechanism.settle_angles(&mut q);
+        check_requirements(mechanism, &q)?;
+        correction = mechanism.difference_of(&q, &posed);
+        // A body without a pose of its own follows the others.
+        let columns = |pose: &StartPose| mechanism.space().columns_of(pose.body);
+        let given: Vec<usize> = options.poses.iter().flat_map(columns).collect();
+        for (j, moved) in correction.iter_mut().enumerate() {
+            if !given.contains(&j) {
+                *moved = 0.0;
+            }
+        }
+        if options.correction == CorrectionLimit::Small {
+            check_correction(mechanism, &correction, size)?;
+        }
+    }
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.phi(&mut s);
+    let residual = s.phi.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+    Ok(Assembly {
+        q,
+        correction,
+        residual,
+        size,
+    })
+}
+
+/// The coordinates q with the frames of some bodies elsewhere.
+fn posed(mechanism: &Mechanism, poses: &[StartPose], q: &[f64]) -> Result<Vec<f64>, StartError> {
+    let space = mechanism.space();
+    let mut posed = q.to_vec();
+    for StartPose { body, frame } in poses {
+        let bodies = mechanism.bodies().len();
+        let record = mechanism.bodies().get(*body);
+        let Some(moved) = record.and_then(|record| record.at(frame)) else {
+            let body = *body;
+            return Err(StartError::NoPose { body, bodies });
+        };
+        moved.coordinates(space, &mut posed[space.coordinates(*body)]);
+    }
+    Ok(posed)
+}
+
+fn check_requirements(mechanism: &Mechanism, q: &[f64]) -> Result<(), StartError> {
+    match unmet_requirement(mechanism, q) {
+        Some((name, requirement)) => Err(StartError::Requirement { name, requirement }),
+        None => Ok(()),
+    }
+}
+
+/// The configuration closest to a described one that satisfies the rows, with axes that point as
+/// described.
+fn closest(
+    mechanism: &Mechanism,
+    s: &mut Scratch,
+    restricting: Restricting<'_>,
+    described: &[f64],
+    size: f64,
+) -> Result<Vec<f64>, StartError> {
+    let (rows, _) = restricting;
     let within = mechanism.has_tolerances();
     let start = (0.0, within);
-    let restricting = (&rows[..], &weights[..]);
-    let q = nearest(
-        mechanism,
-        &mut s,
-        start,
-        restricting,
-        &described,
-        &described,
-    );
+    let q = nearest(mechanism, s, start, restricting, described, described);
     let q = if within {
-        within::within_data(mechanism, &mut s, restricting, &described, size, q)
+        within::within_data(mechanism, s, restricting, described, size, q)
     } else {
         q
     };
     let q = match q {
-        Ok(q) if approach::is_meant(mechanism, &mut s, &q) => Ok(q),
+        Ok(q) if approach::is_meant(mechanism, s, &q) => Ok(q),
         Err(e @ StartError::NoAssembly { .. })
-            if approach::is_near(mechanism, &mut s, &rows, &described, size) =>
+            if approach::is_near(mechanism, s, rows, described, size) =>
         {
             Err(e)
         }
         Ok(_) | Err(StartError::NoAssembly { .. }) => {
-            let meant = approached(mechanism, &mut s, start, restricting, &described, size);
+            let meant = approached(mechanism, s, start, restricting, described, size);
             // A requirement that is not met is told below.
             match (q, meant) {
                 (Ok(q), Err(_)) if !unmet_rows(mechanism, &q).is_empty() => Ok(q),
@@ -111,26 +181,9 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     };
     // A violated requirement of a definition explains more than the rows that are violated because
     // of it.
-    let q = q.map_err(|error| match unmet_requirement(mechanism, &described) {
+    q.map_err(|error| match unmet_requirement(mechanism, described) {
         Some((name, requirement)) => StartError::Requirement { name, requirement },
         None => error,
-    })?;
-    initialise(mechanism, &q);
-    if let Some((name, requirement)) = unmet_requirement(mechanism, &q) {
-        return Err(StartError::Requirement { name, requirement });
-    }
-    let correction = mechanism.difference_of(&q, &described);
-    if options.correction == CorrectionLimit::Small {
-        check_correction(mechanism, &correction, size)?;
-    }
-    mechanism.pose(0.0, &q, &mut s);
-    mechanism.phi(&mut s);
-    let residual = s.phi.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-    Ok(Assembly {
-        q,
-        correction,
-        residual,
-        size,
     })
 }
 

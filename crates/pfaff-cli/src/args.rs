@@ -56,6 +56,9 @@ pub(crate) enum Command {
     /// Read and assemble only: report every error of the file, with its place
     #[command(after_help = examples::CHECK)]
     Check(Check),
+    /// A start at rest: where forces balance near the described start
+    #[command(after_help = examples::EQUILIBRIUM)]
+    Equilibrium(Equilibrium),
     /// Small motions about a state at rest or a steady one: matrices, eigenvalues, modes
     #[command(after_help = examples::LINEARISE)]
     Linearise(Linearise),
@@ -98,6 +101,7 @@ impl Command {
             | Self::Sweep(Sweep { json, .. })
             | Self::WorkPrecision(WorkPrecision { json, .. })
             | Self::Check(Check { json, .. })
+            | Self::Equilibrium(Equilibrium { json, .. })
             | Self::Linearise(Linearise { json, .. })
             | Self::New(New { json, .. })
             | Self::View(View { json, .. })
@@ -326,6 +330,28 @@ pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// The errors, or a summary of the scene, as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Equilibrium {
+    /// Scene file, or - for standard input
+    pub(crate) scene: PathBuf,
+    /// Leave places that are not stable by a small push, and search on
+    #[arg(long)]
+    pub(crate) stable: bool,
+    /// Directory for a scene that starts there, at rest
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Also replace files there that pfaff has not written
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) known: Known,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+    /// Place, stability and reactions as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -5,6 +5,7 @@ mod args;
 mod check;
 pub mod console;
 mod diff;
+mod equilibrium;
 mod explain;
 pub mod input;
 pub mod interrupt;
@@ -150,6 +151,7 @@ impl CommandLine for Arguments {
             Command::WorkPrecision(a) => work_precision::run(a, console),
             Command::Check(a) => check::run(a, console),
             Command::Linearise(a) => linearise::run(a, console),
+            Command::Equilibrium(a) => equilibrium::run(a, console),
             Command::New(a) => new::run(a, console),
             Command::View(a) => view::run(a, console),
             Command::Diff(a) => diff::run(a, console),

@@ -1,6 +1,7 @@
 //! Reasons why there are no results, or only a part of them.
 
 use dynamics::MotionError;
+use dynamics::equilibrium::EquilibriumError;
 use dynamics::linearise::LineariseError;
 use model::BuildError;
 use model::codes::Code;
@@ -87,6 +88,9 @@ pub enum StudyError {
     /// A motion could not be linearised.
     #[error(transparent)]
     Linearise(#[from] LineariseError),
+    /// No place of rest was found.
+    #[error(transparent)]
+    Equilibrium(#[from] EquilibriumError),
     /// A configuration could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
@@ -138,6 +142,7 @@ impl StudyError {
             Self::Stopped { error, .. } => error.code(),
             Self::Interrupted => const { Code::new(8) },
             Self::Linearise(e) => e.code(),
+            Self::Equilibrium(e) => e.code(),
             Self::Analysis(e) => e.code(),
             Self::State(e) => e.code(),
             Self::Explanation(e) => e.code(),
@@ -195,6 +200,7 @@ impl StudyError {
                     | MotionError::Combination { .. }
             ),
             Self::Linearise(e) => e.is_input(),
+            Self::Equilibrium(e) => e.is_input(),
             Self::Analysis(e) => matches!(e, AnalysisError::Rows { .. }),
             Self::Deletion(e) => matches!(
                 e,

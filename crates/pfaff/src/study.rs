@@ -6,19 +6,20 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use dynamics::equilibrium::{Equilibrium, EquilibriumOptions, equilibrium};
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
     Failure, Method, MotionFault, MotionOptions, Plan, Prepared, Sample, Stabilisation, Stop,
     Summary, Wanted, simulate_until,
 };
-use model::{Known, Registry, System};
+use model::{AnyDescription, FramePose, Known, Registry, StartPose, System};
 use report::documents::{DataDocument, MomentDocument, MotionDocument};
 use report::{
     Ending, Origin, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
 };
-use scene::{Output, Scene, WantedReactions};
+use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{Contradiction, State, contradicting_drives_along};
 
 use crate::assembled::{AssembledScene, refused};
@@ -33,6 +34,9 @@ const PICTURED_ROWS: usize = 600;
 
 /// Largest number of rows of a mechanism for which it is tested whether a motion begins.
 const BEGUN_ROWS: usize = 2000;
+
+/// Searches for a place of rest that follow one from a singular start, at most.
+const SEARCHES: usize = 3;
 
 /// A scene that has been assembled and can move.
 #[non_exhaustive]
@@ -172,6 +176,108 @@ impl Study {
     ) -> Result<Linearisation, StudyError> {
         let State { q, v } = self.state_at(t)?;
         Ok(linearise(&self.prepared, (t, &q, &v), options)?)
+    }
+
+    /// A configuration at rest near the start, and the study of the same scene that starts there,
+    /// at rest, for all further questions. Places, initial values and the zeros of measures stay
+    /// those of the described start.
+    ///
+    /// ```
+    /// use pfaff::prelude::*;
+    /// use pfaff::dynamics::equilibrium::EquilibriumOptions;
+    ///
+    /// // A mass on a spring of 100 N/m, described where the spring carries nothing.
+    /// let mut d = Description { gravity: [0.0, -10.0], ..Description::new("scale") };
+    /// let pan = d.body(Body { position: [0.0, -1.0], ..Body::new("pan", 2.0, 0.1) });
+    /// let both = [BodyRef::Ground, pan];
+    /// d.joint("guide", &both, Translational { s_i: [0.0; 2], s_j: [0.0; 2], axis: Direction::Y, angle_0: 0.0 });
+    /// d.force("spring", &both, SpringDamper {
+    ///     s_i: [0.0; 2], s_j: [0.0; 2], stiffness: 100.0, damping: 0.0, free_length: Some(1.0), free_length_0: 1.0,
+    /// });
+    /// let (found, there) = Study::build(d)?.equilibrium(&EquilibriumOptions::default())?;
+    /// assert!((found.q[1] + 1.2).abs() < 1e-12);
+    /// assert_eq!(there.prepared.v, [0.0; 3]);
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`equilibrium`]; and if the mechanism cannot start there.
+    pub fn equilibrium(
+        &self,
+        options: &EquilibriumOptions,
+    ) -> Result<(Equilibrium, Self), StudyError> {
+        let mut found = equilibrium(&self.prepared, options)?;
+        let mut there = self.starting_at(&found.q)?;
+        // From a singular start the search has moved with the rank that holds there only.
+        let rank = |study: &Self| study.prepared.decision.rank;
+        for _ in 0..SEARCHES {
+            let before = rank(&there);
+            if before == rank(self) {
+                break;
+            }
+            let mut next = equilibrium(&there.prepared, options)?;
+            there = self.starting_at(&next.q)?;
+            next.steps += found.steps;
+            next.pushes += found.pushes;
+            found = next;
+            if rank(&there) == before {
+                break;
+            }
+        }
+        Ok((found, there))
+    }
+
+    /// The same scene that starts at the coordinates q, at rest.
+    fn starting_at(&self, q: &[f64]) -> Result<Self, StudyError> {
+        let mut scene = self.scene.clone();
+        scene.start.poses = self.poses(q);
+        match &mut scene.description {
+            AnyDescription::Plane(d) => {
+                for body in &mut d.bodies {
+                    body.velocity = body.velocity.map(|_| [0.0; 2]);
+                    body.angular_velocity = body.angular_velocity.map(|_| 0.0);
+                }
+            }
+            AnyDescription::Space3(d) => {
+                for body in &mut d.bodies {
+                    body.velocity = body.velocity.map(|_| [0.0; 3]);
+                    body.angular_velocity = body.angular_velocity.map(|_| [0.0; 3]);
+                }
+            }
+        }
+        AssembledScene::build(scene)?.prepare(&Overrides::default())
+    }
+
+    /// The poses of all bodies at the coordinates q.
+    fn poses(&self, q: &[f64]) -> Vec<StartPose> {
+        let mechanism = &self.prepared.mechanism;
+        let v = vec![0.0; mechanism.layout().n_v];
+        let pose = |body: usize| {
+            let frame = mechanism.frames().body(body, q, &v);
+            let [x, y, _] = frame.place;
+            let frame = match &self.scene.description {
+                AnyDescription::Plane(_) => FramePose::Plane {
+                    position: [x, y],
+                    angle: frame.angle,
+                },
+                AnyDescription::Space3(_) => FramePose::Space3 {
+                    position: frame.place,
+                    orientation: frame.quaternion,
+                },
+            };
+            StartPose { body, frame }
+        };
+        (0..mechanism.bodies().len()).map(pose).collect()
+    }
+
+    /// The text of the scene, if it was read from one, that starts at the coordinates q, at rest:
+    /// see [`scene::at_rest`].
+    ///
+    /// # Errors
+    /// If the poses cannot be written into the text.
+    pub fn text_at_rest(&self, q: &[f64]) -> Result<String, KeyError> {
+        let poses: Vec<FramePose> = self.poses(q).iter().map(|pose| pose.frame).collect();
+        scene::at_rest(&self.scene, &poses)
     }
 
     /// The first contradiction of drives after the start: with each other, or with what joints

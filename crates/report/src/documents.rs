@@ -4,6 +4,7 @@
 
 mod analysis;
 mod answers;
+mod equilibrium;
 mod freedoms;
 mod linearise;
 mod misfits;
@@ -35,6 +36,7 @@ pub use answers::{
     DiffReaction, DiffSide, EndedDocument, NewDocument, RefusalDocument, TemplateDocument,
     TemplatesDocument, ViewDocument,
 };
+pub use equilibrium::{EquilibriumDocument, ReactionAtRestDocument, RestingBodyDocument};
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use linearise::{
     InputDocument, LinearisationDocument, ModeDocument, SecondOrderDocument, StateDocument,

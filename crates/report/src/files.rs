@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::thread::sleep;
 use std::time::Duration;
 
-pub use ours::is_ours;
+pub use ours::{PROVENANCE, is_ours};
 
 /// Reason why a file cannot be written.
 #[derive(Debug, thiserror::Error)]

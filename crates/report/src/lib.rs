@@ -26,7 +26,7 @@ pub mod work_precision;
 
 pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, write_json};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
-pub use files::{FileError, OutputDirectory, OutputFile, is_ours, replace_file};
+pub use files::{FileError, OutputDirectory, OutputFile, PROVENANCE, is_ours, replace_file};
 pub use html::{
     ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, Shows, WrittenScene,
     numbers_per_row, run_page,

@@ -2,6 +2,9 @@
 //! sampled states: the pivot with the least fill among those that are large compared with their row
 //! and their column at every state (Markowitz with a threshold).
 //!
+//! Rows are given along axes in which few entries vary ([`crate::axes`]); masses, forces and
+//! results are along those of the equations.
+//!
 //! The rows determine r dependent coordinates; the others are free. Every solve uses the null
 //! space: x = x₀ + N·w, where x₀ satisfies the rows with the free coordinates at zero, the columns
 //! of N are the motions for unit values of the free coordinates, and w minimises the rest in the
@@ -14,6 +17,7 @@ use std::cmp::Ordering;
 
 use symbolic::Value;
 
+use crate::axes::Axes;
 use crate::error::CodeError;
 use crate::sampled::Sampled;
 
@@ -31,10 +35,11 @@ const MASSLESS: f64 = 1e-13;
 /// Rows in factored form, and the mass matrix of the motions that they leave free.
 pub(crate) struct Factored {
     n: usize,
+    axes: Axes,
     pivots: Vec<Pivot>,
     /// Coordinates that the rows do not determine.
     free: Vec<usize>,
-    /// N: the motion of all coordinates for each free coordinate.
+    /// N: the motion of all coordinates for each free coordinate, along the axes of the equations.
     frame: Vec<Vec<Value>>,
     /// Rows of the factor L of NᵀMN = L·D·Lᵀ, and 1/D.
     reduced: Vec<(Vec<Value>, Value)>,
@@ -55,13 +60,13 @@ struct Pivot {
 }
 
 impl Factored {
-    /// Factors `rows` (r × n, zeros as the constant 0) for the masses `mass`. Columns are compared
-    /// after multiplication by `scale`.
+    /// Factors `rows` (r × n, zeros as the constant 0) for velocities along `axes` and the masses
+    /// `mass`. Columns are compared after multiplication by `scale`.
     pub(crate) fn new(
         code: &mut Sampled,
         mut rows: Vec<Vec<Value>>,
-        mass: &[f64],
-        scale: &[f64],
+        axes: &Axes,
+        (mass, scale): (&[f64], &[f64]),
     ) -> Result<Self, CodeError> {
         let (r, n) = (rows.len(), mass.len());
         let mut open_rows: Vec<usize> = (0..r).collect();
@@ -109,6 +114,7 @@ impl Factored {
         }
         let mut factored = Self {
             n,
+            axes: axes.clone(),
             pivots,
             free,
             frame: Vec::new(),
@@ -129,7 +135,8 @@ impl Factored {
         rhs: &[Value],
         force: &[Value],
     ) -> Vec<Value> {
-        let mut x = self.particular(code, rhs);
+        let x = self.particular(code, rhs);
+        let mut x = self.axes.velocities_out(code, &x);
         let p = &mut code.program;
         let left: Vec<Value> = (0..self.n)
             .map(|i| {
@@ -154,9 +161,9 @@ impl Factored {
 
     /// λ with `rowsᵀ·λ = excess` in the dependent coordinates, one multiplier for each of the rows.
     pub(crate) fn multipliers(&self, code: &mut Sampled, excess: &[Value]) -> Vec<Value> {
+        let mut left = self.axes.forces_in(code, excess);
         let p = &mut code.program;
         let zero = p.number(0.0);
-        let mut left = excess.to_vec();
         let mut lambda = vec![zero; self.pivots.len()];
         // Uᵀ·y = excess, then Lᵀ·λ = y.
         for pivot in &self.pivots {
@@ -216,7 +223,9 @@ impl Factored {
             }
             x
         };
-        self.free.iter().enumerate().map(motion).collect()
+        let motions: Vec<_> = self.free.iter().enumerate().map(motion).collect();
+        let out = |x: Vec<Value>| self.axes.velocities_out(code, &x);
+        motions.into_iter().map(out).collect()
     }
 
     /// NᵀMN = L·D·Lᵀ.
@@ -293,12 +302,8 @@ impl Factored {
 
 /// Σ aᵢ·bᵢ
 fn dot(code: &mut Sampled, a: &[Value], b: &[Value]) -> Value {
-    let p = &mut code.program;
-    let zero = p.number(0.0);
-    a.iter().zip(b).fold(zero, |sum, (a, b)| {
-        let product = p.mul(*a, *b);
-        p.add(sum, product)
-    })
+    let products: Vec<_> = a.iter().copied().zip(b.iter().copied()).collect();
+    code.sum(&products)
 }
 
 /// The entry with the least fill among those that are large enough at every state; constants are

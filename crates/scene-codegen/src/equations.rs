@@ -7,7 +7,10 @@ use model::{RecordedEquations, System};
 use symbolic::{Function, Graph, Value};
 
 use crate::sampled::Sampled;
-use crate::subject::Subject;
+use crate::subject::{State, Subject};
+
+/// Number of states off the motion at which equations are compared.
+pub(crate) const ANYWHERE: usize = 8;
 
 /// The meaning of an input of the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +35,7 @@ pub(crate) struct Equations {
     pub(crate) b: Vec<Value>,
     pub(crate) gamma: Vec<Value>,
     pub(crate) force: Vec<Value>,
+    pub(crate) rate: Vec<Value>,
 }
 
 impl Equations {
@@ -45,13 +49,21 @@ impl Equations {
             .map(|&i| Source::Mechanism(i))
             .chain((0..layout.rows()).map(Source::Rhs))
             .collect();
-        let value = |source: &Source, state| match *source {
+        let value = |source: &Source, state: &State| match *source {
             Source::Mechanism(input) => subject.input(input, state),
             Source::Rhs(_) => 0.0,
         };
         let states = subject.states.iter();
         let samples = states.map(|state| sources.iter().map(|s| value(s, state)).collect());
-        let mut code = Sampled::new(samples.collect());
+        let anywhere = (0..ANYWHERE).map(|k| {
+            let state = anywhere(subject, k);
+            let value = |(i, source): (usize, &Source)| match source {
+                Source::Mechanism(Input::Function { .. }) | Source::Rhs(_) => shift(i, k),
+                source => value(source, &state),
+            };
+            sources.iter().enumerate().map(value).collect()
+        });
+        let mut code = Sampled::new(samples.collect(), anywhere.collect());
         let mut names = Graph::new();
         let mut inputs = Vec::with_capacity(sources.len());
         for source in &sources {
@@ -68,6 +80,7 @@ impl Equations {
             b: of(&recording.b),
             gamma: of(&recording.gamma),
             force: of(&recording.force),
+            rate: of(&recording.rate),
             code,
             names,
             sources,
@@ -91,6 +104,26 @@ impl Equations {
             p.add(sum, product)
         })
     }
+}
+
+/// A state that satisfies no constraint, far from the k-th state of the motion.
+pub(crate) fn anywhere(subject: &Subject<'_>, k: usize) -> State {
+    let State { t, mut q, mut v } = subject.states[k % subject.states.len()].clone();
+    let mechanism = &subject.prepared.mechanism;
+    let size = subject.prepared.assembly.size;
+    let away: Vec<f64> = (0..v.len())
+        .map(|j| shift(j, k) * mechanism.space().unit(j, size))
+        .collect();
+    mechanism.displace(&mut q, &away);
+    for (j, v) in v.iter_mut().enumerate() {
+        *v += shift(j + 7, k) * mechanism.space().unit(j, size);
+    }
+    State { t, q, v }
+}
+
+/// Numbers between −1 and 1; no symmetry of a mechanism equals one of them.
+fn shift(i: usize, k: usize) -> f64 {
+    (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin()
 }
 
 /// C as dense rows of a replayed recording, and a function that looks up its other results.
@@ -146,6 +179,9 @@ fn name(source: Source) -> String {
         Source::Mechanism(Input::Coordinate(k)) => format!("q{k}"),
         Source::Mechanism(Input::Cos(k)) => format!("cos{k}"),
         Source::Mechanism(Input::Sin(k)) => format!("sin{k}"),
+        Source::Mechanism(Input::Rotation { body, row, column }) => {
+            format!("rot{body}_{row}{column}")
+        }
         Source::Mechanism(Input::Velocity(k)) => format!("v{k}"),
         Source::Mechanism(Input::Function {
             function,

@@ -38,11 +38,16 @@ pub enum CodeError {
         /// The drive.
         drive: String,
     },
-    /// Sines, cosines and frames of generated code are those of planar bodies.
+    /// Rotations of generated code come from angles in the plane and from quaternions in space.
     #[error(
-        "generated code is for planar bodies with coordinates x, y and angle only; run this scene interpreted"
+        "generated code is for bodies that turn by an angle or by a quaternion only; run this scene interpreted"
     )]
-    NotPlanar,
+    Coordinates,
+    /// Turns are counted from the poses, between kernels.
+    #[error(
+        "joints and forces that count the turns of angles are not in generated code; run this scene interpreted"
+    )]
+    Turns,
     /// A free motion has no mass.
     #[error(
         "the motion of velocity {} has no mass, so its acceleration is not determined; give its body mass or inertia",

@@ -12,16 +12,13 @@ use model::System;
 use model::record::Input;
 use symbolic::Value;
 
-use crate::equations::{Equations, Source, replay, results};
+use crate::equations::{ANYWHERE, Equations, Source, anywhere, replay, results};
 use crate::sampled::Sampled;
-use crate::subject::{State, Subject};
+use crate::subject::Subject;
 
 /// Largest difference between the turned equations and those in the frame, as a fraction of their
 /// largest number.
 const SAME: f64 = 1e-10;
-
-/// Number of states at which they are compared.
-const STATES: usize = 8;
 
 /// A frame that is turned by θ.
 #[derive(Clone)]
@@ -214,7 +211,7 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
                 let (a, b) = (p.mul(s, cos), p.mul(c, sin));
                 p.sub(a, b)
             }
-            Input::Function { .. } => all[k],
+            Input::Rotation { .. } | Input::Function { .. } => all[k],
         };
     }
     Some(seen)
@@ -225,7 +222,7 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
 pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
     let elsewhere = Subject {
         prepared: subject.prepared,
-        states: (0..STATES).map(|k| anywhere(subject, k)).collect(),
+        states: (0..ANYWHERE).map(|k| anywhere(subject, k)).collect(),
     };
     let mut e = Equations::new(&elsewhere);
     let Some(seen) = Seen::from_body(&mut e, &elsewhere, angle) else {
@@ -260,21 +257,4 @@ pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
         }
         by <= SAME * size
     })
-}
-
-/// A state that satisfies no constraint, far from the k-th state of the motion.
-fn anywhere(subject: &Subject<'_>, k: usize) -> State {
-    let State { t, mut q, mut v } = subject.states[k % subject.states.len()].clone();
-    let mechanism = &subject.prepared.mechanism;
-    let size = subject.prepared.assembly.size;
-    // No symmetry of a mechanism equals one of these numbers.
-    let shift = |i: usize| (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin();
-    let away: Vec<f64> = (0..v.len())
-        .map(|j| shift(j) * mechanism.space().unit(j, size))
-        .collect();
-    mechanism.displace(&mut q, &away);
-    for (j, v) in v.iter_mut().enumerate() {
-        *v += shift(j + 7) * mechanism.space().unit(j, size);
-    }
-    State { t, q, v }
 }

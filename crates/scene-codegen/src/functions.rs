@@ -6,6 +6,7 @@ use model::record::Input;
 use model::{SpaceKind, System};
 use symbolic::{Program, Value};
 
+use crate::axes::Axes;
 use crate::eliminate::Factored;
 use crate::equations::{Equations, Source};
 use crate::error::CodeError;
@@ -78,7 +79,7 @@ const POSITION_CORRECTION: Signature = Signature {
     name: "position_correction",
     doc: "The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.",
     arguments: &[("q", "N_Q"), ("r", "M")],
-    out: ("dq", "N_Q"),
+    out: ("dq", "N_V"),
     divides: true,
 };
 
@@ -90,37 +91,60 @@ const VELOCITY_CORRECTION: Signature = Signature {
     divides: true,
 };
 
+/// In space only: in the plane q̇ = v.
+pub(crate) const RATE: Signature = Signature {
+    name: "rate",
+    doc: "q̇ = T(q)·v: `½·e∘(0, ω)` for the quaternion e of each body.",
+    arguments: &[("q", "N_Q"), ("v", "N_V")],
+    out: ("qd", "N_Q"),
+    divides: false,
+};
+
+/// Where the equations are solved.
+#[derive(Clone, Copy)]
+enum View {
+    /// As they are: angular velocities in space are along principal axes.
+    Ground,
+    /// In the plane: in the frame of the body whose angle has this index in q.
+    Angle(usize),
+    /// In space: with angular velocities along the axes of the ground.
+    GroundAxes,
+    /// In space: with the angular velocity of each body along the axes of the body that carries it.
+    JointAxes,
+    /// In space: with all velocities along the axes of this body.
+    BodyAxes(usize),
+}
+
+/// The same for readers, with the name of the body.
+pub(crate) enum Described {
+    Ground,
+    GroundAxes,
+    JointAxes,
+    Frame(String),
+}
+
 /// All functions of a module.
 pub(crate) struct Functions {
     pub(crate) equations: Equations,
     pub(crate) list: Vec<Function>,
-    /// The body in whose frame the equations are solved, if it is not the ground.
-    pub(crate) seen_from: Option<String>,
+    /// Where the equations are solved.
+    pub(crate) view: Described,
     /// Number of sampled states at which the health of accelerations is below the limit of runs.
     pub(crate) unhealthy: usize,
 }
 
 impl Functions {
-    /// In the frame of the ground, or of the body in whose frame accelerations need the fewest
-    /// operations, if the equations may be solved in the frames of bodies.
+    /// In the view in which accelerations need the fewest operations; in space, in which the fewest
+    /// sampled states are beyond the limit of runs.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
-        if subject.prepared.mechanism.space() != SpaceKind::Plane {
-            return Err(CodeError::NotPlanar);
+        if subject.prepared.mechanism.layout().turns > 0 {
+            return Err(CodeError::Turns);
         }
-        let from_ground = Self::seen_from(subject, None);
-        let angles: Vec<usize> = (2..subject.prepared.mechanism.layout().n_q)
-            .step_by(3)
-            .take(VIEWS)
-            .filter(|&angle| may_be_seen_from(subject, angle))
-            .collect();
-        let views = angles
-            .into_iter()
-            .map(|angle| Self::seen_from(subject, Some(angle)));
-        let cost = |f: &Self| f.list[0].program.counts().total();
-        let best = views.flatten().min_by_key(cost);
-        let functions = match (best, from_ground) {
-            (Some(best), _) => best,
-            (None, from_ground) => from_ground?,
+        let functions = match subject.prepared.mechanism.space() {
+            SpaceKind::Plane => Self::in_plane(subject)?,
+            SpaceKind::Space3 => Self::in_space(subject)?,
+            #[allow(unreachable_patterns, reason = "the space for tests is a feature")]
+            _ => return Err(CodeError::Coordinates),
         };
         let longest = functions
             .list
@@ -136,9 +160,43 @@ impl Functions {
         }
     }
 
-    /// All functions, with the equations solved in the frame of the ground or of the body whose
-    /// angle has this index in q.
-    fn seen_from(subject: &Subject<'_>, angle: Option<usize>) -> Result<Self, CodeError> {
+    fn in_plane(subject: &Subject<'_>) -> Result<Self, CodeError> {
+        let from_ground = Self::seen(subject, View::Ground);
+        let angles = (2..subject.prepared.mechanism.layout().n_q)
+            .step_by(3)
+            .take(VIEWS)
+            .filter(|&angle| may_be_seen_from(subject, angle));
+        let views = angles.flat_map(|angle| Self::seen(subject, View::Angle(angle)));
+        views.min_by_key(Self::cost).map_or(from_ground, Ok)
+    }
+
+    /// The axes of bodies are tried only where others do not serve all sampled states.
+    fn in_space(subject: &Subject<'_>) -> Result<Self, CodeError> {
+        let mut best = Self::seen(subject, View::Ground);
+        let bodies = 0..subject.prepared.mechanism.bodies().len().min(VIEWS);
+        let views = [View::GroundAxes, View::JointAxes].into_iter();
+        for view in views.chain(bodies.map(View::BodyAxes)) {
+            let serves_all = best.as_ref().is_ok_and(|best| best.unhealthy == 0);
+            if serves_all && matches!(view, View::BodyAxes(_)) {
+                break;
+            }
+            if let Ok(other) = Self::seen(subject, view) {
+                let key = |f: &Self| (f.unhealthy, f.cost());
+                if best.as_ref().map_or(true, |best| key(&other) < key(best)) {
+                    best = Ok(other);
+                }
+            }
+        }
+        best
+    }
+
+    /// Operations of accelerations.
+    fn cost(&self) -> usize {
+        self.list[0].program.counts().total()
+    }
+
+    /// All functions, with the equations solved in this view.
+    fn seen(subject: &Subject<'_>, view: View) -> Result<Self, CodeError> {
         let forces = subject.prepared.mechanism.applied_forces();
         if let Some((drive, _)) = forces.law_drives().next() {
             let drive = drive.to_owned();
@@ -149,22 +207,32 @@ impl Functions {
         let mechanism = &prepared.mechanism;
         let (layout, mass) = (mechanism.layout(), mechanism.mass());
         let (kept, position_kept) = (&prepared.decision.kept, &prepared.position_decision.kept);
-        let seen = match angle {
-            None => Seen::from_ground(&e),
-            Some(angle) => Seen::from_body(&mut e, subject, angle)
+        let mut seen = match view {
+            View::Angle(angle) => Seen::from_body(&mut e, subject, angle)
                 .filter(|seen| seen.keeps_pairs(kept) && seen.keeps_pairs(position_kept))
                 .ok_or(CodeError::NoView)?,
+            _ => Seen::from_ground(&e),
         };
+        let axes = match view {
+            View::Ground | View::Angle(_) => Some(Axes::default()),
+            View::GroundAxes => Axes::of_ground(&e, subject),
+            View::JointAxes => Axes::of_joints(&mut e, subject),
+            View::BodyAxes(body) => Axes::of_body(&mut e, subject, body)
+                .filter(|axes| axes.keeps_vectors(kept) && axes.keeps_vectors(position_kept)),
+        };
+        let axes = axes.ok_or(CodeError::NoView)?;
+        seen.c = axes.rows_of(&mut e.code, &seen.c);
         let frame = &seen.frame;
         let scaling = mechanism.layout().dimension_scaling(prepared.assembly.size);
         let scale: Vec<f64> = scaling.cols.iter().map(|&x| f64::from(x).exp2()).collect();
         let rows = |kept: &[usize]| kept.iter().map(|&i| seen.c[i].clone()).collect();
-        let velocity = Factored::new(&mut e.code, rows(kept), mass, &scale)?;
-        let position = Factored::new(&mut e.code, rows(position_kept), mass, &scale)?;
+        let velocity = Factored::new(&mut e.code, rows(kept), &axes, (mass, &scale))?;
+        let position = Factored::new(&mut e.code, rows(position_kept), &axes, (mass, &scale))?;
         let velocity_shares = shares(&mut e, &velocity);
         let position_shares = shares(&mut e, &position);
 
-        let gamma: Vec<Value> = kept.iter().map(|&i| seen.gamma[i]).collect();
+        let gamma = axes.rows_in(&mut e.code, &seen.gamma);
+        let gamma: Vec<Value> = kept.iter().map(|&i| gamma[i]).collect();
         let a_seen = velocity.solve(&mut e.code, mass, &gamma, &seen.force);
         let a = frame.velocities_out(&mut e.code, &a_seen);
 
@@ -182,6 +250,7 @@ impl Functions {
         for (&i, l) in kept.iter().zip(kept_lambda) {
             lambda[i] = l;
         }
+        let lambda = axes.rows_out(&mut e.code, &lambda);
         let lambda = frame.rows_out(&mut e.code, &lambda);
 
         let v: Vec<Value> = (0..layout.n_v)
@@ -199,6 +268,7 @@ impl Functions {
         let p = &mut e.code.program;
         let missing: Vec<Value> = missed.into_iter().map(|r| p.neg(r)).collect();
         let missing = frame.rows_in(&mut e.code, &missing);
+        let missing = axes.rows_in(&mut e.code, &missing);
         let no_force = vec![zero; layout.n_v];
         let mut correct = |factored: &Factored, kept: &[usize]| {
             let rhs: Vec<Value> = kept.iter().map(|&i| missing[i]).collect();
@@ -215,7 +285,7 @@ impl Functions {
         };
         let states = 0..subject.states.len();
         let unhealthy = states.filter(|&k| health(&mut e, k) < LEAVE).count();
-        let plan = [
+        let mut plan = vec![
             (ACCELERATION, a, shares.clone()),
             (MULTIPLIERS, lambda, shares.clone()),
             (PHI, e.phi.clone(), Vec::new()),
@@ -223,17 +293,28 @@ impl Functions {
             (POSITION_CORRECTION, dq, position_shares),
             (VELOCITY_CORRECTION, dv, shares),
         ];
+        if mechanism.space() == SpaceKind::Space3 {
+            plan.push((RATE, e.rate.clone(), Vec::new()));
+        }
         let program = &e.code.program;
-        let list = plan.map(|(signature, outputs, shares)| Function {
-            signature,
-            n_out: outputs.len(),
-            program: program.with_outputs(&[outputs, shares].concat()),
-        });
+        let function =
+            |(signature, outputs, shares): (Signature, Vec<Value>, Vec<Value>)| Function {
+                signature,
+                n_out: outputs.len(),
+                program: program.with_outputs(&[outputs, shares].concat()),
+            };
+        let list = plan.into_iter().map(function).collect();
         Ok(Self {
             equations: e,
-            list: list.into(),
+            list,
             unhealthy,
-            seen_from: angle.map(|k| mechanism.coordinate(k).0.to_owned()),
+            view: match view {
+                View::Angle(k) => Described::Frame(mechanism.coordinate(k).0.to_owned()),
+                View::BodyAxes(k) => Described::Frame(mechanism.bodies()[k].name.clone()),
+                View::GroundAxes => Described::GroundAxes,
+                View::JointAxes => Described::JointAxes,
+                View::Ground => Described::Ground,
+            },
         })
     }
 }

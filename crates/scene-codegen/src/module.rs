@@ -5,15 +5,15 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use dynamics::code::LEAVE;
-use model::System;
 use model::record::Input;
+use model::{BodyRecord, SpaceKind, System};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use symbolic::{Op, Printer, Scalar, Symbol};
 
 use crate::equations::Source;
 use crate::error::CodeError;
-use crate::functions::{Function, Functions};
+use crate::functions::{Described, Function, Functions, RATE};
 use crate::subject::Subject;
 use crate::support::SUPPORT;
 use crate::time;
@@ -91,7 +91,10 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
     let rotations = rotations(&functions);
     let (jets, mut support) = time::jets(mechanism.functions());
     if !rotations.is_empty() {
-        support.push("cos_sin");
+        support.push(match mechanism.space() {
+            SpaceKind::Space3 => "rotation",
+            _ => "cos_sin",
+        });
     }
     let uses_recip = functions.list.iter().any(|f| {
         let ops = f.program.ops().iter();
@@ -102,6 +105,7 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
         support.push("recip_or_zero");
     }
     let shape = Shape {
+        space: mechanism.space(),
         rotations,
         n_functions: mechanism.functions().count(),
     };
@@ -178,21 +182,33 @@ fn parse(text: &str) -> Result<TokenStream, CodeError> {
 
 /// Data that all functions of a module share.
 struct Shape {
-    /// Coordinates whose cosine or sine is used.
+    space: SpaceKind,
+    /// Where the rotations that are used come from: coordinates whose cosine and sine are, in space
+    /// bodies.
     rotations: Vec<usize>,
     n_functions: usize,
 }
 
-/// Coordinates whose cosine or sine some function uses.
+impl Shape {
+    /// Numbers of one rotation: cosine and sine, in space a matrix.
+    fn width(&self) -> usize {
+        match self.space {
+            SpaceKind::Space3 => 9,
+            _ => 2,
+        }
+    }
+}
+
+/// Coordinates whose cosine or sine some function uses, or bodies whose rotation.
 fn rotations(functions: &Functions) -> Vec<usize> {
     let mut found = BTreeSet::new();
     for f in &functions.list {
         for symbol in inputs(f) {
-            if let Source::Mechanism(Input::Cos(k) | Input::Sin(k)) =
-                functions.equations.sources[symbol.index()]
-            {
-                found.insert(k);
-            }
+            match functions.equations.sources[symbol.index()] {
+                Source::Mechanism(Input::Cos(k) | Input::Sin(k)) => found.insert(k),
+                Source::Mechanism(Input::Rotation { body, .. }) => found.insert(body),
+                _ => continue,
+            };
         }
     }
     found.into_iter().collect()
@@ -216,6 +232,7 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
     let break_times = &layout.break_times;
     let (n_kept, n_position, n_breaks) = (kept.len(), position_kept.len(), break_times.len());
     let operations = operations(functions).join("; ");
+    let axes = principal_axes(prepared.mechanism.bodies(), prepared.mechanism.space());
     quote! {
         /// Name of the scene.
         pub const NAME: &str = #name;
@@ -235,8 +252,30 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
         pub const POSITION_KEPT: [usize; #n_position] = [#(#position_kept),*];
         /// Times at which a derivative of a function of time jumps (s).
         pub const BREAK_TIMES: [f64; #n_breaks] = [#(#break_times),*];
-        /// Operations of each function; sines and functions of time are not counted.
+        /// Operations of each function; rotations and functions of time are not counted.
         pub const OPERATIONS: &str = #operations;
+        #axes
+    }
+}
+
+/// How the velocities of bodies in space are turned against their frames.
+fn principal_axes(bodies: &[BodyRecord], space: SpaceKind) -> TokenStream {
+    if space != SpaceKind::Space3 {
+        return TokenStream::new();
+    }
+    let n = bodies.len();
+    let of = |body: &BodyRecord| match &body.principal {
+        Some(principal) => principal.quaternion(),
+        None => [1.0, 0.0, 0.0, 0.0],
+    };
+    let axes = bodies.iter().map(|body| {
+        let e = of(body);
+        quote!([#(#e),*])
+    });
+    quote! {
+        /// The rotation of each body from its principal axes to those of its frame, as a
+        /// quaternion (w, x, y, z).
+        pub const PRINCIPAL_AXES: [[f64; 4]; #n] = [#(#axes),*];
     }
 }
 
@@ -245,6 +284,13 @@ fn operations(functions: &Functions) -> Vec<String> {
     list.map(|f| format!("{}: {}", f.signature.name, f.program.counts()))
         .collect()
 }
+
+/// What coordinates and velocities in space are.
+const IN_SPACE: [&str; 3] = [
+    "Coordinates of a body: its mass centre, then the quaternion (w, x, y, z) of its principal axes, of any length; velocities: that of the",
+    "mass centre along the axes of the ground, then the angular velocity along the principal axes. `dq` is a displacement along velocities: a",
+    "translation and a rotation vector.",
+];
 
 fn docs(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
     let prepared = subject.prepared;
@@ -271,9 +317,12 @@ fn docs(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
             numbers(&prepared.decision.dropped),
             numbers(&prepared.position_decision.dropped)
         ),
-        match &functions.seen_from {
-            Some(body) => format!("Solved in the frame of the body `{body}`: it does not matter which way the whole points."),
-            None => "Solved in the frame of the ground.".to_owned(),
+        match (&functions.view, prepared.mechanism.space()) {
+            (Described::Frame(body), _) => format!("Solved in the frame of the body `{body}`: it does not matter which way the whole points."),
+            (Described::Ground, SpaceKind::Space3) => "Solved with angular velocities along principal axes.".to_owned(),
+            (Described::JointAxes, _) => "Solved with angular velocities along the axes of bodies that carry others.".to_owned(),
+            (Described::GroundAxes, _) => "Solved with angular velocities along the axes of the ground.".to_owned(),
+            (Described::Ground, _) => "Solved in the frame of the ground.".to_owned(),
         },
         String::new(),
         "Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that"
@@ -288,10 +337,11 @@ fn docs(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
                 subject.states.len()
             ),
         },
-        String::new(),
-        "| function | operations |".to_owned(),
-        "| --- | --- |".to_owned(),
     ];
+    if prepared.mechanism.space() == SpaceKind::Space3 {
+        docs.extend(IN_SPACE.map(str::to_owned));
+    }
+    docs.extend(["", "| function | operations |", "| --- | --- |"].map(str::to_owned));
     for f in &functions.list {
         docs.push(format!(
             "| `{}` | {} |",
@@ -305,13 +355,28 @@ fn docs(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
 /// Functions of time and of angles.
 fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
     let (rotations, n_jets) = (&shape.rotations, 3 * shape.n_functions);
-    let n_rotations = 2 * rotations.len();
+    let width = shape.width();
+    let n_rotations = width * rotations.len();
     let jets = parse(jets)?;
-    let pairs = rotations.iter().enumerate().map(|(k, place)| {
-        let (c, s) = (2 * k, 2 * k + 1);
-        quote!([x[#c], x[#s]] = cos_sin(q[#place]);)
+    let is_spatial = shape.space == SpaceKind::Space3;
+    let of_body = |body: &usize| {
+        let first = shape.space.coordinates(*body).start + 3;
+        first..first + 4
+    };
+    let one = rotations.iter().enumerate().map(|(k, place)| {
+        let x = width * k..width * (k + 1);
+        if is_spatial {
+            let e = of_body(place);
+            quote!([#(x[#x]),*] = rotation([#(q[#e]),*]);)
+        } else {
+            quote!([#(x[#x]),*] = cos_sin(q[#place]);)
+        }
     });
-    let small = rotations.iter().enumerate().map(|(k, place)| {
+    let many = rotations.iter().enumerate().map(|(k, place)| {
+        if is_spatial {
+            let (x, e) = (width * k..width * (k + 1), of_body(place));
+            return quote!(for l in 0..L { [#(x[#x][l]),*] = rotation([#(q[#e][l]),*]); });
+        }
         let (c, s) = (2 * k, 2 * k + 1);
         quote! {
             if q[#place].iter().all(|x| x.abs() < 1e6) {
@@ -321,6 +386,11 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
             }
         }
     });
+    let doc = if is_spatial {
+        " Matrices of the rotations of bodies, by rows."
+    } else {
+        " Cosines and sines of the angles that turn something."
+    };
     Ok(quote! {
         /// The smaller one; NaN if one is.
         #[inline(always)]
@@ -328,11 +398,11 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
         /// Functions of time, each with two derivatives.
         #[inline]
         fn jets(t: f64) -> [f64; #n_jets] { #jets }
-        /// Cosines and sines of the angles that turn something.
+        #[doc = #doc]
         #[inline(always)]
         fn rotations(q: &[f64; N_Q]) -> [f64; #n_rotations] {
             let mut x = [0.0; #n_rotations];
-            #(#pairs)*
+            #(#one)*
             x
         }
         #[inline(always)]
@@ -346,7 +416,7 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
         #[inline(always)]
         fn rotations_of<const L: usize>(q: &[[f64; L]; N_Q]) -> [[f64; L]; #n_rotations] {
             let mut x = [[0.0; L]; #n_rotations];
-            #(#small)*
+            #(#many)*
             x
         }
     })
@@ -448,12 +518,15 @@ fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
 fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
     let turn = |place: usize| {
         let at = shape.rotations.iter().position(|&r| r == place);
-        2 * at.unwrap_or(0)
+        shape.width() * at.unwrap_or(0)
     };
     match source {
         Source::Mechanism(Input::Coordinate(k)) => ("q", k),
         Source::Mechanism(Input::Cos(k)) => ("x", turn(k)),
         Source::Mechanism(Input::Sin(k)) => ("x", turn(k) + 1),
+        Source::Mechanism(Input::Rotation { body, row, column }) => {
+            ("x", turn(body) + 3 * row + column)
+        }
         Source::Mechanism(Input::Velocity(k)) => ("v", k),
         Source::Mechanism(Input::Function {
             function,
@@ -465,7 +538,12 @@ fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
 
 /// `Code`, which implements `dynamics::SceneCode`.
 fn face(functions: &Functions, path: &syn::Path) -> TokenStream {
-    let methods = functions.list.iter().map(|f| {
+    // Runs take q̇ from the mechanism.
+    let of_runs = functions
+        .list
+        .iter()
+        .filter(|f| f.signature.name != RATE.name);
+    let methods = of_runs.map(|f| {
         let signature = &f.signature;
         let name = format_ident!("{}", signature.name);
         let (out, out_length) = signature.out;

@@ -1,36 +1,40 @@
 //! A program with its values at sampled states, by which an elimination chooses pivots that are
-//! suitable for a whole motion.
+//! suitable for a whole motion, and at states off any motion, by which equal values are found.
 
 use symbolic::{Program, Value};
+
+/// Two values that differ by at most this share of the terms of one of them, at all states off the
+/// motion, are equal: both are rounded.
+const SAME: f64 = 1e-13;
 
 /// Straight-line code and the values of its operations at some states.
 pub(crate) struct Sampled {
     pub(crate) program: Program,
+    motion: Samples,
+    /// States that satisfy no constraint, with arbitrary functions of time.
+    anywhere: Samples,
+}
+
+/// Values of a program at some states.
+struct Samples {
     /// Values of the inputs, state by state.
     inputs: Vec<Vec<f64>>,
     /// Values of the operations evaluated so far, operation by operation.
     values: Vec<Vec<f64>>,
 }
 
-impl Sampled {
-    /// An empty program; `inputs` contains the values of all inputs for each state.
-    pub(crate) fn new(inputs: Vec<Vec<f64>>) -> Self {
+impl Samples {
+    fn new(inputs: Vec<Vec<f64>>) -> Self {
         Self {
-            program: Program::empty(),
             inputs,
             values: Vec::new(),
         }
     }
 
-    /// Number of states.
-    pub(crate) fn states(&self) -> usize {
-        self.inputs.len()
-    }
-
     /// The values of an operation at all states.
-    pub(crate) fn at(&mut self, v: Value) -> &[f64] {
+    fn at(&mut self, program: &Program, v: Value) -> &[f64] {
         for k in self.values.len()..=v.index() {
-            let op = self.program.op(self.program.value_at(k));
+            let op = program.op(program.value_at(k));
             let values = &self.values;
             let value = |state: usize| {
                 op.evaluate(
@@ -43,4 +47,78 @@ impl Sampled {
         }
         &self.values[v.index()]
     }
+}
+
+impl Sampled {
+    /// An empty program; `motion` and `anywhere` contain the values of all inputs for each state.
+    pub(crate) fn new(motion: Vec<Vec<f64>>, anywhere: Vec<Vec<f64>>) -> Self {
+        Self {
+            program: Program::empty(),
+            motion: Samples::new(motion),
+            anywhere: Samples::new(anywhere),
+        }
+    }
+
+    /// Number of states.
+    pub(crate) fn states(&self) -> usize {
+        self.motion.inputs.len()
+    }
+
+    /// The values of an operation at all states.
+    pub(crate) fn at(&mut self, v: Value) -> &[f64] {
+        self.motion.at(&self.program, v)
+    }
+
+    /// Σ aᵢ·bᵢ
+    pub(crate) fn sum(&mut self, products: &[(Value, Value)]) -> Value {
+        let p = &mut self.program;
+        let zero = p.number(0.0);
+        products.iter().fold(zero, |sum, (a, b)| {
+            let product = p.mul(*a, *b);
+            p.add(sum, product)
+        })
+    }
+
+    /// The same; a number, or a value that the program has already, if it is equal to that at all
+    /// states off the motion.
+    pub(crate) fn simplest_sum(&mut self, products: &[(Value, Value)]) -> Value {
+        let is_zero = |p: &Program, (a, b): &(Value, Value)| p.is_zero(*a) || p.is_zero(*b);
+        if products.iter().all(|pair| is_zero(&self.program, pair)) {
+            return self.program.number(0.0);
+        }
+        let states = self.anywhere.inputs.len();
+        let (mut values, mut sizes) = (vec![0.0; states], vec![0.0; states]);
+        for &(a, b) in products {
+            let a = self.anywhere.at(&self.program, a).to_vec();
+            let b = self.anywhere.at(&self.program, b);
+            for (k, (a, b)) in a.iter().zip(b).enumerate() {
+                values[k] += a * b;
+                sizes[k] += (a * b).abs();
+            }
+        }
+        let equals = |other: &dyn Fn(usize) -> f64| {
+            (0..states).all(|k| (values[k] - other(k)).abs() <= SAME * sizes[k])
+        };
+        for number in [0.0, 1.0, -1.0, short(values[0])] {
+            if equals(&|_| number) {
+                return self.program.number(number);
+            }
+        }
+        for k in 0..self.program.ops().len() {
+            let v = self.program.value_at(k);
+            let other = self.anywhere.at(&self.program, v);
+            if equals(&|k| other[k]) {
+                return v;
+            }
+            if equals(&|k| -other[k]) {
+                return self.program.neg(v);
+            }
+        }
+        self.sum(products)
+    }
+}
+
+/// A number with fifteen digits: the last one of a rounded value depends on the machine.
+fn short(x: f64) -> f64 {
+    format!("{x:.14e}").parse().unwrap_or(x)
 }

@@ -3,6 +3,8 @@
 use std::ops::ControlFlow;
 
 use dynamics::{KeptRowMotion, MotionOptions, Prepared, simulate};
+use joints::space3::Pose;
+use model::SpaceKind;
 use model::record::Input;
 
 use crate::error::CodeError;
@@ -27,6 +29,13 @@ pub struct Subject<'a> {
     pub prepared: &'a Prepared,
     /// States of the motion; the start is the first.
     pub states: Vec<State>,
+}
+
+/// The matrix of the rotation of a body in space; NaN if q is too short.
+pub(crate) fn rotation(q: &[f64], body: usize) -> [[f64; 3]; 3] {
+    let first = SpaceKind::Space3.coordinates(body).start + 3;
+    let e = q.get(first..).and_then(|e| e.first_chunk());
+    Pose::new([0.0; 3], e.copied().unwrap_or([f64::NAN; 4])).rot
 }
 
 impl<'a> Subject<'a> {
@@ -71,21 +80,15 @@ impl<'a> Subject<'a> {
             Input::Coordinate(k) => state.q[k],
             Input::Cos(k) => state.q[k].cos(),
             Input::Sin(k) => state.q[k].sin(),
+            Input::Rotation { body, row, column } => rotation(&state.q, body)[row][column],
             Input::Velocity(k) => state.v[k],
             Input::Function {
                 function,
                 derivative,
             } => {
                 let mut functions = self.prepared.mechanism.functions();
-                let Some((f, offset)) = functions.nth(function) else {
-                    return f64::NAN;
-                };
-                let value = f.jet(state.t)[derivative];
-                if derivative == 0 {
-                    value - offset
-                } else {
-                    value
-                }
+                let f = functions.nth(function);
+                f.map_or(f64::NAN, |f| f.jet(state.t)[derivative])
             }
         }
     }

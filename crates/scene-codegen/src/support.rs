@@ -1,8 +1,10 @@
 //! Functions that are copied into generated modules, as text and, for tests, as code.
 
 /// Names and texts, in the order in which modules have them.
-pub(crate) const SUPPORT: [(&str, &str); 7] = [
+pub(crate) const SUPPORT: [(&str, &str); 9] = [
     ("cos_sin", include_str!("support/cos_sin.in")),
+    ("rotation", include_str!("support/rotation.in")),
+    ("turning", include_str!("support/turning.in")),
     ("polynomial", include_str!("support/polynomial.in")),
     ("harmonic", include_str!("support/harmonic.in")),
     ("steps", include_str!("support/steps.in")),
@@ -13,7 +15,11 @@ pub(crate) const SUPPORT: [(&str, &str); 7] = [
 
 #[cfg(test)]
 mod tests {
+    use joints::space3::Pose;
+
     include!("support/cos_sin.in");
+    include!("support/rotation.in");
+    include!("support/turning.in");
 
     #[test]
     fn cosine_and_sine_are_those_of_the_library() {
@@ -38,6 +44,50 @@ mod tests {
                 (sin - s).abs() <= 1e-15 * s.abs() + 1e-20,
                 "sin {x}: {sin} {s}"
             );
+        }
+    }
+
+    /// Of the unit quaternion cos ½θ + sin ½θ·n, times any length, by Rodrigues' formula.
+    #[test]
+    fn rotations_are_those_of_axes_and_angles() {
+        for k in 0..1000 {
+            let x = |i: usize| (1.3 * (i + 1) as f64 + 2.3 * f64::from(k)).sin();
+            let (angle, size) = (4.0 * x(3), 2.0_f64.powf(8.0 * x(4)));
+            let length = (x(0) * x(0) + x(1) * x(1) + x(2) * x(2)).sqrt();
+            let n = [0, 1, 2].map(|i| x(i) / length);
+            let ((half, cos_half), (sin, cos)) = ((0.5 * angle).sin_cos(), angle.sin_cos());
+            let e = [cos_half, half * n[0], half * n[1], half * n[2]].map(|e| size * e);
+            let found = rotation(e);
+            let across = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
+            for row in 0..3 {
+                for column in 0..3 {
+                    let one = if row == column { cos } else { 0.0 };
+                    let expected =
+                        one + sin * across[row][column] + (1.0 - cos) * n[row] * n[column];
+                    let by = (found[3 * row + column] - expected).abs();
+                    assert!(by < 1e-15, "{k}: {by:e}");
+                    let of_model = Pose::new([0.0; 3], e).rot[row][column];
+                    let by = (found[3 * row + column] - of_model).abs();
+                    assert!(by < 1e-15, "{k}: {by:e} from the interpreter");
+                }
+            }
+        }
+    }
+
+    /// The angle (0.3 − t)² + 0.2·t, of which everything is known.
+    #[test]
+    fn cosine_and_sine_of_a_function_have_its_derivatives() {
+        let angle = |t: f64| (0.3 - t) * (0.3 - t) + 0.2 * t;
+        let t = 0.9;
+        let found = turning([angle(t), 2.0 * (t - 0.3) + 0.2, 2.0]);
+        for (found, f) in found.iter().zip([f64::cos, f64::sin]) {
+            let h = 1e-4;
+            let at = |steps: f64| f(angle(t + steps * h));
+            let rate = (at(1.0) - at(-1.0)) / (2.0 * h);
+            let second = (at(1.0) - 2.0 * at(0.0) + at(-1.0)) / (h * h);
+            assert!((found[0] - at(0.0)).abs() < 1e-15);
+            assert!((found[1] - rate).abs() < 1e-7, "{} {rate}", found[1]);
+            assert!((found[2] - second).abs() < 1e-6, "{} {second}", found[2]);
         }
     }
 

@@ -6,14 +6,14 @@ use std::cell::RefCell;
 
 use dynamics::SceneCode;
 use dynamics::code::CodeSpec;
-use model::record::Input;
-use model::{Function as TimeFunction, System};
+use model::record::{Input, TimeFunction};
+use model::{SpaceKind, System};
 use symbolic::{Op, Program};
 
 use crate::equations::Source;
 use crate::error::CodeError;
 use crate::functions::{Function, Functions};
-use crate::subject::Subject;
+use crate::subject::{Subject, rotation};
 
 /// The code of one mechanism as lists of operations.
 ///
@@ -35,7 +35,9 @@ use crate::subject::Subject;
 pub struct Tape {
     spec: CodeSpec,
     functions: Vec<(&'static str, List)>,
-    times: Vec<(TimeFunction, f64)>,
+    times: Vec<TimeFunction>,
+    /// Bodies with quaternions.
+    spatial: usize,
 }
 
 /// One function: the sources of its inputs, and its operations.
@@ -57,6 +59,8 @@ struct Arguments<'a> {
 thread_local! {
     /// Values of all operations of the last function that ran in this thread.
     static VALUES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+    /// The rotations of its bodies in space.
+    static ROTATIONS: RefCell<Vec<[[f64; 3]; 3]>> = const { RefCell::new(Vec::new()) };
 }
 
 impl Tape {
@@ -98,7 +102,11 @@ impl Tape {
         Ok(Self {
             spec,
             functions: list.collect(),
-            times: times.map(|(f, offset)| (f.clone(), offset)).collect(),
+            times: times.cloned().collect(),
+            spatial: match prepared.mechanism.space() {
+                SpaceKind::Space3 => prepared.mechanism.bodies().len(),
+                _ => 0,
+            },
         })
     }
 
@@ -111,19 +119,22 @@ impl Tape {
         let jets: &[[f64; 3]] = match self.times.as_slice() {
             [] => &[],
             [one] => {
-                jets[0] = jet(one, arguments.t);
+                jets[0] = one.jet(arguments.t);
                 &jets
             }
             several => &several
                 .iter()
-                .map(|f| jet(f, arguments.t))
+                .map(|f| f.jet(arguments.t))
                 .collect::<Vec<_>>(),
         };
-        VALUES.with_borrow_mut(|values| {
+        let mut rotations = ROTATIONS.take();
+        rotations.clear();
+        rotations.extend((0..self.spatial).map(|body| rotation(arguments.q, body)));
+        let health = VALUES.with_borrow_mut(|values| {
             values.clear();
             for op in list.program.ops() {
                 let value = match op {
-                    Op::Input(s) => read(list.sources[s.index()], arguments, jets),
+                    Op::Input(s) => read(list.sources[s.index()], arguments, jets, &rotations),
                     op => op.evaluate(|v| values[v.index()], |_| f64::NAN),
                 };
                 values.push(value);
@@ -134,7 +145,9 @@ impl Tape {
             }
             let shares = outputs[list.n_out..].iter();
             shares.fold(f64::INFINITY, |health, v| least(health, values[v.index()]))
-        })
+        });
+        ROTATIONS.set(rotations);
+        health
     }
 }
 
@@ -143,18 +156,16 @@ fn least(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
 
-fn jet((f, offset): &(TimeFunction, f64), t: f64) -> [f64; 3] {
-    let [value, rate, second] = f.jet(t);
-    [value - offset, rate, second]
-}
-
 /// The value of an input; NaN if the caller's arrays are too short.
-fn read(source: Source, a: Arguments<'_>, jets: &[[f64; 3]]) -> f64 {
+fn read(source: Source, a: Arguments<'_>, jets: &[[f64; 3]], rotations: &[[[f64; 3]; 3]]) -> f64 {
     let of = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(f64::NAN);
     match source {
         Source::Mechanism(Input::Coordinate(k)) => of(a.q, k),
         Source::Mechanism(Input::Cos(k)) => of(a.q, k).cos(),
         Source::Mechanism(Input::Sin(k)) => of(a.q, k).sin(),
+        Source::Mechanism(Input::Rotation { body, row, column }) => {
+            rotations.get(body).map_or(f64::NAN, |rot| rot[row][column])
+        }
         Source::Mechanism(Input::Velocity(k)) => of(a.v, k),
         Source::Mechanism(Input::Function {
             function,

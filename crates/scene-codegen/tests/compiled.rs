@@ -2,19 +2,27 @@
 //! state at a time and for several.
 
 use std::fmt::Write as _;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 
-use dynamics::KeptRowMotion;
+use dynamics::{KeptRowMotion, simulate};
 use pfaff::model::Registry;
 use pfaff::{AssembledScene, Overrides, Study};
 use scene_codegen::{Choices, Subject, generate};
+
+mod space;
+
+#[rustfmt::skip]
+#[path = "generated/linkage.rs"]
+mod linkage;
 
 /// Number of states of each scene.
 const STATES: usize = 4;
 
 struct Expected {
-    scene: &'static str,
+    scene: String,
     values: Vec<f64>,
 }
 
@@ -39,14 +47,20 @@ fn rustc(folder: &Path, arguments: &[&str]) {
     );
 }
 
-fn study(case: &suite::Case) -> Study {
-    AssembledScene::read(case.name, case.scene, &Registry::standard())
+fn study(name: &str, text: &str) -> Study {
+    AssembledScene::read(name, text, &Registry::standard())
         .and_then(|b| b.prepare(&Overrides::default()))
-        .unwrap_or_else(|e| panic!("{}: {e}", case.name))
+        .unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-fn cases() -> impl Iterator<Item = &'static suite::Case> {
-    suite::all().filter(|case| case.name != "a01-pendulum-2000s")
+/// Names and texts of the suite, and of scenes in space except those that compile longest.
+fn cases() -> Vec<(String, String)> {
+    let cases = suite::all().filter(|case| case.name != "a01-pendulum-2000s");
+    let cases = cases.map(|case| (case.name.to_owned(), case.scene.to_owned()));
+    let spatial = space::scenes().into_iter();
+    cases
+        .chain(spatial.filter(|scene| !["delta", "hexapod"].contains(&scene.0.as_str())))
+        .collect()
 }
 
 fn subject<'a>(study: &'a Study, name: &str) -> Subject<'a> {
@@ -84,9 +98,9 @@ fn compiled_modules_have_the_accelerations_of_the_interpreter() {
     let mut source = String::from(HARNESS);
     let mut main = String::from("fn main() {\n");
     let mut expected = Vec::new();
-    for case in cases() {
-        let study = study(case);
-        let subject = subject(&study, case.name);
+    for (name, text) in cases() {
+        let study = study(&name, &text);
+        let subject = subject(&study, &name);
         let module = generate(&subject, &Choices::default()).expect("every scene has code");
         let mut motion = KeptRowMotion::new(&study.prepared).expect("moves");
         let mut states = String::new();
@@ -96,7 +110,7 @@ fn compiled_modules_have_the_accelerations_of_the_interpreter() {
             motion
                 .acceleration(state.t, &state.q, &state.v, &mut values)
                 .expect("solves");
-            let scene = case.name;
+            let scene = name.clone();
             expected.push(Expected { scene, values });
             write!(states, "({:?}, {:?}, {:?}),", state.t, state.q, state.v).expect("a string");
         }
@@ -144,7 +158,7 @@ fn modules_compile_without_the_standard_library() {
     };
     let mut source = String::from("#![no_std]\n");
     for name in ["andrews", "rolling-disk"] {
-        let study = study(suite::find(name).expect("a case"));
+        let study = study(name, suite::find(name).expect("a case").scene);
         let module = generate(&subject(&study, name), &choices).expect("code");
         source += &module.as_item();
     }
@@ -159,25 +173,70 @@ fn modules_compile_without_the_standard_library() {
     rustc(&folder, &emit);
 }
 
-/// The module of the robot in the repository is that of its scene: after a change of the generator
-/// or of the scene it must be written again.
+/// The modules in the repository are those of their scenes: after a change of the generator or of a
+/// scene they must be written again.
 #[test]
-fn the_checked_in_module_agrees_with_its_scene() {
+fn the_checked_in_modules_agree_with_their_scenes() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let scene = "crates/robot-trolley/robot-trolley.toml";
-    let text = std::fs::read_to_string(root.join(scene)).expect("the scene");
-    let choices = Choices {
-        dynamics: Some("pfaff::dynamics".into()),
-        libm: false,
+    for (scene, out, dynamics) in [
+        (
+            "crates/robot-trolley/robot-trolley.toml",
+            "crates/robot-trolley/src/generated/automatic.rs",
+            "pfaff::dynamics",
+        ),
+        (
+            "examples/linkage.toml",
+            "crates/scene-codegen/tests/generated/linkage.rs",
+            "dynamics",
+        ),
+    ] {
+        let text = std::fs::read_to_string(root.join(scene)).expect("the scene");
+        let choices = Choices {
+            dynamics: Some(dynamics.into()),
+            libm: false,
+        };
+        let registry = Registry::standard();
+        let module = scene_codegen::scene_text(scene, &text, &registry, None, &choices);
+        let command =
+            format!("`cargo xtask codegen --scene {scene} --out {out} --dynamics {dynamics}`");
+        let found = std::fs::read_to_string(root.join(out)).unwrap_or_default();
+        assert!(
+            found == module.expect("code").as_file(&command),
+            "{out} is stale: run {command}"
+        );
+    }
+}
+
+/// A linkage of four bars whose crank is driven: the compiled module in a run from its start to its
+/// end.
+#[test]
+fn a_compiled_module_in_space_moves_the_linkage() {
+    let scenes = space::scenes();
+    let (name, text) = scenes
+        .iter()
+        .find(|(name, _)| name == "linkage")
+        .expect("an example");
+    let study = study(name, text);
+    let coded = study
+        .prepared
+        .clone()
+        .with_code(Arc::new(linkage::Code))
+        .expect("its own code");
+    let options = study.options.as_ref().expect("the scene has a run");
+    let end = |prepared| {
+        let mut last = Vec::new();
+        let summary = simulate(prepared, options, |row| {
+            last = row.q.to_vec();
+            Ok(ControlFlow::Continue(()))
+        });
+        (last, summary.expect("runs").events.len())
     };
-    let registry = Registry::standard();
-    let module = scene_codegen::scene_text(scene, &text, &registry, None, &choices).expect("code");
-    let out = "crates/robot-trolley/src/generated/automatic.rs";
-    let command =
-        format!("`cargo xtask codegen --scene {scene} --out {out} --dynamics pfaff::dynamics`");
-    let found = std::fs::read_to_string(root.join(out)).unwrap_or_default();
-    assert!(
-        found == module.as_file(&command),
-        "{out} is stale: run {command}"
-    );
+    let ((found, events), (expected, _)) = (end(&coded), end(&study.prepared));
+    assert_eq!(events, 0);
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
+    // The crank has turned by 0.5 rad about z, from any length of its quaternion.
+    let (w, z) = (found[3], found[6]);
+    assert!((2.0 * z.atan2(w) - 0.5).abs() < 1e-9, "{w} {z}");
 }

@@ -11,7 +11,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use joints::{Plane, Space3};
-use model::BodyRef;
+use model::{BodyRef, FramePose, StartPose};
 
 use crate::field::Field;
 use crate::findings::Findings;
@@ -30,6 +30,12 @@ pub(crate) trait SceneBody: SceneSpace {
 
     /// Reads one body; numbers that cannot be read are zero.
     fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> Self::Body;
+
+    /// The key for where a body starts if it does not start where it is described.
+    const START: Key;
+
+    /// Reads its value; what it leaves out is as described.
+    fn read_start(start: &mut Table, body: &Self::Body, findings: &mut Findings) -> FramePose;
 }
 
 /// The keys of both spaces, each with the name of its space.
@@ -42,6 +48,8 @@ fn keys() -> impl Iterator<Item = (&'static str, &'static str)> {
 /// The bodies that were read.
 pub(crate) struct Bodies<S: SceneSpace> {
     pub(crate) list: Vec<S::Body>,
+    /// Where some of them start, if not where they are described.
+    pub(crate) poses: Vec<StartPose>,
     pub(crate) names: BodyNames,
     /// Their places by name.
     pub(crate) markers: Markers,
@@ -51,6 +59,7 @@ impl<S: SceneSpace> Default for Bodies<S> {
     fn default() -> Self {
         Self {
             list: Vec::new(),
+            poses: Vec::new(),
             names: BodyNames::default(),
             markers: Markers::default(),
         }
@@ -63,7 +72,18 @@ impl<S: SceneSpace> Bodies<S> {
     where
         S: SceneBody,
     {
-        self.list.push(S::read_body(&mut table, name, findings));
+        let body = S::read_body(&mut table, name, findings);
+        let start = table
+            .optional(&S::START)
+            .and_then(|field| field.table(S::START.expected, findings));
+        if let Some(mut start) = start {
+            self.poses.push(StartPose {
+                body: self.list.len(),
+                frame: S::read_start(&mut start, &body, findings),
+            });
+            start.close(findings);
+        }
+        self.list.push(body);
         self.names.add(name, &table);
         table.spaces(keys());
         table.close(findings);

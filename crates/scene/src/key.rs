@@ -51,6 +51,8 @@ pub(crate) enum Takes {
     Vector(usize, Interval),
     /// An orientation of a body.
     Orientation,
+    /// A table with these keys.
+    Table(&'static [Key]),
     /// Three moments of inertia, or a symmetric tensor.
     Tensor,
     /// At least so many numbers.

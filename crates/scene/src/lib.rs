@@ -77,6 +77,6 @@ pub use read::read;
 pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
-pub use template::{KeyError, Template};
+pub use template::{KeyError, Template, at_rest};
 pub use text::SourceText;
 pub use units::WithUnit;

@@ -130,7 +130,7 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
         StartError::Velocities(conflict) => return velocities(map, conflict, error),
         StartError::LargeCorrection { body, .. } => {
             let entry = map.body(body);
-            let span = entry.map(|entry| entry.first_of(&["position", "angle"]));
+            let span = entry.map(|entry| entry.first_of(&["start", "position", "angle"]));
             (span.unwrap_or(0..0), "moves most")
         }
         StartError::Requirement { name, .. } => {

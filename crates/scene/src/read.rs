@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use joints::{Plane, Space3};
 use model::{
-    AnyDescription, BuildError, Described, Mechanism, Observed, Registry, Stated, Tolerance,
+    AnyDescription, BuildError, Described, Mechanism, Observed, Registry, StartOptions, Stated,
+    Tolerance,
 };
 use toml::de::DeTable;
 
@@ -210,7 +211,10 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry, findings: &mut F
     parts.names.check(&source, findings);
     Scene {
         description,
-        start: start.unwrap_or_default(),
+        start: StartOptions {
+            poses: parts.bodies.poses,
+            ..start.unwrap_or_default()
+        },
         simulate: simulate.map(|simulate| simulate.options),
         output: output.unwrap_or_default(),
         groups,

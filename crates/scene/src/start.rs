@@ -62,11 +62,12 @@ pub(crate) fn read<S: SceneSpace>(
     table.close(findings);
     StartOptions {
         keep: kept,
-        // Positions are given with the bodies.
         correction: match allowed {
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,
         },
+        // Poses are given with the bodies.
+        poses: Vec::new(),
     }
 }
 

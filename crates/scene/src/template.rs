@@ -5,6 +5,7 @@
 //! The values are chosen by the caller and are not checked here.
 
 mod key;
+mod rest;
 #[cfg(test)]
 mod tests;
 
@@ -12,7 +13,10 @@ use std::ops::Range;
 
 use toml::de::DeTable;
 
+use key::Wanted;
+
 pub use key::KeyError;
+pub use rest::at_rest;
 
 use crate::limits;
 
@@ -65,11 +69,16 @@ impl Template {
     /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be added.
     /// - [`KeyError::Repeated`]: two keys refer to the same number.
     pub fn new(text: &str, keys: &[&str]) -> Result<Self, KeyError> {
+        Self::of(text, keys, Wanted::Number)
+    }
+
+    /// Finds the places of these keys.
+    fn of(text: &str, keys: &[&str], wanted: Wanted) -> Result<Self, KeyError> {
         if limits::excess(text).is_some() {
             return Err(KeyError::NotToml);
         }
         let root = DeTable::parse(text).map_err(|_| KeyError::NotToml)?;
-        let find = |key: &&str| key::find(key, text, root.get_ref());
+        let find = |key: &&str| key::find(key, text, root.get_ref(), wanted);
         let found = keys.iter().map(find).collect::<Result<Vec<_>, _>>()?;
         let mut slots: Vec<(usize, Slot)> = found.into_iter().enumerate().collect();
         slots.sort_by_key(|(k, slot)| (slot.span.start, *k));

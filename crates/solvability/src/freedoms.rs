@@ -62,6 +62,23 @@ pub struct FreedomsWithoutDrives {
     pub motions: FreeMotions,
 }
 
+/// Describes velocities (n_v each) that the rows at q allow, as motions that span them.
+///
+/// # Errors
+/// If q is not a configuration of this mechanism.
+pub fn motions_among(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    velocities: &[Vec<f64>],
+) -> Result<Vec<FreeMotion>, StateError> {
+    check_configuration(mechanism, t, q)?;
+    let connected = Connected::new(mechanism, true);
+    let mut described = connected.among(t, q, velocities);
+    described.extend(connected.alone(q, velocities));
+    Ok(described)
+}
+
 impl Analysis {
     /// Determines what can move at the configuration q of the analysis.
     ///

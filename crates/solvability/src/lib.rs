@@ -95,7 +95,7 @@ pub use explain::{
 };
 pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use freedoms::{
-    FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, WithoutDrives,
+    FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, WithoutDrives, motions_among,
 };
 pub use generic::{Generic, OtherConfiguration, generic, is_permanent};
 pub use groups::{

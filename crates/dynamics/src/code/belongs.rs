@@ -335,7 +335,15 @@ fn compare(
         let shares = x.iter().enumerate().map(|(j, x)| x.abs() / unit(j));
         shares.fold(0.0, f64::max)
     };
-    let rate = largest(&expected).max(largest(v).powi(2));
+    // What forces would do to free bodies: what holds a mechanism at rest cancels them.
+    mechanism.twist(v, &mut s);
+    mechanism.force(&mut s);
+    let masses = mechanism.mass().iter().zip(&s.force);
+    let free = masses.map(|(m, q)| if *m > 0.0 { q / m } else { 0.0 });
+    let free: Vec<f64> = free.collect();
+    let rate = largest(&expected)
+        .max(largest(v).powi(2))
+        .max(largest(&free));
     comparison("acceleration", &a, &expected, &|j| rate * unit(j))?;
 
     let mut lambda = vec![f64::NAN; layout.rows()];

@@ -16,7 +16,7 @@ use crate::prepare::Prepared;
 pub(crate) const BODY: usize = 6;
 
 /// Weights of central differences of orders eight and six, for the distances of one to four steps.
-const ORDER_8: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+pub(crate) const ORDER_8: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 const ORDER_6: [f64; 4] = [3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0, 0.0];
 
 /// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances: its
@@ -48,7 +48,8 @@ pub(crate) struct Curves<'m> {
     c: Matrix,
     /// Natural rate of the mechanism (1/s): of its velocities, or of its accelerations.
     rate: f64,
-    /// The largest acceleration of a body without constraints, in sizes of the mechanism (1/s²).
+    /// The largest acceleration of a body by one of the forces, without constraints, in sizes of
+    /// the mechanism (1/s²).
     applied: f64,
     /// The largest derivative of an acceleration, and the largest doubt about one, both without
     /// dimensions.
@@ -70,10 +71,19 @@ impl<'m> Curves<'m> {
         let space = mechanism.space();
         let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0, f64::max);
         let speed = largest(&mut (0..v.len()).map(|j| v[j].abs() / space.unit(j, size)));
-        let force = &motion.scratch().force;
-        let free = (0..v.len()).filter(|&j| mechanism.mass()[j] > 0.0);
-        let pushed = |j: usize| force[j].abs() / mechanism.mass()[j] / space.unit(j, size);
-        let applied = largest(&mut free.map(pushed));
+        // By one of the forces: where they balance, their sum is rounding.
+        let mut s = mechanism.scratch();
+        mechanism.pose(t, q, &mut s);
+        mechanism.twist(v, &mut s);
+        mechanism.force(&mut s);
+        let all = [mechanism.weight().to_vec(), s.force.clone()];
+        let parts = mechanism.applied_forces().parts(&mut s);
+        let pushed = |force: Vec<f64>| {
+            let free = (0..v.len()).filter(|&j| mechanism.mass()[j] > 0.0);
+            let each = free.map(|j| force[j].abs() / mechanism.mass()[j] / space.unit(j, size));
+            each.fold(0.0, f64::max)
+        };
+        let applied = largest(&mut all.into_iter().chain(parts.map(|(_, q)| q)).map(pushed));
         let rate = match speed.max(applied.sqrt()) {
             rate if rate > 0.0 && rate.is_finite() => rate,
             _ => 1.0,

@@ -16,7 +16,7 @@ pub enum LineariseError {
         advice = if *moves {
             "follow the turning of the axes in which it is (`--follow BODY.wz`), or choose another time"
         } else {
-            "describe a start at rest where forces balance, or let dampers bring it there in a run"
+            "let `pfaff equilibrium` find a start at rest, or let dampers bring it there in a run"
         }
     )]
     NotSteady {

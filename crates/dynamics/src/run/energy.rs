@@ -3,12 +3,16 @@
 
 use model::Mechanism;
 
+use crate::limits::ENERGY_ROUNDINGS;
+
 /// Energy at the start, and the largest gap of the balance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EnergyBalance {
     start: f64,
     largest_kinetic: f64,
     largest_gap: f64,
+    /// Rounding of the largest potential (J).
+    rounding: f64,
 }
 
 impl EnergyBalance {
@@ -19,6 +23,7 @@ impl EnergyBalance {
             start: kinetic + mechanism.potential_energy(q),
             largest_kinetic: kinetic,
             largest_gap: 0.0,
+            rounding: 0.0,
         }
     }
 
@@ -28,17 +33,37 @@ impl EnergyBalance {
         let gap = kinetic + mechanism.potential_energy(q) - self.start - work;
         self.largest_kinetic = larger(self.largest_kinetic, kinetic);
         self.largest_gap = larger(self.largest_gap, gap.abs());
+        self.rounding = larger(self.rounding, rounding(mechanism, q));
     }
 
-    /// The largest gap (J).
+    /// The largest gap (J); zero for a motion at rest, where it is rounding beside rounding.
     pub(super) fn largest_gap(&self) -> f64 {
-        self.largest_gap
+        if self.largest_gap.max(self.largest_kinetic) <= self.rounding {
+            0.0
+        } else {
+            self.largest_gap
+        }
     }
 
     /// The largest kinetic energy (J).
     pub(super) fn largest_kinetic(&self) -> f64 {
         self.largest_kinetic
     }
+}
+
+/// Rounding of the potential of the weight at q (J).
+fn rounding(mechanism: &Mechanism, q: &[f64]) -> f64 {
+    let space = mechanism.space();
+    let of_body = |body: usize| -> f64 {
+        let weights = &mechanism.weight()[space.translations_of(body)];
+        let places = &q[space.coordinates(body)];
+        let terms = weights.iter().zip(places);
+        terms
+            .map(|(w, x)| w.abs() * (x.abs() + mechanism.reach(body)))
+            .sum()
+    };
+    let all: f64 = (0..mechanism.bodies().len()).map(of_body).sum();
+    ENERGY_ROUNDINGS * f64::EPSILON * all
 }
 
 /// The larger of two numbers; NaN, which results from an overflowing energy, counts as larger than

@@ -758,7 +758,7 @@ pub const TABLE: &[Entry] = &[
     entry(
         220,
         "The state about which a motion is to be linearised is not steady",
-        "Describe a start at rest where forces balance, or let dampers bring the mechanism there in a run and linearise at its end with `--at-time`. A steady motion in a circle is steady in axes that turn: `--follow BODY.wz`.",
+        "Let `pfaff equilibrium SCENE --out DIR` find a start at rest and linearise that, or let dampers bring the mechanism there in a run and linearise at its end with `--at-time`. A steady motion in a circle is steady in axes that turn: `--follow BODY.wz`.",
         Example::Scene(
             "linearise -",
             "[scene]\nname = \"bar\"\nspace = \"plane\"\ngravity = [0.0, -9.81]\n\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 0.1\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n",
@@ -787,6 +787,32 @@ pub const TABLE: &[Entry] = &[
         "No independent coordinates determine the state",
         "The configuration is singular: choose another one.",
         Example::None("needs a singular configuration"),
+    ),
+    entry(
+        225,
+        "A start at rest is asked for, and something prescribes a velocity",
+        "Let the function of the drive begin with rate zero, or leave the drive out with `active = false`.",
+        Example::Scene(
+            "equilibrium -",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n\n[[drive]]\nname = \"motor\"\njoint = \"A\"\ntype = \"angle\"\nmotion = { type = \"constant-rate\", rate = 1.0 }\n"
+            ),
+        ),
+    ),
+    entry(
+        226,
+        "A free motion is pushed wherever it goes, so nothing rests",
+        "Add a spring or a stop that resists it, or a joint that holds it; the message says what pushes.",
+        Example::Scene(
+            "equilibrium -",
+            "[scene]\nname = \"stone\"\nspace = \"plane\"\ngravity = [0.0, -9.81]\n\n[[body]]\nname = \"stone\"\nmass = 1.0\ninertia = 0.1\n",
+        ),
+    ),
+    entry(
+        227,
+        "No place of rest was found near the start",
+        "Describe a start nearer to rest, or look whether there is one: a motor may be too strong.",
+        Example::None("needs a search that does not end"),
     ),
     entry(
         301,

@@ -182,6 +182,10 @@ impl PlacedForce {
     }
 
     pub(crate) fn recorded_q(&self, at: &RecordedSlots, out: &mut [Recorded]) {
+        if let Some((turned, kernels)) = self.between() {
+            let (x, v, f) = at.of::<Space3>(&self.site);
+            return turned.recorded_q(kernels, (x, v), f, out);
+        }
         with!(AnyForce, &self.element, element, S => {
             let (x, v, f) = at.of::<S>(&self.site);
             element.recorded().q(&x, &v, f, out);

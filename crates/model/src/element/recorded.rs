@@ -1,12 +1,12 @@
 //! Arguments of kernels as inputs of a recording.
 
-use joints::Recorded;
-use joints::plane::{Pose, Twist};
+use joints::plane::Pose;
+use joints::{Plane, Recorded, Space3, space3};
 
 use super::bodies::{InEach, Poses, Twists};
 use super::slots::{Kinematics, Site, pose_of};
 use crate::body::BodyRef;
-use crate::space::Space;
+use crate::space::SpaceKind;
 
 /// Meaning of an input of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +17,16 @@ pub enum Input {
     Cos(usize),
     /// The sine of the coordinate with this index in q.
     Sin(usize),
+    /// An entry of the matrix that turns vectors of a spatial body, in its principal axes, into
+    /// those of the ground: that of the quaternion among its coordinates, whatever its length.
+    Rotation {
+        /// Index of the body.
+        body: usize,
+        /// Axis of the ground.
+        row: usize,
+        /// Principal axis of the body.
+        column: usize,
+    },
     /// A velocity, by its index in v.
     Velocity(usize),
     /// A function of time as used by the mechanism, or a derivative of it.
@@ -40,37 +50,53 @@ pub(crate) struct RecordedSlots {
     poses: Poses<Recorded>,
     twists: Twists<Recorded>,
     jets: Vec<[Recorded; 3]>,
+    /// Coordinates and velocities of all bodies.
+    q: Vec<Recorded>,
+    v: Vec<Recorded>,
 }
 
 impl RecordedSlots {
-    /// Inputs of a planar mechanism whose coordinates are positions and angles; `input` gives the
-    /// number of each.
+    /// Inputs of a mechanism; `input` gives the number of each.
     pub(crate) fn new(
+        space: SpaceKind,
         bodies: usize,
         functions: usize,
         mut input: impl FnMut(Input) -> Recorded,
     ) -> Self {
-        const N: usize = <crate::space::Plane as Space>::N_Q;
-        let poses = (0..bodies).map(|k| Pose {
-            x: input(Input::Coordinate(N * k)),
-            y: input(Input::Coordinate(N * k + 1)),
-            angle: input(Input::Coordinate(N * k + 2)),
-            cos: input(Input::Cos(N * k + 2)),
-            sin: input(Input::Sin(N * k + 2)),
-        });
-        let poses = InEach {
-            plane: poses.collect(),
-            space3: Vec::new(),
-        };
-        let twists = (0..bodies).map(|k| Twist {
-            x: input(Input::Velocity(N * k)),
-            y: input(Input::Velocity(N * k + 1)),
-            omega: input(Input::Velocity(N * k + 2)),
-        });
-        let twists = InEach {
-            plane: twists.collect(),
-            space3: Vec::new(),
-        };
+        let (mut q, mut poses, mut twists) = (Vec::new(), InEach::default(), InEach::default());
+        for body in 0..bodies {
+            let own: Vec<Recorded> = space
+                .coordinates(body)
+                .map(|k| input(Input::Coordinate(k)))
+                .collect();
+            q.extend_from_slice(&own);
+            match space {
+                SpaceKind::Space3 => {
+                    let of = |row, column| Input::Rotation { body, row, column };
+                    let rot = [0, 1, 2].map(|row| [0, 1, 2].map(|column| input(of(row, column))));
+                    let r = [own[0], own[1], own[2]];
+                    poses.space3.push(space3::Pose { r, rot });
+                }
+                _ => {
+                    let angle = space.coordinates(body).start + 2;
+                    poses.plane.push(Pose {
+                        x: own[0],
+                        y: own[1],
+                        angle: own[2],
+                        cos: input(Input::Cos(angle)),
+                        sin: input(Input::Sin(angle)),
+                    });
+                }
+            }
+        }
+        let columns = 0..space.n_v() * bodies;
+        let v: Vec<Recorded> = columns.map(|k| input(Input::Velocity(k))).collect();
+        for own in v.chunks_exact(space.n_v()) {
+            match space {
+                SpaceKind::Space3 => twists.space3.push(Space3::twist(own)),
+                _ => twists.plane.push(Plane::twist(own)),
+            }
+        }
         let jets = (0..functions).map(|function| {
             [0, 1, 2].map(|derivative| {
                 input(Input::Function {
@@ -79,12 +105,23 @@ impl RecordedSlots {
                 })
             })
         });
-        let jets = jets.collect();
         Self {
             poses,
             twists,
-            jets,
+            jets: jets.collect(),
+            q,
+            v,
         }
+    }
+
+    /// Coordinates and velocities of all bodies.
+    pub(crate) fn state(&self) -> (&[Recorded], &[Recorded]) {
+        (&self.q, &self.v)
+    }
+
+    /// The angular velocity of each spatial body in its principal axes.
+    pub(crate) fn spins(&self) -> impl Iterator<Item = [Recorded; 3]> + '_ {
+        self.twists.space3.iter().map(|twist| twist.omega)
     }
 
     /// Poses, twists and functions of time of an element.

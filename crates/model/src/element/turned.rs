@@ -2,8 +2,8 @@
 //! a force sees them in the axes of their frames, in which its components may be given, and its
 //! torques and derivatives are turned.
 
-use joints::Space3;
 use joints::space3::{N_DOF, Pose, Twist};
+use joints::{Recorded, Ring, Space3};
 
 use super::ForceKernels;
 use crate::principal::Principal;
@@ -56,11 +56,33 @@ impl TurnedSlots {
     }
 
     /// Poses of the frames, from those of the principal axes.
-    pub(super) fn poses(&self, x: &mut [Pose]) {
+    pub(super) fn poses<T: Ring>(&self, x: &mut [Pose<T>]) {
         for (pose, of) in x.iter_mut().zip(&self.principal) {
             if let Some(of) = of {
                 pose.rot = pose.rot.map(|row| of.to_frame(row));
             }
+        }
+    }
+
+    /// Twists of the frames, from those of the principal axes.
+    fn twists<T: Ring>(&self, v: &mut [Twist<T>]) {
+        for (twist, of) in v.iter_mut().zip(&self.principal) {
+            if let Some(of) = of {
+                twist.omega = of.to_frame(twist.omega);
+            }
+        }
+    }
+
+    /// Writes the values of a force, of which each belongs to a column, into all columns.
+    fn write<T: Ring>(&self, pattern: &[usize], values: &[T], out: &mut [T]) {
+        out.fill(T::from(0.0));
+        for (&column, value) in pattern.iter().zip(values) {
+            out[column] = *value;
+        }
+        for (first, of) in self.turned() {
+            let torque = &mut out[first..first + 3];
+            let own = of.own([torque[0], torque[1], torque[2]]);
+            torque.copy_from_slice(&own);
         }
     }
 
@@ -77,11 +99,7 @@ impl TurnedSlots {
         let (mut few, mut many) = ([Twist::zero(); FEW], Vec::new());
         let twists = lent(&mut few, &mut many, v.len());
         twists.copy_from_slice(v);
-        for (twist, of) in twists.iter_mut().zip(&self.principal) {
-            if let Some(of) = of {
-                twist.omega = of.to_frame(twist.omega);
-            }
-        }
+        self.twists(twists);
         kernel(poses, twists)
     }
 
@@ -97,15 +115,23 @@ impl TurnedSlots {
         let (mut few, mut many) = ([0.0; FEW * N_DOF], Vec::new());
         let values = lent(&mut few, &mut many, pattern.len());
         self.with_frames(at, |x, v| kernels.q(x, v, f, values));
-        out.fill(0.0);
-        for (&column, value) in pattern.iter().zip(&*values) {
-            out[column] = *value;
-        }
-        for (first, of) in self.turned() {
-            let torque = &mut out[first..first + 3];
-            let own = of.own([torque[0], torque[1], torque[2]]);
-            torque.copy_from_slice(&own);
-        }
+        self.write(pattern, values, out);
+    }
+
+    /// The same on numbers that are recorded.
+    pub(super) fn recorded_q(
+        &self,
+        kernels: &dyn ForceKernels<Space3>,
+        (mut x, mut v): (Vec<Pose<Recorded>>, Vec<Twist<Recorded>>),
+        f: &[[Recorded; 3]],
+        out: &mut [Recorded],
+    ) {
+        let pattern = kernels.spec().q;
+        let mut values = vec![Recorded::from(0.0); pattern.len()];
+        self.poses(&mut x);
+        self.twists(&mut v);
+        kernels.recorded().q(&x, &v, f, &mut values);
+        self.write(pattern, &values, out);
     }
 
     /// A derivative of Q, all pairs of columns, from the one of the kernels with this pattern.

@@ -149,7 +149,7 @@ impl Mechanism {
 
     /// Sets the counted angles of q to those of its bodies, with their turns.
     #[inline]
-    pub(super) fn settle_angles(&self, q: &mut [f64]) {
+    pub(crate) fn settle_angles(&self, q: &mut [f64]) {
         for (k, angle) in (self.first_counted()..).zip(&self.elements.counted) {
             let site = self.site_of(angle);
             let [cos, sin, _] = site.with_spatial((q, None), |x, v| self.turned(angle, x, v));

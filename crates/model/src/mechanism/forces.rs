@@ -128,6 +128,22 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
+    /// What each force adds to Q at the pose and the twist of the scratch, n_v each, with its name;
+    /// allocates.
+    pub fn parts(self, s: &mut Scratch) -> impl Iterator<Item = (&'m str, Vec<f64>)> {
+        let n = s.force.len();
+        self.0.iter().map(move |force| {
+            force.q(&s.slots, &mut s.block);
+            let mut q = vec![0.0; n];
+            for (column, x) in force.columns.iter().zip(&s.block) {
+                if let Some(column) = column {
+                    q[*column] += x;
+                }
+            }
+            (force.name.as_str(), q)
+        })
+    }
+
     /// Names of the drives by laws and what they apply, "force" or "torque", in the order of the
     /// forces.
     pub fn law_drives(self) -> impl Iterator<Item = (&'m str, &'static str)> {

@@ -3,9 +3,11 @@
 //! sines and cosines of unchanged angles, constant entries of C, and Γ of rows that are linear in
 //! q.
 
+use joints::Ring;
+
 use super::Mechanism;
 use crate::element::{Bodies, Slots};
-use crate::space::{self, Space, SpaceKind, in_space};
+use crate::space::{self, Space, SpaceKind};
 use crate::system::{Layout, Scratch, System};
 
 impl System for Mechanism {
@@ -108,17 +110,11 @@ impl System for Mechanism {
 
     fn force(&self, s: &mut Scratch) {
         s.force.copy_from_slice(&self.weight);
-        // −ω × J·ω in principal axes.
-        for (body, &[x, y, z]) in s.spins.iter().enumerate() {
+        for (body, &omega) in s.spins.iter().enumerate() {
             let at = self.space().rotations_of(body);
-            let [jx, jy, jz] = [0, 1, 2].map(|k| self.mass[at.start + k]);
-            let bias = [
-                (jy - jz) * (y * z),
-                (jz - jx) * (z * x),
-                (jx - jy) * (x * y),
-            ];
-            for (force, bias) in s.force[at].iter_mut().zip(bias) {
-                *force += bias;
+            let moments = [0, 1, 2].map(|k| self.mass[at.start + k]);
+            for (force, torque) in s.force[at].iter_mut().zip(gyroscopic(moments, omega)) {
+                *force += torque;
             }
         }
         for force in &self.elements.forces {
@@ -132,12 +128,7 @@ impl System for Mechanism {
     }
 
     fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]) {
-        in_space!(self.space(), S => {
-            let bodies = q.chunks_exact(S::N_Q).zip(v.chunks_exact(S::N_V));
-            for ((q, v), qd) in bodies.zip(qd.chunks_exact_mut(S::N_Q)) {
-                S::rate(q, v, qd);
-            }
-        });
+        self.space().rate(q, v, qd);
         self.rate_of_angles(q, v, qd);
     }
 
@@ -150,6 +141,15 @@ impl System for Mechanism {
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]) {
         self.space().difference(q, from, d);
     }
+}
+
+/// −ω × J·ω in principal axes: the part of Q that keeps the angular momentum of a body.
+pub(crate) fn gyroscopic<T: Ring>([jx, jy, jz]: [f64; 3], [x, y, z]: [T; 3]) -> [T; 3] {
+    [
+        T::from(jy - jz) * (y * z),
+        T::from(jz - jx) * (z * x),
+        T::from(jx - jy) * (x * y),
+    ]
 }
 
 /// Kinds of work that tests count.

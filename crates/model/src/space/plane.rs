@@ -1,5 +1,7 @@
 //! The plane, and the plane with a point of the unit circle for the angle.
 
+use joints::Ring;
+
 use super::number::Number;
 use super::traits::{MOST_COORDINATES, PlanarSpace, Space};
 
@@ -30,7 +32,7 @@ impl Space for Plane {
         q[dof]
     }
 
-    fn rate(_q: &[f64], v: &[f64], qd: &mut [f64]) {
+    fn rate<T: Ring>(_q: &[T], v: &[T], qd: &mut [T]) {
         qd.copy_from_slice(v);
     }
 
@@ -96,7 +98,7 @@ impl Space for UnitCircle {
         }
     }
 
-    fn rate(q: &[f64], v: &[f64], qd: &mut [f64]) {
+    fn rate<T: Ring>(q: &[T], v: &[T], qd: &mut [T]) {
         qd.copy_from_slice(&[v[0], v[1], -q[3] * v[2], q[2] * v[2]]);
     }
 

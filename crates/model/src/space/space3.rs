@@ -41,11 +41,11 @@ impl Space for Space3 {
     }
 
     /// ė = ½·e∘(0, ω)
-    fn rate(q: &[f64], v: &[f64], qd: &mut [f64]) {
+    fn rate<T: Ring>(q: &[T], v: &[T], qd: &mut [T]) {
         qd[..3].copy_from_slice(&v[..3]);
-        let half = quaternion_product(quaternion(q), [0.0, v[3], v[4], v[5]]);
-        for (qd, e) in qd[3..].iter_mut().zip(half) {
-            *qd = 0.5 * e;
+        let twice = quaternion_product(quaternion(q), [T::from(0.0), v[3], v[4], v[5]]);
+        for (qd, e) in qd[3..].iter_mut().zip(twice) {
+            *qd = T::from(0.5) * e;
         }
     }
 
@@ -93,13 +93,11 @@ impl Space for Space3 {
         }
     }
 
-    /// The first rotation takes the whole orientation, the others nothing more: rotations are kept
-    /// together.
+    /// Any rotation takes the whole orientation: rotations do not add up along single axes.
     fn take(q: &mut [f64], from: &[f64], dof: usize) {
         match dof {
             0..3 => q[dof] = from[dof],
-            3 => q[3..7].copy_from_slice(&from[3..7]),
-            _ => {}
+            _ => q[3..7].copy_from_slice(&from[3..7]),
         }
     }
 }

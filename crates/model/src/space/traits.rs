@@ -1,5 +1,7 @@
 //! What a space says of the coordinates and velocities of one body.
 
+use joints::Ring;
+
 use super::number::Number;
 
 /// Largest number of coordinates of a body.
@@ -45,7 +47,7 @@ pub trait Space {
     fn position(q: &[f64], dof: usize) -> f64;
 
     /// q̇ = T(q)·v.
-    fn rate(q: &[f64], v: &[f64], qd: &mut [f64]);
+    fn rate<T: Ring>(q: &[T], v: &[T], qd: &mut [T]);
 
     /// The velocity of one freedom, below [`Space::N_V`], as factors of q̇ = T(q)·v; components of
     /// q̇ that change no pose are ignored. Factors beyond the coordinates are zero.

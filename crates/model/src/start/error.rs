@@ -64,6 +64,16 @@ pub enum StartError {
         /// Number of bodies.
         bodies: usize,
     },
+    /// A body that is to start elsewhere does not exist, or moves in another space.
+    #[error(
+        "a pose of the start is that of body {body}; bodies are 0..{bodies}, with poses of their space"
+    )]
+    NoPose {
+        /// The requested body.
+        body: usize,
+        /// Number of bodies.
+        bodies: usize,
+    },
     /// A coordinate of a frame that is not at the centre of mass is to be kept without its
     /// rotation.
     #[error(
@@ -125,7 +135,7 @@ impl StartError {
             Self::LargeCorrection { .. } => const { Code::new(202) },
             Self::Velocities { .. } => const { Code::new(203) },
             Self::Requirement { .. } => const { Code::new(204) },
-            Self::NoCoordinate { .. } => const { Code::new(205) },
+            Self::NoCoordinate { .. } | Self::NoPose { .. } => const { Code::new(205) },
             Self::NoVelocity { .. } => const { Code::new(206) },
             Self::TooLarge { .. } => const { Code::new(207) },
             Self::KeptOrigin { .. } => const { Code::new(209) },

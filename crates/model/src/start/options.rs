@@ -1,6 +1,7 @@
 //! Options of a start.
 
 use super::error::StartError;
+use crate::body::FramePose;
 use crate::mechanism::Mechanism;
 use crate::space::SpaceKind;
 
@@ -14,6 +15,18 @@ pub struct StartOptions {
     /// correction of given velocities by more than a thousandth of the fastest ones coupled with
     /// them.
     pub correction: CorrectionLimit,
+    /// Bodies that do not start where they are described. Places, initial values and the zeros of
+    /// measures remain those of the described start.
+    pub poses: Vec<StartPose>,
+}
+
+/// The pose at which a body starts if it does not start where it is described.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartPose {
+    /// Index of the body in the list.
+    pub body: usize,
+    /// Where its frame is.
+    pub frame: FramePose,
 }
 
 /// Limit of the corrections of a start.

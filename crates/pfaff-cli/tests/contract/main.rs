@@ -9,6 +9,7 @@ mod cold_start;
 mod console;
 mod diff;
 mod documents;
+mod equilibrium;
 mod explain;
 mod failures;
 #[cfg(target_os = "linux")]

@@ -98,7 +98,7 @@ const OF_PLACES: [Fault; 1] = [Fault {
 }];
 
 /// The commands with arguments that are right, and whether these end with a scene and with a place.
-const COMMANDS: [(&str, &str, bool, bool); 14] = [
+const COMMANDS: [(&str, &str, bool, bool); 15] = [
     ("analyze", "-", true, false),
     ("simulate", "- --out run --t-end 1", true, true),
     ("plan", "-", true, false),
@@ -110,6 +110,7 @@ const COMMANDS: [(&str, &str, bool, bool); 14] = [
     ),
     ("work-precision", "- --out work --quick", true, true),
     ("check", "-", true, false),
+    ("equilibrium", "- --out rest", true, true),
     ("linearise", "- --out modes", true, true),
     ("new", "door", false, true),
     ("view", "- --no-open", true, true),

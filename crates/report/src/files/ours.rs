@@ -8,6 +8,9 @@ use std::path::Path;
 /// Bytes that are read to recognise a file.
 const HEAD: u64 = 1 << 12;
 
+/// The beginning of scenes that this program writes.
+pub const PROVENANCE: &str = "# Written by pfaff";
+
 /// Whether nothing is lost if a file is replaced: it does not exist, is empty, or was written by
 /// this program. What cannot be read is not ours.
 #[must_use]
@@ -35,6 +38,7 @@ pub fn is_ours(path: &Path) -> bool {
         }
         Some("html") => text.contains("<meta name=\"generator\" content=\"pfaff"),
         Some("svg") => text.contains(crate::figures::GENERATOR),
+        Some("toml") => text.starts_with(PROVENANCE),
         Some("parquet") => text.starts_with("PAR1"),
         _ => false,
     }

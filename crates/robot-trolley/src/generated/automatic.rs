@@ -46,7 +46,7 @@ pub const POSITION_KEPT: [usize; 17usize] = [
 ];
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
-/// Operations of each function; sines and functions of time are not counted.
+/// Operations of each function; rotations and functions of time are not counted.
 pub const OPERATIONS: &str = "acceleration: 364 mul, 291 add, 3 neg, 10 div; multipliers: 438 mul, 365 add, 5 neg, 10 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 301 mul, 257 add, 5 neg, 8 div; velocity_correction: 330 mul, 278 add, 3 neg, 10 div";
 /// The smaller one; NaN if one is.
 #[inline(always)]
@@ -1402,7 +1402,7 @@ pub fn position_correction(
     t: f64,
     q: &[f64; N_Q],
     r: &[f64; M],
-    dq: &mut [f64; N_Q],
+    dq: &mut [f64; N_V],
 ) -> f64 {
     let x = rotations(q);
     position_correction_core(|k| q[k], |k| r[k], |k| x[k], |k, value| dq[k] = value)
@@ -1413,7 +1413,7 @@ pub fn position_correction_of<const L: usize>(
     t: &[f64; L],
     q: &[[f64; L]; N_Q],
     r: &[[f64; L]; M],
-    dq: &mut [[f64; L]; N_Q],
+    dq: &mut [[f64; L]; N_V],
 ) -> [f64; L] {
     let x = rotations_of(q);
     let mut health = [0.0; L];
@@ -1799,7 +1799,7 @@ impl pfaff::dynamics::SceneCode for Code {
         let (Some(q), Some(r), Some(dq)) = (
             q.first_chunk::<N_Q>(),
             r.first_chunk::<M>(),
-            dq.first_chunk_mut::<N_Q>(),
+            dq.first_chunk_mut::<N_V>(),
         ) else { return f64::NAN };
         position_correction(t, q, r, dq)
     }

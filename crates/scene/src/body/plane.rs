@@ -1,7 +1,7 @@
 //! Bodies in the plane.
 
 use joints::Plane;
-use model::Body;
+use model::{Body, FramePose};
 use serde_json::json;
 
 use super::SceneBody;
@@ -40,14 +40,23 @@ const TOLERANCE: Key = tolerance::length(
 const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
     .unit(Dimension::ANGULAR_VELOCITY)
     .doc("Angular velocity at the start; it follows in the same way where it is left out");
+const START_KEYS: [Key; 2] = [
+    Key::pair("position")
+        .unit(Dimension::LENGTH)
+        .doc("Origin [x, y] of the body's frame where it starts"),
+    number("angle", "a number", Interval::Any)
+        .unit(Dimension::ANGLE)
+        .doc("Angle of the body's frame where it starts"),
+];
 
 /// Keys of a body in addition to its name.
-const BODY_KEYS: [Key; 8] = [
+const BODY_KEYS: [Key; 9] = [
     MASS,
     INERTIA,
     CENTRE,
     POSITION,
     ANGLE,
+    Plane::START,
     VELOCITY,
     ANGULAR_VELOCITY,
     TOLERANCE,
@@ -60,6 +69,26 @@ const fn number(name: &'static str, expected: &'static str, range: Interval) -> 
 
 impl SceneBody for Plane {
     const BODY_KEYS: &'static [Key] = &BODY_KEYS;
+    const START: Key = Key::optional(
+        "start",
+        "a table { position, angle }",
+        Takes::Table(&START_KEYS),
+    )
+    .doc("Where the body starts if that is not where it is described: { position, angle } of its frame, as described where one is left out. Points `at`, what `fixed` joints and gears keep, free lengths and the zeros of measures are still those of the described start");
+
+    fn read_start(start: &mut Table, body: &Body, findings: &mut Findings) -> FramePose {
+        let [position, angle] = &START_KEYS;
+        let at = start
+            .optional(position)
+            .and_then(|field| field.vector::<Self>(position.expected, position.unit, findings));
+        let turned = start
+            .optional(angle)
+            .and_then(|field| field.number(angle.unit, findings));
+        FramePose::Plane {
+            position: at.unwrap_or(body.position),
+            angle: turned.unwrap_or(body.angle),
+        }
+    }
 
     fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> Body {
         let mut required = |key: &Key| {

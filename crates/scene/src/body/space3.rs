@@ -1,7 +1,7 @@
 //! Bodies in space.
 
 use joints::Space3;
-use model::SpatialBody;
+use model::{FramePose, SpatialBody};
 use serde_json::json;
 
 use super::{SceneBody, orientation};
@@ -40,6 +40,14 @@ const ANGULAR_VELOCITY: Key = Key::triple("angular_velocity")
 const TOLERANCE: Key = tolerance::length(
     "What points and directions in the body's frame are known to; that of the scene where it is not given",
 );
+const START_KEYS: [Key; 2] = [
+    Key::triple("position")
+        .unit(Dimension::LENGTH)
+        .doc("Origin [x, y, z] of the body's frame where it starts"),
+    orientation::ORIENTATION.doc(
+        "Orientation of the body's frame where it starts, in any of the ways of `orientation`",
+    ),
+];
 
 impl SceneBody for Space3 {
     const BODY_KEYS: &'static [Key] = &[
@@ -48,10 +56,32 @@ impl SceneBody for Space3 {
         CENTRE,
         POSITION,
         orientation::ORIENTATION,
+        Self::START,
         VELOCITY,
         ANGULAR_VELOCITY,
         TOLERANCE,
     ];
+
+    const START: Key = Key::optional(
+        "start",
+        "a table { position, orientation }",
+        Takes::Table(&START_KEYS),
+    )
+    .doc("Where the body starts if that is not where it is described: { position, orientation } of its frame, as described where one is left out. Points `at`, what `fixed` joints and gears keep, free lengths and the zeros of measures are still those of the described start");
+
+    fn read_start(start: &mut Table, body: &SpatialBody, findings: &mut Findings) -> FramePose {
+        let [position, orientation] = &START_KEYS;
+        let at = start
+            .optional(position)
+            .and_then(|field| field.vector::<Self>(position.expected, position.unit, findings));
+        let turned = start
+            .optional(orientation)
+            .and_then(|field| orientation::read(&field, findings));
+        FramePose::Space3 {
+            position: at.unwrap_or(body.position),
+            orientation: turned.unwrap_or(body.orientation),
+        }
+    }
 
     fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> SpatialBody {
         let mass = table.required(&MASS, findings);

@@ -36,6 +36,7 @@ pub(super) fn described(key: &Key) -> Value {
         Takes::Number(range) => number(range),
         Takes::Vector(n, range) => tuple(vec![number(range); n]),
         Takes::Orientation => orientation(),
+        Takes::Table(keys) => table(keys),
         Takes::Tensor => {
             let row = || tuple(vec![number(Interval::Any); 3]);
             json!({ "anyOf": [row(), tuple(vec![row(); 3])] })
@@ -132,6 +133,15 @@ pub(super) fn place<S: SceneSpace>() -> Value {
         "title": format!("Point {} (m), or the name of a marker", S::VECTOR),
         "anyOf": [reference(&name_in::<S>("point")), { "type": "string" }],
     })
+}
+
+/// A table with these keys, each optional.
+fn table(keys: &[Key]) -> Value {
+    let properties: Map<String, Value> = keys
+        .iter()
+        .map(|key| (key.name.to_owned(), described(key)))
+        .collect();
+    json!({ "type": "object", "properties": properties, "additionalProperties": false })
 }
 
 /// The ways in which an orientation is written.

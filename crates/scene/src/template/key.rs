@@ -109,8 +109,22 @@ fn inside(parts: &[String]) -> String {
     }
 }
 
+/// What may stand at the place of a key.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// A number.
+    Number,
+    /// Any value, but not the header of a table.
+    Value,
+}
+
 /// The place of a key in the text.
-pub(super) fn find(key: &str, text: &str, root: &DeTable) -> Result<Slot, KeyError> {
+pub(super) fn find(
+    key: &str,
+    text: &str,
+    root: &DeTable,
+    wanted: Wanted,
+) -> Result<Slot, KeyError> {
     let mut walk = Walk {
         key,
         rest: key,
@@ -119,6 +133,7 @@ pub(super) fn find(key: &str, text: &str, root: &DeTable) -> Result<Slot, KeyErr
     let mut node = walk.first(root)?;
     loop {
         node = match node.get_ref() {
+            _ if walk.rest.is_empty() && wanted == Wanted::Value => return walk.value(node, text),
             _ if walk.rest.is_empty() => return walk.number(node),
             DeValue::Table(table) => match walk.entry(table) {
                 Ok(next) => next,
@@ -255,6 +270,21 @@ impl<'k> Walk<'k> {
             || is_switch && value.is_bool()
     }
 
+    /// The value at the end of the key, if it is in one place.
+    fn value(&self, node: &Spanned<DeValue>, text: &str) -> Result<Slot, KeyError> {
+        let span = node.span();
+        let is_table = node.get_ref().is_table();
+        if is_table && !text[span.clone()].starts_with('{') {
+            let key = self.key.to_owned();
+            return Err(KeyError::NoRoom { key });
+        }
+        Ok(Slot {
+            span,
+            before: String::new(),
+            after: "",
+        })
+    }
+
     /// The number at the end of the key.
     fn number(&self, node: &Spanned<DeValue>) -> Result<Slot, KeyError> {
         match node.get_ref() {
@@ -278,8 +308,8 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// A place for a last key that is not in the text: after the header of its table, or after its
-    /// brace. Whether the key is valid is checked by the reader of scenes.
+    /// A place for a last key that is not in the text: after the line of the header of its table,
+    /// or after its brace. Whether the key is valid is checked by the reader of scenes.
     fn addition(
         &self,
         node: &Spanned<DeValue>,
@@ -295,7 +325,10 @@ impl<'k> Walk<'k> {
         let span = node.span();
         let written = &text[span.clone()];
         let (at, before, after) = match (written.as_bytes().first(), table.is_empty()) {
-            (Some(b'['), _) => (span.end, format!("\n{name} = "), ""),
+            (Some(b'['), _) => {
+                let rest = text[span.end..].lines().next().unwrap_or_default();
+                (span.end + rest.len(), format!("\n{name} = "), "")
+            }
             (Some(b'{'), false) => (span.start + 1, format!(" {name} = "), ","),
             (Some(b'{'), true) => (span.start + 1, format!(" {name} = "), " "),
             _ => {

@@ -261,6 +261,52 @@ impl<'a> Connected<'a> {
         described
     }
 
+    /// Describes velocities (n_v each) of bodies on which no joint acts.
+    pub(super) fn alone(&self, q: &[f64], velocities: &[Vec<f64>]) -> Vec<FreeMotion> {
+        let (space, frames) = (self.whole.space(), self.whole.frames());
+        let size = scene_size(self.whole, q);
+        let units = velocity_units(self.whole, size);
+        let fastest = |v: &[f64], columns: std::ops::Range<usize>| {
+            let shares = columns.map(|j| (v[j] / units[j]).abs());
+            shares.fold(0.0, f64::max)
+        };
+        let mut described = Vec::new();
+        for set in self.sets.iter().filter(|set| self.is_alone(set)) {
+            let body = set[0];
+            let moves = |v: &&Vec<f64>| {
+                let own = fastest(v, space.columns_of(body));
+                own > SATISFIED * fastest(v, 0..v.len())
+            };
+            let own: Vec<&Vec<f64>> = velocities.iter().filter(moves).collect();
+            let is_free = own.len() == space.n_v();
+            let mut told = Vec::new();
+            let mut numbers = Vec::new();
+            for v in own {
+                let state = frames.body(body, q, v);
+                let twist = Twist {
+                    velocity: state.velocity,
+                    omega: state.omega,
+                };
+                let movement = twist.movement(state.place, size);
+                told.push(words::alone(self.whole, body, movement, size));
+                numbers.push(vec![(body, twist.components(space))]);
+            }
+            if is_free {
+                described.push(FreeMotion {
+                    text: words::free(self.whole, set),
+                    velocities: numbers,
+                });
+                continue;
+            }
+            let each = told.into_iter().zip(numbers);
+            described.extend(each.map(|(text, numbers)| FreeMotion {
+                text,
+                velocities: vec![numbers],
+            }));
+        }
+        described
+    }
+
     /// From the centre of mass of a body to the origin of its frame, in its axes (m).
     fn to_frame(&self, body: usize) -> [f64; 3] {
         self.whole.bodies()[body].from_centre([0.0; 3])

@@ -49,6 +49,30 @@ pub(super) fn free(mechanism: &Mechanism, bodies: &[usize]) -> String {
     }
 }
 
+/// How a body on which no joint acts moves.
+pub(super) fn alone(mechanism: &Mechanism, body: usize, movement: Movement, size: f64) -> String {
+    let name = named(mechanism, &[body]);
+    let space = mechanism.space();
+    let shown = |p: [f64; 3], size: f64| components(&p[space.forces()], size);
+    let line = |Line { point, along }: Line| match space.n_rotations() {
+        1 => shown(point, size),
+        _ => format!(
+            "the line through {} along {}",
+            shown(point, size),
+            shown(along, 1.0)
+        ),
+    };
+    match movement {
+        Movement::Turn(about) => format!("{name} turns about {}", line(about)),
+        Movement::Screw(about, pitch) => format!(
+            "{name} turns about {} with a pitch of {} m per turn",
+            line(about),
+            short(pitch)
+        ),
+        Movement::Slide(along) => format!("{name} slides along {}", shown(along, 1.0)),
+    }
+}
+
 /// How the other bodies move. In space, a few sets of bodies that move as one are told like the
 /// first; of more, and in the plane, it is told which turn and which slide.
 fn with_it(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String> {

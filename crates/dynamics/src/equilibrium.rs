@@ -1,0 +1,344 @@
+//! A configuration at rest near a start: Φ(q, t) = 0, v = 0 and `Zᵀ·Q(q, 0, t) = 0` with Z a basis
+//! of the velocities that the rows allow, at the time of the start.
+//!
+//! Forces are followed downhill: a step solves `(K + μ·I)·y = Zᵀ·Q` with the stiffness K of the
+//! forces and of the multipliers, and μ such that `K + μ·I` is positive definite and the step is
+//! not too long. Near a place of rest it is Newton's method. So a potential falls at each step and
+//! a place is left where it has a maximum, if forces push there at all. Masses play no part.
+//!
+//! Sources: C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM
+//! J. Numer. Anal. 35 (1998) 508–523; J. J. Moré, D. C. Sorensen, Computing a trust region step,
+//! SIAM J. Sci. Stat. Comput. 4 (1983) 553–572.
+
+mod balance;
+mod error;
+mod stiffness;
+mod words;
+
+use crate::limits::{
+    REST_LEFT, REST_LONGEST, REST_PUSH, REST_PUSHES, REST_RADIUS, REST_ROUNDINGS, REST_SHORTEST,
+    REST_STALLED, REST_STEPS, UNRESISTED, UNRESISTED_FORCE, UNRESISTED_STEPS,
+};
+use crate::prepare::Prepared;
+use balance::{Balance, Statics};
+use linalg::kernels::{dot, norm};
+use stiffness::{Stiffness, Way};
+
+pub use error::EquilibriumError;
+pub use words::Pushed;
+
+/// What is asked of a search for a place of rest.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EquilibriumOptions {
+    /// Whether a place at which the potential is not least is left by a small push.
+    pub stable: bool,
+}
+
+/// A configuration at rest.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Equilibrium {
+    /// Time (s).
+    pub time: f64,
+    /// Coordinates, n_q.
+    pub q: Vec<f64>,
+    /// Steps of the search.
+    pub steps: usize,
+    /// Pushes that left places at which the potential was not least.
+    pub pushes: usize,
+    /// Largest force or torque that is left along a free motion, as a share of the largest one
+    /// that acts.
+    pub residual: f64,
+    /// The largest force, or torque divided by the size of the mechanism, that acts (N).
+    pub largest_force: f64,
+    /// What becomes of small displacements.
+    pub stability: RestStability,
+    /// Free motions that nothing pushes and nothing resists, in words: they stay as they are.
+    pub idle: Vec<String>,
+    /// Free motions away from which forces push, in words.
+    pub falling: Vec<String>,
+    /// Whether the place depends on the way: nonholonomic rows restrict how it is reached, not
+    /// where it is.
+    pub depends_on_way: bool,
+    /// Drives and joints whose rows do not rest longer: their functions of time accelerate at once.
+    pub moving_on: Vec<String>,
+}
+
+/// What becomes of small displacements from a place of rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RestStability {
+    /// Nothing can move.
+    Immovable,
+    /// The potential is least there.
+    Stable,
+    /// Nothing pushes away, and some motions are not resisted.
+    Idle,
+    /// The potential is not least: some displacement is pushed further.
+    Unstable,
+    /// Not judged: nonholonomic rows.
+    Nonholonomic,
+    /// Not judged: forces without a potential.
+    NoPotential,
+}
+
+impl RestStability {
+    /// The word for it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Immovable => "immovable",
+            Self::Stable => "stable",
+            Self::Idle => "idle",
+            Self::Unstable => "unstable",
+            Self::Nonholonomic | Self::NoPotential => "not_judged",
+        }
+    }
+
+    /// Reason why it is not judged.
+    #[must_use]
+    pub fn why_not(self) -> Option<&'static str> {
+        match self {
+            Self::Nonholonomic => {
+                Some("nonholonomic rows let the place depend on the way, so there is no potential")
+            }
+            Self::NoPotential => Some("the forces have no potential"),
+            _ => None,
+        }
+    }
+}
+
+/// Finds a configuration at rest near the start of a prepared mechanism, at its time; velocities of
+/// the start do not matter.
+///
+/// ```
+/// use dynamics::equilibrium::{EquilibriumOptions, RestStability, equilibrium};
+/// use dynamics::{RowChoice, prepare};
+/// use joints::Revolute;
+/// use model::{Body, BodyRef, Description, Mechanism, StartOptions};
+///
+/// // A pendulum that is described upright, but for a thousandth, hangs.
+/// let mut d = Description { gravity: [0.0, -9.81], ..Description::new("pendulum") };
+/// let bob = d.body(Body { position: [1e-3, 1.0], ..Body::new("bob", 1.0, 0.1) });
+/// d.joint("pivot", &[BodyRef::Ground, bob], Revolute { s_i: [0.0; 2], s_j: [-1e-3, -1.0] });
+/// let mechanism = Mechanism::build(&d).unwrap();
+/// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?;
+/// let found = equilibrium(&prepared, &EquilibriumOptions::default())?;
+/// assert!(found.q[0].abs() < 1e-15 && (found.q[1] + 1.0).abs() < 1e-6);
+/// assert_eq!(found.stability, RestStability::Stable);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// - [`EquilibriumError::Prescribed`]: a drive or a joint prescribes a velocity.
+/// - [`EquilibriumError::Pushed`]: a free motion is pushed, however far it goes.
+/// - [`EquilibriumError::NotFound`]: the search did not end.
+/// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: a configuration on the way
+///   cannot be reached, or a force has no value there.
+pub fn equilibrium(
+    prepared: &Prepared,
+    options: &EquilibriumOptions,
+) -> Result<Equilibrium, EquilibriumError> {
+    let mut statics = Statics::new(prepared);
+    statics.check_rest(&prepared.q)?;
+    let mut search = Search {
+        at: statics.balance(prepared.q.clone())?,
+        statics,
+        radius: REST_RADIUS,
+        steps: 0,
+        pushes: 0,
+        unresisted: 0,
+        best: f64::INFINITY,
+        stalled: 0,
+    };
+    let stiffness = search.run(options)?;
+    search.finish(&stiffness, prepared)
+}
+
+/// A search, step by step.
+struct Search<'m> {
+    statics: Statics<'m>,
+    at: Balance,
+    /// Longest step, for each body (sizes of the mechanism, radians).
+    radius: f64,
+    steps: usize,
+    pushes: usize,
+    /// Steps in a row along which nothing resisted.
+    unresisted: usize,
+    /// The least force left so far, and the number of steps since it fell by half.
+    best: f64,
+    stalled: usize,
+}
+
+impl Search<'_> {
+    /// Moves to a place of rest; returns the stiffness there.
+    fn run(&mut self, options: &EquilibriumOptions) -> Result<Stiffness, EquilibriumError> {
+        loop {
+            let stiffness = self.statics.stiffness(&self.at)?;
+            if self.is_at_rest(&stiffness) {
+                let falling = stiffness.falling();
+                if !options.stable || falling.is_empty() || self.pushes == REST_PUSHES {
+                    return Ok(stiffness);
+                }
+                self.push(&falling[0])?;
+                continue;
+            }
+            self.watch(&stiffness)?;
+            if self.steps == REST_STEPS {
+                return Err(self.not_found());
+            }
+            self.step(&stiffness)?;
+            self.steps += 1;
+        }
+    }
+
+    /// Whether what is left is rounding of the forces.
+    fn is_at_rest(&mut self, stiffness: &Stiffness) -> bool {
+        let left = norm(&self.at.free);
+        let rounding = f64::EPSILON * (self.at.scale + stiffness.largest);
+        if left <= 0.5 * self.best {
+            (self.best, self.stalled) = (left, 0);
+        } else {
+            self.stalled += 1;
+        }
+        left <= REST_ROUNDINGS * rounding
+            || self.stalled >= REST_STALLED && left <= REST_LEFT * rounding
+    }
+
+    /// Refuses a motion that is pushed wherever it goes.
+    fn watch(&mut self, stiffness: &Stiffness) -> Result<(), EquilibriumError> {
+        let free = &self.at.free;
+        let size = norm(free);
+        let along: Vec<f64> = free.iter().map(|f| f / size).collect();
+        let resisted = norm(&stiffness.k.times(&along));
+        let is_pushed = size > UNRESISTED_FORCE * self.at.scale;
+        if is_pushed && resisted <= UNRESISTED * (self.at.scale + stiffness.largest) {
+            self.unresisted += 1;
+        } else {
+            self.unresisted = 0;
+        }
+        if self.unresisted <= UNRESISTED_STEPS {
+            return Ok(());
+        }
+        let pushed = words::pushed(&mut self.statics, &self.at, &along);
+        Err(EquilibriumError::Pushed(pushed))
+    }
+
+    fn not_found(&mut self) -> EquilibriumError {
+        let size = norm(&self.at.free);
+        let along: Vec<f64> = self.at.free.iter().map(|f| f / size).collect();
+        EquilibriumError::NotFound {
+            steps: self.steps,
+            left: size / self.at.scale,
+            pushed: words::pushed(&mut self.statics, &self.at, &along),
+        }
+    }
+
+    /// One step that follows the forces.
+    fn step(&mut self, stiffness: &Stiffness) -> Result<(), EquilibriumError> {
+        let bodies = self.statics.bodies().max(1) as f64;
+        let before = norm(&self.at.free);
+        loop {
+            let radius = self.radius * bodies.sqrt();
+            let rounding = REST_ROUNDINGS * f64::EPSILON * (self.at.scale + stiffness.largest);
+            let (y, way) = stiffness.step(&self.at.free, radius, rounding);
+            let moved = self.statics.moved(&self.at, &y);
+            let reached = self
+                .statics
+                .placed(&self.at, &moved)
+                .and_then(|q| self.statics.balance(q));
+            let at = match reached {
+                Ok(at) => at,
+                Err(error) if self.radius < REST_SHORTEST => return Err(error),
+                Err(_) => {
+                    self.radius *= 0.25;
+                    continue;
+                }
+            };
+            // Work per length at the end and at the beginning of the step.
+            let begins = dot(&self.at.free, &y);
+            let ends = dot(&self.statics.scaled(&at), &moved);
+            let ratio = ends / begins;
+            let after = norm(&at.free);
+            let is_rounding = after <= REST_LEFT * rounding;
+            let is_back = ratio.is_nan() || ratio < -0.5;
+            if is_back && after > 0.5 * before && !is_rounding {
+                if self.radius < REST_SHORTEST {
+                    return Err(self.not_found());
+                }
+                self.radius = 0.25 * (norm(&y) / bodies.sqrt()).min(self.radius);
+                continue;
+            }
+            if way == Way::Short && ratio > 0.25 {
+                self.radius = (2.0 * self.radius).min(REST_LONGEST);
+            }
+            self.at = at;
+            return Ok(());
+        }
+    }
+
+    /// Leaves a place at which the potential is not least.
+    fn push(&mut self, along: &[f64]) -> Result<(), EquilibriumError> {
+        let largest = along
+            .iter()
+            .fold(0.0, |a: f64, x| if x.abs() > a.abs() { *x } else { a });
+        let y: Vec<f64> = along
+            .iter()
+            .map(|x| REST_PUSH * x * largest.signum())
+            .collect();
+        let moved = self.statics.moved(&self.at, &y);
+        let q = self.statics.placed(&self.at, &moved)?;
+        self.at = self.statics.balance(q)?;
+        self.radius = REST_RADIUS;
+        self.pushes += 1;
+        (self.best, self.stalled) = (f64::INFINITY, 0);
+        Ok(())
+    }
+
+    fn finish(
+        mut self,
+        stiffness: &Stiffness,
+        prepared: &Prepared,
+    ) -> Result<Equilibrium, EquilibriumError> {
+        let depends_on_way = prepared.decision.rank > prepared.position_decision.rank;
+        let (idle, falling) = (stiffness.idle(), stiffness.falling());
+        let stability = if self.at.free.is_empty() {
+            RestStability::Immovable
+        } else if depends_on_way {
+            RestStability::Nonholonomic
+        } else if !stiffness.has_potential {
+            RestStability::NoPotential
+        } else if !falling.is_empty() {
+            RestStability::Unstable
+        } else if !idle.is_empty() {
+            RestStability::Idle
+        } else {
+            RestStability::Stable
+        };
+        let falling = if stability == RestStability::Unstable {
+            words::motions(&self.statics, &self.at, &falling)
+        } else {
+            Vec::new()
+        };
+        let idle = words::motions(&self.statics, &self.at, &idle);
+        let largest = self.at.free.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let moving_on = self.statics.moving_on(&self.at.q);
+        Ok(Equilibrium {
+            time: self.statics.t,
+            steps: self.steps,
+            pushes: self.pushes,
+            residual: if self.at.scale > 0.0 {
+                largest / self.at.scale
+            } else {
+                0.0
+            },
+            largest_force: self.at.scale / self.statics.size,
+            stability,
+            idle,
+            falling,
+            depends_on_way,
+            moving_on,
+            q: self.at.q,
+        })
+    }
+}

@@ -1,0 +1,88 @@
+//! Reasons why no place of rest was found.
+
+use model::StartError;
+use model::codes::Code;
+use model::words::{listed, rounded};
+
+use super::words::Pushed;
+
+/// Reason why no place of rest was found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EquilibriumError {
+    /// A row prescribes a velocity.
+    #[error(
+        "nothing rests: {} `{name}` prescribes {} {unit} at the start; let its function begin with rate zero, \
+         or leave it out (`active = false`)", if *is_drive { "drive" } else { "joint" }, rounded(*rate))]
+    Prescribed {
+        /// The drive or joint.
+        name: String,
+        /// Whether it is a drive.
+        is_drive: bool,
+        /// The rate that it prescribes.
+        rate: f64,
+        /// Unit of the rate.
+        unit: &'static str,
+    },
+    /// A free motion is pushed, and nothing resists it.
+    #[error("there is no rest: {}, wherever it goes; add what resists it, or hold it", push(.0))]
+    Pushed(Vec<Pushed>),
+    /// The search did not end.
+    #[error(
+        "no place of rest was found in {steps} steps: {}, a share of {left:.1e} of the largest force; \
+         describe a start nearer to rest",
+        push(pushed)
+    )]
+    NotFound {
+        /// Number of steps.
+        steps: usize,
+        /// What is left, as a share of the largest force.
+        left: f64,
+        /// What is pushed there.
+        pushed: Vec<Pushed>,
+    },
+    /// A force has no finite value.
+    #[error(
+        "{what} on body `{body}` is not finite on the way to rest; describe a start nearer to rest"
+    )]
+    NotFinite {
+        /// The force.
+        what: String,
+        /// The body.
+        body: String,
+    },
+    /// A configuration on the way cannot be reached.
+    #[error("on the way to rest {0}")]
+    Start(#[from] StartError),
+}
+
+fn push(pushed: &[Pushed]) -> String {
+    let each = pushed.iter().map(|pushed| {
+        let by = match pushed.by.as_slice() {
+            [] => String::new(),
+            by => format!(" by {}", listed(by)),
+        };
+        let force = rounded(pushed.force);
+        format!("{}, pushed with {force} {}{by}", pushed.motion, pushed.unit)
+    });
+    each.collect::<Vec<_>>().join("; ")
+}
+
+impl EquilibriumError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Prescribed { .. } => const { Code::new(225) },
+            Self::Pushed(_) => const { Code::new(226) },
+            Self::NotFound { .. } | Self::NotFinite { .. } => const { Code::new(227) },
+            Self::Start(error) => error.code(),
+        }
+    }
+
+    /// Whether other input may have a place of rest.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        matches!(self, Self::Prescribed { .. } | Self::Pushed(_))
+    }
+}

@@ -1,0 +1,100 @@
+//! Free motions in words, and what pushes them.
+
+use solvability::motions_among;
+
+use super::balance::{Balance, Statics};
+use crate::limits::{TAKES_PART, UNRESISTED};
+
+/// What pushes a free motion.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Pushed {
+    /// The motion, in words.
+    pub motion: String,
+    /// Force or torque along it, for its fastest translation or rotation.
+    pub force: f64,
+    /// N or N·m.
+    pub unit: &'static str,
+    /// What pushes: the weight and applied forces, in words.
+    pub by: Vec<String>,
+}
+
+/// Free motions, d components each, in words.
+pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> Vec<String> {
+    let velocities: Vec<Vec<f64>> = of.iter().map(|y| statics.velocity(at, y)).collect();
+    let told = motions_among(statics.mechanism, statics.t, &at.q, &velocities);
+    let told = told.unwrap_or_default().into_iter();
+    told.map(|motion| motion.text).collect()
+}
+
+/// What pushes along a free motion, for each set of bodies that move.
+pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> Vec<Pushed> {
+    let v = statics.velocity(at, along);
+    let told = motions_among(
+        statics.mechanism,
+        statics.t,
+        &at.q,
+        std::slice::from_ref(&v),
+    );
+    let told = told.unwrap_or_default();
+    statics.evaluate(&at.q);
+    let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
+    let forces = statics.mechanism.applied_forces().parts(&mut statics.s);
+    let forces = forces.map(|(name, q)| (format!("`{name}`"), q));
+    let forces: Vec<(String, Vec<f64>)> = std::iter::once(weight).chain(forces).collect();
+    let all: Vec<Pushed> = told
+        .iter()
+        .map(|motion| {
+            let bodies: Vec<usize> = motion
+                .velocities
+                .iter()
+                .flatten()
+                .map(|(b, _)| *b)
+                .collect();
+            of_bodies(statics, &forces, &v, (&motion.text, &bodies))
+        })
+        .collect();
+    if all.is_empty() {
+        let bodies: Vec<usize> = (0..statics.bodies()).collect();
+        return vec![of_bodies(statics, &forces, &v, ("a free motion", &bodies))];
+    }
+    let largest = all.iter().fold(0.0, |a: f64, p| a.max(p.force.abs()));
+    let takes_part = |p: &Pushed| p.force.abs() > UNRESISTED * largest;
+    all.into_iter().filter(takes_part).collect()
+}
+
+/// What pushes some bodies along their part of a motion.
+fn of_bodies(
+    statics: &Statics<'_>,
+    forces: &[(String, Vec<f64>)],
+    v: &[f64],
+    (motion, bodies): (&str, &[usize]),
+) -> Pushed {
+    let space = statics.mechanism.space();
+    let own = |j: &usize| bodies.contains(&space.body_of(*j));
+    let columns: Vec<usize> = (0..v.len()).filter(own).collect();
+    let fastest = |turns: bool| {
+        let own = columns.iter().filter(|&&j| space.is_rotation(j) == turns);
+        own.map(|&j| v[j].abs()).fold(0.0, f64::max)
+    };
+    let (turn, slide) = (fastest(true), fastest(false));
+    // What is a rounding of a translation is no rotation.
+    let (largest, unit) = if turn * statics.size > UNRESISTED * slide {
+        (turn, "N·m")
+    } else {
+        (slide, "N")
+    };
+    let power = |q: &[f64]| columns.iter().map(|&j| q[j] * v[j] / largest).sum::<f64>();
+    let parts: Vec<(&String, f64)> = forces.iter().map(|(name, q)| (name, power(q))).collect();
+    let force: f64 = parts.iter().map(|(_, power)| power).sum();
+    let by = parts
+        .into_iter()
+        .filter(|(_, power)| power.abs() > TAKES_PART * force.abs())
+        .map(|(name, _)| name.clone());
+    Pushed {
+        motion: motion.to_owned(),
+        force,
+        unit,
+        by: by.collect(),
+    }
+}

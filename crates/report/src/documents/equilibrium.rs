@@ -1,0 +1,157 @@
+//! A place of rest: how far it is from the start, what is left of the forces, reactions there.
+
+use dynamics::equilibrium::{Equilibrium, RestStability};
+use linalg::kernels::norm;
+use model::{Mechanism, SpaceKind, System};
+use serde::Serialize;
+
+use super::{MotionDocument, Named, RunReactionDocument};
+
+/// The document of `equilibrium --json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct EquilibriumDocument {
+    /// Name of the scene.
+    pub scene: String,
+    /// Time at which functions of time were taken (s).
+    pub time: f64,
+    /// Steps of the search.
+    pub steps: usize,
+    /// Pushes that left places that were not stable.
+    pub pushes: usize,
+    /// What is left of the forces along free motions, as a share of the largest force.
+    pub residual: f64,
+    /// The largest force, or torque divided by the size of the mechanism (N).
+    pub largest_force: f64,
+    /// `immovable`, `stable`, `idle`, `unstable` or `not_judged`.
+    pub stability: &'static str,
+    /// Reason why it is not judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_judged_because: Option<&'static str>,
+    /// How far each body is from the start, and where.
+    pub bodies: Named<RestingBodyDocument>,
+    /// Free motions that nothing pushes and nothing resists.
+    pub idle: Vec<String>,
+    /// Free motions along which forces push away.
+    pub falling: Vec<String>,
+    /// Whether another way leads to another place: nonholonomic rows.
+    pub depends_on_way: bool,
+    /// Drives, held where they are at the start.
+    pub held: Vec<String>,
+    /// Drives and joints that are held, and that functions of time accelerate at once.
+    pub moving_on: Vec<String>,
+    /// Reactions of joints and drives there.
+    pub reactions: Named<ReactionAtRestDocument>,
+    /// Why there are no numbers of reactions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_reactions_because: Option<String>,
+    /// Scene file that starts there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+}
+
+/// A body at rest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RestingBodyDocument {
+    /// Distance of the origin of its frame from the start (m).
+    pub moved: f64,
+    /// Angle by which it is turned from the start (rad); in the plane with its sign.
+    pub turned: f64,
+    /// Where its frame is: the columns of a trajectory, without velocities.
+    pub at: Named<f64>,
+}
+
+/// A reaction at rest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ReactionAtRestDocument {
+    /// Verdict, and the choice on which numbers depend that are not unique.
+    #[serde(flatten)]
+    pub verdict: RunReactionDocument,
+    /// Force and torque on the first body, by component (N, N·m).
+    pub values: Named<f64>,
+}
+
+impl EquilibriumDocument {
+    /// The document of a place of rest of a scene. `start` are the coordinates of the start;
+    /// `there` is the run that begins at the place and ends at once, or why there is none.
+    #[must_use]
+    pub fn new(
+        scene: &str,
+        mechanism: &Mechanism,
+        start: &[f64],
+        x: &Equilibrium,
+        there: Result<&MotionDocument, String>,
+    ) -> Self {
+        let bodies = (0..mechanism.bodies().len()).map(|body| {
+            let name = mechanism.bodies()[body].name.clone();
+            (name, resting(mechanism, body, start, &x.q))
+        });
+        let groups = &mechanism.layout().groups;
+        let drives = groups.iter().filter(|group| group.is_drive());
+        let (reactions, no_reactions_because) = match there {
+            Ok(run) => (reactions(run), None),
+            Err(why) => (Vec::new(), Some(why)),
+        };
+        Self {
+            scene: scene.to_owned(),
+            time: x.time,
+            steps: x.steps,
+            pushes: x.pushes,
+            residual: x.residual,
+            largest_force: x.largest_force,
+            stability: x.stability.word(),
+            not_judged_because: RestStability::why_not(x.stability),
+            bodies: Named(bodies.collect()),
+            idle: x.idle.clone(),
+            falling: x.falling.clone(),
+            depends_on_way: x.depends_on_way,
+            held: drives.map(|group| group.name.clone()).collect(),
+            moving_on: x.moving_on.clone(),
+            reactions: Named(reactions),
+            no_reactions_because,
+            file: None,
+        }
+    }
+}
+
+fn resting(mechanism: &Mechanism, body: usize, start: &[f64], q: &[f64]) -> RestingBodyDocument {
+    let space = mechanism.space();
+    let v = vec![0.0; space.n_v() * mechanism.bodies().len()];
+    let [from, to] = [start, q].map(|q| mechanism.frames().body(body, q, &v));
+    let way: [f64; 3] = std::array::from_fn(|k| to.place[k] - from.place[k]);
+    let turned = match space {
+        SpaceKind::Space3 => {
+            let turned = mechanism.difference_of(q, start);
+            norm(&turned[space.rotations_of(body)])
+        }
+        _ => to.angle - from.angle,
+    };
+    let places = space.columns().len() - space.n_v();
+    let places = space.columns().iter().zip(to.numbers()).take(places);
+    RestingBodyDocument {
+        moved: norm(&way),
+        turned,
+        at: Named(places.map(|(name, x)| ((*name).to_owned(), x)).collect()),
+    }
+}
+
+fn reactions(run: &MotionDocument) -> Vec<(String, ReactionAtRestDocument)> {
+    let verdicts = run.summary.reactions.0.iter();
+    let values = run.rows.last().map(|row| row.reactions.0.as_slice());
+    let of = |name: &str| {
+        let mut all = values.unwrap_or_default().iter();
+        all.find(|(other, _)| other == name)
+            .map_or(Named(Vec::new()), |(_, values)| values.clone())
+    };
+    verdicts
+        .map(|(name, verdict)| {
+            let document = ReactionAtRestDocument {
+                verdict: verdict.clone(),
+                values: of(name),
+            };
+            (name.clone(), document)
+        })
+        .collect()
+}

@@ -1,0 +1,265 @@
+//! The axes in which velocities of spatial bodies are eliminated. The equations have angular
+//! velocities in principal axes of each body, where the mass is a constant; in these axes a hinge
+//! that turns has no entry of C that stays away from 0. In the axes of the ground, or of one of the
+//! bodies (a vehicle), most entries are arms and directions that exist already, zeros, or
+//! constants.
+//!
+//! The columns and the rows of C are turned as they are, whatever the joints are. Which of the
+//! products are zero, constant, or known already is seen from their values at states that satisfy
+//! no constraint, up to rounding; functions of time are arbitrary numbers there.
+
+use model::record::Input;
+use model::{BodyRef, Mechanism, SpaceKind, System};
+use symbolic::Value;
+
+use crate::equations::{Equations, Source};
+use crate::sampled::Sampled;
+use crate::subject::Subject;
+
+/// A matrix, by rows.
+type Matrix = [[Value; 3]; 3];
+
+/// Axes of the velocities in which rows are eliminated.
+#[derive(Clone, Default)]
+pub(crate) struct Axes {
+    /// Turns velocities of points, if they are not along the axes of the ground.
+    points: Option<Matrix>,
+    /// Turns the angular velocity of each body, if it is not along its principal axes.
+    rotations: Vec<Option<Matrix>>,
+    /// Rows that are x, y and z of one vector.
+    rows: Vec<[usize; 3]>,
+}
+
+impl Axes {
+    /// Those of the ground, for velocities of points and of all bodies.
+    pub(crate) fn of_ground(e: &Equations, subject: &Subject<'_>) -> Option<Self> {
+        let bodies = 0..subject.prepared.mechanism.bodies().len();
+        let rotations = bodies.map(|body| rotation(e, body).map(Some));
+        Some(Self {
+            points: None,
+            rotations: rotations.collect::<Option<_>>()?,
+            rows: Vec::new(),
+        })
+    }
+
+    /// For every body those in which the rows of a joint that carries it are constants: of the
+    /// first body of the joint. The joints are those on the shortest ways from the ground.
+    pub(crate) fn of_joints(e: &mut Equations, subject: &Subject<'_>) -> Option<Self> {
+        let mechanism = &subject.prepared.mechanism;
+        let carriers = carriers(mechanism);
+        let rotations = carriers
+            .into_iter()
+            .enumerate()
+            .map(|(body, carrier)| match carrier {
+                Carrier::Itself => Some(None),
+                Carrier::First(BodyRef::Ground) => rotation(e, body).map(Some),
+                Carrier::First(BodyRef::Body(first)) => relative(e, first, body).map(Some),
+            });
+        Some(Self {
+            points: None,
+            rotations: rotations.collect::<Option<_>>()?,
+            rows: Vec::new(),
+        })
+    }
+
+    /// Those of a body.
+    pub(crate) fn of_body(e: &mut Equations, subject: &Subject<'_>, body: usize) -> Option<Self> {
+        let mechanism = &subject.prepared.mechanism;
+        let own = transposed(rotation(e, body)?);
+        let rotations = (0..mechanism.bodies().len()).map(|other| {
+            if other == body {
+                Some(None)
+            } else {
+                relative(e, body, other).map(Some)
+            }
+        });
+        let rotations = rotations.collect::<Option<Vec<_>>>()?;
+        let labels = &mechanism.layout().labels;
+        let is_vector = |i: &usize| {
+            let [a, b, c] = [&labels[*i], &labels[i + 1], &labels[i + 2]];
+            a.joint == b.joint && a.joint == c.joint && (a.row, b.row, c.row) == ("x", "y", "z")
+        };
+        let rows = (0..labels.len().saturating_sub(2)).filter(is_vector);
+        Some(Self {
+            points: Some(own),
+            rotations,
+            rows: rows.map(|i| [i, i + 1, i + 2]).collect(),
+        })
+    }
+
+    /// Whether the kept rows contain, of every vector, all components or none.
+    pub(crate) fn keeps_vectors(&self, kept: &[usize]) -> bool {
+        let all_or_none = |rows: &[usize; 3]| {
+            let [first, others @ ..] = rows.map(|i| kept.contains(&i));
+            others == [first; 2]
+        };
+        self.rows.iter().all(all_or_none)
+    }
+
+    /// The rows of C, for velocities along these axes.
+    pub(crate) fn rows_of(&self, code: &mut Sampled, c: &[Vec<Value>]) -> Vec<Vec<Value>> {
+        let mut c = c.to_vec();
+        for row in &mut c {
+            for (block, matrix) in self.blocks(row.len()) {
+                let of = block.map(|k| row[k]);
+                for (k, axis) in block.into_iter().zip(matrix) {
+                    row[k] = code.simplest_sum(&pairs(axis, of));
+                }
+            }
+        }
+        if let Some(matrix) = self.points {
+            for &rows in &self.rows {
+                for j in 0..c[rows[0]].len() {
+                    let of = rows.map(|i| c[i][j]);
+                    for (i, axis) in rows.into_iter().zip(matrix) {
+                        c[i][j] = code.simplest_sum(&pairs(axis, of));
+                    }
+                }
+            }
+        }
+        c
+    }
+
+    /// Velocities, from those along these axes to those of the equations.
+    pub(crate) fn velocities_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+        let mut turned = x.to_vec();
+        for (block, matrix) in self.blocks(x.len()) {
+            turn(code, &mut turned, block, transposed(matrix));
+        }
+        turned
+    }
+
+    /// Forces, from those of the equations to those along these axes.
+    pub(crate) fn forces_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+        let mut turned = x.to_vec();
+        for (block, matrix) in self.blocks(x.len()) {
+            turn(code, &mut turned, block, matrix);
+        }
+        turned
+    }
+
+    /// Row quantities, from components along the axes of the ground to those along these axes.
+    pub(crate) fn rows_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+        let mut turned = x.to_vec();
+        if let Some(matrix) = self.points {
+            self.rows
+                .iter()
+                .for_each(|&rows| turn(code, &mut turned, rows, matrix));
+        }
+        turned
+    }
+
+    /// Row quantities, from components along these axes to those along the axes of the ground.
+    pub(crate) fn rows_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+        let mut turned = x.to_vec();
+        if let Some(matrix) = self.points.map(transposed) {
+            self.rows
+                .iter()
+                .for_each(|&rows| turn(code, &mut turned, rows, matrix));
+        }
+        turned
+    }
+
+    /// Three columns of velocities each, with what turns them.
+    fn blocks(&self, columns: usize) -> Vec<([usize; 3], Matrix)> {
+        let space = SpaceKind::Space3;
+        let bodies = 0..columns / space.n_v();
+        let blocks = bodies.flat_map(|body| {
+            let at = |first: usize| [first, first + 1, first + 2];
+            let points = self
+                .points
+                .map(|matrix| (at(space.translations_of(body).start), matrix));
+            let turn = self.rotations.get(body).copied().flatten();
+            let turn = turn.map(|matrix| (at(space.rotations_of(body).start), matrix));
+            points.into_iter().chain(turn)
+        });
+        blocks.collect()
+    }
+}
+
+/// What carries a body.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Carrier {
+    /// Nothing, or a joint whose directions are fixed in it.
+    Itself,
+    /// The first body of a joint, in which its directions are fixed.
+    First(BodyRef),
+}
+
+/// What carries each body, on the shortest ways from the ground, or from the first body that it is
+/// not connected to.
+fn carriers(mechanism: &Mechanism) -> Vec<Carrier> {
+    let n = mechanism.bodies().len();
+    let mut found: Vec<Option<Carrier>> = vec![None; n];
+    let roots = std::iter::once(BodyRef::Ground).chain((0..n).map(BodyRef::Body));
+    for root in roots {
+        if let BodyRef::Body(body) = root {
+            if found[body].is_some() {
+                continue;
+            }
+            found[body] = Some(Carrier::Itself);
+        }
+        let mut reached = vec![root];
+        while !reached.is_empty() {
+            let mut next = Vec::new();
+            for group in &mechanism.layout().groups {
+                let &[first, second] = group.bodies.as_slice() else {
+                    continue;
+                };
+                let ways = [
+                    (first, second, Carrier::First(first)),
+                    (second, first, Carrier::Itself),
+                ];
+                for (from, to, carrier) in ways {
+                    if let (true, BodyRef::Body(body)) = (reached.contains(&from), to)
+                        && found[body].is_none()
+                    {
+                        found[body] = Some(carrier);
+                        next.push(to);
+                    }
+                }
+            }
+            reached = next;
+        }
+    }
+    found
+        .into_iter()
+        .map(|carrier| carrier.unwrap_or(Carrier::Itself))
+        .collect()
+}
+
+/// The rotation from the axes of a body to those of another one.
+fn relative(e: &mut Equations, to: usize, from: usize) -> Option<Matrix> {
+    let [to, from] = [rotation(e, to)?, rotation(e, from)?].map(transposed);
+    let code = &mut e.code;
+    Some(to.map(|axis| from.map(|column| code.simplest_sum(&pairs(axis, column)))))
+}
+
+/// The rotation of a body.
+fn rotation(e: &Equations, body: usize) -> Option<Matrix> {
+    let mut matrix = Vec::with_capacity(9);
+    for row in 0..3 {
+        for column in 0..3 {
+            let entry = Input::Rotation { body, row, column };
+            matrix.push(e.input(Source::Mechanism(entry))?);
+        }
+    }
+    let row = |k: usize| [matrix[3 * k], matrix[3 * k + 1], matrix[3 * k + 2]];
+    Some([row(0), row(1), row(2)])
+}
+
+fn transposed(matrix: Matrix) -> Matrix {
+    [0, 1, 2].map(|k| matrix.map(|row| row[k]))
+}
+
+fn pairs(a: [Value; 3], b: [Value; 3]) -> [(Value, Value); 3] {
+    [0, 1, 2].map(|k| (a[k], b[k]))
+}
+
+/// Replaces three numbers by a matrix times them.
+fn turn(code: &mut Sampled, x: &mut [Value], at: [usize; 3], matrix: Matrix) {
+    let of = at.map(|k| x[k]);
+    for (k, row) in at.into_iter().zip(matrix) {
+        x[k] = code.sum(&pairs(row, of));
+    }
+}
