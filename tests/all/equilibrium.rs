@@ -35,9 +35,11 @@ fn rest_of(text: &str, stable: bool) -> (Equilibrium, Study) {
     let written = study(text).text_at_rest(&found.q).expect("there is room");
     let read = study(&written);
     let size = read.prepared.assembly.size;
-    let space = read.prepared.mechanism.space();
     for other in [&there.prepared.q, &read.prepared.q] {
-        let (_, apart) = space.largest_difference(other, &found.q, size);
+        let (_, apart) = read
+            .prepared
+            .mechanism
+            .largest_difference(other, &found.q, size);
         assert!(apart < 1e-12, "{apart:e}\n{written}");
     }
     assert!(read.prepared.v.iter().all(|v| *v == 0.0));

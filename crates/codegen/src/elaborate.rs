@@ -314,9 +314,9 @@ impl<'a> Scope<'a> {
 }
 
 impl Scope<'_> {
-    /// The angle since the start, with its full turns: what is known of it, and the sine of what is
-    /// left. This is the angle where it is known to rounding, and everywhere a polynomial with the
-    /// right derivatives there.
+    /// The angle since the start, with its full turns: what is known of it, and of what is left, ε,
+    /// `sin ε·(4 − cos ε)/3 = ε + O(ε⁵)`. This is the angle where it is known to rounding, and a
+    /// polynomial whose first four derivatives are right there: Γ and its derivatives need three.
     fn counted(&mut self, name: &Ident, angle: &[Expr], start: &[Expr]) -> Expr {
         let Model {
             g, inputs, counted, ..
@@ -328,7 +328,12 @@ impl Scope<'_> {
         self.model.counted.push(since);
         let g = &mut self.model.g;
         let (a, b) = (g.mul(since.sin, known_cos), g.mul(since.cos, known_sin));
-        let left = g.sub(a, b);
+        let (c, d) = (g.mul(since.cos, known_cos), g.mul(since.sin, known_sin));
+        let (sin, cos) = (g.sub(a, b), g.add(c, d));
+        let third = g.number(1.0 / 3.0);
+        let product = g.mul(sin, cos);
+        let left = g.sum(&[(4.0, sin), (-1.0, product)]);
+        let left = g.mul(third, left);
         g.add(known, left)
     }
 }

@@ -34,12 +34,27 @@ impl Scales<'_> {
     #[must_use]
     pub fn position(self, i: usize) -> f64 {
         let space = self.mechanism.space();
+        let counted = self.counted(i);
         let term = |(j, c): (usize, f64)| {
             let at = self.s.bodies.position(space.body_of(j), space.dof_of(j));
-            let (at, least) = (at.abs(), least(self.mechanism, j));
+            let turns = if space.is_rotation(j) { counted } else { 0.0 };
+            let (at, least) = (at.abs().max(turns), least(self.mechanism, j));
             c.abs() * if at > least { at } else { least }
         };
         self.mechanism.layout().row(self.s, i).map(term).sum()
+    }
+
+    /// The largest counted angle of the joint or drive of a row (rad): its digits are those of all
+    /// its turns.
+    fn counted(self, i: usize) -> f64 {
+        let owner = self.mechanism.layout().owners.get(i);
+        let of_row = owner.map(|id| &self.mechanism.elements.constraints[id.0]);
+        let Some(c) = of_row.filter(|c| c.spec().turns > 0) else {
+            return 0.0;
+        };
+        let given = c.site.f(&self.s.slots);
+        let angles = given[given.len() - 3 * c.spec().turns..].chunks_exact(3);
+        angles.fold(0.0, |most, of| most.max(of[0][0].abs()))
     }
 
     /// Bounds on the entries of row `i` of C for any orientation of the bodies: column and bound. A

@@ -57,7 +57,7 @@ pub struct Reduced {
     columns: Matrix,
     /// The product S·D.
     on_w: Matrix,
-    /// Row j: change of y with w_j along the constraints, without the work.
+    /// Row j: change of y with w_j along the constraints, without what feeds nothing back.
     tangents: Matrix,
     /// Time of the Jacobian.
     time: f64,
@@ -76,8 +76,9 @@ struct Partition {
     reads: Vec<Vec<(usize, f64)>>,
     /// Directions of y along which no pose changes.
     normals: Vec<Vec<(usize, f64)>>,
-    /// Index of the work in y.
-    work: Option<usize>,
+    /// Entries of y on which no rate depends, each with an equation of its own: counted angles, of
+    /// which only turns are read, and the work.
+    quadratures: Vec<usize>,
 }
 
 /// `σ·I − S·D` for a real σ and a complex one, factored.
@@ -240,7 +241,8 @@ impl Reduced {
         }
         (own.z, own.u) = (z.clone(), u.clone());
         let moving = n_q + mechanism.layout().n_v;
-        own.work = (n > moving).then_some(moving);
+        let first = n_q - mechanism.layout().turns;
+        own.quadratures = (first..n_q).chain(moving..n).collect();
         let (k, shifted) = (own.reads.len(), &self.shifted);
         self.columns = Matrix::zeros(k, n);
         self.tangents = Matrix::zeros(k, n);
@@ -356,15 +358,13 @@ impl Reduced {
         shifted.real.solve(w);
         let w = &self.shifted.w[..self.partition.reads.len()];
         let shift = self.shifted.shift;
-        let work = self
-            .partition
-            .work
-            .map(|at| (x[at] + self.work_along(w, at)) / shift);
+        let own = |&at: &usize| (x[at] + self.rate_along(w, at)) / shift;
+        let own: Vec<f64> = self.partition.quadratures.iter().map(own).collect();
         let normals = self.partition.normals.iter();
         let along_normals: Vec<f64> = normals.map(|n| read(n, x) / shift).collect();
         self.follow(w, &along_normals, x);
-        if let (Some(at), Some(work)) = (self.partition.work, work) {
-            x[at] = work;
+        for (&at, own) in self.partition.quadratures.iter().zip(own) {
+            x[at] = own;
         }
     }
 
@@ -384,23 +384,24 @@ impl Reduced {
         let norm = alpha * alpha + beta * beta;
         let quotient =
             |a: f64, b: f64| ((alpha * a + beta * b) / norm, (alpha * b - beta * a) / norm);
-        let work = self.partition.work.map(|at| {
-            let a = re[at] + self.work_along(w_re, at);
-            let b = im[at] + self.work_along(w_im, at);
+        let own = |&at: &usize| {
+            let a = re[at] + self.rate_along(w_re, at);
+            let b = im[at] + self.rate_along(w_im, at);
             quotient(a, b)
-        });
+        };
+        let own: Vec<(f64, f64)> = self.partition.quadratures.iter().map(own).collect();
         let normals = self.partition.normals.iter();
         let (n_re, n_im): (Vec<f64>, Vec<f64>) =
             normals.map(|n| quotient(read(n, re), read(n, im))).unzip();
         self.follow(w_re, &n_re, re);
         self.follow(w_im, &n_im, im);
-        if let (Some(at), Some(work)) = (self.partition.work, work) {
-            (re[at], im[at]) = work;
+        for (&at, own) in self.partition.quadratures.iter().zip(own) {
+            (re[at], im[at]) = own;
         }
     }
 
-    /// Change of the power along w.
-    fn work_along(&self, w: &[f64], at: usize) -> f64 {
+    /// Change along w of the rate of an entry on which nothing depends.
+    fn rate_along(&self, w: &[f64], at: usize) -> f64 {
         w.iter()
             .enumerate()
             .map(|(j, w)| w * self.columns[(j, at)])

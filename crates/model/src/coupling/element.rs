@@ -259,6 +259,13 @@ impl<S: Kinematics> Derivatives<f64, S> for Coupling<S> {
                 .zip(&*values)
                 .map(|(&[_, b], value)| (b, factor * value));
             self.add_row(k, pattern, columns, out);
+            if side.counts_turns() {
+                // Of sin ε, Γ has ε·rate²; what is known of the angle moves with it.
+                let rate = side.times(&at.gradient, &side.own(v));
+                let known = self.gradient(k, at);
+                let known = known.map(|(b, g)| (b, factor * rate * rate * g));
+                self.add_row(k, pattern, known, out);
+            }
         }
         if self.law.degree() > 1 {
             let [side, _] = &self.sides;
@@ -354,6 +361,13 @@ impl<S: Kinematics> Derivatives<f64, S> for Coupling<S> {
             let out = &mut out[side.data.clone()];
             side.drive
                 .d_residual_dp(&own_x, &own_v, &own_a, &at.f, &[factor], out);
+            if side.counts_turns() {
+                let rate = side.times(&at.gradient, &own_v);
+                let mut known = vec![0.0; out.len()];
+                side.drive
+                    .d_phi_dp(&own_x, &at.f, &[factor * rate * rate], &mut known);
+                out.iter_mut().zip(known).for_each(|(out, x)| *out += x);
+            }
         }
         let [side, other] = &self.sides;
         let [second, rate] = self.accelerated(&both, x, v, a);

@@ -100,6 +100,11 @@ impl<S: Kinematics> Side<S> {
         side
     }
 
+    /// Whether its measure is an angle that is given with its turns.
+    pub(super) fn counts_turns(&self) -> bool {
+        self.turn.is_some()
+    }
+
     /// Takes the constant entries from the parameters.
     pub(super) fn take_constants(&mut self) {
         self.constant = [0.0; MOST];

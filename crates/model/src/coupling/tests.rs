@@ -1,4 +1,5 @@
-//! The kernels of couplings against differences, at poses that need not satisfy their joints.
+//! The kernels of couplings against differences, at poses where axes are parallel: what is known of
+//! an angle follows the poses, as it does in a mechanism.
 
 use joints::space3::{
     Axes, CylindricalAngleDrive, CylindricalDisplacementDrive, Pose, RevoluteAngleDrive, Twist,
@@ -95,6 +96,19 @@ impl State {
         q.chunks(7).map(pose).collect()
     }
 
+    /// Body j turns as body i does, and about their common axis at this rate.
+    fn keep_parallel(&mut self, [i, j]: [usize; 2], rate: f64) {
+        let poses = self.poses(&self.still());
+        let arguments = arguments();
+        let joints::Argument::Axes(axes) = &arguments[2] else {
+            panic!("axes");
+        };
+        let own = [0, 1, 2].map(|k| self.v[6 * i + 3 + k] + rate * axes.uvw()[2][k]);
+        let ground = poses[i].direction_to_global(own);
+        let turned = poses[j].direction_to_local(ground);
+        self.v[6 * j + 3..6 * j + 6].copy_from_slice(&turned);
+    }
+
     fn still(&self) -> Vec<f64> {
         vec![0.0; self.v.len()]
     }
@@ -108,29 +122,64 @@ fn twists(v: &[f64]) -> Vec<Twist> {
     v.chunks(6).map(twist).collect()
 }
 
-fn given(turns: usize) -> Vec<[f64; 3]> {
+/// What is given of the counted angles at some poses.
+fn given(kernels: &Kernels, x: &[Pose]) -> Vec<[f64; 3]> {
+    let still = vec![Twist::zero(); x.len()];
     let of = |k: usize| {
-        let angle = 9.0 * noise(17 * k + 3);
-        [
-            [angle, 0.0, 0.0],
-            [angle.cos(), 0.0, 0.0],
-            [angle.sin(), 0.0, 0.0],
-        ]
+        let [cos, sin, _] = kernels.turned(k, x, &still);
+        let angle = sin.atan2(cos) + 3.0 * std::f64::consts::TAU;
+        [angle, angle.cos(), angle.sin()].map(|value| [value, 0.0, 0.0])
     };
-    (0..turns).flat_map(of).collect()
+    (0..kernels.spec().turns).flat_map(of).collect()
+}
+
+type Quaternion = [f64; 4];
+
+fn product(a: Quaternion, b: Quaternion) -> Quaternion {
+    crate::space::quaternion_product(a, b)
+}
+
+/// The quaternion of axes u, v, w.
+fn of_axes(axes: Axes) -> Quaternion {
+    let [u, v, w] = axes.uvw();
+    let scalar = 0.5 * (1.0 + u[0] + v[1] + w[2]).sqrt();
+    let part = |a: f64, b: f64| (a - b) / (4.0 * scalar);
+    [scalar, part(v[2], w[1]), part(w[0], u[2]), part(u[1], v[0])]
+}
+
+/// Turns the body of slot j such that its axis is along that of slot i, at some angle.
+fn aligned(q: &mut [f64], [i, j]: [usize; 2], angle: f64) {
+    let at = |slot: usize| 7 * slot + 3..7 * slot + 7;
+    let arguments = arguments();
+    let [
+        joints::Argument::Axes(first),
+        joints::Argument::Axes(second),
+    ] = &arguments[2..4]
+    else {
+        panic!("axes");
+    };
+    let own = &q[at(i)];
+    let length = own.iter().map(|e| e * e).sum::<f64>().sqrt();
+    let own = [0, 1, 2, 3].map(|k| own[k] / length);
+    let turn = [(0.5 * angle).cos(), 0.0, 0.0, (0.5 * angle).sin()];
+    let [w, x, y, z] = of_axes(*second);
+    let there = product(
+        product(own, of_axes(*first)),
+        product(turn, [w, -x, -y, -z]),
+    );
+    q[at(j)].copy_from_slice(&there);
 }
 
 struct Case {
     kernels: Kernels,
     state: State,
-    f: Vec<[f64; 3]>,
 }
 
 impl Case {
     fn dense(&self, x: &[Pose]) -> Vec<f64> {
         let spec = self.kernels.spec();
         let mut values = vec![0.0; spec.c.len()];
-        self.kernels.c(x, &self.f, &mut values);
+        self.kernels.c(x, &given(&self.kernels, x), &mut values);
         let mut row = vec![0.0; self.state.v.len()];
         for (e, value) in spec.c.iter().zip(values) {
             row[6 * e.slot + e.dof] += value;
@@ -140,13 +189,14 @@ impl Case {
 
     fn phi(&self, x: &[Pose]) -> f64 {
         let mut phi = [0.0];
-        self.kernels.phi(x, &self.f, &mut phi);
+        self.kernels.phi(x, &given(&self.kernels, x), &mut phi);
         phi[0]
     }
 
     fn gamma(&self, x: &[Pose], v: &[f64]) -> f64 {
         let mut gamma = [0.0];
-        self.kernels.gamma(x, &twists(v), &self.f, &mut gamma);
+        self.kernels
+            .gamma(x, &twists(v), &given(&self.kernels, x), &mut gamma);
         gamma[0]
     }
 
@@ -185,13 +235,21 @@ fn close(found: &[f64], expected: &[f64], what: &str) {
 }
 
 fn cases() -> Vec<Case> {
+    // Slots of the angles of each coupling.
+    let angles: [&[[usize; 2]]; 3] = [&[[0, 1]], &[[1, 2]], &[[0, 1], [0, 2]]];
     let case = |(seed, (bodies, mut kernels)): (usize, Placed<Space3>)| {
-        let n = bodies.len();
-        let start = State::new(n, 31 * seed + 7);
+        let state = |number: usize| {
+            let mut state = State::new(bodies.len(), number);
+            for (k, slots) in angles[seed].iter().enumerate() {
+                aligned(&mut state.q, *slots, 3.0 * noise(number + k));
+                state.keep_parallel(*slots, 5.0 * noise(number + k + 50));
+            }
+            state
+        };
+        let start = state(31 * seed + 7);
         kernels.initialise(&start.poses(&start.still()));
         Case {
-            f: given(kernels.spec().turns),
-            state: State::new(n, 57 * seed + 11),
+            state: state(57 * seed + 11),
             kernels,
         }
     };
@@ -223,7 +281,7 @@ fn kernels_agree_with_differences() {
         let expected = -(moved(H) - moved(-H)) / (2.0 * H);
         close(&[case.gamma(&x, &state.v)], &[expected], &what("Γ"));
         let mut values = vec![0.0; spec.d_velocity_dx.len()];
-        kernels.d_velocity_dx(&x, &v, &case.f, &mut values);
+        kernels.d_velocity_dx(&x, &v, &given(kernels, &x), &mut values);
         let expected = case.slopes(|x| dot(&case.dense(x), &state.v));
         close(
             &row(spec.d_velocity_dx, &values, n),
@@ -231,7 +289,7 @@ fn kernels_agree_with_differences() {
             &what("∂(C·v)/∂x"),
         );
         let mut values = vec![0.0; spec.d_residual_dx.len()];
-        kernels.d_residual_dx(&x, &v, &a, &case.f, &mut values);
+        kernels.d_residual_dx(&x, &v, &a, &given(kernels, &x), &mut values);
         let expected = case.slopes(|x| case.residual(x));
         close(
             &row(spec.d_residual_dx, &values, n),
@@ -239,7 +297,7 @@ fn kernels_agree_with_differences() {
             &what("∂(C·a − Γ)/∂x"),
         );
         let mut values = vec![0.0; spec.d_gamma_dv.len()];
-        kernels.d_gamma_dv(&x, &v, &case.f, &mut values);
+        kernels.d_gamma_dv(&x, &v, &given(kernels, &x), &mut values);
         let by_v = |k: usize| {
             let at = |h: f64| {
                 let mut v = state.v.clone();
@@ -251,7 +309,7 @@ fn kernels_agree_with_differences() {
         let expected: Vec<f64> = (0..n).map(by_v).collect();
         close(&row(spec.d_gamma_dv, &values, n), &expected, &what("∂Γ/∂v"));
         let mut values = vec![0.0; spec.d_force_dx.len()];
-        kernels.d_force_dx(&x, &case.f, &[1.7], &mut values);
+        kernels.d_force_dx(&x, &given(kernels, &x), &[1.7], &mut values);
         for i in 0..n {
             let own = spec
                 .d_force_dx
@@ -287,7 +345,6 @@ fn derivatives_by_data_agree_with_differences() {
                             v: state.v.clone(),
                             a: state.a.clone(),
                         },
-                        f: case.f.clone(),
                     })
                 };
                 (at(H) - at(-H)) / (2.0 * H)
@@ -295,10 +352,10 @@ fn derivatives_by_data_agree_with_differences() {
             (0..numbers.len()).map(along).collect()
         };
         let mut found = vec![0.0; numbers.len()];
-        kernels.d_phi_dp(&x, &case.f, &[1.3], &mut found);
+        kernels.d_phi_dp(&x, &given(kernels, &x), &[1.3], &mut found);
         let expected = slopes(&|case| 1.3 * case.phi(&x));
         close(&found, &expected, &format!("coupling {number}: ∂(λᵀΦ)/∂p"));
-        kernels.d_residual_dp(&x, &v, &a, &case.f, &[1.3], &mut found);
+        kernels.d_residual_dp(&x, &v, &a, &given(kernels, &x), &[1.3], &mut found);
         let expected = slopes(&|case| 1.3 * case.residual(&x));
         close(
             &found,
@@ -314,7 +371,8 @@ fn the_wrench_is_what_the_row_does_to_the_first_body() {
     for case in cases() {
         let x = case.state.poses(&case.state.still());
         let mut wrench = [0.0; 6];
-        case.kernels.wrench(&x, &case.f, &mut wrench);
+        case.kernels
+            .wrench(&x, &given(&case.kernels, &x), &mut wrench);
         let c = case.dense(&x);
         let force = [-c[0], -c[1], -c[2]];
         close(&wrench[..3], &force, "force");

@@ -684,7 +684,7 @@ impl<T: Ring> Element<T, Space3> for Screw {
     fn spec(&self) -> &'static ConstraintSpec {
         &Self::SPEC
     }
-    /// Φ. Operations: 83 mul, 65 add, 3 neg.
+    /// Φ. Operations: 87 mul, 67 add, 3 neg.
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..5];
         let r_i_x = x[0].r[0];
@@ -768,6 +768,8 @@ impl<T: Ring> Element<T, Space3> for Screw {
         let t11 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
         let t12 = axis_local_vx * t9 + axis_local_vy * t10 + axis_local_vz * t11;
         let t13 = axis_local_ux * t9 + axis_local_uy * t10 + axis_local_uz * t11;
+        let t14 = turn_0_cos * t12 - turn_0_sin * t13;
+        let t15 = turn_0_cos * t13 + turn_0_sin * t12;
         out[0] = -(axis_local_ux * t3 + axis_local_uy * t4 + axis_local_uz * t5);
         out[1] = -(axis_local_vx * t3 + axis_local_vy * t4 + axis_local_vz * t5);
         out[2] = axis_local_ux * t6 + axis_local_uy * t7 + axis_local_uz * t8;
@@ -775,14 +777,16 @@ impl<T: Ring> Element<T, Space3> for Screw {
         out[4] = -(T::from(0.15915494309189535)
             * (pitch
                 * (turn_known
-                    + (turn_known_cos * (turn_0_cos * t12 - turn_0_sin * t13)
-                        - turn_known_sin * (turn_0_cos * t13 + turn_0_sin * t12))))
+                    - T::from(0.3333333333333333)
+                        * ((turn_known_cos * t14 - turn_known_sin * t15)
+                            * (turn_known_cos * t15 + turn_known_sin * t14
+                                - T::from(4.0)))))
             + (along_0
                 + (axis_local_wx * t3 + axis_local_wy * t4 + axis_local_wz * t5)));
     }
     /// Constant entries of C. Operations: none.
     fn c_constant(&self, out: &mut [f64]) {}
-    /// Varying entries of C. Operations: 258 mul, 165 add, 23 neg.
+    /// Varying entries of C. Operations: 296 mul, 186 add, 21 neg.
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..48];
         let r_i_x = x[0].r[0];
@@ -885,22 +889,40 @@ impl<T: Ring> Element<T, Space3> for Screw {
             + rot_j_zz * axis_j_local_uz;
         let t15 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
         let t16 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t17 = axis_local_vy * t15 - axis_local_vz * t16;
-        let t18 = axis_local_uy * t15 - axis_local_uz * t16;
-        let t19 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t20 = axis_local_vx * t15 - axis_local_vz * t19;
-        let t21 = axis_local_ux * t15 - axis_local_uz * t19;
-        let t22 = axis_local_vx * t16 - axis_local_vy * t19;
-        let t23 = axis_local_ux * t16 - axis_local_uy * t19;
-        let t24 = axis_j_local_uy * t9 - axis_j_local_uz * t10;
-        let t25 = axis_j_local_uy * t6 - axis_j_local_uz * t7;
-        let t26 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
-        let t27 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
-        let t28 = axis_j_local_ux * t9 - axis_j_local_uz * t11;
-        let t29 = axis_j_local_ux * t6 - axis_j_local_uz * t8;
-        let t30 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
-        let t31 = axis_j_local_ux * t10 - axis_j_local_uy * t11;
-        let t32 = axis_j_local_ux * t7 - axis_j_local_uy * t8;
+        let t17 = axis_local_uy * t15 - axis_local_uz * t16;
+        let t18 = axis_local_vy * t15 - axis_local_vz * t16;
+        let t19 = turn_0_cos * t17 + turn_0_sin * t18;
+        let t20 = turn_0_cos * t18 - turn_0_sin * t17;
+        let t21 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
+        let t22 = axis_local_vx * t21 + axis_local_vy * t16 + axis_local_vz * t15;
+        let t23 = axis_local_ux * t21 + axis_local_uy * t16 + axis_local_uz * t15;
+        let t24 = turn_0_cos * t22 - turn_0_sin * t23;
+        let t25 = turn_0_cos * t23 + turn_0_sin * t22;
+        let t26 = turn_known_cos * t24 - turn_known_sin * t25;
+        let t27 = turn_known_cos * t25 + turn_known_sin * t24 - T::from(4.0);
+        let t28 = axis_local_ux * t15 - axis_local_uz * t21;
+        let t29 = axis_local_vx * t15 - axis_local_vz * t21;
+        let t30 = turn_0_cos * t28 + turn_0_sin * t29;
+        let t31 = turn_0_cos * t29 - turn_0_sin * t28;
+        let t32 = axis_local_ux * t16 - axis_local_uy * t21;
+        let t33 = axis_local_vx * t16 - axis_local_vy * t21;
+        let t34 = turn_0_cos * t32 + turn_0_sin * t33;
+        let t35 = turn_0_cos * t33 - turn_0_sin * t32;
+        let t36 = axis_j_local_uy * t6 - axis_j_local_uz * t7;
+        let t37 = axis_j_local_uy * t9 - axis_j_local_uz * t10;
+        let t38 = turn_0_cos * t36 + turn_0_sin * t37;
+        let t39 = turn_0_cos * t37 - turn_0_sin * t36;
+        let t40 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
+        let t41 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
+        let t42 = axis_j_local_ux * t6 - axis_j_local_uz * t8;
+        let t43 = axis_j_local_ux * t9 - axis_j_local_uz * t11;
+        let t44 = turn_0_cos * t42 + turn_0_sin * t43;
+        let t45 = turn_0_cos * t43 - turn_0_sin * t42;
+        let t46 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
+        let t47 = axis_j_local_ux * t7 - axis_j_local_uy * t8;
+        let t48 = axis_j_local_ux * t10 - axis_j_local_uy * t11;
+        let t49 = turn_0_cos * t47 + turn_0_sin * t48;
+        let t50 = turn_0_cos * t48 - turn_0_sin * t47;
         out[0] = -axis_u_x;
         out[1] = -axis_u_y;
         out[2] = -axis_u_z;
@@ -946,46 +968,46 @@ impl<T: Ring> Element<T, Space3> for Screw {
         out[36] = -axis_w_x;
         out[37] = -axis_w_y;
         out[38] = -axis_w_z;
-        out[39] = -(T::from(0.15915494309189535)
+        out[39] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t17 - turn_0_sin * t18)
-                    - turn_known_sin * (turn_0_cos * t18 + turn_0_sin * t17)))
-            + (s_i_y * axis_local_wz - s_i_z * axis_local_wy
-                + (axis_local_wy * t3 - axis_local_wz * t4)));
-        out[40] = T::from(0.15915494309189535)
+                * ((turn_known_cos * t19 + turn_known_sin * t20) * t26
+                    + (turn_known_cos * t20 - turn_known_sin * t19) * t27))
+            - (s_i_y * axis_local_wz - s_i_z * axis_local_wy
+                + (axis_local_wy * t3 - axis_local_wz * t4));
+        out[40] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t20 - turn_0_sin * t21)
-                    - turn_known_sin * (turn_0_cos * t21 + turn_0_sin * t20)))
-            + (s_i_x * axis_local_wz - s_i_z * axis_local_wx
-                + (axis_local_wx * t3 - axis_local_wz * t5));
-        out[41] = -(T::from(0.15915494309189535)
+                * ((turn_known_cos * t30 + turn_known_sin * t31) * t26
+                    + (turn_known_cos * t31 - turn_known_sin * t30) * t27))
+            - (s_i_x * axis_local_wz - s_i_z * axis_local_wx
+                + (axis_local_wx * t3 - axis_local_wz * t5)));
+        out[41] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t22 - turn_0_sin * t23)
-                    - turn_known_sin * (turn_0_cos * t23 + turn_0_sin * t22)))
-            + (s_i_x * axis_local_wy - s_i_y * axis_local_wx
-                + (axis_local_wx * t4 - axis_local_wy * t5)));
+                * ((turn_known_cos * t34 + turn_known_sin * t35) * t26
+                    + (turn_known_cos * t35 - turn_known_sin * t34) * t27))
+            - (s_i_x * axis_local_wy - s_i_y * axis_local_wx
+                + (axis_local_wx * t4 - axis_local_wy * t5));
         out[42] = axis_w_x;
         out[43] = axis_w_y;
         out[44] = axis_w_z;
-        out[45] = -(T::from(0.15915494309189535)
+        out[45] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t24 - turn_0_sin * t25)
-                    - turn_known_sin * (turn_0_cos * t25 + turn_0_sin * t24)))
-            - (s_j_y * t26 - s_j_z * t27));
-        out[46] = T::from(0.15915494309189535)
+                * (t26 * (turn_known_cos * t38 + turn_known_sin * t39)
+                    + (turn_known_cos * t39 - turn_known_sin * t38) * t27))
+            + (s_j_y * t40 - s_j_z * t41);
+        out[46] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t28 - turn_0_sin * t29)
-                    - turn_known_sin * (turn_0_cos * t29 + turn_0_sin * t28)))
-            - (s_j_x * t26 - s_j_z * t30);
-        out[47] = -(T::from(0.15915494309189535)
+                * (t26 * (turn_known_cos * t44 + turn_known_sin * t45)
+                    + (turn_known_cos * t45 - turn_known_sin * t44) * t27))
+            + (s_j_x * t40 - s_j_z * t46));
+        out[47] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t31 - turn_0_sin * t32)
-                    - turn_known_sin * (turn_0_cos * t32 + turn_0_sin * t31)))
-            - (s_j_x * t27 - s_j_y * t30));
+                * (t26 * (turn_known_cos * t49 + turn_known_sin * t50)
+                    + (turn_known_cos * t50 - turn_known_sin * t49) * t27))
+            + (s_j_x * t41 - s_j_y * t46);
     }
     /// b. Operations: none.
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
-    /// Γ. Operations: 356 mul, 265 add, 2 neg.
+    /// Γ. Operations: 395 mul, 292 add, 3 neg.
     fn gamma(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..5];
         let r_i_x = x[0].r[0];
@@ -1132,46 +1154,60 @@ impl<T: Ring> Element<T, Space3> for Screw {
         let t66 = rot_i_xy * w_x + rot_i_yy * w_y + rot_i_zy * w_z;
         let t67 = rot_i_xz * w_x + rot_i_yz * w_y + rot_i_zz * w_z;
         let t68 = t61 * t38 - t62 * t39 + t63 * t40;
-        let t69 = omega_j_x * axis_j_local_uy - omega_j_y * axis_j_local_ux;
-        let t70 = omega_j_x * axis_j_local_uz - omega_j_z * axis_j_local_ux;
-        let t71 = omega_j_y * t69 + omega_j_z * t70;
-        let t72 = omega_j_y * axis_j_local_uz - omega_j_z * axis_j_local_uy;
-        let t73 = omega_j_x * t69 - omega_j_z * t72;
-        let t74 = omega_j_x * t70 + omega_j_y * t72;
-        let t75 = rot_j_xx * t71 - rot_j_xy * t73 - rot_j_xz * t74;
-        let t76 = rot_j_yx * t71 - rot_j_yy * t73 - rot_j_yz * t74;
-        let t77 = rot_j_zx * t71 - rot_j_zy * t73 - rot_j_zz * t74;
-        let t78 = rot_i_xx * t75 + rot_i_yx * t76 + rot_i_zx * t77;
-        let t79 = rot_i_xy * t75 + rot_i_yy * t76 + rot_i_zy * t77;
-        let t80 = rot_i_xz * t75 + rot_i_yz * t76 + rot_i_zz * t77;
-        let t81 = rot_j_xx * t72 - rot_j_xy * t70 + rot_j_xz * t69;
-        let t82 = rot_j_yx * t72 - rot_j_yy * t70 + rot_j_yz * t69;
-        let t83 = rot_j_zx * t72 - rot_j_zy * t70 + rot_j_zz * t69;
-        let t84 = rot_i_xx * t81 + rot_i_yx * t82 + rot_i_zx * t83;
-        let t85 = rot_i_xy * t81 + rot_i_yy * t82 + rot_i_zy * t83;
-        let t86 = rot_i_xz * t81 + rot_i_yz * t82 + rot_i_zz * t83;
-        let t87 = t84 * t38 - t85 * t39 + t86 * t40;
         let axis_j_u_x = rot_j_xx * axis_j_local_ux + rot_j_xy * axis_j_local_uy
             + rot_j_xz * axis_j_local_uz;
         let axis_j_u_y = rot_j_yx * axis_j_local_ux + rot_j_yy * axis_j_local_uy
             + rot_j_yz * axis_j_local_uz;
         let axis_j_u_z = rot_j_zx * axis_j_local_ux + rot_j_zy * axis_j_local_uy
             + rot_j_zz * axis_j_local_uz;
-        let t88 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t89 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t90 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
-        let t91 = axis_local_vx * t78 + axis_local_vy * t79 + axis_local_vz * t80 + t87
-            + (t88 * t43 - t89 * t44 - t90 * t45 + t87);
-        let t92 = t84 * t1 - t85 * t2 + t86 * t3;
-        let t93 = axis_local_ux * t78 + axis_local_uy * t79 + axis_local_uz * t80 + t92
-            + (t88 * t30 - t89 * t32 - t90 * t34 + t92);
-        let t94 = omega_i_y * axis_local_wz - omega_i_z * axis_local_wy;
-        let t95 = omega_i_x * axis_local_wz - omega_i_z * axis_local_wx;
-        let t96 = omega_i_x * axis_local_wy - omega_i_y * axis_local_wx;
-        let t97 = t0 * (rot_i_xx * t94 - rot_i_xy * t95 + rot_i_xz * t96)
-            + t4 * (rot_i_yx * t94 - rot_i_yy * t95 + rot_i_yz * t96)
-            + t5 * (rot_i_zx * t94 - rot_i_zy * t95 + rot_i_zz * t96);
-        let t98 = t22 * t94 - t23 * t95 + t24 * t96;
+        let t69 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
+        let t70 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
+        let t71 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
+        let t72 = axis_local_vx * t69 + axis_local_vy * t70 + axis_local_vz * t71;
+        let t73 = axis_local_ux * t69 + axis_local_uy * t70 + axis_local_uz * t71;
+        let t74 = turn_0_cos * t72 - turn_0_sin * t73;
+        let t75 = turn_0_cos * t73 + turn_0_sin * t72;
+        let t76 = omega_j_x * axis_j_local_uy - omega_j_y * axis_j_local_ux;
+        let t77 = omega_j_x * axis_j_local_uz - omega_j_z * axis_j_local_ux;
+        let t78 = omega_j_y * t76 + omega_j_z * t77;
+        let t79 = omega_j_y * axis_j_local_uz - omega_j_z * axis_j_local_uy;
+        let t80 = omega_j_x * t76 - omega_j_z * t79;
+        let t81 = omega_j_x * t77 + omega_j_y * t79;
+        let t82 = rot_j_xx * t78 - rot_j_xy * t80 - rot_j_xz * t81;
+        let t83 = rot_j_yx * t78 - rot_j_yy * t80 - rot_j_yz * t81;
+        let t84 = rot_j_zx * t78 - rot_j_zy * t80 - rot_j_zz * t81;
+        let t85 = rot_i_xx * t82 + rot_i_yx * t83 + rot_i_zx * t84;
+        let t86 = rot_i_xy * t82 + rot_i_yy * t83 + rot_i_zy * t84;
+        let t87 = rot_i_xz * t82 + rot_i_yz * t83 + rot_i_zz * t84;
+        let t88 = rot_j_xx * t79 - rot_j_xy * t77 + rot_j_xz * t76;
+        let t89 = rot_j_yx * t79 - rot_j_yy * t77 + rot_j_yz * t76;
+        let t90 = rot_j_zx * t79 - rot_j_zy * t77 + rot_j_zz * t76;
+        let t91 = rot_i_xx * t88 + rot_i_yx * t89 + rot_i_zx * t90;
+        let t92 = rot_i_xy * t88 + rot_i_yy * t89 + rot_i_zy * t90;
+        let t93 = rot_i_xz * t88 + rot_i_yz * t89 + rot_i_zz * t90;
+        let t94 = t91 * t1 - t92 * t2 + t93 * t3;
+        let t95 = axis_local_ux * t85 + axis_local_uy * t86 + axis_local_uz * t87 + t94
+            + (t69 * t30 - t70 * t32 - t71 * t34 + t94);
+        let t96 = t91 * t38 - t92 * t39 + t93 * t40;
+        let t97 = axis_local_vx * t85 + axis_local_vy * t86 + axis_local_vz * t87 + t96
+            + (t69 * t43 - t70 * t44 - t71 * t45 + t96);
+        let t98 = turn_0_cos * t95 + turn_0_sin * t97;
+        let t99 = turn_0_cos * t97 - turn_0_sin * t95;
+        let t100 = axis_local_ux * t91 + axis_local_uy * t92 + axis_local_uz * t93
+            + (t69 * t1 - t70 * t2 + t71 * t3);
+        let t101 = axis_local_vx * t91 + axis_local_vy * t92 + axis_local_vz * t93
+            + (t69 * t38 - t70 * t39 + t71 * t40);
+        let t102 = turn_0_cos * t100 + turn_0_sin * t101;
+        let t103 = turn_0_cos * t101 - turn_0_sin * t100;
+        let t104 = (turn_known_cos * t102 + turn_known_sin * t103)
+            * (turn_known_cos * t103 - turn_known_sin * t102);
+        let t105 = omega_i_y * axis_local_wz - omega_i_z * axis_local_wy;
+        let t106 = omega_i_x * axis_local_wz - omega_i_z * axis_local_wx;
+        let t107 = omega_i_x * axis_local_wy - omega_i_y * axis_local_wx;
+        let t108 = t0 * (rot_i_xx * t105 - rot_i_xy * t106 + rot_i_xz * t107)
+            + t4 * (rot_i_yx * t105 - rot_i_yy * t106 + rot_i_yz * t107)
+            + t5 * (rot_i_zx * t105 - rot_i_zy * t106 + rot_i_zz * t107);
+        let t109 = t22 * t105 - t23 * t106 + t24 * t107;
         out[0] = t6
             - (axis_local_ux * t16 + axis_local_uy * t17 + axis_local_uz * t18 + t25)
             + (t6 + (t29 * t30 - t31 * t32 - t33 * t34) - t25
@@ -1184,19 +1220,24 @@ impl<T: Ring> Element<T, Space3> for Screw {
             + (t65 * t30 - t66 * t32 - t67 * t34 + t64));
         out[3] = -(axis_local_vx * t55 + axis_local_vy * t56 + axis_local_vz * t57 + t68
             + (t65 * t43 - t66 * t44 - t67 * t45 + t68));
-        out[4] = T::from(0.15915494309189535)
+        out[4] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t91 - turn_0_sin * t93)
-                    - turn_known_sin * (turn_0_cos * t93 + turn_0_sin * t91)))
-            + (t97
-                - (axis_local_wx * t16 + axis_local_wy * t17 + axis_local_wz * t18 + t98)
-                + (t97
-                    + (t29 * (omega_i_y * t96 + omega_i_z * t95)
-                        - t31 * (omega_i_x * t96 - omega_i_z * t94)
-                        - t33 * (omega_i_x * t95 + omega_i_y * t94)) - t98
-                    + (t35 * t96 + t36 * t95 + t37 * t94)));
+                * ((turn_known_cos * t74 - turn_known_sin * t75)
+                    * (turn_known_cos * t98 + turn_known_sin * t99) + t104
+                    + (t104
+                        + (turn_known_cos * t99 - turn_known_sin * t98)
+                            * (turn_known_cos * t75 + turn_known_sin * t74
+                                - T::from(4.0)))))
+            - (t108
+                - (axis_local_wx * t16 + axis_local_wy * t17 + axis_local_wz * t18
+                    + t109)
+                + (t108
+                    + (t29 * (omega_i_y * t107 + omega_i_z * t106)
+                        - t31 * (omega_i_x * t107 - omega_i_z * t105)
+                        - t33 * (omega_i_x * t106 + omega_i_y * t105)) - t109
+                    + (t35 * t107 + t36 * t106 + t37 * t105))));
     }
-    /// Entries of the wrench map. Operations: 237 mul, 168 add, 6 neg.
+    /// Entries of the wrench map. Operations: 263 mul, 183 add, 9 neg.
     fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T])
     where
         T: Real,
@@ -1316,30 +1357,42 @@ impl<T: Ring> Element<T, Space3> for Screw {
             + rot_j_zz * axis_j_local_uz;
         let t21 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
         let t22 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t23 = axis_local_vy * t21 - axis_local_vz * t22;
-        let t24 = axis_local_uy * t21 - axis_local_uz * t22;
-        let t25 = T::from(0.15915494309189535)
+        let t23 = axis_local_uy * t21 - axis_local_uz * t22;
+        let t24 = axis_local_vy * t21 - axis_local_vz * t22;
+        let t25 = turn_0_cos * t23 + turn_0_sin * t24;
+        let t26 = turn_0_cos * t24 - turn_0_sin * t23;
+        let t27 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
+        let t28 = axis_local_vx * t27 + axis_local_vy * t22 + axis_local_vz * t21;
+        let t29 = axis_local_ux * t27 + axis_local_uy * t22 + axis_local_uz * t21;
+        let t30 = turn_0_cos * t28 - turn_0_sin * t29;
+        let t31 = turn_0_cos * t29 + turn_0_sin * t28;
+        let t32 = turn_known_cos * t30 - turn_known_sin * t31;
+        let t33 = turn_known_cos * t31 + turn_known_sin * t30 - T::from(4.0);
+        let t34 = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t23 - turn_0_sin * t24)
-                    - turn_known_sin * (turn_0_cos * t24 + turn_0_sin * t23)))
-            + (s_i_y * axis_local_wz - s_i_z * axis_local_wy
+                * ((turn_known_cos * t25 + turn_known_sin * t26) * t32
+                    + (turn_known_cos * t26 - turn_known_sin * t25) * t33))
+            - (s_i_y * axis_local_wz - s_i_z * axis_local_wy
                 + (axis_local_wy * t3 - axis_local_wz * t4));
-        let t26 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t27 = axis_local_vx * t21 - axis_local_vz * t26;
-        let t28 = axis_local_ux * t21 - axis_local_uz * t26;
-        let t29 = T::from(0.15915494309189535)
+        let t35 = axis_local_ux * t21 - axis_local_uz * t27;
+        let t36 = axis_local_vx * t21 - axis_local_vz * t27;
+        let t37 = turn_0_cos * t35 + turn_0_sin * t36;
+        let t38 = turn_0_cos * t36 - turn_0_sin * t35;
+        let t39 = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t27 - turn_0_sin * t28)
-                    - turn_known_sin * (turn_0_cos * t28 + turn_0_sin * t27)))
-            + (s_i_x * axis_local_wz - s_i_z * axis_local_wx
+                * ((turn_known_cos * t37 + turn_known_sin * t38) * t32
+                    + (turn_known_cos * t38 - turn_known_sin * t37) * t33))
+            - (s_i_x * axis_local_wz - s_i_z * axis_local_wx
                 + (axis_local_wx * t3 - axis_local_wz * t6));
-        let t30 = axis_local_vx * t22 - axis_local_vy * t26;
-        let t31 = axis_local_ux * t22 - axis_local_uy * t26;
-        let t32 = T::from(0.15915494309189535)
+        let t40 = axis_local_ux * t22 - axis_local_uy * t27;
+        let t41 = axis_local_vx * t22 - axis_local_vy * t27;
+        let t42 = turn_0_cos * t40 + turn_0_sin * t41;
+        let t43 = turn_0_cos * t41 - turn_0_sin * t40;
+        let t44 = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t30 - turn_0_sin * t31)
-                    - turn_known_sin * (turn_0_cos * t31 + turn_0_sin * t30)))
-            + (s_i_x * axis_local_wy - s_i_y * axis_local_wx
+                * ((turn_known_cos * t42 + turn_known_sin * t43) * t32
+                    + (turn_known_cos * t43 - turn_known_sin * t42) * t33))
+            - (s_i_x * axis_local_wy - s_i_y * axis_local_wx
                 + (axis_local_wx * t4 - axis_local_wy * t6));
         let arm_i_x = rot_i_xx * s_i_x + rot_i_xy * s_i_y + rot_i_xz * s_i_z;
         out[0] = axis_u_x;
@@ -1357,24 +1410,24 @@ impl<T: Ring> Element<T, Space3> for Screw {
             - (arm_i_y * axis_v_z - axis_v_y * arm_i_z);
         out[11] = -(rot_i_xx * t14 - rot_i_xy * t16 + rot_i_xz * t17);
         out[12] = -(rot_i_xx * t18 - rot_i_xy * t19 + rot_i_xz * t20);
-        out[13] = rot_i_xx * t25 - rot_i_xy * t29 + rot_i_xz * t32
-            - (arm_i_y * axis_w_z - axis_w_y * arm_i_z);
+        out[13] = -(rot_i_xx * t34 - rot_i_xy * t39 + rot_i_xz * t44
+            + (arm_i_y * axis_w_z - axis_w_y * arm_i_z));
         out[14] = rot_i_yx * t5 - rot_i_yy * t7 + rot_i_yz * t8
             + (arm_i_x * axis_u_z - axis_u_x * arm_i_z);
         out[15] = rot_i_yx * t9 - rot_i_yy * t10 + rot_i_yz * t11
             + (arm_i_x * axis_v_z - axis_v_x * arm_i_z);
         out[16] = -(rot_i_yx * t14 - rot_i_yy * t16 + rot_i_yz * t17);
         out[17] = -(rot_i_yx * t18 - rot_i_yy * t19 + rot_i_yz * t20);
-        out[18] = rot_i_yx * t25 - rot_i_yy * t29 + rot_i_yz * t32
-            + (arm_i_x * axis_w_z - axis_w_x * arm_i_z);
+        out[18] = -(rot_i_yx * t34 - rot_i_yy * t39 + rot_i_yz * t44
+            - (arm_i_x * axis_w_z - axis_w_x * arm_i_z));
         out[19] = rot_i_zx * t5 - rot_i_zy * t7 + rot_i_zz * t8
             - (arm_i_x * axis_u_y - axis_u_x * arm_i_y);
         out[20] = rot_i_zx * t9 - rot_i_zy * t10 + rot_i_zz * t11
             - (arm_i_x * axis_v_y - axis_v_x * arm_i_y);
         out[21] = -(rot_i_zx * t14 - rot_i_zy * t16 + rot_i_zz * t17);
         out[22] = -(rot_i_zx * t18 - rot_i_zy * t19 + rot_i_zz * t20);
-        out[23] = rot_i_zx * t25 - rot_i_zy * t29 + rot_i_zz * t32
-            - (arm_i_x * axis_w_y - axis_w_x * arm_i_y);
+        out[23] = -(rot_i_zx * t34 - rot_i_zy * t39 + rot_i_zz * t44
+            + (arm_i_x * axis_w_y - axis_w_x * arm_i_y));
     }
     /// Coefficients of the named component. Operations: none.
     fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
@@ -1403,7 +1456,7 @@ impl<T: Ring> Element<T, Space3> for Screw {
         let arm_i_z = rot_i_zx * s_i_x + rot_i_zy * s_i_y + rot_i_zz * s_i_z;
         [r_i_x + arm_i_x, r_i_y + arm_i_y, r_i_z + arm_i_z]
     }
-    /// ∂(λᵀΦ)/∂p. Operations: 280 mul, 174 add, 9 neg.
+    /// ∂(λᵀΦ)/∂p. Operations: 308 mul, 188 add, 9 neg.
     fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
         let out = &mut out[..15];
         let r_i_x = x[0].r[0];
@@ -1510,26 +1563,41 @@ impl<T: Ring> Element<T, Space3> for Screw {
             + rot_j_zz * axis_j_local_uz;
         let t13 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
         let t14 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t15 = axis_local_vy * t13 - axis_local_vz * t14;
-        let t16 = axis_local_uy * t13 - axis_local_uz * t14;
-        let t17 = s_i_x + (rot_i_xx * t6 + rot_i_yx * t7 + rot_i_zx * t8);
-        let t18 = rot_i_xx * w_x + rot_i_yx * w_y + rot_i_zx * w_z;
+        let t15 = axis_local_uy * t13 - axis_local_uz * t14;
+        let t16 = axis_local_vy * t13 - axis_local_vz * t14;
+        let t17 = turn_0_cos * t15 + turn_0_sin * t16;
+        let t18 = turn_0_cos * t16 - turn_0_sin * t15;
         let t19 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t20 = axis_local_vx * t13 - axis_local_vz * t19;
-        let t21 = axis_local_ux * t13 - axis_local_uz * t19;
-        let t22 = axis_local_vx * t14 - axis_local_vy * t19;
-        let t23 = axis_local_ux * t14 - axis_local_uy * t19;
-        let t24 = pitch * lambda_4;
-        let t25 = axis_j_local_uy * t5 - axis_j_local_uz * t3;
-        let t26 = axis_j_local_uy * t4 - axis_j_local_uz * t2;
-        let t27 = axis_j_local_ux * t5 - axis_j_local_uz * t1;
-        let t28 = axis_j_local_ux * t4 - axis_j_local_uz * t0;
-        let t29 = axis_j_local_ux * t3 - axis_j_local_uy * t1;
-        let t30 = axis_j_local_ux * t2 - axis_j_local_uy * t0;
-        let t31 = axis_local_vx * t19 + axis_local_vy * t14 + axis_local_vz * t13;
-        let t32 = axis_local_ux * t19 + axis_local_uy * t14 + axis_local_uz * t13;
-        let t33 = turn_0_cos * t31 - turn_0_sin * t32;
-        let t34 = turn_0_cos * t32 + turn_0_sin * t31;
+        let t20 = axis_local_vx * t19 + axis_local_vy * t14 + axis_local_vz * t13;
+        let t21 = axis_local_ux * t19 + axis_local_uy * t14 + axis_local_uz * t13;
+        let t22 = turn_0_cos * t20 - turn_0_sin * t21;
+        let t23 = turn_0_cos * t21 + turn_0_sin * t20;
+        let t24 = turn_known_cos * t22 - turn_known_sin * t23;
+        let t25 = turn_known_cos * t23 + turn_known_sin * t22;
+        let t26 = t25 - T::from(4.0);
+        let t27 = s_i_x + (rot_i_xx * t6 + rot_i_yx * t7 + rot_i_zx * t8);
+        let t28 = rot_i_xx * w_x + rot_i_yx * w_y + rot_i_zx * w_z;
+        let t29 = axis_local_ux * t13 - axis_local_uz * t19;
+        let t30 = axis_local_vx * t13 - axis_local_vz * t19;
+        let t31 = turn_0_cos * t29 + turn_0_sin * t30;
+        let t32 = turn_0_cos * t30 - turn_0_sin * t29;
+        let t33 = axis_local_ux * t14 - axis_local_uy * t19;
+        let t34 = axis_local_vx * t14 - axis_local_vy * t19;
+        let t35 = turn_0_cos * t33 + turn_0_sin * t34;
+        let t36 = turn_0_cos * t34 - turn_0_sin * t33;
+        let t37 = pitch * lambda_4;
+        let t38 = axis_j_local_uy * t4 - axis_j_local_uz * t2;
+        let t39 = axis_j_local_uy * t5 - axis_j_local_uz * t3;
+        let t40 = turn_0_cos * t38 + turn_0_sin * t39;
+        let t41 = turn_0_cos * t39 - turn_0_sin * t38;
+        let t42 = axis_j_local_ux * t4 - axis_j_local_uz * t0;
+        let t43 = axis_j_local_ux * t5 - axis_j_local_uz * t1;
+        let t44 = turn_0_cos * t42 + turn_0_sin * t43;
+        let t45 = turn_0_cos * t43 - turn_0_sin * t42;
+        let t46 = axis_j_local_ux * t2 - axis_j_local_uy * t0;
+        let t47 = axis_j_local_ux * t3 - axis_j_local_uy * t1;
+        let t48 = turn_0_cos * t46 + turn_0_sin * t47;
+        let t49 = turn_0_cos * t47 - turn_0_sin * t46;
         out[0] = -(axis_local_ux * lambda_0 + axis_local_vx * lambda_1
             + axis_local_wx * lambda_4);
         out[1] = -(axis_local_uy * lambda_0 + axis_local_vy * lambda_1
@@ -1549,61 +1617,60 @@ impl<T: Ring> Element<T, Space3> for Screw {
             + lambda_1 * (axis_local_vy * t9 - axis_local_vz * t10)
             - lambda_2 * (axis_local_uy * t11 - axis_local_uz * t12)
             - lambda_3 * (axis_local_vy * t11 - axis_local_vz * t12)
-            + lambda_4
-                * (T::from(0.15915494309189535)
+            - lambda_4
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t15 - turn_0_sin * t16)
-                            - turn_known_sin * (turn_0_cos * t16 + turn_0_sin * t15)))
-                    + (axis_local_wy * t9 - axis_local_wz * t10)));
-        out[7] = lambda_0 * (axis_local_ux * t9 - axis_local_uz * t17)
-            + lambda_1 * (axis_local_vx * t9 - axis_local_vz * t17)
-            - lambda_2 * (axis_local_ux * t11 - axis_local_uz * t18)
-            - lambda_3 * (axis_local_vx * t11 - axis_local_vz * t18)
-            + lambda_4
-                * (T::from(0.15915494309189535)
+                        * ((turn_known_cos * t17 + turn_known_sin * t18) * t24
+                            + (turn_known_cos * t18 - turn_known_sin * t17) * t26))
+                    - (axis_local_wy * t9 - axis_local_wz * t10)));
+        out[7] = lambda_0 * (axis_local_ux * t9 - axis_local_uz * t27)
+            + lambda_1 * (axis_local_vx * t9 - axis_local_vz * t27)
+            - lambda_2 * (axis_local_ux * t11 - axis_local_uz * t28)
+            - lambda_3 * (axis_local_vx * t11 - axis_local_vz * t28)
+            - lambda_4
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t20 - turn_0_sin * t21)
-                            - turn_known_sin * (turn_0_cos * t21 + turn_0_sin * t20)))
-                    + (axis_local_wx * t9 - axis_local_wz * t17));
-        out[8] = -(lambda_0 * (axis_local_ux * t10 - axis_local_uy * t17)
-            + lambda_1 * (axis_local_vx * t10 - axis_local_vy * t17)
-            - lambda_2 * (axis_local_ux * t12 - axis_local_uy * t18)
-            - lambda_3 * (axis_local_vx * t12 - axis_local_vy * t18)
-            + lambda_4
-                * (T::from(0.15915494309189535)
+                        * ((turn_known_cos * t31 + turn_known_sin * t32) * t24
+                            + (turn_known_cos * t32 - turn_known_sin * t31) * t26))
+                    - (axis_local_wx * t9 - axis_local_wz * t27));
+        out[8] = -(lambda_0 * (axis_local_ux * t10 - axis_local_uy * t27)
+            + lambda_1 * (axis_local_vx * t10 - axis_local_vy * t27)
+            - lambda_2 * (axis_local_ux * t12 - axis_local_uy * t28)
+            - lambda_3 * (axis_local_vx * t12 - axis_local_vy * t28)
+            - lambda_4
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t22 - turn_0_sin * t23)
-                            - turn_known_sin * (turn_0_cos * t23 + turn_0_sin * t22)))
-                    + (axis_local_wx * t10 - axis_local_wy * t17)));
-        out[9] = -(T::from(0.15915494309189535)
-            * (t24
-                * (turn_known_cos * (turn_0_cos * t25 - turn_0_sin * t26)
-                    - turn_known_sin * (turn_0_cos * t26 + turn_0_sin * t25)))
-            - lambda_2 * (axis_j_local_wy * t4 - axis_j_local_wz * t2)
-            - lambda_3 * (axis_j_local_wy * t5 - axis_j_local_wz * t3));
-        out[10] = T::from(0.15915494309189535)
-            * (t24
-                * (turn_known_cos * (turn_0_cos * t27 - turn_0_sin * t28)
-                    - turn_known_sin * (turn_0_cos * t28 + turn_0_sin * t27)))
-            - lambda_2 * (axis_j_local_wx * t4 - axis_j_local_wz * t0)
-            - lambda_3 * (axis_j_local_wx * t5 - axis_j_local_wz * t1);
-        out[11] = -(T::from(0.15915494309189535)
-            * (t24
-                * (turn_known_cos * (turn_0_cos * t29 - turn_0_sin * t30)
-                    - turn_known_sin * (turn_0_cos * t30 + turn_0_sin * t29)))
-            - lambda_2 * (axis_j_local_wx * t2 - axis_j_local_wy * t0)
-            - lambda_3 * (axis_j_local_wx * t3 - axis_j_local_wy * t1));
+                        * ((turn_known_cos * t35 + turn_known_sin * t36) * t24
+                            + (turn_known_cos * t36 - turn_known_sin * t35) * t26))
+                    - (axis_local_wx * t10 - axis_local_wy * t27)));
+        out[9] = T::from(0.05305164769729845)
+            * (t37
+                * (t24 * (turn_known_cos * t40 + turn_known_sin * t41)
+                    + (turn_known_cos * t41 - turn_known_sin * t40) * t26))
+            + lambda_2 * (axis_j_local_wy * t4 - axis_j_local_wz * t2)
+            + lambda_3 * (axis_j_local_wy * t5 - axis_j_local_wz * t3);
+        out[10] = -(T::from(0.05305164769729845)
+            * (t37
+                * (t24 * (turn_known_cos * t44 + turn_known_sin * t45)
+                    + (turn_known_cos * t45 - turn_known_sin * t44) * t26))
+            + lambda_2 * (axis_j_local_wx * t4 - axis_j_local_wz * t0)
+            + lambda_3 * (axis_j_local_wx * t5 - axis_j_local_wz * t1));
+        out[11] = T::from(0.05305164769729845)
+            * (t37
+                * (t24 * (turn_known_cos * t48 + turn_known_sin * t49)
+                    + (turn_known_cos * t49 - turn_known_sin * t48) * t26))
+            + lambda_2 * (axis_j_local_wx * t2 - axis_j_local_wy * t0)
+            + lambda_3 * (axis_j_local_wx * t3 - axis_j_local_wy * t1);
         out[12] = -(T::from(0.15915494309189535)
-            * (lambda_4 * (turn_known + (turn_known_cos * t33 - turn_known_sin * t34))));
-        out[13] = T::from(0.15915494309189535)
-            * (t24 * (turn_known_cos * t34 + turn_known_sin * t33));
+            * (lambda_4 * (turn_known - T::from(0.3333333333333333) * (t24 * t26))));
+        out[13] = -(T::from(0.05305164769729845) * (t37 * (t25 * t26 - t24 * t24)));
         out[14] = -lambda_4;
     }
 }
 #[allow(unused_variables)]
 #[allow(clippy::too_many_arguments)]
 impl<T: Ring> Derivatives<T, Space3> for Screw {
-    /// ∂(Cᵀλ)/∂x. Operations: 1182 mul, 717 add, 31 neg.
+    /// ∂(Cᵀλ)/∂x. Operations: 1448 mul, 898 add, 31 neg.
     fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
         let out = &mut out[..72];
         let r_i_x = x[0].r[0];
@@ -1737,257 +1804,386 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         let axis_j_u_z = rot_j_zx * axis_j_local_ux + rot_j_zy * axis_j_local_uy
             + rot_j_zz * axis_j_local_uz;
         let t60 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t61 = axis_local_vy * t60;
+        let t61 = axis_local_uy * t60;
         let t62 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
-        let t63 = axis_local_vz * t62;
+        let t63 = axis_local_uz * t62;
         let t64 = t61 + t63;
-        let t65 = axis_local_uy * t60;
-        let t66 = axis_local_uz * t62;
+        let t65 = axis_local_vy * t60;
+        let t66 = axis_local_vz * t62;
         let t67 = t65 + t66;
-        let t68 = s_i_y * axis_local_wy;
-        let t69 = s_i_z * axis_local_wz;
-        let t70 = axis_local_wy * t45;
-        let t71 = axis_local_wz * t48;
-        let t72 = axis_local_uy * lambda_0;
-        let t73 = rot_i_xx * t41 + rot_i_yx * t42 + rot_i_zx * t43;
-        let t74 = axis_local_uy * lambda_2;
-        let t75 = rot_i_xx * w_x + rot_i_yx * w_y + rot_i_zx * w_z;
-        let t76 = axis_local_vy * lambda_1;
-        let t77 = axis_local_vy * lambda_3;
-        let t78 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t79 = pitch * t78;
-        let t80 = turn_known_cos
-            * (axis_local_uy * turn_0_sin - axis_local_vy * turn_0_cos)
-            + turn_known_sin * (axis_local_uy * turn_0_cos + axis_local_vy * turn_0_sin);
-        let t81 = axis_local_uz * lambda_0;
-        let t82 = axis_local_uz * lambda_2;
-        let t83 = axis_local_vz * lambda_1;
-        let t84 = axis_local_vz * lambda_3;
-        let t85 = turn_known_cos
-            * (axis_local_uz * turn_0_sin - axis_local_vz * turn_0_cos)
-            + turn_known_sin * (axis_local_uz * turn_0_cos + axis_local_vz * turn_0_sin);
-        let t86 = -t3;
-        let t87 = -t16;
-        let t88 = -t29;
-        let t89 = rot_j_xz * t0 + rot_j_yz * t13 + rot_j_zz * t26;
-        let t90 = rot_j_xy * t0 + rot_j_yy * t13 + rot_j_zy * t26;
-        let t91 = rot_j_xz * t1 + rot_j_yz * t14 + rot_j_zz * t27;
-        let t92 = rot_j_xy * t1 + rot_j_yy * t14 + rot_j_zy * t27;
-        let t93 = axis_j_local_uy * t91 - axis_j_local_uz * t92;
-        let t94 = axis_j_local_uy * t89 - axis_j_local_uz * t90;
-        let t95 = rot_j_xz * t2 + rot_j_yz * t15 + rot_j_zz * t28;
-        let t96 = rot_j_xy * t2 + rot_j_yy * t15 + rot_j_zy * t28;
-        let t97 = rot_j_xx * t0 + rot_j_yx * t13 + rot_j_zx * t26;
-        let t98 = rot_j_xx * t1 + rot_j_yx * t14 + rot_j_zx * t27;
-        let t99 = axis_j_local_ux * t91 - axis_j_local_uz * t98;
-        let t100 = axis_j_local_ux * t89 - axis_j_local_uz * t97;
-        let t101 = rot_j_xx * t2 + rot_j_yx * t15 + rot_j_zx * t28;
-        let t102 = axis_j_local_ux * t92 - axis_j_local_uy * t98;
-        let t103 = axis_j_local_ux * t90 - axis_j_local_uy * t97;
-        let t104 = axis_local_ux * lambda_0;
-        let t105 = axis_local_ux * lambda_2;
-        let t106 = axis_local_vx * lambda_1;
-        let t107 = axis_local_vx * lambda_3;
-        let t108 = pitch * t60;
-        let t109 = turn_known_cos
-            * (axis_local_ux * turn_0_sin - axis_local_vx * turn_0_cos)
-            + turn_known_sin * (axis_local_ux * turn_0_cos + axis_local_vx * turn_0_sin);
-        let t110 = s_i_x * axis_local_ux;
-        let t111 = s_i_x + t73;
-        let t112 = axis_local_ux * t111;
-        let t113 = s_i_x * axis_local_vx;
-        let t114 = axis_local_vx * t111;
-        let t115 = axis_local_ux * t75;
-        let t116 = axis_local_vx * t75;
-        let t117 = axis_local_vx * t78;
-        let t118 = t117 + t63;
-        let t119 = axis_local_ux * t78;
-        let t120 = t119 + t66;
-        let t121 = s_i_x * axis_local_wx;
-        let t122 = axis_local_wx * t111;
-        let t123 = rot_j_xz * t4 + rot_j_yz * t17 + rot_j_zz * t30;
-        let t124 = rot_j_xy * t4 + rot_j_yy * t17 + rot_j_zy * t30;
-        let t125 = rot_j_xz * t5 + rot_j_yz * t18 + rot_j_zz * t31;
-        let t126 = rot_j_xy * t5 + rot_j_yy * t18 + rot_j_zy * t31;
-        let t127 = axis_j_local_uy * t125 - axis_j_local_uz * t126;
-        let t128 = axis_j_local_uy * t123 - axis_j_local_uz * t124;
-        let t129 = rot_j_xz * t6 + rot_j_yz * t19 + rot_j_zz * t32;
-        let t130 = rot_j_xy * t6 + rot_j_yy * t19 + rot_j_zy * t32;
-        let t131 = rot_j_xx * t4 + rot_j_yx * t17 + rot_j_zx * t30;
-        let t132 = rot_j_xx * t5 + rot_j_yx * t18 + rot_j_zx * t31;
-        let t133 = axis_j_local_ux * t125 - axis_j_local_uz * t132;
-        let t134 = axis_j_local_ux * t123 - axis_j_local_uz * t131;
-        let t135 = rot_j_xx * t6 + rot_j_yx * t19 + rot_j_zx * t32;
-        let t136 = axis_j_local_ux * t126 - axis_j_local_uy * t132;
-        let t137 = axis_j_local_ux * t124 - axis_j_local_uy * t131;
-        let t138 = pitch * t62;
-        let t139 = t117 + t61;
-        let t140 = t119 + t65;
-        let t141 = -t12;
-        let t142 = -t25;
-        let t143 = -t38;
-        let t144 = rot_j_xz * t9 + rot_j_yz * t22 + rot_j_zz * t35;
-        let t145 = rot_j_xy * t9 + rot_j_yy * t22 + rot_j_zy * t35;
-        let t146 = rot_j_xz * t10 + rot_j_yz * t23 + rot_j_zz * t36;
-        let t147 = rot_j_xy * t10 + rot_j_yy * t23 + rot_j_zy * t36;
-        let t148 = axis_j_local_uy * t146 - axis_j_local_uz * t147;
-        let t149 = axis_j_local_uy * t144 - axis_j_local_uz * t145;
-        let t150 = rot_j_xz * t11 + rot_j_yz * t24 + rot_j_zz * t37;
-        let t151 = rot_j_xy * t11 + rot_j_yy * t24 + rot_j_zy * t37;
-        let t152 = rot_j_xx * t9 + rot_j_yx * t22 + rot_j_zx * t35;
-        let t153 = rot_j_xx * t10 + rot_j_yx * t23 + rot_j_zx * t36;
-        let t154 = axis_j_local_ux * t146 - axis_j_local_uz * t153;
-        let t155 = axis_j_local_ux * t144 - axis_j_local_uz * t152;
-        let t156 = rot_j_xx * t11 + rot_j_yx * t24 + rot_j_zx * t37;
-        let t157 = axis_j_local_ux * t147 - axis_j_local_uy * t153;
-        let t158 = axis_j_local_ux * t145 - axis_j_local_uy * t152;
-        let t159 = rot_j_xy * s_j_z - rot_j_xz * s_j_y;
-        let t160 = rot_j_yy * s_j_z - rot_j_yz * s_j_y;
-        let t161 = rot_j_zy * s_j_z - rot_j_zz * s_j_y;
-        let t162 = rot_i_xz * t159 + rot_i_yz * t160 + rot_i_zz * t161;
-        let t163 = rot_i_xy * t159 + rot_i_yy * t160 + rot_i_zy * t161;
-        let t164 = rot_j_xy * axis_j_local_wz - rot_j_xz * axis_j_local_wy;
-        let t165 = rot_j_yy * axis_j_local_wz - rot_j_yz * axis_j_local_wy;
-        let t166 = rot_j_zy * axis_j_local_wz - rot_j_zz * axis_j_local_wy;
-        let t167 = rot_i_xz * t164 + rot_i_yz * t165 + rot_i_zz * t166;
-        let t168 = rot_i_xy * t164 + rot_i_yy * t165 + rot_i_zy * t166;
-        let t169 = rot_j_xy * axis_j_local_uz - rot_j_xz * axis_j_local_uy;
-        let t170 = rot_j_yy * axis_j_local_uz - rot_j_yz * axis_j_local_uy;
-        let t171 = rot_j_zy * axis_j_local_uz - rot_j_zz * axis_j_local_uy;
-        let t172 = rot_i_xz * t169 + rot_i_yz * t170 + rot_i_zz * t171;
-        let t173 = rot_i_xy * t169 + rot_i_yy * t170 + rot_i_zy * t171;
-        let t174 = axis_local_vy * t172 - axis_local_vz * t173;
-        let t175 = axis_local_uy * t172 - axis_local_uz * t173;
-        let t176 = rot_i_xx * t159 + rot_i_yx * t160 + rot_i_zx * t161;
-        let t177 = rot_i_xx * t164 + rot_i_yx * t165 + rot_i_zx * t166;
-        let t178 = rot_i_xx * t169 + rot_i_yx * t170 + rot_i_zx * t171;
-        let t179 = axis_local_vx * t172 - axis_local_vz * t178;
-        let t180 = axis_local_ux * t172 - axis_local_uz * t178;
-        let t181 = axis_local_vx * t173 - axis_local_vy * t178;
-        let t182 = axis_local_ux * t173 - axis_local_uy * t178;
-        let axis_u_x = rot_i_xx * axis_local_ux + rot_i_xy * axis_local_uy
-            + rot_i_xz * axis_local_uz;
-        let axis_u_y = rot_i_yx * axis_local_ux + rot_i_yy * axis_local_uy
-            + rot_i_yz * axis_local_uz;
-        let axis_u_z = rot_i_zx * axis_local_ux + rot_i_zy * axis_local_uy
-            + rot_i_zz * axis_local_uz;
-        let t183 = rot_j_xy * axis_u_x + rot_j_yy * axis_u_y + rot_j_zy * axis_u_z;
-        let t184 = s_j_y * t183;
-        let t185 = rot_j_xz * axis_u_x + rot_j_yz * axis_u_y + rot_j_zz * axis_u_z;
-        let t186 = s_j_z * t185;
+        let t68 = turn_0_cos * t64 + turn_0_sin * t67;
+        let t69 = turn_0_cos * t67 - turn_0_sin * t64;
+        let t70 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
+        let t71 = axis_local_vx * t70;
+        let t72 = t71 + t65;
+        let t73 = t72 + t66;
+        let t74 = axis_local_ux * t70;
+        let t75 = t74 + t61;
+        let t76 = t75 + t63;
+        let t77 = turn_0_cos * t73 - turn_0_sin * t76;
+        let t78 = turn_0_cos * t76 + turn_0_sin * t73;
+        let t79 = turn_known_cos * t77 - turn_known_sin * t78;
+        let t80 = axis_local_uy * t62 - axis_local_uz * t60;
+        let t81 = axis_local_vy * t62 - axis_local_vz * t60;
+        let t82 = turn_0_cos * t80 + turn_0_sin * t81;
+        let t83 = turn_0_cos * t81 - turn_0_sin * t80;
+        let t84 = turn_known_cos * t82 + turn_known_sin * t83;
+        let t85 = turn_known_cos * t83 - turn_known_sin * t82;
+        let t86 = t84 * t85;
+        let t87 = turn_known_cos * t78 + turn_known_sin * t77 - T::from(4.0);
+        let t88 = s_i_y * axis_local_wy;
+        let t89 = s_i_z * axis_local_wz;
+        let t90 = axis_local_wy * t45;
+        let t91 = axis_local_wz * t48;
+        let t92 = axis_local_uy * lambda_0;
+        let t93 = rot_i_xx * t41 + rot_i_yx * t42 + rot_i_zx * t43;
+        let t94 = axis_local_uy * lambda_2;
+        let t95 = rot_i_xx * w_x + rot_i_yx * w_y + rot_i_zx * w_z;
+        let t96 = axis_local_vy * lambda_1;
+        let t97 = axis_local_vy * lambda_3;
+        let t98 = axis_local_uy * turn_0_cos + axis_local_vy * turn_0_sin;
+        let t99 = axis_local_uy * turn_0_sin - axis_local_vy * turn_0_cos;
+        let t100 = turn_known_cos * t98 - turn_known_sin * t99;
+        let t101 = axis_local_vx * t62 - axis_local_vz * t70;
+        let t102 = axis_local_ux * t62 - axis_local_uz * t70;
+        let t103 = turn_0_cos * t101 - turn_0_sin * t102;
+        let t104 = turn_0_cos * t102 + turn_0_sin * t101;
+        let t105 = turn_known_cos * t103 - turn_known_sin * t104;
+        let t106 = t84 * t105;
+        let t107 = turn_known_cos * t99 + turn_known_sin * t98;
+        let t108 = turn_known_cos * t104 + turn_known_sin * t103;
+        let t109 = t108 * t85;
+        let t110 = axis_local_uz * lambda_0;
+        let t111 = axis_local_uz * lambda_2;
+        let t112 = axis_local_vz * lambda_1;
+        let t113 = axis_local_vz * lambda_3;
+        let t114 = axis_local_uz * turn_0_cos + axis_local_vz * turn_0_sin;
+        let t115 = axis_local_uz * turn_0_sin - axis_local_vz * turn_0_cos;
+        let t116 = turn_known_cos * t114 - turn_known_sin * t115;
+        let t117 = axis_local_vx * t60 - axis_local_vy * t70;
+        let t118 = axis_local_ux * t60 - axis_local_uy * t70;
+        let t119 = turn_0_cos * t117 - turn_0_sin * t118;
+        let t120 = turn_0_cos * t118 + turn_0_sin * t117;
+        let t121 = turn_known_cos * t119 - turn_known_sin * t120;
+        let t122 = t84 * t121;
+        let t123 = turn_known_cos * t115 + turn_known_sin * t114;
+        let t124 = turn_known_cos * t120 + turn_known_sin * t119;
+        let t125 = t124 * t85;
+        let t126 = -t3;
+        let t127 = -t16;
+        let t128 = -t29;
+        let t129 = rot_j_xz * t0 + rot_j_yz * t13 + rot_j_zz * t26;
+        let t130 = rot_j_xy * t0 + rot_j_yy * t13 + rot_j_zy * t26;
+        let t131 = rot_j_xz * t1 + rot_j_yz * t14 + rot_j_zz * t27;
+        let t132 = rot_j_xy * t1 + rot_j_yy * t14 + rot_j_zy * t27;
         let axis_v_x = rot_i_xx * axis_local_vx + rot_i_xy * axis_local_vy
             + rot_i_xz * axis_local_vz;
         let axis_v_y = rot_i_yx * axis_local_vx + rot_i_yy * axis_local_vy
             + rot_i_yz * axis_local_vz;
         let axis_v_z = rot_i_zx * axis_local_vx + rot_i_zy * axis_local_vy
             + rot_i_zz * axis_local_vz;
-        let t187 = rot_j_xy * axis_v_x + rot_j_yy * axis_v_y + rot_j_zy * axis_v_z;
-        let t188 = s_j_y * t187;
-        let t189 = rot_j_xz * axis_v_x + rot_j_yz * axis_v_y + rot_j_zz * axis_v_z;
-        let t190 = s_j_z * t189;
-        let t191 = axis_j_local_wy * t183;
-        let t192 = axis_j_local_wz * t185;
-        let t193 = axis_j_local_wy * t187;
-        let t194 = axis_j_local_wz * t189;
-        let t195 = axis_j_local_uy * t187;
-        let t196 = axis_j_local_uz * t189;
-        let t197 = t195 + t196;
-        let t198 = axis_j_local_uy * t183;
-        let t199 = axis_j_local_uz * t185;
-        let t200 = t198 + t199;
+        let t133 = rot_j_xz * axis_v_x + rot_j_yz * axis_v_y + rot_j_zz * axis_v_z;
+        let t134 = rot_j_xy * axis_v_x + rot_j_yy * axis_v_y + rot_j_zy * axis_v_z;
+        let t135 = axis_j_local_uy * t133 - axis_j_local_uz * t134;
+        let axis_u_x = rot_i_xx * axis_local_ux + rot_i_xy * axis_local_uy
+            + rot_i_xz * axis_local_uz;
+        let axis_u_y = rot_i_yx * axis_local_ux + rot_i_yy * axis_local_uy
+            + rot_i_yz * axis_local_uz;
+        let axis_u_z = rot_i_zx * axis_local_ux + rot_i_zy * axis_local_uy
+            + rot_i_zz * axis_local_uz;
+        let t136 = rot_j_xz * axis_u_x + rot_j_yz * axis_u_y + rot_j_zz * axis_u_z;
+        let t137 = rot_j_xy * axis_u_x + rot_j_yy * axis_u_y + rot_j_zy * axis_u_z;
+        let t138 = axis_j_local_uy * t136 - axis_j_local_uz * t137;
+        let t139 = turn_0_cos * t135 - turn_0_sin * t138;
+        let t140 = turn_0_cos * t138 + turn_0_sin * t135;
+        let t141 = turn_known_cos * t139 - turn_known_sin * t140;
+        let t142 = t84 * t141;
+        let t143 = axis_j_local_uy * t129 - axis_j_local_uz * t130;
+        let t144 = axis_j_local_uy * t131 - axis_j_local_uz * t132;
+        let t145 = turn_0_cos * t143 + turn_0_sin * t144;
+        let t146 = turn_0_cos * t144 - turn_0_sin * t143;
+        let t147 = turn_known_cos * t140 + turn_known_sin * t139;
+        let t148 = t85 * t147;
+        let t149 = rot_j_xz * t2 + rot_j_yz * t15 + rot_j_zz * t28;
+        let t150 = rot_j_xy * t2 + rot_j_yy * t15 + rot_j_zy * t28;
+        let t151 = rot_j_xx * t0 + rot_j_yx * t13 + rot_j_zx * t26;
+        let t152 = rot_j_xx * t1 + rot_j_yx * t14 + rot_j_zx * t27;
+        let t153 = rot_j_xx * axis_v_x + rot_j_yx * axis_v_y + rot_j_zx * axis_v_z;
+        let t154 = axis_j_local_ux * t133 - axis_j_local_uz * t153;
+        let t155 = rot_j_xx * axis_u_x + rot_j_yx * axis_u_y + rot_j_zx * axis_u_z;
+        let t156 = axis_j_local_ux * t136 - axis_j_local_uz * t155;
+        let t157 = turn_0_cos * t154 - turn_0_sin * t156;
+        let t158 = turn_0_cos * t156 + turn_0_sin * t154;
+        let t159 = turn_known_cos * t157 - turn_known_sin * t158;
+        let t160 = t84 * t159;
+        let t161 = axis_j_local_ux * t129 - axis_j_local_uz * t151;
+        let t162 = axis_j_local_ux * t131 - axis_j_local_uz * t152;
+        let t163 = turn_0_cos * t161 + turn_0_sin * t162;
+        let t164 = turn_0_cos * t162 - turn_0_sin * t161;
+        let t165 = turn_known_cos * t158 + turn_known_sin * t157;
+        let t166 = t85 * t165;
+        let t167 = rot_j_xx * t2 + rot_j_yx * t15 + rot_j_zx * t28;
+        let t168 = axis_j_local_ux * t134 - axis_j_local_uy * t153;
+        let t169 = axis_j_local_ux * t137 - axis_j_local_uy * t155;
+        let t170 = turn_0_cos * t168 - turn_0_sin * t169;
+        let t171 = turn_0_cos * t169 + turn_0_sin * t168;
+        let t172 = turn_known_cos * t170 - turn_known_sin * t171;
+        let t173 = t84 * t172;
+        let t174 = axis_j_local_ux * t130 - axis_j_local_uy * t151;
+        let t175 = axis_j_local_ux * t132 - axis_j_local_uy * t152;
+        let t176 = turn_0_cos * t174 + turn_0_sin * t175;
+        let t177 = turn_0_cos * t175 - turn_0_sin * t174;
+        let t178 = turn_known_cos * t171 + turn_known_sin * t170;
+        let t179 = t85 * t178;
+        let t180 = axis_local_ux * lambda_0;
+        let t181 = axis_local_ux * lambda_2;
+        let t182 = axis_local_vx * lambda_1;
+        let t183 = axis_local_vx * lambda_3;
+        let t184 = axis_local_ux * turn_0_cos + axis_local_vx * turn_0_sin;
+        let t185 = axis_local_ux * turn_0_sin - axis_local_vx * turn_0_cos;
+        let t186 = turn_known_cos * t184 - turn_known_sin * t185;
+        let t187 = turn_known_cos * t185 + turn_known_sin * t184;
+        let t188 = s_i_x * axis_local_ux;
+        let t189 = s_i_x + t93;
+        let t190 = axis_local_ux * t189;
+        let t191 = s_i_x * axis_local_vx;
+        let t192 = axis_local_vx * t189;
+        let t193 = axis_local_ux * t95;
+        let t194 = axis_local_vx * t95;
+        let t195 = t74 + t63;
+        let t196 = t71 + t66;
+        let t197 = turn_0_cos * t195 + turn_0_sin * t196;
+        let t198 = turn_0_cos * t196 - turn_0_sin * t195;
+        let t199 = t108 * t105;
+        let t200 = s_i_x * axis_local_wx;
+        let t201 = axis_local_wx * t189;
+        let t202 = t108 * t121;
+        let t203 = t124 * t105;
+        let t204 = rot_j_xz * t4 + rot_j_yz * t17 + rot_j_zz * t30;
+        let t205 = rot_j_xy * t4 + rot_j_yy * t17 + rot_j_zy * t30;
+        let t206 = rot_j_xz * t5 + rot_j_yz * t18 + rot_j_zz * t31;
+        let t207 = rot_j_xy * t5 + rot_j_yy * t18 + rot_j_zy * t31;
+        let t208 = t108 * t141;
+        let t209 = axis_j_local_uy * t204 - axis_j_local_uz * t205;
+        let t210 = axis_j_local_uy * t206 - axis_j_local_uz * t207;
+        let t211 = turn_0_cos * t209 + turn_0_sin * t210;
+        let t212 = turn_0_cos * t210 - turn_0_sin * t209;
+        let t213 = t105 * t147;
+        let t214 = rot_j_xz * t6 + rot_j_yz * t19 + rot_j_zz * t32;
+        let t215 = rot_j_xy * t6 + rot_j_yy * t19 + rot_j_zy * t32;
+        let t216 = rot_j_xx * t4 + rot_j_yx * t17 + rot_j_zx * t30;
+        let t217 = rot_j_xx * t5 + rot_j_yx * t18 + rot_j_zx * t31;
+        let t218 = t108 * t159;
+        let t219 = axis_j_local_ux * t204 - axis_j_local_uz * t216;
+        let t220 = axis_j_local_ux * t206 - axis_j_local_uz * t217;
+        let t221 = turn_0_cos * t219 + turn_0_sin * t220;
+        let t222 = turn_0_cos * t220 - turn_0_sin * t219;
+        let t223 = t105 * t165;
+        let t224 = rot_j_xx * t6 + rot_j_yx * t19 + rot_j_zx * t32;
+        let t225 = t108 * t172;
+        let t226 = axis_j_local_ux * t205 - axis_j_local_uy * t216;
+        let t227 = axis_j_local_ux * t207 - axis_j_local_uy * t217;
+        let t228 = turn_0_cos * t226 + turn_0_sin * t227;
+        let t229 = turn_0_cos * t227 - turn_0_sin * t226;
+        let t230 = t105 * t178;
+        let t231 = turn_0_cos * t75 + turn_0_sin * t72;
+        let t232 = turn_0_cos * t72 - turn_0_sin * t75;
+        let t233 = t124 * t121;
+        let t234 = -t12;
+        let t235 = -t25;
+        let t236 = -t38;
+        let t237 = rot_j_xz * t9 + rot_j_yz * t22 + rot_j_zz * t35;
+        let t238 = rot_j_xy * t9 + rot_j_yy * t22 + rot_j_zy * t35;
+        let t239 = rot_j_xz * t10 + rot_j_yz * t23 + rot_j_zz * t36;
+        let t240 = rot_j_xy * t10 + rot_j_yy * t23 + rot_j_zy * t36;
+        let t241 = t124 * t141;
+        let t242 = axis_j_local_uy * t237 - axis_j_local_uz * t238;
+        let t243 = axis_j_local_uy * t239 - axis_j_local_uz * t240;
+        let t244 = turn_0_cos * t242 + turn_0_sin * t243;
+        let t245 = turn_0_cos * t243 - turn_0_sin * t242;
+        let t246 = t121 * t147;
+        let t247 = rot_j_xz * t11 + rot_j_yz * t24 + rot_j_zz * t37;
+        let t248 = rot_j_xy * t11 + rot_j_yy * t24 + rot_j_zy * t37;
+        let t249 = rot_j_xx * t9 + rot_j_yx * t22 + rot_j_zx * t35;
+        let t250 = rot_j_xx * t10 + rot_j_yx * t23 + rot_j_zx * t36;
+        let t251 = t124 * t159;
+        let t252 = axis_j_local_ux * t237 - axis_j_local_uz * t249;
+        let t253 = axis_j_local_ux * t239 - axis_j_local_uz * t250;
+        let t254 = turn_0_cos * t252 + turn_0_sin * t253;
+        let t255 = turn_0_cos * t253 - turn_0_sin * t252;
+        let t256 = t121 * t165;
+        let t257 = rot_j_xx * t11 + rot_j_yx * t24 + rot_j_zx * t37;
+        let t258 = t124 * t172;
+        let t259 = axis_j_local_ux * t238 - axis_j_local_uy * t249;
+        let t260 = axis_j_local_ux * t240 - axis_j_local_uy * t250;
+        let t261 = turn_0_cos * t259 + turn_0_sin * t260;
+        let t262 = turn_0_cos * t260 - turn_0_sin * t259;
+        let t263 = t121 * t178;
+        let t264 = rot_j_xy * s_j_z - rot_j_xz * s_j_y;
+        let t265 = rot_j_yy * s_j_z - rot_j_yz * s_j_y;
+        let t266 = rot_j_zy * s_j_z - rot_j_zz * s_j_y;
+        let t267 = rot_i_xz * t264 + rot_i_yz * t265 + rot_i_zz * t266;
+        let t268 = rot_i_xy * t264 + rot_i_yy * t265 + rot_i_zy * t266;
+        let t269 = rot_j_xy * axis_j_local_wz - rot_j_xz * axis_j_local_wy;
+        let t270 = rot_j_yy * axis_j_local_wz - rot_j_yz * axis_j_local_wy;
+        let t271 = rot_j_zy * axis_j_local_wz - rot_j_zz * axis_j_local_wy;
+        let t272 = rot_i_xz * t269 + rot_i_yz * t270 + rot_i_zz * t271;
+        let t273 = rot_i_xy * t269 + rot_i_yy * t270 + rot_i_zy * t271;
+        let t274 = rot_j_xy * axis_j_local_uz - rot_j_xz * axis_j_local_uy;
+        let t275 = rot_j_yy * axis_j_local_uz - rot_j_yz * axis_j_local_uy;
+        let t276 = rot_j_zy * axis_j_local_uz - rot_j_zz * axis_j_local_uy;
+        let t277 = rot_i_xz * t274 + rot_i_yz * t275 + rot_i_zz * t276;
+        let t278 = rot_i_xy * t274 + rot_i_yy * t275 + rot_i_zy * t276;
+        let t279 = axis_local_vy * t277 - axis_local_vz * t278;
+        let t280 = axis_local_uy * t277 - axis_local_uz * t278;
+        let t281 = turn_0_cos * t279 - turn_0_sin * t280;
+        let t282 = turn_0_cos * t280 + turn_0_sin * t279;
+        let t283 = rot_i_xx * t264 + rot_i_yx * t265 + rot_i_zx * t266;
+        let t284 = rot_i_xx * t269 + rot_i_yx * t270 + rot_i_zx * t271;
+        let t285 = rot_i_xx * t274 + rot_i_yx * t275 + rot_i_zx * t276;
+        let t286 = axis_local_vx * t277 - axis_local_vz * t285;
+        let t287 = axis_local_ux * t277 - axis_local_uz * t285;
+        let t288 = turn_0_cos * t286 - turn_0_sin * t287;
+        let t289 = turn_0_cos * t287 + turn_0_sin * t286;
+        let t290 = axis_local_vx * t278 - axis_local_vy * t285;
+        let t291 = axis_local_ux * t278 - axis_local_uy * t285;
+        let t292 = turn_0_cos * t290 - turn_0_sin * t291;
+        let t293 = turn_0_cos * t291 + turn_0_sin * t290;
+        let t294 = s_j_y * t137;
+        let t295 = s_j_z * t136;
+        let t296 = s_j_y * t134;
+        let t297 = s_j_z * t133;
+        let t298 = axis_j_local_wy * t137;
+        let t299 = axis_j_local_wz * t136;
+        let t300 = axis_j_local_wy * t134;
+        let t301 = axis_j_local_wz * t133;
+        let t302 = axis_j_local_uy * t137;
+        let t303 = axis_j_local_uz * t136;
+        let t304 = t302 + t303;
+        let t305 = axis_j_local_uy * t134;
+        let t306 = axis_j_local_uz * t133;
+        let t307 = t305 + t306;
+        let t308 = turn_0_cos * t304 + turn_0_sin * t307;
+        let t309 = turn_0_cos * t307 - turn_0_sin * t304;
+        let t310 = t147 * t141;
         let axis_w_x = rot_i_xx * axis_local_wx + rot_i_xy * axis_local_wy
             + rot_i_xz * axis_local_wz;
         let axis_w_y = rot_i_yx * axis_local_wx + rot_i_yy * axis_local_wy
             + rot_i_yz * axis_local_wz;
         let axis_w_z = rot_i_zx * axis_local_wx + rot_i_zy * axis_local_wy
             + rot_i_zz * axis_local_wz;
-        let t201 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
-        let t202 = s_j_y * t201;
-        let t203 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
-        let t204 = s_j_z * t203;
-        let t205 = s_j_y * lambda_0;
-        let t206 = rot_j_xx * axis_u_x + rot_j_yx * axis_u_y + rot_j_zx * axis_u_z;
-        let t207 = s_j_y * lambda_1;
-        let t208 = rot_j_xx * axis_v_x + rot_j_yx * axis_v_y + rot_j_zx * axis_v_z;
-        let t209 = axis_j_local_wy * lambda_2;
-        let t210 = axis_j_local_wy * lambda_3;
-        let t211 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
-        let t212 = axis_j_local_uy * pitch;
-        let t213 = turn_known_cos * (turn_0_cos * t208 - turn_0_sin * t206)
-            - turn_known_sin * (turn_0_cos * t206 + turn_0_sin * t208);
-        let t214 = s_j_z * lambda_0;
-        let t215 = s_j_z * lambda_1;
-        let t216 = axis_j_local_wz * lambda_2;
-        let t217 = axis_j_local_wz * lambda_3;
-        let t218 = axis_j_local_uz * pitch;
-        let t219 = rot_j_xx * s_j_z - rot_j_xz * s_j_x;
-        let t220 = rot_j_yx * s_j_z - rot_j_yz * s_j_x;
-        let t221 = rot_j_zx * s_j_z - rot_j_zz * s_j_x;
-        let t222 = rot_i_xz * t219 + rot_i_yz * t220 + rot_i_zz * t221;
-        let t223 = rot_i_xy * t219 + rot_i_yy * t220 + rot_i_zy * t221;
-        let t224 = rot_j_xx * axis_j_local_wz - rot_j_xz * axis_j_local_wx;
-        let t225 = rot_j_yx * axis_j_local_wz - rot_j_yz * axis_j_local_wx;
-        let t226 = rot_j_zx * axis_j_local_wz - rot_j_zz * axis_j_local_wx;
-        let t227 = rot_i_xz * t224 + rot_i_yz * t225 + rot_i_zz * t226;
-        let t228 = rot_i_xy * t224 + rot_i_yy * t225 + rot_i_zy * t226;
-        let t229 = rot_j_xx * axis_j_local_uz - rot_j_xz * axis_j_local_ux;
-        let t230 = rot_j_yx * axis_j_local_uz - rot_j_yz * axis_j_local_ux;
-        let t231 = rot_j_zx * axis_j_local_uz - rot_j_zz * axis_j_local_ux;
-        let t232 = rot_i_xz * t229 + rot_i_yz * t230 + rot_i_zz * t231;
-        let t233 = rot_i_xy * t229 + rot_i_yy * t230 + rot_i_zy * t231;
-        let t234 = axis_local_vy * t232 - axis_local_vz * t233;
-        let t235 = axis_local_uy * t232 - axis_local_uz * t233;
-        let t236 = rot_i_xx * t219 + rot_i_yx * t220 + rot_i_zx * t221;
-        let t237 = rot_i_xx * t224 + rot_i_yx * t225 + rot_i_zx * t226;
-        let t238 = rot_i_xx * t229 + rot_i_yx * t230 + rot_i_zx * t231;
-        let t239 = axis_local_vx * t232 - axis_local_vz * t238;
-        let t240 = axis_local_ux * t232 - axis_local_uz * t238;
-        let t241 = axis_local_vx * t233 - axis_local_vy * t238;
-        let t242 = axis_local_ux * t233 - axis_local_uy * t238;
-        let t243 = s_j_x * lambda_0;
-        let t244 = s_j_x * lambda_1;
-        let t245 = axis_j_local_wx * lambda_2;
-        let t246 = axis_j_local_wx * lambda_3;
-        let t247 = axis_j_local_ux * pitch;
-        let t248 = turn_known_cos * (turn_0_cos * t187 - turn_0_sin * t183)
-            - turn_known_sin * (turn_0_cos * t183 + turn_0_sin * t187);
-        let t249 = s_j_x * t206;
-        let t250 = s_j_x * t208;
-        let t251 = axis_j_local_wx * t206;
-        let t252 = axis_j_local_wx * t208;
-        let t253 = axis_j_local_ux * t208;
-        let t254 = t253 + t196;
-        let t255 = axis_j_local_ux * t206;
-        let t256 = t255 + t199;
-        let t257 = s_j_x * t211;
-        let t258 = rot_j_xx * s_j_y - rot_j_xy * s_j_x;
-        let t259 = rot_j_yx * s_j_y - rot_j_yy * s_j_x;
-        let t260 = rot_j_zx * s_j_y - rot_j_zy * s_j_x;
-        let t261 = rot_i_xz * t258 + rot_i_yz * t259 + rot_i_zz * t260;
-        let t262 = rot_i_xy * t258 + rot_i_yy * t259 + rot_i_zy * t260;
-        let t263 = rot_j_xx * axis_j_local_wy - rot_j_xy * axis_j_local_wx;
-        let t264 = rot_j_yx * axis_j_local_wy - rot_j_yy * axis_j_local_wx;
-        let t265 = rot_j_zx * axis_j_local_wy - rot_j_zy * axis_j_local_wx;
-        let t266 = rot_i_xz * t263 + rot_i_yz * t264 + rot_i_zz * t265;
-        let t267 = rot_i_xy * t263 + rot_i_yy * t264 + rot_i_zy * t265;
-        let t268 = rot_j_xx * axis_j_local_uy - rot_j_xy * axis_j_local_ux;
-        let t269 = rot_j_yx * axis_j_local_uy - rot_j_yy * axis_j_local_ux;
-        let t270 = rot_j_zx * axis_j_local_uy - rot_j_zy * axis_j_local_ux;
-        let t271 = rot_i_xz * t268 + rot_i_yz * t269 + rot_i_zz * t270;
-        let t272 = rot_i_xy * t268 + rot_i_yy * t269 + rot_i_zy * t270;
-        let t273 = axis_local_vy * t271 - axis_local_vz * t272;
-        let t274 = axis_local_uy * t271 - axis_local_uz * t272;
-        let t275 = rot_i_xx * t258 + rot_i_yx * t259 + rot_i_zx * t260;
-        let t276 = rot_i_xx * t263 + rot_i_yx * t264 + rot_i_zx * t265;
-        let t277 = rot_i_xx * t268 + rot_i_yx * t269 + rot_i_zx * t270;
-        let t278 = axis_local_vx * t271 - axis_local_vz * t277;
-        let t279 = axis_local_ux * t271 - axis_local_uz * t277;
-        let t280 = axis_local_vx * t272 - axis_local_vy * t277;
-        let t281 = axis_local_ux * t272 - axis_local_uy * t277;
-        let t282 = turn_known_cos * (turn_0_cos * t189 - turn_0_sin * t185)
-            - turn_known_sin * (turn_0_cos * t185 + turn_0_sin * t189);
-        let t283 = t253 + t195;
-        let t284 = t255 + t198;
+        let t311 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
+        let t312 = s_j_y * t311;
+        let t313 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
+        let t314 = s_j_z * t313;
+        let t315 = s_j_y * lambda_0;
+        let t316 = s_j_y * lambda_1;
+        let t317 = axis_j_local_wy * lambda_2;
+        let t318 = axis_j_local_wy * lambda_3;
+        let t319 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
+        let t320 = turn_0_cos * t155 + turn_0_sin * t153;
+        let t321 = turn_0_cos * t153 - turn_0_sin * t155;
+        let t322 = turn_known_cos * t320 + turn_known_sin * t321;
+        let t323 = t159 * t147;
+        let t324 = turn_known_cos * t321 - turn_known_sin * t320;
+        let t325 = t165 * t141;
+        let t326 = s_j_z * lambda_0;
+        let t327 = s_j_z * lambda_1;
+        let t328 = axis_j_local_wz * lambda_2;
+        let t329 = axis_j_local_wz * lambda_3;
+        let t330 = t172 * t147;
+        let t331 = t178 * t141;
+        let t332 = rot_j_xx * s_j_z - rot_j_xz * s_j_x;
+        let t333 = rot_j_yx * s_j_z - rot_j_yz * s_j_x;
+        let t334 = rot_j_zx * s_j_z - rot_j_zz * s_j_x;
+        let t335 = rot_i_xz * t332 + rot_i_yz * t333 + rot_i_zz * t334;
+        let t336 = rot_i_xy * t332 + rot_i_yy * t333 + rot_i_zy * t334;
+        let t337 = rot_j_xx * axis_j_local_wz - rot_j_xz * axis_j_local_wx;
+        let t338 = rot_j_yx * axis_j_local_wz - rot_j_yz * axis_j_local_wx;
+        let t339 = rot_j_zx * axis_j_local_wz - rot_j_zz * axis_j_local_wx;
+        let t340 = rot_i_xz * t337 + rot_i_yz * t338 + rot_i_zz * t339;
+        let t341 = rot_i_xy * t337 + rot_i_yy * t338 + rot_i_zy * t339;
+        let t342 = rot_j_xx * axis_j_local_uz - rot_j_xz * axis_j_local_ux;
+        let t343 = rot_j_yx * axis_j_local_uz - rot_j_yz * axis_j_local_ux;
+        let t344 = rot_j_zx * axis_j_local_uz - rot_j_zz * axis_j_local_ux;
+        let t345 = rot_i_xz * t342 + rot_i_yz * t343 + rot_i_zz * t344;
+        let t346 = rot_i_xy * t342 + rot_i_yy * t343 + rot_i_zy * t344;
+        let t347 = axis_local_vy * t345 - axis_local_vz * t346;
+        let t348 = axis_local_uy * t345 - axis_local_uz * t346;
+        let t349 = turn_0_cos * t347 - turn_0_sin * t348;
+        let t350 = turn_0_cos * t348 + turn_0_sin * t347;
+        let t351 = rot_i_xx * t332 + rot_i_yx * t333 + rot_i_zx * t334;
+        let t352 = rot_i_xx * t337 + rot_i_yx * t338 + rot_i_zx * t339;
+        let t353 = rot_i_xx * t342 + rot_i_yx * t343 + rot_i_zx * t344;
+        let t354 = axis_local_vx * t345 - axis_local_vz * t353;
+        let t355 = axis_local_ux * t345 - axis_local_uz * t353;
+        let t356 = turn_0_cos * t354 - turn_0_sin * t355;
+        let t357 = turn_0_cos * t355 + turn_0_sin * t354;
+        let t358 = axis_local_vx * t346 - axis_local_vy * t353;
+        let t359 = axis_local_ux * t346 - axis_local_uy * t353;
+        let t360 = turn_0_cos * t358 - turn_0_sin * t359;
+        let t361 = turn_0_cos * t359 + turn_0_sin * t358;
+        let t362 = s_j_x * lambda_0;
+        let t363 = s_j_x * lambda_1;
+        let t364 = axis_j_local_wx * lambda_2;
+        let t365 = axis_j_local_wx * lambda_3;
+        let t366 = turn_0_cos * t137 + turn_0_sin * t134;
+        let t367 = turn_0_cos * t134 - turn_0_sin * t137;
+        let t368 = turn_known_cos * t366 + turn_known_sin * t367;
+        let t369 = turn_known_cos * t367 - turn_known_sin * t366;
+        let t370 = s_j_x * t155;
+        let t371 = s_j_x * t153;
+        let t372 = axis_j_local_wx * t155;
+        let t373 = axis_j_local_wx * t153;
+        let t374 = axis_j_local_ux * t155;
+        let t375 = t374 + t303;
+        let t376 = axis_j_local_ux * t153;
+        let t377 = t376 + t306;
+        let t378 = turn_0_cos * t375 + turn_0_sin * t377;
+        let t379 = turn_0_cos * t377 - turn_0_sin * t375;
+        let t380 = t165 * t159;
+        let t381 = s_j_x * t319;
+        let t382 = t172 * t165;
+        let t383 = t178 * t159;
+        let t384 = rot_j_xx * s_j_y - rot_j_xy * s_j_x;
+        let t385 = rot_j_yx * s_j_y - rot_j_yy * s_j_x;
+        let t386 = rot_j_zx * s_j_y - rot_j_zy * s_j_x;
+        let t387 = rot_i_xz * t384 + rot_i_yz * t385 + rot_i_zz * t386;
+        let t388 = rot_i_xy * t384 + rot_i_yy * t385 + rot_i_zy * t386;
+        let t389 = rot_j_xx * axis_j_local_wy - rot_j_xy * axis_j_local_wx;
+        let t390 = rot_j_yx * axis_j_local_wy - rot_j_yy * axis_j_local_wx;
+        let t391 = rot_j_zx * axis_j_local_wy - rot_j_zy * axis_j_local_wx;
+        let t392 = rot_i_xz * t389 + rot_i_yz * t390 + rot_i_zz * t391;
+        let t393 = rot_i_xy * t389 + rot_i_yy * t390 + rot_i_zy * t391;
+        let t394 = rot_j_xx * axis_j_local_uy - rot_j_xy * axis_j_local_ux;
+        let t395 = rot_j_yx * axis_j_local_uy - rot_j_yy * axis_j_local_ux;
+        let t396 = rot_j_zx * axis_j_local_uy - rot_j_zy * axis_j_local_ux;
+        let t397 = rot_i_xz * t394 + rot_i_yz * t395 + rot_i_zz * t396;
+        let t398 = rot_i_xy * t394 + rot_i_yy * t395 + rot_i_zy * t396;
+        let t399 = axis_local_vy * t397 - axis_local_vz * t398;
+        let t400 = axis_local_uy * t397 - axis_local_uz * t398;
+        let t401 = turn_0_cos * t399 - turn_0_sin * t400;
+        let t402 = turn_0_cos * t400 + turn_0_sin * t399;
+        let t403 = rot_i_xx * t384 + rot_i_yx * t385 + rot_i_zx * t386;
+        let t404 = rot_i_xx * t389 + rot_i_yx * t390 + rot_i_zx * t391;
+        let t405 = rot_i_xx * t394 + rot_i_yx * t395 + rot_i_zx * t396;
+        let t406 = axis_local_vx * t397 - axis_local_vz * t405;
+        let t407 = axis_local_ux * t397 - axis_local_uz * t405;
+        let t408 = turn_0_cos * t406 - turn_0_sin * t407;
+        let t409 = turn_0_cos * t407 + turn_0_sin * t406;
+        let t410 = axis_local_vx * t398 - axis_local_vy * t405;
+        let t411 = axis_local_ux * t398 - axis_local_uy * t405;
+        let t412 = turn_0_cos * t410 - turn_0_sin * t411;
+        let t413 = turn_0_cos * t411 + turn_0_sin * t410;
+        let t414 = turn_0_cos * t136 + turn_0_sin * t133;
+        let t415 = turn_0_cos * t133 - turn_0_sin * t136;
+        let t416 = turn_known_cos * t414 + turn_known_sin * t415;
+        let t417 = turn_known_cos * t415 - turn_known_sin * t414;
+        let t418 = t374 + t302;
+        let t419 = t376 + t305;
+        let t420 = turn_0_cos * t418 + turn_0_sin * t419;
+        let t421 = turn_0_cos * t419 - turn_0_sin * t418;
+        let t422 = t178 * t172;
         out[0] = t3;
         out[1] = t8;
         out[2] = t12;
@@ -2003,290 +2199,350 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         out[12] = -(lambda_0 * (t39 + t40 - (t46 + t49))
             + lambda_1 * (t50 + t51 - (t52 + t53)) + lambda_2 * (t55 + t57)
             + lambda_3 * (t58 + t59)
-            - lambda_4
-                * (T::from(0.15915494309189535)
-                    * (pitch
-                        * (turn_known_cos * (turn_0_cos * t64 - turn_0_sin * t67)
-                            - turn_known_sin * (turn_0_cos * t67 + turn_0_sin * t64)))
-                    - (t68 + t69 - (t70 + t71))));
-        out[13] = -(t72 * t73 - t74 * t75 + t76 * t73 - t77 * t75
             + lambda_4
-                * (axis_local_wy * t73 - T::from(0.15915494309189535) * (t79 * t80)));
-        out[14] = -(t81 * t73 - t82 * t75 + t83 * t73 - t84 * t75
+                * (T::from(0.05305164769729845)
+                    * (pitch
+                        * ((turn_known_cos * t68 + turn_known_sin * t69) * t79 - t86
+                            - (t86
+                                - (turn_known_cos * t69 - turn_known_sin * t68) * t87)))
+                    + (t88 + t89 - (t90 + t91))));
+        out[13] = -(t92 * t93 - t94 * t95 + t96 * t93 - t97 * t95
             + lambda_4
-                * (axis_local_wz * t73 - T::from(0.15915494309189535) * (t79 * t85)));
-        out[15] = t86;
-        out[16] = t87;
-        out[17] = t88;
-        out[18] = -(lambda_0 * (s_j_y * t89 - s_j_z * t90)
-            + lambda_1 * (s_j_y * t91 - s_j_z * t92)
-            + lambda_2 * (axis_j_local_wy * t89 - axis_j_local_wz * t90)
-            + lambda_3 * (axis_j_local_wy * t91 - axis_j_local_wz * t92)
+                * (axis_local_wy * t93
+                    - T::from(0.05305164769729845)
+                        * (pitch
+                            * (t70 * t100 * t79 - t106 - (t70 * t107 * t87 + t109)))));
+        out[14] = -(t110 * t93 - t111 * t95 + t112 * t93 - t113 * t95
+            + lambda_4
+                * (axis_local_wz * t93
+                    - T::from(0.05305164769729845)
+                        * (pitch
+                            * (t70 * t116 * t79 + t122 - (t70 * t123 * t87 - t125)))));
+        out[15] = t126;
+        out[16] = t127;
+        out[17] = t128;
+        out[18] = -(lambda_0 * (s_j_y * t129 - s_j_z * t130)
+            + lambda_1 * (s_j_y * t131 - s_j_z * t132)
+            + lambda_2 * (axis_j_local_wy * t129 - axis_j_local_wz * t130)
+            + lambda_3 * (axis_j_local_wy * t131 - axis_j_local_wz * t132)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t93 - turn_0_sin * t94)
-                            - turn_known_sin * (turn_0_cos * t94 + turn_0_sin * t93)))
-                    - (s_j_y * t95 - s_j_z * t96)));
-        out[19] = lambda_0 * (s_j_x * t89 - s_j_z * t97)
-            + lambda_1 * (s_j_x * t91 - s_j_z * t98)
-            + lambda_2 * (axis_j_local_wx * t89 - axis_j_local_wz * t97)
-            + lambda_3 * (axis_j_local_wx * t91 - axis_j_local_wz * t98)
+                        * (t142 - t79 * (turn_known_cos * t145 + turn_known_sin * t146)
+                            + (t148
+                                - (turn_known_cos * t146 - turn_known_sin * t145) * t87)))
+                    - (s_j_y * t149 - s_j_z * t150)));
+        out[19] = lambda_0 * (s_j_x * t129 - s_j_z * t151)
+            + lambda_1 * (s_j_x * t131 - s_j_z * t152)
+            + lambda_2 * (axis_j_local_wx * t129 - axis_j_local_wz * t151)
+            + lambda_3 * (axis_j_local_wx * t131 - axis_j_local_wz * t152)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t99 - turn_0_sin * t100)
-                            - turn_known_sin * (turn_0_cos * t100 + turn_0_sin * t99)))
-                    - (s_j_x * t95 - s_j_z * t101));
-        out[20] = -(lambda_0 * (s_j_x * t90 - s_j_y * t97)
-            + lambda_1 * (s_j_x * t92 - s_j_y * t98)
-            + lambda_2 * (axis_j_local_wx * t90 - axis_j_local_wy * t97)
-            + lambda_3 * (axis_j_local_wx * t92 - axis_j_local_wy * t98)
+                        * (t160 - t79 * (turn_known_cos * t163 + turn_known_sin * t164)
+                            + (t166
+                                - (turn_known_cos * t164 - turn_known_sin * t163) * t87)))
+                    - (s_j_x * t149 - s_j_z * t167));
+        out[20] = -(lambda_0 * (s_j_x * t130 - s_j_y * t151)
+            + lambda_1 * (s_j_x * t132 - s_j_y * t152)
+            + lambda_2 * (axis_j_local_wx * t130 - axis_j_local_wy * t151)
+            + lambda_3 * (axis_j_local_wx * t132 - axis_j_local_wy * t152)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t102 - turn_0_sin * t103)
-                            - turn_known_sin * (turn_0_cos * t103 + turn_0_sin * t102)))
-                    - (s_j_x * t96 - s_j_y * t101)));
+                        * (t173 - t79 * (turn_known_cos * t176 + turn_known_sin * t177)
+                            + (t179
+                                - (turn_known_cos * t177 - turn_known_sin * t176) * t87)))
+                    - (s_j_x * t150 - s_j_y * t167)));
         out[21] = t8;
         out[22] = t21;
         out[23] = t34;
-        out[24] = -(t104 * t44 - t105 * t54 + t106 * t44 - t107 * t54
+        out[24] = -(t180 * t44 - t181 * t54 + t182 * t44 - t183 * t54
             + lambda_4
-                * (axis_local_wx * t44 - T::from(0.15915494309189535) * (t108 * t109)));
-        out[25] = -(lambda_0 * (t110 + t40 - (t112 + t49))
-            + lambda_1 * (t113 + t51 - (t114 + t53)) + lambda_2 * (t115 + t57)
-            + lambda_3 * (t116 + t59)
-            - lambda_4
-                * (T::from(0.15915494309189535)
+                * (axis_local_wx * t44
+                    - T::from(0.05305164769729845)
+                        * (pitch
+                            * (t60 * t186 * t79 - t109 - (t60 * t187 * t87 + t106)))));
+        out[25] = -(lambda_0 * (t188 + t40 - (t190 + t49))
+            + lambda_1 * (t191 + t51 - (t192 + t53)) + lambda_2 * (t193 + t57)
+            + lambda_3 * (t194 + t59)
+            + lambda_4
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t118 - turn_0_sin * t120)
-                            - turn_known_sin * (turn_0_cos * t120 + turn_0_sin * t118)))
-                    - (t121 + t69 - (t122 + t71))));
-        out[26] = -(t81 * t44 - t82 * t54 + t83 * t44 - t84 * t54
+                        * ((turn_known_cos * t197 + turn_known_sin * t198) * t79 - t199
+                            - (t199
+                                - (turn_known_cos * t198 - turn_known_sin * t197) * t87)))
+                    + (t200 + t89 - (t201 + t91))));
+        out[26] = -(t110 * t44 - t111 * t54 + t112 * t44 - t113 * t54
             + lambda_4
-                * (axis_local_wz * t44 - T::from(0.15915494309189535) * (t108 * t85)));
+                * (axis_local_wz * t44
+                    - T::from(0.05305164769729845)
+                        * (pitch
+                            * (t60 * t116 * t79 - t202 - (t60 * t123 * t87 + t203)))));
         out[27] = t7;
         out[28] = t20;
         out[29] = t33;
-        out[30] = lambda_0 * (s_j_y * t123 - s_j_z * t124)
-            + lambda_1 * (s_j_y * t125 - s_j_z * t126)
-            + lambda_2 * (axis_j_local_wy * t123 - axis_j_local_wz * t124)
-            + lambda_3 * (axis_j_local_wy * t125 - axis_j_local_wz * t126)
+        out[30] = lambda_0 * (s_j_y * t204 - s_j_z * t205)
+            + lambda_1 * (s_j_y * t206 - s_j_z * t207)
+            + lambda_2 * (axis_j_local_wy * t204 - axis_j_local_wz * t205)
+            + lambda_3 * (axis_j_local_wy * t206 - axis_j_local_wz * t207)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t127 - turn_0_sin * t128)
-                            - turn_known_sin * (turn_0_cos * t128 + turn_0_sin * t127)))
-                    - (s_j_y * t129 - s_j_z * t130));
-        out[31] = -(lambda_0 * (s_j_x * t123 - s_j_z * t131)
-            + lambda_1 * (s_j_x * t125 - s_j_z * t132)
-            + lambda_2 * (axis_j_local_wx * t123 - axis_j_local_wz * t131)
-            + lambda_3 * (axis_j_local_wx * t125 - axis_j_local_wz * t132)
+                        * (t208 - t79 * (turn_known_cos * t211 + turn_known_sin * t212)
+                            + (t213
+                                - (turn_known_cos * t212 - turn_known_sin * t211) * t87)))
+                    - (s_j_y * t214 - s_j_z * t215));
+        out[31] = -(lambda_0 * (s_j_x * t204 - s_j_z * t216)
+            + lambda_1 * (s_j_x * t206 - s_j_z * t217)
+            + lambda_2 * (axis_j_local_wx * t204 - axis_j_local_wz * t216)
+            + lambda_3 * (axis_j_local_wx * t206 - axis_j_local_wz * t217)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t133 - turn_0_sin * t134)
-                            - turn_known_sin * (turn_0_cos * t134 + turn_0_sin * t133)))
-                    - (s_j_x * t129 - s_j_z * t135)));
-        out[32] = lambda_0 * (s_j_x * t124 - s_j_y * t131)
-            + lambda_1 * (s_j_x * t126 - s_j_y * t132)
-            + lambda_2 * (axis_j_local_wx * t124 - axis_j_local_wy * t131)
-            + lambda_3 * (axis_j_local_wx * t126 - axis_j_local_wy * t132)
+                        * (t218 - t79 * (turn_known_cos * t221 + turn_known_sin * t222)
+                            + (t223
+                                - (turn_known_cos * t222 - turn_known_sin * t221) * t87)))
+                    - (s_j_x * t214 - s_j_z * t224)));
+        out[32] = lambda_0 * (s_j_x * t205 - s_j_y * t216)
+            + lambda_1 * (s_j_x * t207 - s_j_y * t217)
+            + lambda_2 * (axis_j_local_wx * t205 - axis_j_local_wy * t216)
+            + lambda_3 * (axis_j_local_wx * t207 - axis_j_local_wy * t217)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t136 - turn_0_sin * t137)
-                            - turn_known_sin * (turn_0_cos * t137 + turn_0_sin * t136)))
-                    - (s_j_x * t130 - s_j_y * t135));
+                        * (t225 - t79 * (turn_known_cos * t228 + turn_known_sin * t229)
+                            + (t230
+                                - (turn_known_cos * t229 - turn_known_sin * t228) * t87)))
+                    - (s_j_x * t215 - s_j_y * t224));
         out[33] = t12;
         out[34] = t25;
         out[35] = t38;
-        out[36] = -(t104 * t47 - t105 * t56 + t106 * t47 - t107 * t56
+        out[36] = -(t180 * t47 - t181 * t56 + t182 * t47 - t183 * t56
             + lambda_4
-                * (axis_local_wx * t47 - T::from(0.15915494309189535) * (t138 * t109)));
-        out[37] = -(t72 * t47 - t74 * t56 + t76 * t47 - t77 * t56
+                * (axis_local_wx * t47
+                    - T::from(0.05305164769729845)
+                        * (pitch
+                            * (t62 * t186 * t79 + t125 - (t62 * t187 * t87 - t122)))));
+        out[37] = -(t92 * t47 - t94 * t56 + t96 * t47 - t97 * t56
             + lambda_4
-                * (axis_local_wy * t47 - T::from(0.15915494309189535) * (t138 * t80)));
-        out[38] = -(lambda_0 * (t110 + t39 - (t112 + t46))
-            + lambda_1 * (t113 + t50 - (t114 + t52)) + lambda_2 * (t115 + t55)
-            + lambda_3 * (t116 + t58)
-            - lambda_4
-                * (T::from(0.15915494309189535)
+                * (axis_local_wy * t47
+                    - T::from(0.05305164769729845)
+                        * (pitch
+                            * (t62 * t100 * t79 - t203 - (t62 * t107 * t87 + t202)))));
+        out[38] = -(lambda_0 * (t188 + t39 - (t190 + t46))
+            + lambda_1 * (t191 + t50 - (t192 + t52)) + lambda_2 * (t193 + t55)
+            + lambda_3 * (t194 + t58)
+            + lambda_4
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t139 - turn_0_sin * t140)
-                            - turn_known_sin * (turn_0_cos * t140 + turn_0_sin * t139)))
-                    - (t121 + t68 - (t122 + t70))));
-        out[39] = t141;
-        out[40] = t142;
-        out[41] = t143;
-        out[42] = -(lambda_0 * (s_j_y * t144 - s_j_z * t145)
-            + lambda_1 * (s_j_y * t146 - s_j_z * t147)
-            + lambda_2 * (axis_j_local_wy * t144 - axis_j_local_wz * t145)
-            + lambda_3 * (axis_j_local_wy * t146 - axis_j_local_wz * t147)
+                        * ((turn_known_cos * t231 + turn_known_sin * t232) * t79 - t233
+                            - (t233
+                                - (turn_known_cos * t232 - turn_known_sin * t231) * t87)))
+                    + (t200 + t88 - (t201 + t90))));
+        out[39] = t234;
+        out[40] = t235;
+        out[41] = t236;
+        out[42] = -(lambda_0 * (s_j_y * t237 - s_j_z * t238)
+            + lambda_1 * (s_j_y * t239 - s_j_z * t240)
+            + lambda_2 * (axis_j_local_wy * t237 - axis_j_local_wz * t238)
+            + lambda_3 * (axis_j_local_wy * t239 - axis_j_local_wz * t240)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t148 - turn_0_sin * t149)
-                            - turn_known_sin * (turn_0_cos * t149 + turn_0_sin * t148)))
-                    - (s_j_y * t150 - s_j_z * t151)));
-        out[43] = lambda_0 * (s_j_x * t144 - s_j_z * t152)
-            + lambda_1 * (s_j_x * t146 - s_j_z * t153)
-            + lambda_2 * (axis_j_local_wx * t144 - axis_j_local_wz * t152)
-            + lambda_3 * (axis_j_local_wx * t146 - axis_j_local_wz * t153)
+                        * (t241 - t79 * (turn_known_cos * t244 + turn_known_sin * t245)
+                            + (t246
+                                - (turn_known_cos * t245 - turn_known_sin * t244) * t87)))
+                    - (s_j_y * t247 - s_j_z * t248)));
+        out[43] = lambda_0 * (s_j_x * t237 - s_j_z * t249)
+            + lambda_1 * (s_j_x * t239 - s_j_z * t250)
+            + lambda_2 * (axis_j_local_wx * t237 - axis_j_local_wz * t249)
+            + lambda_3 * (axis_j_local_wx * t239 - axis_j_local_wz * t250)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t154 - turn_0_sin * t155)
-                            - turn_known_sin * (turn_0_cos * t155 + turn_0_sin * t154)))
-                    - (s_j_x * t150 - s_j_z * t156));
-        out[44] = -(lambda_0 * (s_j_x * t145 - s_j_y * t152)
-            + lambda_1 * (s_j_x * t147 - s_j_y * t153)
-            + lambda_2 * (axis_j_local_wx * t145 - axis_j_local_wy * t152)
-            + lambda_3 * (axis_j_local_wx * t147 - axis_j_local_wy * t153)
+                        * (t251 - t79 * (turn_known_cos * t254 + turn_known_sin * t255)
+                            + (t256
+                                - (turn_known_cos * t255 - turn_known_sin * t254) * t87)))
+                    - (s_j_x * t247 - s_j_z * t257));
+        out[44] = -(lambda_0 * (s_j_x * t238 - s_j_y * t249)
+            + lambda_1 * (s_j_x * t240 - s_j_y * t250)
+            + lambda_2 * (axis_j_local_wx * t238 - axis_j_local_wy * t249)
+            + lambda_3 * (axis_j_local_wx * t240 - axis_j_local_wy * t250)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t157 - turn_0_sin * t158)
-                            - turn_known_sin * (turn_0_cos * t158 + turn_0_sin * t157)))
-                    - (s_j_x * t151 - s_j_y * t156)));
-        out[45] = t86;
+                        * (t258 - t79 * (turn_known_cos * t261 + turn_known_sin * t262)
+                            + (t263
+                                - (turn_known_cos * t262 - turn_known_sin * t261) * t87)))
+                    - (s_j_x * t248 - s_j_y * t257)));
+        out[45] = t126;
         out[46] = t7;
-        out[47] = t141;
-        out[48] = t87;
+        out[47] = t234;
+        out[48] = t127;
         out[49] = t20;
-        out[50] = t142;
-        out[51] = t88;
+        out[50] = t235;
+        out[51] = t128;
         out[52] = t33;
-        out[53] = t143;
-        out[54] = -(lambda_0 * (axis_local_uy * t162 - axis_local_uz * t163)
-            + lambda_1 * (axis_local_vy * t162 - axis_local_vz * t163)
-            + lambda_2 * (axis_local_uy * t167 - axis_local_uz * t168)
-            + lambda_3 * (axis_local_vy * t167 - axis_local_vz * t168)
+        out[53] = t236;
+        out[54] = -(lambda_0 * (axis_local_uy * t267 - axis_local_uz * t268)
+            + lambda_1 * (axis_local_vy * t267 - axis_local_vz * t268)
+            + lambda_2 * (axis_local_uy * t272 - axis_local_uz * t273)
+            + lambda_3 * (axis_local_vy * t272 - axis_local_vz * t273)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t174 - turn_0_sin * t175)
-                            - turn_known_sin * (turn_0_cos * t175 + turn_0_sin * t174)))
-                    - (axis_local_wy * t162 - axis_local_wz * t163)));
-        out[55] = lambda_0 * (axis_local_ux * t162 - axis_local_uz * t176)
-            + lambda_1 * (axis_local_vx * t162 - axis_local_vz * t176)
-            + lambda_2 * (axis_local_ux * t167 - axis_local_uz * t177)
-            + lambda_3 * (axis_local_vx * t167 - axis_local_vz * t177)
+                        * (t142 - (turn_known_cos * t281 - turn_known_sin * t282) * t87
+                            - ((turn_known_cos * t282 + turn_known_sin * t281) * t79
+                                - t148))) - (axis_local_wy * t267 - axis_local_wz * t268)));
+        out[55] = lambda_0 * (axis_local_ux * t267 - axis_local_uz * t283)
+            + lambda_1 * (axis_local_vx * t267 - axis_local_vz * t283)
+            + lambda_2 * (axis_local_ux * t272 - axis_local_uz * t284)
+            + lambda_3 * (axis_local_vx * t272 - axis_local_vz * t284)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t179 - turn_0_sin * t180)
-                            - turn_known_sin * (turn_0_cos * t180 + turn_0_sin * t179)))
-                    - (axis_local_wx * t162 - axis_local_wz * t176));
-        out[56] = -(lambda_0 * (axis_local_ux * t163 - axis_local_uy * t176)
-            + lambda_1 * (axis_local_vx * t163 - axis_local_vy * t176)
-            + lambda_2 * (axis_local_ux * t168 - axis_local_uy * t177)
-            + lambda_3 * (axis_local_vx * t168 - axis_local_vy * t177)
+                        * (t208 - (turn_known_cos * t288 - turn_known_sin * t289) * t87
+                            - ((turn_known_cos * t289 + turn_known_sin * t288) * t79
+                                - t213))) - (axis_local_wx * t267 - axis_local_wz * t283));
+        out[56] = -(lambda_0 * (axis_local_ux * t268 - axis_local_uy * t283)
+            + lambda_1 * (axis_local_vx * t268 - axis_local_vy * t283)
+            + lambda_2 * (axis_local_ux * t273 - axis_local_uy * t284)
+            + lambda_3 * (axis_local_vx * t273 - axis_local_vy * t284)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t181 - turn_0_sin * t182)
-                            - turn_known_sin * (turn_0_cos * t182 + turn_0_sin * t181)))
-                    - (axis_local_wx * t163 - axis_local_wy * t176)));
-        out[57] = -(lambda_0 * (t184 + t186) + lambda_1 * (t188 + t190)
-            + lambda_2 * (t191 + t192) + lambda_3 * (t193 + t194)
+                        * (t241 - (turn_known_cos * t292 - turn_known_sin * t293) * t87
+                            - ((turn_known_cos * t293 + turn_known_sin * t292) * t79
+                                - t246))) - (axis_local_wx * t268 - axis_local_wy * t283)));
+        out[57] = -(lambda_0 * (t294 + t295) + lambda_1 * (t296 + t297)
+            + lambda_2 * (t298 + t299) + lambda_3 * (t300 + t301)
+            + lambda_4
+                * (T::from(0.05305164769729845)
+                    * (pitch
+                        * (t79 * (turn_known_cos * t308 + turn_known_sin * t309) - t310
+                            + ((turn_known_cos * t309 - turn_known_sin * t308) * t87
+                                - t310))) + (t312 + t314)));
+        out[58] = t315 * t155 + t316 * t153 + t317 * t155 + t318 * t153
+            + lambda_4
+                * (s_j_y * t319
+                    + T::from(0.05305164769729845)
+                        * (pitch
+                            * (axis_j_local_uy * t322 * t79 - t323
+                                + (axis_j_local_uy * t324 * t87 - t325))));
+        out[59] = t326 * t155 + t327 * t153 + t328 * t155 + t329 * t153
+            + lambda_4
+                * (s_j_z * t319
+                    + T::from(0.05305164769729845)
+                        * (pitch
+                            * (axis_j_local_uz * t322 * t79 + t330
+                                + (axis_j_local_uz * t324 * t87 + t331))));
+        out[60] = lambda_0 * (axis_local_uy * t335 - axis_local_uz * t336)
+            + lambda_1 * (axis_local_vy * t335 - axis_local_vz * t336)
+            + lambda_2 * (axis_local_uy * t340 - axis_local_uz * t341)
+            + lambda_3 * (axis_local_vy * t340 - axis_local_vz * t341)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t197 - turn_0_sin * t200)
-                            - turn_known_sin * (turn_0_cos * t200 + turn_0_sin * t197)))
-                    - (t202 + t204)));
-        out[58] = t205 * t206 + t207 * t208 + t209 * t206 + t210 * t208
-            + lambda_4 * (s_j_y * t211 - T::from(0.15915494309189535) * (t212 * t213));
-        out[59] = t214 * t206 + t215 * t208 + t216 * t206 + t217 * t208
-            + lambda_4 * (s_j_z * t211 - T::from(0.15915494309189535) * (t218 * t213));
-        out[60] = lambda_0 * (axis_local_uy * t222 - axis_local_uz * t223)
-            + lambda_1 * (axis_local_vy * t222 - axis_local_vz * t223)
-            + lambda_2 * (axis_local_uy * t227 - axis_local_uz * t228)
-            + lambda_3 * (axis_local_vy * t227 - axis_local_vz * t228)
+                        * (t160 - (turn_known_cos * t349 - turn_known_sin * t350) * t87
+                            - ((turn_known_cos * t350 + turn_known_sin * t349) * t79
+                                - t166))) - (axis_local_wy * t335 - axis_local_wz * t336));
+        out[61] = -(lambda_0 * (axis_local_ux * t335 - axis_local_uz * t351)
+            + lambda_1 * (axis_local_vx * t335 - axis_local_vz * t351)
+            + lambda_2 * (axis_local_ux * t340 - axis_local_uz * t352)
+            + lambda_3 * (axis_local_vx * t340 - axis_local_vz * t352)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t234 - turn_0_sin * t235)
-                            - turn_known_sin * (turn_0_cos * t235 + turn_0_sin * t234)))
-                    - (axis_local_wy * t222 - axis_local_wz * t223));
-        out[61] = -(lambda_0 * (axis_local_ux * t222 - axis_local_uz * t236)
-            + lambda_1 * (axis_local_vx * t222 - axis_local_vz * t236)
-            + lambda_2 * (axis_local_ux * t227 - axis_local_uz * t237)
-            + lambda_3 * (axis_local_vx * t227 - axis_local_vz * t237)
+                        * (t218 - (turn_known_cos * t356 - turn_known_sin * t357) * t87
+                            - ((turn_known_cos * t357 + turn_known_sin * t356) * t79
+                                - t223))) - (axis_local_wx * t335 - axis_local_wz * t351)));
+        out[62] = lambda_0 * (axis_local_ux * t336 - axis_local_uy * t351)
+            + lambda_1 * (axis_local_vx * t336 - axis_local_vy * t351)
+            + lambda_2 * (axis_local_ux * t341 - axis_local_uy * t352)
+            + lambda_3 * (axis_local_vx * t341 - axis_local_vy * t352)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t239 - turn_0_sin * t240)
-                            - turn_known_sin * (turn_0_cos * t240 + turn_0_sin * t239)))
-                    - (axis_local_wx * t222 - axis_local_wz * t236)));
-        out[62] = lambda_0 * (axis_local_ux * t223 - axis_local_uy * t236)
-            + lambda_1 * (axis_local_vx * t223 - axis_local_vy * t236)
-            + lambda_2 * (axis_local_ux * t228 - axis_local_uy * t237)
-            + lambda_3 * (axis_local_vx * t228 - axis_local_vy * t237)
+                        * (t251 - (turn_known_cos * t360 - turn_known_sin * t361) * t87
+                            - ((turn_known_cos * t361 + turn_known_sin * t360) * t79
+                                - t256))) - (axis_local_wx * t336 - axis_local_wy * t351));
+        out[63] = t362 * t137 + t363 * t134 + t364 * t137 + t365 * t134
+            + lambda_4
+                * (s_j_x * t311
+                    + T::from(0.05305164769729845)
+                        * (pitch
+                            * (axis_j_local_ux * t368 * t79 - t325
+                                + (axis_j_local_ux * t369 * t87 - t323))));
+        out[64] = -(lambda_0 * (t370 + t295) + lambda_1 * (t371 + t297)
+            + lambda_2 * (t372 + t299) + lambda_3 * (t373 + t301)
+            + lambda_4
+                * (T::from(0.05305164769729845)
+                    * (pitch
+                        * (t79 * (turn_known_cos * t378 + turn_known_sin * t379) - t380
+                            + ((turn_known_cos * t379 - turn_known_sin * t378) * t87
+                                - t380))) + (t381 + t314)));
+        out[65] = t326 * t137 + t327 * t134 + t328 * t137 + t329 * t134
+            + lambda_4
+                * (s_j_z * t311
+                    + T::from(0.05305164769729845)
+                        * (pitch
+                            * (axis_j_local_uz * t368 * t79 - t382
+                                + (axis_j_local_uz * t369 * t87 - t383))));
+        out[66] = -(lambda_0 * (axis_local_uy * t387 - axis_local_uz * t388)
+            + lambda_1 * (axis_local_vy * t387 - axis_local_vz * t388)
+            + lambda_2 * (axis_local_uy * t392 - axis_local_uz * t393)
+            + lambda_3 * (axis_local_vy * t392 - axis_local_vz * t393)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t241 - turn_0_sin * t242)
-                            - turn_known_sin * (turn_0_cos * t242 + turn_0_sin * t241)))
-                    - (axis_local_wx * t223 - axis_local_wy * t236));
-        out[63] = t243 * t183 + t244 * t187 + t245 * t183 + t246 * t187
-            + lambda_4 * (s_j_x * t201 - T::from(0.15915494309189535) * (t247 * t248));
-        out[64] = -(lambda_0 * (t249 + t186) + lambda_1 * (t250 + t190)
-            + lambda_2 * (t251 + t192) + lambda_3 * (t252 + t194)
+                        * (t173 - (turn_known_cos * t401 - turn_known_sin * t402) * t87
+                            - ((turn_known_cos * t402 + turn_known_sin * t401) * t79
+                                - t179))) - (axis_local_wy * t387 - axis_local_wz * t388)));
+        out[67] = lambda_0 * (axis_local_ux * t387 - axis_local_uz * t403)
+            + lambda_1 * (axis_local_vx * t387 - axis_local_vz * t403)
+            + lambda_2 * (axis_local_ux * t392 - axis_local_uz * t404)
+            + lambda_3 * (axis_local_vx * t392 - axis_local_vz * t404)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t254 - turn_0_sin * t256)
-                            - turn_known_sin * (turn_0_cos * t256 + turn_0_sin * t254)))
-                    - (t257 + t204)));
-        out[65] = t214 * t183 + t215 * t187 + t216 * t183 + t217 * t187
-            + lambda_4 * (s_j_z * t201 - T::from(0.15915494309189535) * (t218 * t248));
-        out[66] = -(lambda_0 * (axis_local_uy * t261 - axis_local_uz * t262)
-            + lambda_1 * (axis_local_vy * t261 - axis_local_vz * t262)
-            + lambda_2 * (axis_local_uy * t266 - axis_local_uz * t267)
-            + lambda_3 * (axis_local_vy * t266 - axis_local_vz * t267)
+                        * (t225 - (turn_known_cos * t408 - turn_known_sin * t409) * t87
+                            - ((turn_known_cos * t409 + turn_known_sin * t408) * t79
+                                - t230))) - (axis_local_wx * t387 - axis_local_wz * t403));
+        out[68] = -(lambda_0 * (axis_local_ux * t388 - axis_local_uy * t403)
+            + lambda_1 * (axis_local_vx * t388 - axis_local_vy * t403)
+            + lambda_2 * (axis_local_ux * t393 - axis_local_uy * t404)
+            + lambda_3 * (axis_local_vx * t393 - axis_local_vy * t404)
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t273 - turn_0_sin * t274)
-                            - turn_known_sin * (turn_0_cos * t274 + turn_0_sin * t273)))
-                    - (axis_local_wy * t261 - axis_local_wz * t262)));
-        out[67] = lambda_0 * (axis_local_ux * t261 - axis_local_uz * t275)
-            + lambda_1 * (axis_local_vx * t261 - axis_local_vz * t275)
-            + lambda_2 * (axis_local_ux * t266 - axis_local_uz * t276)
-            + lambda_3 * (axis_local_vx * t266 - axis_local_vz * t276)
-            - lambda_4
-                * (T::from(0.15915494309189535)
+                        * (t258 - (turn_known_cos * t412 - turn_known_sin * t413) * t87
+                            - ((turn_known_cos * t413 + turn_known_sin * t412) * t79
+                                - t263))) - (axis_local_wx * t388 - axis_local_wy * t403)));
+        out[69] = t362 * t136 + t363 * t133 + t364 * t136 + t365 * t133
+            + lambda_4
+                * (s_j_x * t313
+                    + T::from(0.05305164769729845)
+                        * (pitch
+                            * (axis_j_local_ux * t416 * t79 + t331
+                                + (axis_j_local_ux * t417 * t87 + t330))));
+        out[70] = t315 * t136 + t316 * t133 + t317 * t136 + t318 * t133
+            + lambda_4
+                * (s_j_y * t313
+                    + T::from(0.05305164769729845)
+                        * (pitch
+                            * (axis_j_local_uy * t416 * t79 - t383
+                                + (axis_j_local_uy * t417 * t87 - t382))));
+        out[71] = -(lambda_0 * (t370 + t294) + lambda_1 * (t371 + t296)
+            + lambda_2 * (t372 + t298) + lambda_3 * (t373 + t300)
+            + lambda_4
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t278 - turn_0_sin * t279)
-                            - turn_known_sin * (turn_0_cos * t279 + turn_0_sin * t278)))
-                    - (axis_local_wx * t261 - axis_local_wz * t275));
-        out[68] = -(lambda_0 * (axis_local_ux * t262 - axis_local_uy * t275)
-            + lambda_1 * (axis_local_vx * t262 - axis_local_vy * t275)
-            + lambda_2 * (axis_local_ux * t267 - axis_local_uy * t276)
-            + lambda_3 * (axis_local_vx * t267 - axis_local_vy * t276)
-            - lambda_4
-                * (T::from(0.15915494309189535)
-                    * (pitch
-                        * (turn_known_cos * (turn_0_cos * t280 - turn_0_sin * t281)
-                            - turn_known_sin * (turn_0_cos * t281 + turn_0_sin * t280)))
-                    - (axis_local_wx * t262 - axis_local_wy * t275)));
-        out[69] = t243 * t185 + t244 * t189 + t245 * t185 + t246 * t189
-            + lambda_4 * (s_j_x * t203 - T::from(0.15915494309189535) * (t247 * t282));
-        out[70] = t205 * t185 + t207 * t189 + t209 * t185 + t210 * t189
-            + lambda_4 * (s_j_y * t203 - T::from(0.15915494309189535) * (t212 * t282));
-        out[71] = -(lambda_0 * (t249 + t184) + lambda_1 * (t250 + t188)
-            + lambda_2 * (t251 + t191) + lambda_3 * (t252 + t193)
-            - lambda_4
-                * (T::from(0.15915494309189535)
-                    * (pitch
-                        * (turn_known_cos * (turn_0_cos * t283 - turn_0_sin * t284)
-                            - turn_known_sin * (turn_0_cos * t284 + turn_0_sin * t283)))
-                    - (t257 + t202)));
+                        * (t79 * (turn_known_cos * t420 + turn_known_sin * t421) - t422
+                            + ((turn_known_cos * t421 - turn_known_sin * t420) * t87
+                                - t422))) + (t381 + t312)));
     }
-    /// ∂(C·a − Γ)/∂x. Operations: 804 mul, 654 add, 23 neg.
+    /// ∂(C·a − Γ)/∂x. Operations: 1080 mul, 837 add, 21 neg.
     fn d_residual_dx(
         &self,
         x: &[Pose<T>],
@@ -2544,99 +2800,204 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         let t135 = rot_i_xx * t131 - rot_i_xy * t133 - rot_i_xz * t134;
         let t136 = rot_i_yx * t131 - rot_i_yy * t133 - rot_i_yz * t134;
         let t137 = rot_i_zx * t131 - rot_i_zy * t133 - rot_i_zz * t134;
-        let t138 = omega_j_x * axis_j_local_uy - omega_j_y * axis_j_local_ux;
-        let t139 = omega_j_x * axis_j_local_uz - omega_j_z * axis_j_local_ux;
-        let t140 = omega_j_y * t138 + omega_j_z * t139
-            + (alpha_j_y * axis_j_local_uz - alpha_j_z * axis_j_local_uy);
-        let t141 = omega_j_y * axis_j_local_uz - omega_j_z * axis_j_local_uy;
-        let t142 = omega_j_x * t138 - omega_j_z * t141
-            + (alpha_j_x * axis_j_local_uz - alpha_j_z * axis_j_local_ux);
-        let t143 = omega_j_x * t139 + omega_j_y * t141
-            - (alpha_j_x * axis_j_local_uy - alpha_j_y * axis_j_local_ux);
-        let t144 = rot_j_xx * t140 - rot_j_xy * t142 - rot_j_xz * t143;
-        let t145 = rot_j_yx * t140 - rot_j_yy * t142 - rot_j_yz * t143;
-        let t146 = rot_j_zx * t140 - rot_j_zy * t142 - rot_j_zz * t143;
-        let t147 = rot_i_xz * t144 + rot_i_yz * t145 + rot_i_zz * t146;
-        let t148 = rot_i_xy * t144 + rot_i_yy * t145 + rot_i_zy * t146;
-        let t149 = rot_j_xx * t141 - rot_j_xy * t139 + rot_j_xz * t138;
-        let t150 = rot_j_yx * t141 - rot_j_yy * t139 + rot_j_yz * t138;
-        let t151 = rot_j_zx * t141 - rot_j_zy * t139 + rot_j_zz * t138;
-        let t152 = rot_i_xy * t149 + rot_i_yy * t150 + rot_i_zy * t151;
-        let t153 = rot_i_xz * t149 + rot_i_yz * t150 + rot_i_zz * t151;
-        let t154 = t152 * t66 + t153 * t67;
         let axis_j_u_x = rot_j_xx * axis_j_local_ux + rot_j_xy * axis_j_local_uy
             + rot_j_xz * axis_j_local_uz;
         let axis_j_u_y = rot_j_yx * axis_j_local_ux + rot_j_yy * axis_j_local_uy
             + rot_j_yz * axis_j_local_uz;
         let axis_j_u_z = rot_j_zx * axis_j_local_ux + rot_j_zy * axis_j_local_uy
             + rot_j_zz * axis_j_local_uz;
-        let t155 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t156 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
-        let t157 = axis_local_vy * t147 - axis_local_vz * t148 - t154
-            + (t155 * t71 - t156 * t70 - t154);
-        let t158 = t152 * t0 + t153 * t1;
-        let t159 = axis_local_uy * t147 - axis_local_uz * t148 - t158
-            + (t155 * t5 - t156 * t4 - t158);
-        let t160 = t17 * t129 + t18 * t130;
-        let t161 = t34 * t129 + t35 * t130;
-        let t162 = rot_i_xx * t144 + rot_i_yx * t145 + rot_i_zx * t146;
-        let t163 = rot_i_xx * t149 + rot_i_yx * t150 + rot_i_zx * t151;
-        let t164 = t163 * t66 - t153 * t69;
-        let t165 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t166 = axis_local_vx * t147 - axis_local_vz * t162 - t164
-            + (t165 * t71 + t156 * t68 - t164);
-        let t167 = t163 * t0 - t153 * t3;
-        let t168 = axis_local_ux * t147 - axis_local_uz * t162 - t167
-            + (t165 * t5 + t156 * t2 - t167);
-        let t169 = t43 * t129 - t18 * t132;
-        let t170 = t46 * t129 - t35 * t132;
-        let t171 = t163 * t67 + t152 * t69;
-        let t172 = axis_local_vx * t148 - axis_local_vy * t162 + t171
-            + (t165 * t70 + t155 * t68 + t171);
-        let t173 = t163 * t1 + t152 * t3;
-        let t174 = axis_local_ux * t148 - axis_local_uy * t162 + t173
-            + (t165 * t4 + t155 * t2 + t173);
-        let t175 = t43 * t130 + t17 * t132;
-        let t176 = t46 * t130 + t34 * t132;
-        let t177 = t86 * t138 + t87 * t139;
-        let t178 = axis_j_local_uy * t81 - axis_j_local_uz * t82 - t177
-            + (t89 * t143 - t90 * t142 - t177);
-        let t179 = t56 * t138 + t57 * t139;
-        let t180 = axis_j_local_uy * t51 - axis_j_local_uz * t52 - t179
-            + (t59 * t143 - t60 * t142 - t179);
-        let t181 = rot_j_xz * t135 + rot_j_yz * t136 + rot_j_zz * t137;
-        let t182 = rot_j_xy * t135 + rot_j_yy * t136 + rot_j_zy * t137;
-        let t183 = rot_i_xx * t132 - rot_i_xy * t130 + rot_i_xz * t129;
-        let t184 = rot_i_yx * t132 - rot_i_yy * t130 + rot_i_yz * t129;
-        let t185 = rot_i_zx * t132 - rot_i_zy * t130 + rot_i_zz * t129;
-        let t186 = rot_j_xy * t183 + rot_j_yy * t184 + rot_j_zy * t185;
-        let t187 = rot_j_xz * t183 + rot_j_yz * t184 + rot_j_zz * t185;
-        let t188 = t186 * t20 + t187 * t21;
+        let t138 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
+        let t139 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
+        let t140 = axis_local_uy * t138 - axis_local_uz * t139;
+        let t141 = axis_local_vy * t138 - axis_local_vz * t139;
+        let t142 = turn_0_cos * t140 + turn_0_sin * t141;
+        let t143 = turn_0_cos * t141 - turn_0_sin * t140;
+        let t144 = omega_j_x * axis_j_local_uy - omega_j_y * axis_j_local_ux;
+        let t145 = omega_j_x * axis_j_local_uz - omega_j_z * axis_j_local_ux;
+        let t146 = omega_j_y * t144 + omega_j_z * t145
+            + (alpha_j_y * axis_j_local_uz - alpha_j_z * axis_j_local_uy);
+        let t147 = omega_j_y * axis_j_local_uz - omega_j_z * axis_j_local_uy;
+        let t148 = omega_j_x * t144 - omega_j_z * t147
+            + (alpha_j_x * axis_j_local_uz - alpha_j_z * axis_j_local_ux);
+        let t149 = omega_j_x * t145 + omega_j_y * t147
+            - (alpha_j_x * axis_j_local_uy - alpha_j_y * axis_j_local_ux);
+        let t150 = rot_j_xx * t146 - rot_j_xy * t148 - rot_j_xz * t149;
+        let t151 = rot_j_yx * t146 - rot_j_yy * t148 - rot_j_yz * t149;
+        let t152 = rot_j_zx * t146 - rot_j_zy * t148 - rot_j_zz * t149;
+        let t153 = rot_i_xx * t150 + rot_i_yx * t151 + rot_i_zx * t152;
+        let t154 = rot_i_xy * t150 + rot_i_yy * t151 + rot_i_zy * t152;
+        let t155 = rot_i_xz * t150 + rot_i_yz * t151 + rot_i_zz * t152;
+        let t156 = rot_j_xx * t147 - rot_j_xy * t145 + rot_j_xz * t144;
+        let t157 = rot_j_yx * t147 - rot_j_yy * t145 + rot_j_yz * t144;
+        let t158 = rot_j_zx * t147 - rot_j_zy * t145 + rot_j_zz * t144;
+        let t159 = rot_i_xx * t156 + rot_i_yx * t157 + rot_i_zx * t158;
+        let t160 = rot_i_xy * t156 + rot_i_yy * t157 + rot_i_zy * t158;
+        let t161 = rot_i_xz * t156 + rot_i_yz * t157 + rot_i_zz * t158;
+        let t162 = t159 * t69 - t160 * t67 + t161 * t66;
+        let t163 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
+        let t164 = axis_local_vx * t153 + axis_local_vy * t154 + axis_local_vz * t155
+            + t162 + (t163 * t68 - t139 * t70 - t138 * t71 + t162);
+        let t165 = t159 * t3 - t160 * t1 + t161 * t0;
+        let t166 = axis_local_ux * t153 + axis_local_uy * t154 + axis_local_uz * t155
+            + t165 + (t163 * t2 - t139 * t4 - t138 * t5 + t165);
+        let t167 = turn_0_cos * t164 - turn_0_sin * t166;
+        let t168 = turn_0_cos * t166 + turn_0_sin * t164;
+        let t169 = turn_known_cos * t167 - turn_known_sin * t168;
+        let t170 = t160 * t66 + t161 * t67;
+        let t171 = axis_local_vy * t155 - axis_local_vz * t154 - t170
+            + (t139 * t71 - t138 * t70 - t170);
+        let t172 = t160 * t0 + t161 * t1;
+        let t173 = axis_local_uy * t155 - axis_local_uz * t154 - t172
+            + (t139 * t5 - t138 * t4 - t172);
+        let t174 = turn_0_cos * t171 - turn_0_sin * t173;
+        let t175 = turn_0_cos * t173 + turn_0_sin * t171;
+        let t176 = axis_local_ux * t163 + axis_local_uy * t139 + axis_local_uz * t138;
+        let t177 = axis_local_vx * t163 + axis_local_vy * t139 + axis_local_vz * t138;
+        let t178 = turn_0_cos * t176 + turn_0_sin * t177;
+        let t179 = turn_0_cos * t177 - turn_0_sin * t176;
+        let t180 = turn_known_cos * t178 + turn_known_sin * t179 - T::from(4.0);
+        let t181 = axis_local_ux * t159 + axis_local_uy * t160 + axis_local_uz * t161
+            + (t163 * t3 - t139 * t1 + t138 * t0);
+        let t182 = axis_local_vx * t159 + axis_local_vy * t160 + axis_local_vz * t161
+            + (t163 * t69 - t139 * t67 + t138 * t66);
+        let t183 = turn_0_cos * t181 + turn_0_sin * t182;
+        let t184 = turn_0_cos * t182 - turn_0_sin * t181;
+        let t185 = turn_known_cos * t183 + turn_known_sin * t184;
+        let t186 = axis_local_vy * t161 - axis_local_vz * t160
+            - (t139 * t66 + t138 * t67);
+        let t187 = axis_local_uy * t161 - axis_local_uz * t160 - (t139 * t0 + t138 * t1);
+        let t188 = turn_0_cos * t186 - turn_0_sin * t187;
+        let t189 = turn_0_cos * t187 + turn_0_sin * t186;
+        let t190 = turn_known_cos * t184 - turn_known_sin * t183;
+        let t191 = t185 * (turn_known_cos * t188 - turn_known_sin * t189)
+            + (turn_known_cos * t189 + turn_known_sin * t188) * t190;
+        let t192 = turn_known_cos * t179 - turn_known_sin * t178;
+        let t193 = turn_known_cos * t168 + turn_known_sin * t167;
+        let t194 = t17 * t129 + t18 * t130;
+        let t195 = t34 * t129 + t35 * t130;
+        let t196 = axis_local_ux * t138 - axis_local_uz * t163;
+        let t197 = axis_local_vx * t138 - axis_local_vz * t163;
+        let t198 = turn_0_cos * t196 + turn_0_sin * t197;
+        let t199 = turn_0_cos * t197 - turn_0_sin * t196;
+        let t200 = t159 * t66 - t161 * t69;
+        let t201 = axis_local_vx * t155 - axis_local_vz * t153 - t200
+            + (t163 * t71 + t138 * t68 - t200);
+        let t202 = t159 * t0 - t161 * t3;
+        let t203 = axis_local_ux * t155 - axis_local_uz * t153 - t202
+            + (t163 * t5 + t138 * t2 - t202);
+        let t204 = turn_0_cos * t201 - turn_0_sin * t203;
+        let t205 = turn_0_cos * t203 + turn_0_sin * t201;
+        let t206 = axis_local_vx * t161 - axis_local_vz * t159
+            - (t163 * t66 - t138 * t69);
+        let t207 = axis_local_ux * t161 - axis_local_uz * t159 - (t163 * t0 - t138 * t3);
+        let t208 = turn_0_cos * t206 - turn_0_sin * t207;
+        let t209 = turn_0_cos * t207 + turn_0_sin * t206;
+        let t210 = t185 * (turn_known_cos * t208 - turn_known_sin * t209)
+            + (turn_known_cos * t209 + turn_known_sin * t208) * t190;
+        let t211 = t43 * t129 - t18 * t132;
+        let t212 = t46 * t129 - t35 * t132;
+        let t213 = axis_local_ux * t139 - axis_local_uy * t163;
+        let t214 = axis_local_vx * t139 - axis_local_vy * t163;
+        let t215 = turn_0_cos * t213 + turn_0_sin * t214;
+        let t216 = turn_0_cos * t214 - turn_0_sin * t213;
+        let t217 = t159 * t67 + t160 * t69;
+        let t218 = axis_local_vx * t154 - axis_local_vy * t153 + t217
+            + (t163 * t70 + t139 * t68 + t217);
+        let t219 = t159 * t1 + t160 * t3;
+        let t220 = axis_local_ux * t154 - axis_local_uy * t153 + t219
+            + (t163 * t4 + t139 * t2 + t219);
+        let t221 = turn_0_cos * t218 - turn_0_sin * t220;
+        let t222 = turn_0_cos * t220 + turn_0_sin * t218;
+        let t223 = axis_local_vx * t160 - axis_local_vy * t159
+            + (t163 * t67 + t139 * t69);
+        let t224 = axis_local_ux * t160 - axis_local_uy * t159 + (t163 * t1 + t139 * t3);
+        let t225 = turn_0_cos * t223 - turn_0_sin * t224;
+        let t226 = turn_0_cos * t224 + turn_0_sin * t223;
+        let t227 = t185 * (turn_known_cos * t225 - turn_known_sin * t226)
+            + (turn_known_cos * t226 + turn_known_sin * t225) * t190;
+        let t228 = t43 * t130 + t17 * t132;
+        let t229 = t46 * t130 + t34 * t132;
+        let t230 = t56 * t144 + t57 * t145;
+        let t231 = axis_j_local_uy * t51 - axis_j_local_uz * t52 - t230
+            + (t59 * t149 - t60 * t148 - t230);
+        let t232 = t86 * t144 + t87 * t145;
+        let t233 = axis_j_local_uy * t81 - axis_j_local_uz * t82 - t232
+            + (t89 * t149 - t90 * t148 - t232);
+        let t234 = turn_0_cos * t231 + turn_0_sin * t233;
+        let t235 = turn_0_cos * t233 - turn_0_sin * t231;
+        let t236 = axis_j_local_uy * t90 - axis_j_local_uz * t89;
+        let t237 = axis_j_local_uy * t60 - axis_j_local_uz * t59;
+        let t238 = turn_0_cos * t236 - turn_0_sin * t237;
+        let t239 = turn_0_cos * t237 + turn_0_sin * t236;
+        let t240 = axis_j_local_uy * t87 - axis_j_local_uz * t86
+            - (t89 * t144 + t90 * t145);
+        let t241 = axis_j_local_uy * t57 - axis_j_local_uz * t56
+            - (t59 * t144 + t60 * t145);
+        let t242 = turn_0_cos * t240 - turn_0_sin * t241;
+        let t243 = turn_0_cos * t241 + turn_0_sin * t240;
+        let t244 = t185 * (turn_known_cos * t242 - turn_known_sin * t243)
+            + t190 * (turn_known_cos * t243 + turn_known_sin * t242);
+        let t245 = rot_j_xz * t135 + rot_j_yz * t136 + rot_j_zz * t137;
+        let t246 = rot_j_xy * t135 + rot_j_yy * t136 + rot_j_zy * t137;
+        let t247 = rot_i_xx * t132 - rot_i_xy * t130 + rot_i_xz * t129;
+        let t248 = rot_i_yx * t132 - rot_i_yy * t130 + rot_i_yz * t129;
+        let t249 = rot_i_zx * t132 - rot_i_zy * t130 + rot_i_zz * t129;
+        let t250 = rot_j_xy * t247 + rot_j_yy * t248 + rot_j_zy * t249;
+        let t251 = rot_j_xz * t247 + rot_j_yz * t248 + rot_j_zz * t249;
+        let t252 = t250 * t20 + t251 * t21;
         let axis_w_x = rot_i_xx * axis_local_wx + rot_i_xy * axis_local_wy
             + rot_i_xz * axis_local_wz;
         let axis_w_y = rot_i_yx * axis_local_wx + rot_i_yy * axis_local_wy
             + rot_i_yz * axis_local_wz;
         let axis_w_z = rot_i_zx * axis_local_wx + rot_i_zy * axis_local_wy
             + rot_i_zz * axis_local_wz;
-        let t189 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
-        let t190 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
-        let t191 = t92 * t138 - t87 * t141;
-        let t192 = axis_j_local_ux * t81 - axis_j_local_uz * t91 - t191
-            + (t94 * t143 + t90 * t140 - t191);
-        let t193 = t62 * t138 - t57 * t141;
-        let t194 = axis_j_local_ux * t51 - axis_j_local_uz * t61 - t193
-            + (t64 * t143 + t60 * t140 - t193);
-        let t195 = rot_j_xx * t135 + rot_j_yx * t136 + rot_j_zx * t137;
-        let t196 = rot_j_xx * t183 + rot_j_yx * t184 + rot_j_zx * t185;
-        let t197 = t196 * t20 - t187 * t23;
-        let t198 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
-        let t199 = t92 * t139 + t86 * t141;
-        let t200 = axis_j_local_ux * t82 - axis_j_local_uy * t91 + t199
-            + (t94 * t142 + t89 * t140 + t199);
-        let t201 = t62 * t139 + t56 * t141;
-        let t202 = axis_j_local_ux * t52 - axis_j_local_uy * t61 + t201
-            + (t64 * t142 + t59 * t140 + t201);
-        let t203 = t196 * t21 + t186 * t23;
+        let t253 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
+        let t254 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
+        let t255 = t62 * t144 - t57 * t147;
+        let t256 = axis_j_local_ux * t51 - axis_j_local_uz * t61 - t255
+            + (t64 * t149 + t60 * t146 - t255);
+        let t257 = t92 * t144 - t87 * t147;
+        let t258 = axis_j_local_ux * t81 - axis_j_local_uz * t91 - t257
+            + (t94 * t149 + t90 * t146 - t257);
+        let t259 = turn_0_cos * t256 + turn_0_sin * t258;
+        let t260 = turn_0_cos * t258 - turn_0_sin * t256;
+        let t261 = axis_j_local_ux * t90 - axis_j_local_uz * t94;
+        let t262 = axis_j_local_ux * t60 - axis_j_local_uz * t64;
+        let t263 = turn_0_cos * t261 - turn_0_sin * t262;
+        let t264 = turn_0_cos * t262 + turn_0_sin * t261;
+        let t265 = axis_j_local_ux * t87 - axis_j_local_uz * t92
+            - (t94 * t144 - t90 * t147);
+        let t266 = axis_j_local_ux * t57 - axis_j_local_uz * t62
+            - (t64 * t144 - t60 * t147);
+        let t267 = turn_0_cos * t265 - turn_0_sin * t266;
+        let t268 = turn_0_cos * t266 + turn_0_sin * t265;
+        let t269 = t185 * (turn_known_cos * t267 - turn_known_sin * t268)
+            + t190 * (turn_known_cos * t268 + turn_known_sin * t267);
+        let t270 = rot_j_xx * t135 + rot_j_yx * t136 + rot_j_zx * t137;
+        let t271 = rot_j_xx * t247 + rot_j_yx * t248 + rot_j_zx * t249;
+        let t272 = t271 * t20 - t251 * t23;
+        let t273 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
+        let t274 = t62 * t145 + t56 * t147;
+        let t275 = axis_j_local_ux * t52 - axis_j_local_uy * t61 + t274
+            + (t64 * t148 + t59 * t146 + t274);
+        let t276 = t92 * t145 + t86 * t147;
+        let t277 = axis_j_local_ux * t82 - axis_j_local_uy * t91 + t276
+            + (t94 * t148 + t89 * t146 + t276);
+        let t278 = turn_0_cos * t275 + turn_0_sin * t277;
+        let t279 = turn_0_cos * t277 - turn_0_sin * t275;
+        let t280 = axis_j_local_ux * t89 - axis_j_local_uy * t94;
+        let t281 = axis_j_local_ux * t59 - axis_j_local_uy * t64;
+        let t282 = turn_0_cos * t280 - turn_0_sin * t281;
+        let t283 = turn_0_cos * t281 + turn_0_sin * t280;
+        let t284 = axis_j_local_ux * t86 - axis_j_local_uy * t92
+            + (t94 * t145 + t89 * t147);
+        let t285 = axis_j_local_ux * t56 - axis_j_local_uy * t62
+            + (t64 * t145 + t59 * t147);
+        let t286 = turn_0_cos * t284 - turn_0_sin * t285;
+        let t287 = turn_0_cos * t285 + turn_0_sin * t284;
+        let t288 = t185 * (turn_known_cos * t286 - turn_known_sin * t287)
+            + t190 * (turn_known_cos * t287 + turn_known_sin * t286);
+        let t289 = t271 * t21 + t250 * t23;
         out[0] = -t6;
         out[1] = -t7;
         out[2] = -t8;
@@ -2700,50 +3061,68 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         out[36] = -t135;
         out[37] = -t136;
         out[38] = -t137;
-        out[39] = -(T::from(0.15915494309189535)
+        out[39] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t157 - turn_0_sin * t159)
-                    - turn_known_sin * (turn_0_cos * t159 + turn_0_sin * t157)))
-            + (axis_local_wy * t12 - axis_local_wz * t13 - t160
-                - (axis_local_wy * t29 - axis_local_wz * t30 - t161)
-                - (t160 - t161
-                    + (s_i_y * t134 - s_i_z * t133 - (t40 * t134 - t41 * t133)))));
-        out[40] = T::from(0.15915494309189535)
+                * ((turn_known_cos * t142 + turn_known_sin * t143) * t169
+                    + (turn_known_cos * t174 - turn_known_sin * t175) * t180 + t191
+                    + (t192 * (turn_known_cos * t175 + turn_known_sin * t174)
+                        + (turn_known_cos * t143 - turn_known_sin * t142) * t193
+                        + t191)))
+            - (axis_local_wy * t12 - axis_local_wz * t13 - t194
+                - (axis_local_wy * t29 - axis_local_wz * t30 - t195)
+                - (t194 - t195
+                    + (s_i_y * t134 - s_i_z * t133 - (t40 * t134 - t41 * t133))));
+        out[40] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t166 - turn_0_sin * t168)
-                    - turn_known_sin * (turn_0_cos * t168 + turn_0_sin * t166)))
-            + (axis_local_wx * t12 - axis_local_wz * t42 - t169
-                - (axis_local_wx * t29 - axis_local_wz * t45 - t170)
-                - (t169 - t170
-                    + (s_i_x * t134 + s_i_z * t131 - (t48 * t134 + t41 * t131))));
-        out[41] = -(T::from(0.15915494309189535)
+                * ((turn_known_cos * t198 + turn_known_sin * t199) * t169
+                    + (turn_known_cos * t204 - turn_known_sin * t205) * t180 + t210
+                    + (t192 * (turn_known_cos * t205 + turn_known_sin * t204)
+                        + (turn_known_cos * t199 - turn_known_sin * t198) * t193
+                        + t210)))
+            - (axis_local_wx * t12 - axis_local_wz * t42 - t211
+                - (axis_local_wx * t29 - axis_local_wz * t45 - t212)
+                - (t211 - t212
+                    + (s_i_x * t134 + s_i_z * t131 - (t48 * t134 + t41 * t131)))));
+        out[41] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t172 - turn_0_sin * t174)
-                    - turn_known_sin * (turn_0_cos * t174 + turn_0_sin * t172)))
-            + (axis_local_wx * t13 - axis_local_wy * t42 + t175
-                - (axis_local_wx * t30 - axis_local_wy * t45 + t176)
-                + (t175 - t176
-                    - (s_i_x * t133 + s_i_y * t131 - (t48 * t133 + t40 * t131)))));
+                * ((turn_known_cos * t215 + turn_known_sin * t216) * t169
+                    + (turn_known_cos * t221 - turn_known_sin * t222) * t180 + t227
+                    + (t192 * (turn_known_cos * t222 + turn_known_sin * t221)
+                        + (turn_known_cos * t216 - turn_known_sin * t215) * t193
+                        + t227)))
+            - (axis_local_wx * t13 - axis_local_wy * t42 + t228
+                - (axis_local_wx * t30 - axis_local_wy * t45 + t229)
+                + (t228 - t229
+                    - (s_i_x * t133 + s_i_y * t131 - (t48 * t133 + t40 * t131))));
         out[42] = t135;
         out[43] = t136;
         out[44] = t137;
-        out[45] = -(T::from(0.15915494309189535)
+        out[45] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t178 - turn_0_sin * t180)
-                    - turn_known_sin * (turn_0_cos * t180 + turn_0_sin * t178)))
-            - (s_j_y * t181 - s_j_z * t182 - t188 + (t189 * t25 - t190 * t24 - t188)));
-        out[46] = T::from(0.15915494309189535)
+                * (t192 * (turn_known_cos * t234 + turn_known_sin * t235)
+                    + (turn_known_cos * t238 - turn_known_sin * t239) * t193 + t244
+                    + ((turn_known_cos * t239 + turn_known_sin * t238) * t169
+                        + (turn_known_cos * t235 - turn_known_sin * t234) * t180
+                        + t244)))
+            + (s_j_y * t245 - s_j_z * t246 - t252 + (t253 * t25 - t254 * t24 - t252));
+        out[46] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t192 - turn_0_sin * t194)
-                    - turn_known_sin * (turn_0_cos * t194 + turn_0_sin * t192)))
-            - (s_j_x * t181 - s_j_z * t195 - t197 + (t198 * t25 + t190 * t22 - t197));
-        out[47] = -(T::from(0.15915494309189535)
+                * (t192 * (turn_known_cos * t259 + turn_known_sin * t260)
+                    + (turn_known_cos * t263 - turn_known_sin * t264) * t193 + t269
+                    + ((turn_known_cos * t264 + turn_known_sin * t263) * t169
+                        + (turn_known_cos * t260 - turn_known_sin * t259) * t180
+                        + t269)))
+            + (s_j_x * t245 - s_j_z * t270 - t272 + (t273 * t25 + t254 * t22 - t272)));
+        out[47] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t200 - turn_0_sin * t202)
-                    - turn_known_sin * (turn_0_cos * t202 + turn_0_sin * t200)))
-            - (s_j_x * t182 - s_j_y * t195 + t203 + (t198 * t24 + t189 * t22 + t203)));
+                * (t192 * (turn_known_cos * t278 + turn_known_sin * t279)
+                    + (turn_known_cos * t282 - turn_known_sin * t283) * t193 + t288
+                    + ((turn_known_cos * t283 + turn_known_sin * t282) * t169
+                        + (turn_known_cos * t279 - turn_known_sin * t278) * t180
+                        + t288)))
+            + (s_j_x * t246 - s_j_y * t270 + t289 + (t273 * t24 + t253 * t22 + t289));
     }
-    /// ∂Γ/∂v. Operations: 606 mul, 525 add, 25 neg.
+    /// ∂Γ/∂v. Operations: 748 mul, 614 add, 27 neg.
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..48];
         let r_i_x = x[0].r[0];
@@ -3012,90 +3391,152 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         let t174 = T::from(2.0) * t173;
         let t175 = rot_i_zx * t164 - rot_i_zy * t167 + rot_i_zz * t170;
         let t176 = T::from(2.0) * t175;
-        let t177 = omega_j_y * axis_j_local_uz;
-        let t178 = omega_j_z * axis_j_local_uy;
-        let t179 = t177 - t178;
-        let t180 = omega_j_x * axis_j_local_uz;
-        let t181 = omega_j_z * axis_j_local_ux;
-        let t182 = t180 - t181;
-        let t183 = omega_j_x * axis_j_local_uy;
-        let t184 = omega_j_y * axis_j_local_ux;
-        let t185 = t183 - t184;
-        let t186 = rot_j_xx * t179 - rot_j_xy * t182 + rot_j_xz * t185;
-        let t187 = rot_j_yx * t179 - rot_j_yy * t182 + rot_j_yz * t185;
-        let t188 = rot_j_zx * t179 - rot_j_zy * t182 + rot_j_zz * t185;
-        let t189 = rot_i_xz * t186 + rot_i_yz * t187 + rot_i_zz * t188;
-        let t190 = rot_i_xy * t186 + rot_i_yy * t187 + rot_i_zy * t188;
-        let t191 = axis_local_vy * t189 - axis_local_vz * t190;
         let axis_j_u_x = rot_j_xx * axis_j_local_ux + rot_j_xy * axis_j_local_uy
             + rot_j_xz * axis_j_local_uz;
         let axis_j_u_y = rot_j_yx * axis_j_local_ux + rot_j_yy * axis_j_local_uy
             + rot_j_yz * axis_j_local_uz;
         let axis_j_u_z = rot_j_zx * axis_j_local_ux + rot_j_zy * axis_j_local_uy
             + rot_j_zz * axis_j_local_uz;
-        let t192 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t193 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t194 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
-        let t195 = t191 + (t191 + (t192 * t99 - t193 * t100 - t194 * t101));
-        let t196 = axis_local_uy * t189 - axis_local_uz * t190;
-        let t197 = t196 + (t196 + (t192 * t41 - t193 * t43 - t194 * t45));
-        let t198 = axis_local_wy * t18 - axis_local_wz * t19
+        let t177 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
+        let t178 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
+        let t179 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
+        let t180 = axis_local_vx * t177 + axis_local_vy * t178 + axis_local_vz * t179;
+        let t181 = axis_local_ux * t177 + axis_local_uy * t178 + axis_local_uz * t179;
+        let t182 = turn_0_cos * t180 - turn_0_sin * t181;
+        let t183 = turn_0_cos * t181 + turn_0_sin * t180;
+        let t184 = turn_known_cos * t182 - turn_known_sin * t183;
+        let t185 = omega_j_y * axis_j_local_uz;
+        let t186 = omega_j_z * axis_j_local_uy;
+        let t187 = t185 - t186;
+        let t188 = omega_j_x * axis_j_local_uz;
+        let t189 = omega_j_z * axis_j_local_ux;
+        let t190 = t188 - t189;
+        let t191 = omega_j_x * axis_j_local_uy;
+        let t192 = omega_j_y * axis_j_local_ux;
+        let t193 = t191 - t192;
+        let t194 = rot_j_xx * t187 - rot_j_xy * t190 + rot_j_xz * t193;
+        let t195 = rot_j_yx * t187 - rot_j_yy * t190 + rot_j_yz * t193;
+        let t196 = rot_j_zx * t187 - rot_j_zy * t190 + rot_j_zz * t193;
+        let t197 = rot_i_xz * t194 + rot_i_yz * t195 + rot_i_zz * t196;
+        let t198 = rot_i_xy * t194 + rot_i_yy * t195 + rot_i_zy * t196;
+        let t199 = axis_local_uy * t197 - axis_local_uz * t198;
+        let t200 = t199 + (t199 + (t177 * t41 - t178 * t43 - t179 * t45));
+        let t201 = axis_local_vy * t197 - axis_local_vz * t198;
+        let t202 = t201 + (t201 + (t177 * t99 - t178 * t100 - t179 * t101));
+        let t203 = turn_0_cos * t200 + turn_0_sin * t202;
+        let t204 = turn_0_cos * t202 - turn_0_sin * t200;
+        let t205 = axis_local_uy * t179 - axis_local_uz * t178;
+        let t206 = axis_local_vy * t179 - axis_local_vz * t178;
+        let t207 = turn_0_cos * t205 + turn_0_sin * t206;
+        let t208 = turn_0_cos * t206 - turn_0_sin * t205;
+        let t209 = rot_i_xx * t194 + rot_i_yx * t195 + rot_i_zx * t196;
+        let t210 = axis_local_vx * t209 + axis_local_vy * t198 + axis_local_vz * t197
+            + (t177 * t83 - t178 * t86 + t179 * t89);
+        let t211 = axis_local_ux * t209 + axis_local_uy * t198 + axis_local_uz * t197
+            + (t177 * t2 - t178 * t5 + t179 * t8);
+        let t212 = turn_0_cos * t210 - turn_0_sin * t211;
+        let t213 = turn_0_cos * t211 + turn_0_sin * t210;
+        let t214 = turn_known_cos * t212 - turn_known_sin * t213;
+        let t215 = turn_known_cos * t213 + turn_known_sin * t212;
+        let t216 = (turn_known_cos * t207 + turn_known_sin * t208) * t214
+            + (turn_known_cos * t208 - turn_known_sin * t207) * t215;
+        let t217 = turn_known_cos * t183 + turn_known_sin * t182 - T::from(4.0);
+        let t218 = axis_local_wy * t18 - axis_local_wz * t19
             - (axis_local_wy * t32 - axis_local_wz * t33);
-        let t199 = omega_i_y * axis_local_wy;
-        let t200 = omega_i_z * axis_local_wz;
-        let t201 = rot_i_xx * t186 + rot_i_yx * t187 + rot_i_zx * t188;
-        let t202 = axis_local_vx * t189 - axis_local_vz * t201;
-        let t203 = t202 + (t202 + (t192 * t103 - t193 * t105 + t194 * t106));
-        let t204 = axis_local_ux * t189 - axis_local_uz * t201;
-        let t205 = t204 + (t204 + (t192 * t51 - t193 * t53 + t194 * t54));
-        let t206 = axis_local_wx * t18 - axis_local_wz * t48
+        let t219 = omega_i_y * axis_local_wy;
+        let t220 = omega_i_z * axis_local_wz;
+        let t221 = axis_local_ux * t197 - axis_local_uz * t209;
+        let t222 = t221 + (t221 + (t177 * t51 - t178 * t53 + t179 * t54));
+        let t223 = axis_local_vx * t197 - axis_local_vz * t209;
+        let t224 = t223 + (t223 + (t177 * t103 - t178 * t105 + t179 * t106));
+        let t225 = turn_0_cos * t222 + turn_0_sin * t224;
+        let t226 = turn_0_cos * t224 - turn_0_sin * t222;
+        let t227 = axis_local_ux * t179 - axis_local_uz * t177;
+        let t228 = axis_local_vx * t179 - axis_local_vz * t177;
+        let t229 = turn_0_cos * t227 + turn_0_sin * t228;
+        let t230 = turn_0_cos * t228 - turn_0_sin * t227;
+        let t231 = (turn_known_cos * t229 + turn_known_sin * t230) * t214
+            + (turn_known_cos * t230 - turn_known_sin * t229) * t215;
+        let t232 = axis_local_wx * t18 - axis_local_wz * t48
             - (axis_local_wx * t32 - axis_local_wz * t49);
-        let t207 = omega_i_x * axis_local_wx;
-        let t208 = axis_local_vx * t190 - axis_local_vy * t201;
-        let t209 = t208 + (t208 - (t192 * t108 + t193 * t109 - t194 * t110));
-        let t210 = axis_local_ux * t190 - axis_local_uy * t201;
-        let t211 = t210 + (t210 - (t192 * t57 + t193 * t58 - t194 * t59));
-        let t212 = axis_local_wx * t19 - axis_local_wy * t48
+        let t233 = omega_i_x * axis_local_wx;
+        let t234 = axis_local_ux * t198 - axis_local_uy * t209;
+        let t235 = t234 + (t234 - (t177 * t57 + t178 * t58 - t179 * t59));
+        let t236 = axis_local_vx * t198 - axis_local_vy * t209;
+        let t237 = t236 + (t236 - (t177 * t108 + t178 * t109 - t179 * t110));
+        let t238 = turn_0_cos * t235 + turn_0_sin * t237;
+        let t239 = turn_0_cos * t237 - turn_0_sin * t235;
+        let t240 = axis_local_ux * t178 - axis_local_uy * t177;
+        let t241 = axis_local_vx * t178 - axis_local_vy * t177;
+        let t242 = turn_0_cos * t240 + turn_0_sin * t241;
+        let t243 = turn_0_cos * t241 - turn_0_sin * t240;
+        let t244 = (turn_known_cos * t242 + turn_known_sin * t243) * t214
+            + (turn_known_cos * t243 - turn_known_sin * t242) * t215;
+        let t245 = axis_local_wx * t19 - axis_local_wy * t48
             - (axis_local_wx * t33 - axis_local_wy * t49);
-        let t213 = axis_j_local_uy * t111 - axis_j_local_uz * t112;
-        let t214 = omega_j_y * axis_j_local_uy;
-        let t215 = omega_j_z * axis_j_local_uz;
-        let t216 = t214 + t215;
-        let t217 = t183 + t185;
-        let t218 = t180 + t182;
-        let t219 = t213 + (t213 + (t114 * t216 - t115 * t217 - t116 * t218));
-        let t220 = axis_j_local_uy * t60 - axis_j_local_uz * t61;
-        let t221 = t220 + (t220 + (t63 * t216 - t67 * t217 - t69 * t218));
-        let t222 = rot_j_xz * t171 + rot_j_yz * t173 + rot_j_zz * t175;
-        let t223 = rot_j_xy * t171 + rot_j_yy * t173 + rot_j_zy * t175;
-        let t224 = s_j_y * t222 - s_j_z * t223;
+        let t246 = axis_j_local_uy * t60 - axis_j_local_uz * t61;
+        let t247 = omega_j_y * axis_j_local_uy;
+        let t248 = omega_j_z * axis_j_local_uz;
+        let t249 = t247 + t248;
+        let t250 = t191 + t193;
+        let t251 = t188 + t190;
+        let t252 = t246 + (t246 + (t63 * t249 - t67 * t250 - t69 * t251));
+        let t253 = axis_j_local_uy * t111 - axis_j_local_uz * t112;
+        let t254 = t253 + (t253 + (t114 * t249 - t115 * t250 - t116 * t251));
+        let t255 = turn_0_cos * t252 + turn_0_sin * t254;
+        let t256 = turn_0_cos * t254 - turn_0_sin * t252;
+        let t257 = axis_j_local_uy * t69 - axis_j_local_uz * t67;
+        let t258 = axis_j_local_uy * t116 - axis_j_local_uz * t115;
+        let t259 = turn_0_cos * t257 + turn_0_sin * t258;
+        let t260 = turn_0_cos * t258 - turn_0_sin * t257;
+        let t261 = (turn_known_cos * t259 + turn_known_sin * t260) * t214
+            + (turn_known_cos * t260 - turn_known_sin * t259) * t215;
+        let t262 = rot_j_xz * t171 + rot_j_yz * t173 + rot_j_zz * t175;
+        let t263 = rot_j_xy * t171 + rot_j_yy * t173 + rot_j_zy * t175;
+        let t264 = s_j_y * t262 - s_j_z * t263;
         let axis_w_x = rot_i_xx * axis_local_wx + rot_i_xy * axis_local_wy
             + rot_i_xz * axis_local_wz;
         let axis_w_y = rot_i_yx * axis_local_wx + rot_i_yy * axis_local_wy
             + rot_i_yz * axis_local_wz;
         let axis_w_z = rot_i_zx * axis_local_wx + rot_i_zy * axis_local_wy
             + rot_i_zz * axis_local_wz;
-        let t225 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
-        let t226 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
-        let t227 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
-        let t228 = axis_j_local_ux * t111 - axis_j_local_uz * t117;
-        let t229 = t184 - t185;
-        let t230 = omega_j_x * axis_j_local_ux;
-        let t231 = t230 + t215;
-        let t232 = t177 + t179;
-        let t233 = t228 + (t228 + (t114 * t229 - t115 * t231 + t116 * t232));
-        let t234 = axis_j_local_ux * t60 - axis_j_local_uz * t71;
-        let t235 = t234 + (t234 + (t63 * t229 - t67 * t231 + t69 * t232));
-        let t236 = rot_j_xx * t171 + rot_j_yx * t173 + rot_j_zx * t175;
-        let t237 = s_j_x * t222 - s_j_z * t236;
-        let t238 = axis_j_local_ux * t112 - axis_j_local_uy * t117;
-        let t239 = t181 - t182;
-        let t240 = t178 - t179;
-        let t241 = t230 + t214;
-        let t242 = t238 + (t238 - (t114 * t239 + t115 * t240 - t116 * t241));
-        let t243 = axis_j_local_ux * t61 - axis_j_local_uy * t71;
-        let t244 = t243 + (t243 - (t63 * t239 + t67 * t240 - t69 * t241));
-        let t245 = s_j_x * t223 - s_j_y * t236;
+        let t265 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
+        let t266 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
+        let t267 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
+        let t268 = axis_j_local_ux * t60 - axis_j_local_uz * t71;
+        let t269 = t192 - t193;
+        let t270 = omega_j_x * axis_j_local_ux;
+        let t271 = t270 + t248;
+        let t272 = t185 + t187;
+        let t273 = t268 + (t268 + (t63 * t269 - t67 * t271 + t69 * t272));
+        let t274 = axis_j_local_ux * t111 - axis_j_local_uz * t117;
+        let t275 = t274 + (t274 + (t114 * t269 - t115 * t271 + t116 * t272));
+        let t276 = turn_0_cos * t273 + turn_0_sin * t275;
+        let t277 = turn_0_cos * t275 - turn_0_sin * t273;
+        let t278 = axis_j_local_ux * t69 - axis_j_local_uz * t63;
+        let t279 = axis_j_local_ux * t116 - axis_j_local_uz * t114;
+        let t280 = turn_0_cos * t278 + turn_0_sin * t279;
+        let t281 = turn_0_cos * t279 - turn_0_sin * t278;
+        let t282 = (turn_known_cos * t280 + turn_known_sin * t281) * t214
+            + (turn_known_cos * t281 - turn_known_sin * t280) * t215;
+        let t283 = rot_j_xx * t171 + rot_j_yx * t173 + rot_j_zx * t175;
+        let t284 = s_j_x * t262 - s_j_z * t283;
+        let t285 = axis_j_local_ux * t61 - axis_j_local_uy * t71;
+        let t286 = t189 - t190;
+        let t287 = t186 - t187;
+        let t288 = t270 + t247;
+        let t289 = t285 + (t285 - (t63 * t286 + t67 * t287 - t69 * t288));
+        let t290 = axis_j_local_ux * t112 - axis_j_local_uy * t117;
+        let t291 = t290 + (t290 - (t114 * t286 + t115 * t287 - t116 * t288));
+        let t292 = turn_0_cos * t289 + turn_0_sin * t291;
+        let t293 = turn_0_cos * t291 - turn_0_sin * t289;
+        let t294 = axis_j_local_ux * t67 - axis_j_local_uy * t63;
+        let t295 = axis_j_local_ux * t115 - axis_j_local_uy * t114;
+        let t296 = turn_0_cos * t294 + turn_0_sin * t295;
+        let t297 = turn_0_cos * t295 - turn_0_sin * t294;
+        let t298 = (turn_known_cos * t296 + turn_known_sin * t297) * t214
+            + (turn_known_cos * t297 - turn_known_sin * t296) * t215;
+        let t299 = s_j_x * t263 - s_j_y * t283;
         out[0] = t10;
         out[1] = t12;
         out[2] = t14;
@@ -3153,53 +3594,53 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         out[36] = t172;
         out[37] = t174;
         out[38] = t176;
-        out[39] = T::from(0.15915494309189535)
+        out[39] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t195 - turn_0_sin * t197)
-                    - turn_known_sin * (turn_0_cos * t197 + turn_0_sin * t195)))
-            + (t198
-                + (t198
-                    + (t38 * (t199 + t200) - t42 * (t168 + t170) - t44 * (t165 + t167))
+                * (t184 * (turn_known_cos * t203 + turn_known_sin * t204) + t216
+                    + ((turn_known_cos * t204 - turn_known_sin * t203) * t217 + t216)))
+            - (t218
+                + (t218
+                    + (t38 * (t219 + t220) - t42 * (t168 + t170) - t44 * (t165 + t167))
                     + (s_i_y * t170 + axis_local_wy * t46
-                        + (s_i_z * t167 + axis_local_wz * t47))));
-        out[40] = -(T::from(0.15915494309189535)
+                        + (s_i_z * t167 + axis_local_wz * t47)))));
+        out[40] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t203 - turn_0_sin * t205)
-                    - turn_known_sin * (turn_0_cos * t205 + turn_0_sin * t203)))
-            + (t206
-                + (t206
-                    + (t38 * (t169 - t170) - t42 * (t207 + t200) + t44 * (t162 + t164))
+                * (t184 * (turn_known_cos * t225 + turn_known_sin * t226) + t231
+                    + ((turn_known_cos * t226 - turn_known_sin * t225) * t217 + t231)))
+            - (t232
+                + (t232
+                    + (t38 * (t169 - t170) - t42 * (t233 + t220) + t44 * (t162 + t164))
                     + (s_i_x * t170 + axis_local_wx * t46
-                        - (s_i_z * t164 + axis_local_wz * t55)))));
-        out[41] = T::from(0.15915494309189535)
+                        - (s_i_z * t164 + axis_local_wz * t55))));
+        out[41] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t209 - turn_0_sin * t211)
-                    - turn_known_sin * (turn_0_cos * t211 + turn_0_sin * t209)))
-            + (t212
-                + (t212
-                    - (t38 * (t166 - t167) + t42 * (t163 - t164) - t44 * (t207 + t199))
+                * (t184 * (turn_known_cos * t238 + turn_known_sin * t239) + t244
+                    + ((turn_known_cos * t239 - turn_known_sin * t238) * t217 + t244)))
+            - (t245
+                + (t245
+                    - (t38 * (t166 - t167) + t42 * (t163 - t164) - t44 * (t233 + t219))
                     - (s_i_x * t167 + axis_local_wx * t47
-                        + (s_i_y * t164 + axis_local_wy * t55))));
+                        + (s_i_y * t164 + axis_local_wy * t55)))));
         out[42] = -t172;
         out[43] = -t174;
         out[44] = -t176;
-        out[45] = T::from(0.15915494309189535)
+        out[45] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t219 - turn_0_sin * t221)
-                    - turn_known_sin * (turn_0_cos * t221 + turn_0_sin * t219)))
-            - (t224 + (t224 + (t225 * t66 - t226 * t68 - t227 * t70)));
-        out[46] = -(T::from(0.15915494309189535)
+                * (t184 * (turn_known_cos * t255 + turn_known_sin * t256) + t261
+                    + ((turn_known_cos * t256 - turn_known_sin * t255) * t217 + t261)))
+            + (t264 + (t264 + (t265 * t66 - t266 * t68 - t267 * t70))));
+        out[46] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t233 - turn_0_sin * t235)
-                    - turn_known_sin * (turn_0_cos * t235 + turn_0_sin * t233)))
-            - (t237 + (t237 + (t225 * t73 - t226 * t75 + t227 * t76))));
-        out[47] = T::from(0.15915494309189535)
+                * (t184 * (turn_known_cos * t276 + turn_known_sin * t277) + t282
+                    + ((turn_known_cos * t277 - turn_known_sin * t276) * t217 + t282)))
+            + (t284 + (t284 + (t265 * t73 - t266 * t75 + t267 * t76)));
+        out[47] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t242 - turn_0_sin * t244)
-                    - turn_known_sin * (turn_0_cos * t244 + turn_0_sin * t242)))
-            - (t245 + (t245 - (t225 * t78 + t226 * t79 - t227 * t80)));
+                * (t184 * (turn_known_cos * t292 + turn_known_sin * t293) + t298
+                    + ((turn_known_cos * t293 - turn_known_sin * t292) * t217 + t298)))
+            + (t299 + (t299 - (t265 * t78 + t266 * t79 - t267 * t80))));
     }
-    /// ∂(C·v − b)/∂x. Operations: 513 mul, 366 add, 23 neg.
+    /// ∂(C·v − b)/∂x. Operations: 655 mul, 449 add, 21 neg.
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let out = &mut out[..48];
         let r_i_x = x[0].r[0];
@@ -3348,54 +3789,104 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         let t60 = rot_i_xx * t57 - rot_i_xy * t58 + rot_i_xz * t59;
         let t61 = rot_i_yx * t57 - rot_i_yy * t58 + rot_i_yz * t59;
         let t62 = rot_i_zx * t57 - rot_i_zy * t58 + rot_i_zz * t59;
-        let t63 = omega_j_y * axis_j_local_uz - omega_j_z * axis_j_local_uy;
-        let t64 = omega_j_x * axis_j_local_uz - omega_j_z * axis_j_local_ux;
-        let t65 = omega_j_x * axis_j_local_uy - omega_j_y * axis_j_local_ux;
-        let t66 = rot_j_xx * t63 - rot_j_xy * t64 + rot_j_xz * t65;
-        let t67 = rot_j_yx * t63 - rot_j_yy * t64 + rot_j_yz * t65;
-        let t68 = rot_j_zx * t63 - rot_j_zy * t64 + rot_j_zz * t65;
-        let t69 = rot_i_xz * t66 + rot_i_yz * t67 + rot_i_zz * t68;
-        let t70 = rot_i_xy * t66 + rot_i_yy * t67 + rot_i_zy * t68;
         let axis_j_u_x = rot_j_xx * axis_j_local_ux + rot_j_xy * axis_j_local_uy
             + rot_j_xz * axis_j_local_uz;
         let axis_j_u_y = rot_j_yx * axis_j_local_ux + rot_j_yy * axis_j_local_uy
             + rot_j_yz * axis_j_local_uz;
         let axis_j_u_z = rot_j_zx * axis_j_local_ux + rot_j_zy * axis_j_local_uy
             + rot_j_zz * axis_j_local_uz;
-        let t71 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t72 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
-        let t73 = axis_local_vy * t69 - axis_local_vz * t70 - (t71 * t35 + t72 * t34);
-        let t74 = axis_local_uy * t69 - axis_local_uz * t70 - (t71 * t2 + t72 * t1);
-        let t75 = rot_i_xx * t66 + rot_i_yx * t67 + rot_i_zx * t68;
-        let t76 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t77 = axis_local_vx * t69 - axis_local_vz * t75 - (t76 * t35 - t72 * t33);
-        let t78 = axis_local_ux * t69 - axis_local_uz * t75 - (t76 * t2 - t72 * t0);
-        let t79 = axis_local_vx * t70 - axis_local_vy * t75 + (t76 * t34 + t71 * t33);
-        let t80 = axis_local_ux * t70 - axis_local_uy * t75 + (t76 * t1 + t71 * t0);
-        let t81 = axis_j_local_uy * t39 - axis_j_local_uz * t40
-            - (t41 * t65 + t42 * t64);
-        let t82 = axis_j_local_uy * t27 - axis_j_local_uz * t28
-            - (t29 * t65 + t30 * t64);
-        let t83 = rot_j_xz * t60 + rot_j_yz * t61 + rot_j_zz * t62;
-        let t84 = rot_j_xy * t60 + rot_j_yy * t61 + rot_j_zy * t62;
+        let t63 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
+        let t64 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
+        let t65 = axis_local_uy * t63 - axis_local_uz * t64;
+        let t66 = axis_local_vy * t63 - axis_local_vz * t64;
+        let t67 = turn_0_cos * t65 + turn_0_sin * t66;
+        let t68 = turn_0_cos * t66 - turn_0_sin * t65;
+        let t69 = omega_j_y * axis_j_local_uz - omega_j_z * axis_j_local_uy;
+        let t70 = omega_j_x * axis_j_local_uz - omega_j_z * axis_j_local_ux;
+        let t71 = omega_j_x * axis_j_local_uy - omega_j_y * axis_j_local_ux;
+        let t72 = rot_j_xx * t69 - rot_j_xy * t70 + rot_j_xz * t71;
+        let t73 = rot_j_yx * t69 - rot_j_yy * t70 + rot_j_yz * t71;
+        let t74 = rot_j_zx * t69 - rot_j_zy * t70 + rot_j_zz * t71;
+        let t75 = rot_i_xx * t72 + rot_i_yx * t73 + rot_i_zx * t74;
+        let t76 = rot_i_xy * t72 + rot_i_yy * t73 + rot_i_zy * t74;
+        let t77 = rot_i_xz * t72 + rot_i_yz * t73 + rot_i_zz * t74;
+        let t78 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
+        let t79 = axis_local_vx * t75 + axis_local_vy * t76 + axis_local_vz * t77
+            + (t78 * t33 - t64 * t34 + t63 * t35);
+        let t80 = axis_local_ux * t75 + axis_local_uy * t76 + axis_local_uz * t77
+            + (t78 * t0 - t64 * t1 + t63 * t2);
+        let t81 = turn_0_cos * t79 - turn_0_sin * t80;
+        let t82 = turn_0_cos * t80 + turn_0_sin * t79;
+        let t83 = turn_known_cos * t81 - turn_known_sin * t82;
+        let t84 = axis_local_vy * t77 - axis_local_vz * t76 - (t64 * t35 + t63 * t34);
+        let t85 = axis_local_uy * t77 - axis_local_uz * t76 - (t64 * t2 + t63 * t1);
+        let t86 = turn_0_cos * t84 - turn_0_sin * t85;
+        let t87 = turn_0_cos * t85 + turn_0_sin * t84;
+        let t88 = axis_local_ux * t78 + axis_local_uy * t64 + axis_local_uz * t63;
+        let t89 = axis_local_vx * t78 + axis_local_vy * t64 + axis_local_vz * t63;
+        let t90 = turn_0_cos * t88 + turn_0_sin * t89;
+        let t91 = turn_0_cos * t89 - turn_0_sin * t88;
+        let t92 = turn_known_cos * t90 + turn_known_sin * t91 - T::from(4.0);
+        let t93 = turn_known_cos * t91 - turn_known_sin * t90;
+        let t94 = turn_known_cos * t82 + turn_known_sin * t81;
+        let t95 = axis_local_ux * t63 - axis_local_uz * t78;
+        let t96 = axis_local_vx * t63 - axis_local_vz * t78;
+        let t97 = turn_0_cos * t95 + turn_0_sin * t96;
+        let t98 = turn_0_cos * t96 - turn_0_sin * t95;
+        let t99 = axis_local_vx * t77 - axis_local_vz * t75 - (t78 * t35 - t63 * t33);
+        let t100 = axis_local_ux * t77 - axis_local_uz * t75 - (t78 * t2 - t63 * t0);
+        let t101 = turn_0_cos * t99 - turn_0_sin * t100;
+        let t102 = turn_0_cos * t100 + turn_0_sin * t99;
+        let t103 = axis_local_ux * t64 - axis_local_uy * t78;
+        let t104 = axis_local_vx * t64 - axis_local_vy * t78;
+        let t105 = turn_0_cos * t103 + turn_0_sin * t104;
+        let t106 = turn_0_cos * t104 - turn_0_sin * t103;
+        let t107 = axis_local_vx * t76 - axis_local_vy * t75 + (t78 * t34 + t64 * t33);
+        let t108 = axis_local_ux * t76 - axis_local_uy * t75 + (t78 * t1 + t64 * t0);
+        let t109 = turn_0_cos * t107 - turn_0_sin * t108;
+        let t110 = turn_0_cos * t108 + turn_0_sin * t107;
+        let t111 = axis_j_local_uy * t27 - axis_j_local_uz * t28
+            - (t29 * t71 + t30 * t70);
+        let t112 = axis_j_local_uy * t39 - axis_j_local_uz * t40
+            - (t41 * t71 + t42 * t70);
+        let t113 = turn_0_cos * t111 + turn_0_sin * t112;
+        let t114 = turn_0_cos * t112 - turn_0_sin * t111;
+        let t115 = axis_j_local_uy * t42 - axis_j_local_uz * t41;
+        let t116 = axis_j_local_uy * t30 - axis_j_local_uz * t29;
+        let t117 = turn_0_cos * t115 - turn_0_sin * t116;
+        let t118 = turn_0_cos * t116 + turn_0_sin * t115;
+        let t119 = rot_j_xz * t60 + rot_j_yz * t61 + rot_j_zz * t62;
+        let t120 = rot_j_xy * t60 + rot_j_yy * t61 + rot_j_zy * t62;
         let axis_w_x = rot_i_xx * axis_local_wx + rot_i_xy * axis_local_wy
             + rot_i_xz * axis_local_wz;
         let axis_w_y = rot_i_yx * axis_local_wx + rot_i_yy * axis_local_wy
             + rot_i_yz * axis_local_wz;
         let axis_w_z = rot_i_zx * axis_local_wx + rot_i_zy * axis_local_wy
             + rot_i_zz * axis_local_wz;
-        let t85 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
-        let t86 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
-        let t87 = axis_j_local_ux * t39 - axis_j_local_uz * t43
-            - (t44 * t65 - t42 * t63);
-        let t88 = axis_j_local_ux * t27 - axis_j_local_uz * t31
-            - (t32 * t65 - t30 * t63);
-        let t89 = rot_j_xx * t60 + rot_j_yx * t61 + rot_j_zx * t62;
-        let t90 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
-        let t91 = axis_j_local_ux * t40 - axis_j_local_uy * t43
-            + (t44 * t64 + t41 * t63);
-        let t92 = axis_j_local_ux * t28 - axis_j_local_uy * t31
-            + (t32 * t64 + t29 * t63);
+        let t121 = rot_j_xy * axis_w_x + rot_j_yy * axis_w_y + rot_j_zy * axis_w_z;
+        let t122 = rot_j_xz * axis_w_x + rot_j_yz * axis_w_y + rot_j_zz * axis_w_z;
+        let t123 = axis_j_local_ux * t27 - axis_j_local_uz * t31
+            - (t32 * t71 - t30 * t69);
+        let t124 = axis_j_local_ux * t39 - axis_j_local_uz * t43
+            - (t44 * t71 - t42 * t69);
+        let t125 = turn_0_cos * t123 + turn_0_sin * t124;
+        let t126 = turn_0_cos * t124 - turn_0_sin * t123;
+        let t127 = axis_j_local_ux * t42 - axis_j_local_uz * t44;
+        let t128 = axis_j_local_ux * t30 - axis_j_local_uz * t32;
+        let t129 = turn_0_cos * t127 - turn_0_sin * t128;
+        let t130 = turn_0_cos * t128 + turn_0_sin * t127;
+        let t131 = rot_j_xx * t60 + rot_j_yx * t61 + rot_j_zx * t62;
+        let t132 = rot_j_xx * axis_w_x + rot_j_yx * axis_w_y + rot_j_zx * axis_w_z;
+        let t133 = axis_j_local_ux * t28 - axis_j_local_uy * t31
+            + (t32 * t70 + t29 * t69);
+        let t134 = axis_j_local_ux * t40 - axis_j_local_uy * t43
+            + (t44 * t70 + t41 * t69);
+        let t135 = turn_0_cos * t133 + turn_0_sin * t134;
+        let t136 = turn_0_cos * t134 - turn_0_sin * t133;
+        let t137 = axis_j_local_ux * t41 - axis_j_local_uy * t44;
+        let t138 = axis_j_local_ux * t29 - axis_j_local_uy * t32;
+        let t139 = turn_0_cos * t137 - turn_0_sin * t138;
+        let t140 = turn_0_cos * t138 + turn_0_sin * t137;
         out[0] = -t3;
         out[1] = -t4;
         out[2] = -t5;
@@ -3453,47 +3944,59 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         out[36] = -t60;
         out[37] = -t61;
         out[38] = -t62;
-        out[39] = -(T::from(0.15915494309189535)
+        out[39] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t73 - turn_0_sin * t74)
-                    - turn_known_sin * (turn_0_cos * t74 + turn_0_sin * t73)))
-            + (axis_local_wy * t9 - axis_local_wz * t10
+                * ((turn_known_cos * t67 + turn_known_sin * t68) * t83
+                    + (turn_known_cos * t86 - turn_known_sin * t87) * t92
+                    + (t93 * (turn_known_cos * t87 + turn_known_sin * t86)
+                        + (turn_known_cos * t68 - turn_known_sin * t67) * t94)))
+            - (axis_local_wy * t9 - axis_local_wz * t10
                 - (axis_local_wy * t17 - axis_local_wz * t18)
-                + (s_i_y * t59 + s_i_z * t58 - (t22 * t59 + t23 * t58))));
-        out[40] = T::from(0.15915494309189535)
+                + (s_i_y * t59 + s_i_z * t58 - (t22 * t59 + t23 * t58)));
+        out[40] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t77 - turn_0_sin * t78)
-                    - turn_known_sin * (turn_0_cos * t78 + turn_0_sin * t77)))
-            + (axis_local_wx * t9 - axis_local_wz * t24
+                * ((turn_known_cos * t97 + turn_known_sin * t98) * t83
+                    + (turn_known_cos * t101 - turn_known_sin * t102) * t92
+                    + (t93 * (turn_known_cos * t102 + turn_known_sin * t101)
+                        + (turn_known_cos * t98 - turn_known_sin * t97) * t94)))
+            - (axis_local_wx * t9 - axis_local_wz * t24
                 - (axis_local_wx * t17 - axis_local_wz * t25)
-                + (s_i_x * t59 - s_i_z * t57 - (t26 * t59 - t23 * t57)));
-        out[41] = -(T::from(0.15915494309189535)
+                + (s_i_x * t59 - s_i_z * t57 - (t26 * t59 - t23 * t57))));
+        out[41] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t79 - turn_0_sin * t80)
-                    - turn_known_sin * (turn_0_cos * t80 + turn_0_sin * t79)))
-            + (axis_local_wx * t10 - axis_local_wy * t24
+                * ((turn_known_cos * t105 + turn_known_sin * t106) * t83
+                    + (turn_known_cos * t109 - turn_known_sin * t110) * t92
+                    + (t93 * (turn_known_cos * t110 + turn_known_sin * t109)
+                        + (turn_known_cos * t106 - turn_known_sin * t105) * t94)))
+            - (axis_local_wx * t10 - axis_local_wy * t24
                 - (axis_local_wx * t18 - axis_local_wy * t25)
-                - (s_i_x * t58 + s_i_y * t57 - (t26 * t58 + t22 * t57))));
+                - (s_i_x * t58 + s_i_y * t57 - (t26 * t58 + t22 * t57)));
         out[42] = t60;
         out[43] = t61;
         out[44] = t62;
-        out[45] = -(T::from(0.15915494309189535)
+        out[45] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t81 - turn_0_sin * t82)
-                    - turn_known_sin * (turn_0_cos * t82 + turn_0_sin * t81)))
-            - (s_j_y * t83 - s_j_z * t84 - (t85 * t13 + t86 * t12)));
-        out[46] = T::from(0.15915494309189535)
+                * (t93 * (turn_known_cos * t113 + turn_known_sin * t114)
+                    + (turn_known_cos * t117 - turn_known_sin * t118) * t94
+                    + ((turn_known_cos * t118 + turn_known_sin * t117) * t83
+                        + (turn_known_cos * t114 - turn_known_sin * t113) * t92)))
+            + (s_j_y * t119 - s_j_z * t120 - (t121 * t13 + t122 * t12));
+        out[46] = -(T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t87 - turn_0_sin * t88)
-                    - turn_known_sin * (turn_0_cos * t88 + turn_0_sin * t87)))
-            - (s_j_x * t83 - s_j_z * t89 - (t90 * t13 - t86 * t11));
-        out[47] = -(T::from(0.15915494309189535)
+                * (t93 * (turn_known_cos * t125 + turn_known_sin * t126)
+                    + (turn_known_cos * t129 - turn_known_sin * t130) * t94
+                    + ((turn_known_cos * t130 + turn_known_sin * t129) * t83
+                        + (turn_known_cos * t126 - turn_known_sin * t125) * t92)))
+            + (s_j_x * t119 - s_j_z * t131 - (t132 * t13 - t122 * t11)));
+        out[47] = T::from(0.05305164769729845)
             * (pitch
-                * (turn_known_cos * (turn_0_cos * t91 - turn_0_sin * t92)
-                    - turn_known_sin * (turn_0_cos * t92 + turn_0_sin * t91)))
-            - (s_j_x * t84 - s_j_y * t89 + (t90 * t12 + t85 * t11)));
+                * (t93 * (turn_known_cos * t135 + turn_known_sin * t136)
+                    + (turn_known_cos * t139 - turn_known_sin * t140) * t94
+                    + ((turn_known_cos * t140 + turn_known_sin * t139) * t83
+                        + (turn_known_cos * t136 - turn_known_sin * t135) * t92)))
+            + (s_j_x * t120 - s_j_y * t131 + (t132 * t12 + t121 * t11));
     }
-    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 1084 mul, 919 add, 2 neg.
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 1354 mul, 1101 add, 5 neg.
     fn d_residual_dp(
         &self,
         x: &[Pose<T>],
@@ -3827,185 +4330,289 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
         let t211 = rot_i_xy * w_x + rot_i_yy * w_y + rot_i_zy * w_z;
         let t212 = rot_i_xz * w_x + rot_i_yz * w_y + rot_i_zz * w_z;
         let t213 = t38 * t192 + t41 * t193 - t194 * t172;
-        let t214 = omega_j_y * axis_j_local_uz;
-        let t215 = omega_j_z * axis_j_local_uy;
-        let t216 = t214 - t215;
-        let t217 = omega_j_x * axis_j_local_uz;
-        let t218 = omega_j_z * axis_j_local_ux;
-        let t219 = t217 - t218;
-        let t220 = omega_j_x * axis_j_local_uy;
-        let t221 = omega_j_y * axis_j_local_ux;
-        let t222 = t220 - t221;
-        let t223 = rot_j_xx * t216 - rot_j_xy * t219 + rot_j_xz * t222;
-        let t224 = rot_j_yx * t216 - rot_j_yy * t219 + rot_j_yz * t222;
-        let t225 = rot_j_zx * t216 - rot_j_zy * t219 + rot_j_zz * t222;
-        let t226 = rot_i_xy * t223 + rot_i_yy * t224 + rot_i_zy * t225;
-        let t227 = rot_i_xz * t223 + rot_i_yz * t224 + rot_i_zz * t225;
-        let t228 = rot_i_xx * t223 + rot_i_yx * t224 + rot_i_zx * t225;
-        let t229 = t38 * t226 + t41 * t227 - t228 * t172;
-        let t230 = alpha_j_y * axis_j_local_uz;
-        let t231 = alpha_j_z * axis_j_local_uy;
-        let t232 = omega_j_y * t222 + omega_j_z * t219 + (t230 - t231);
-        let t233 = alpha_j_x * axis_j_local_uz;
-        let t234 = alpha_j_z * axis_j_local_ux;
-        let t235 = omega_j_x * t222 - omega_j_z * t216 + (t233 - t234);
-        let t236 = alpha_j_x * axis_j_local_uy;
-        let t237 = alpha_j_y * axis_j_local_ux;
-        let t238 = omega_j_x * t219 + omega_j_y * t216 - (t236 - t237);
-        let t239 = rot_j_xx * t232 - rot_j_xy * t235 - rot_j_xz * t238;
-        let t240 = rot_j_yx * t232 - rot_j_yy * t235 - rot_j_yz * t238;
-        let t241 = rot_j_zx * t232 - rot_j_zy * t235 - rot_j_zz * t238;
-        let t242 = rot_i_xz * t239 + rot_i_yz * t240 + rot_i_zz * t241;
-        let t243 = rot_i_xy * t239 + rot_i_yy * t240 + rot_i_zy * t241;
         let axis_j_u_x = rot_j_xx * axis_j_local_ux + rot_j_xy * axis_j_local_uy
             + rot_j_xz * axis_j_local_uz;
         let axis_j_u_y = rot_j_yx * axis_j_local_ux + rot_j_yy * axis_j_local_uy
             + rot_j_yz * axis_j_local_uz;
         let axis_j_u_z = rot_j_zx * axis_j_local_ux + rot_j_zy * axis_j_local_uy
             + rot_j_zz * axis_j_local_uz;
-        let t244 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
-        let t245 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
-        let t246 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
-        let t247 = t229 - (axis_local_vy * t242 - axis_local_vz * t243)
-            + (t229 + (t244 * t177 + t245 * t178 + t246 * t179));
-        let t248 = t0 * t226 + t3 * t227 - t228 * t130;
-        let t249 = t248 - (axis_local_uy * t242 - axis_local_uz * t243)
-            + (t248 + (t244 * t151 + t245 * t154 + t246 * t156));
-        let t250 = omega_i_y * axis_local_wy;
-        let t251 = omega_i_z * axis_local_wz;
-        let t252 = t250 + t251;
-        let t253 = t69 * t125 + t72 * t126 - t127 * t252;
-        let t254 = t69 * t138 + t72 * t139 - t140 * t252;
-        let t255 = alpha_i_y * axis_local_wy;
-        let t256 = alpha_i_z * axis_local_wz;
-        let t257 = alpha_i_y * s_i_z - alpha_i_z * s_i_y;
-        let t258 = omega_i_x * axis_local_ux;
-        let t259 = t258 + t129;
-        let t260 = t1 * t127 + t9 * t126 - t125 * t259;
-        let t261 = t1 * t140 + t9 * t139 - t138 * t259;
-        let t262 = omega_i_y * omega_i_y;
-        let t263 = t16 + (t262 * axis_local_uz + omega_i_z * t259);
-        let t264 = alpha_i_x * axis_local_ux;
-        let t265 = omega_i_y * t5 + (t264 + t150);
-        let t266 = t6 - (omega_i_x * t259 + t262 * axis_local_ux);
-        let t267 = rot_i_xx * t157 + rot_i_yx * t158 + rot_i_zx * t159;
-        let t268 = rot_i_xx * t165 + rot_i_yx * t166 + rot_i_zx * t167;
-        let t269 = omega_i_x * axis_local_vx;
-        let t270 = t269 + t171;
-        let t271 = t39 * t127 + t47 * t126 - t125 * t270;
-        let t272 = t39 * t140 + t47 * t139 - t138 * t270;
-        let t273 = t54 + (t262 * axis_local_vz + omega_i_z * t270);
-        let t274 = alpha_i_x * axis_local_vx;
-        let t275 = omega_i_y * t43 + (t274 + t176);
-        let t276 = t44 - (omega_i_x * t270 + t262 * axis_local_vx);
-        let t277 = t1 * t194 + t9 * t193 - t192 * t259;
-        let t278 = rot_i_xx * t205 + rot_i_yx * t206 + rot_i_zx * t207;
-        let t279 = t39 * t194 + t47 * t193 - t192 * t270;
-        let t280 = t39 * t228 + t47 * t227 - t226 * t270;
-        let t281 = rot_i_xx * t239 + rot_i_yx * t240 + rot_i_zx * t241;
-        let t282 = t280 + (axis_local_vx * t242 - axis_local_vz * t281)
-            + (t280 + (t244 * t273 - t245 * t275 + t246 * t276));
-        let t283 = t1 * t228 + t9 * t227 - t226 * t259;
-        let t284 = t283 + (axis_local_ux * t242 - axis_local_uz * t281)
-            + (t283 + (t244 * t263 - t245 * t265 + t246 * t266));
-        let t285 = omega_i_x * axis_local_wx;
-        let t286 = t285 + t251;
-        let t287 = t70 * t127 + t78 * t126 - t125 * t286;
-        let t288 = t70 * t140 + t78 * t139 - t138 * t286;
-        let t289 = alpha_i_x * axis_local_wx;
-        let t290 = t258 + t128;
-        let t291 = t4 * t127 + t10 * t125 - t126 * t290;
-        let t292 = t4 * t140 + t10 * t138 - t139 * t290;
-        let t293 = omega_i_z * omega_i_z;
-        let t294 = t13 - (omega_i_y * t290 + t293 * axis_local_uy);
-        let t295 = t7 + (omega_i_x * t290 + t293 * axis_local_ux);
-        let t296 = omega_i_z * t2 - (t264 + t149);
-        let t297 = t269 + t170;
-        let t298 = t42 * t127 + t48 * t125 - t126 * t297;
-        let t299 = t42 * t140 + t48 * t138 - t139 * t297;
-        let t300 = t51 - (omega_i_y * t297 + t293 * axis_local_vy);
-        let t301 = t45 + (omega_i_x * t297 + t293 * axis_local_vx);
-        let t302 = omega_i_z * t40 - (t274 + t175);
-        let t303 = t4 * t194 + t10 * t192 - t193 * t290;
-        let t304 = t42 * t194 + t48 * t192 - t193 * t297;
-        let t305 = t42 * t228 + t48 * t226 - t227 * t297;
-        let t306 = t305 - (axis_local_vx * t243 - axis_local_vy * t281)
-            + (t305 + (t244 * t300 + t245 * t301 + t246 * t302));
-        let t307 = t4 * t228 + t10 * t226 - t227 * t290;
-        let t308 = t307 - (axis_local_ux * t243 - axis_local_uy * t281)
-            + (t307 + (t244 * t294 + t245 * t295 + t246 * t296));
-        let t309 = t285 + t250;
-        let t310 = t73 * t127 + t79 * t125 - t126 * t309;
-        let t311 = t73 * t140 + t79 * t138 - t139 * t309;
-        let t312 = pitch * lambda_4;
-        let t313 = omega_j_y * axis_j_local_uy;
-        let t314 = omega_j_z * axis_j_local_uz;
-        let t315 = t313 + t314;
-        let t316 = t220 * t64 + t217 * t63 - t108 * t315;
-        let t317 = alpha_j_y * axis_j_local_uy;
-        let t318 = alpha_j_z * axis_j_local_uz;
-        let t319 = omega_j_x * t216 - (t317 + t318);
-        let t320 = t236 - (t105 * axis_j_local_uz + omega_j_z * t315);
-        let t321 = t233 + (t105 * axis_j_local_uy + omega_j_y * t315);
-        let t322 = t316 - (axis_j_local_uy * t117 - axis_j_local_uz * t107)
-            + (t316 + (t68 * t319 + t67 * t320 + t66 * t321));
-        let t323 = t220 * t26 + t217 * t25 - t100 * t315;
-        let t324 = t323 - (axis_j_local_uy * t112 - axis_j_local_uz * t99)
-            + (t323 + (t34 * t319 + t33 * t320 + t30 * t321));
-        let t325 = omega_j_y * axis_j_local_wy;
-        let t326 = omega_j_z * axis_j_local_wz;
-        let t327 = t325 + t326;
-        let t328 = t186 * t26 + t183 * t25 - t100 * t327;
-        let t329 = alpha_j_y * axis_j_local_wy;
-        let t330 = alpha_j_z * axis_j_local_wz;
-        let t331 = omega_j_x * t182 - (t329 + t330);
-        let t332 = t202 - (t105 * axis_j_local_wz + omega_j_z * t327);
-        let t333 = t199 + (t105 * axis_j_local_wy + omega_j_y * t327);
-        let t334 = t186 * t64 + t183 * t63 - t108 * t327;
-        let t335 = omega_j_x * axis_j_local_ux;
-        let t336 = t335 + t314;
-        let t337 = t221 * t108 + t214 * t63 - t64 * t336;
-        let t338 = t237 + (t35 * axis_j_local_uz + omega_j_z * t336);
-        let t339 = alpha_j_x * axis_j_local_ux;
-        let t340 = omega_j_y * t219 + (t339 + t318);
-        let t341 = t230 - (omega_j_x * t336 + t35 * axis_j_local_ux);
-        let t342 = t337 + (axis_j_local_ux * t117 - axis_j_local_uz * t59)
-            + (t337 + (t68 * t338 - t67 * t340 + t66 * t341));
-        let t343 = t221 * t100 + t214 * t25 - t26 * t336;
-        let t344 = t343 + (axis_j_local_ux * t112 - axis_j_local_uz * t21)
-            + (t343 + (t34 * t338 - t33 * t340 + t30 * t341));
-        let t345 = omega_j_x * axis_j_local_wx;
-        let t346 = t345 + t326;
-        let t347 = t187 * t100 + t180 * t25 - t26 * t346;
-        let t348 = t203 + (t35 * axis_j_local_wz + omega_j_z * t346);
-        let t349 = alpha_j_x * axis_j_local_wx;
-        let t350 = omega_j_y * t185 + (t349 + t330);
-        let t351 = t196 - (omega_j_x * t346 + t35 * axis_j_local_wx);
-        let t352 = t187 * t108 + t180 * t63 - t64 * t346;
-        let t353 = t335 + t313;
-        let t354 = t218 * t108 + t215 * t64 - t63 * t353;
-        let t355 = t234 - (omega_j_y * t353 + t36 * axis_j_local_uy);
-        let t356 = t231 + (omega_j_x * t353 + t36 * axis_j_local_ux);
-        let t357 = omega_j_z * t222 - (t339 + t317);
-        let t358 = t354 - (axis_j_local_ux * t107 - axis_j_local_uy * t59)
-            + (t354 + (t68 * t355 + t67 * t356 + t66 * t357));
-        let t359 = t218 * t100 + t215 * t26 - t25 * t353;
-        let t360 = t359 - (axis_j_local_ux * t99 - axis_j_local_uy * t21)
-            + (t359 + (t34 * t355 + t33 * t356 + t30 * t357));
-        let t361 = t345 + t325;
-        let t362 = t184 * t100 + t181 * t26 - t25 * t361;
-        let t363 = t200 - (omega_j_y * t361 + t36 * axis_j_local_wy);
-        let t364 = t197 + (omega_j_x * t361 + t36 * axis_j_local_wx);
-        let t365 = omega_j_z * t188 - (t349 + t329);
-        let t366 = t184 * t108 + t181 * t64 - t63 * t361;
-        let t367 = t228 * t49 - t226 * t43 + t227 * t40;
-        let t368 = axis_local_vx * t281 + axis_local_vy * t243 + axis_local_vz * t242
-            + t367 + (t244 * t46 - t245 * t52 - t246 * t55 + t367);
-        let t369 = t228 * t11 - t226 * t5 + t227 * t2;
-        let t370 = axis_local_ux * t281 + axis_local_uy * t243 + axis_local_uz * t242
-            + t369 + (t244 * t8 - t245 * t14 - t246 * t17 + t369);
-        let t371 = turn_0_cos * t368 - turn_0_sin * t370;
-        let t372 = turn_0_cos * t370 + turn_0_sin * t368;
+        let t214 = rot_i_xz * axis_j_u_x + rot_i_yz * axis_j_u_y + rot_i_zz * axis_j_u_z;
+        let t215 = rot_i_xy * axis_j_u_x + rot_i_yy * axis_j_u_y + rot_i_zy * axis_j_u_z;
+        let t216 = axis_local_uy * t214 - axis_local_uz * t215;
+        let t217 = axis_local_vy * t214 - axis_local_vz * t215;
+        let t218 = turn_0_cos * t216 + turn_0_sin * t217;
+        let t219 = turn_0_cos * t217 - turn_0_sin * t216;
+        let t220 = omega_j_x * axis_j_local_uy;
+        let t221 = omega_j_y * axis_j_local_ux;
+        let t222 = t220 - t221;
+        let t223 = omega_j_x * axis_j_local_uz;
+        let t224 = omega_j_z * axis_j_local_ux;
+        let t225 = t223 - t224;
+        let t226 = alpha_j_y * axis_j_local_uz;
+        let t227 = alpha_j_z * axis_j_local_uy;
+        let t228 = omega_j_y * t222 + omega_j_z * t225 + (t226 - t227);
+        let t229 = omega_j_y * axis_j_local_uz;
+        let t230 = omega_j_z * axis_j_local_uy;
+        let t231 = t229 - t230;
+        let t232 = alpha_j_x * axis_j_local_uz;
+        let t233 = alpha_j_z * axis_j_local_ux;
+        let t234 = omega_j_x * t222 - omega_j_z * t231 + (t232 - t233);
+        let t235 = alpha_j_x * axis_j_local_uy;
+        let t236 = alpha_j_y * axis_j_local_ux;
+        let t237 = omega_j_x * t225 + omega_j_y * t231 - (t235 - t236);
+        let t238 = rot_j_xx * t228 - rot_j_xy * t234 - rot_j_xz * t237;
+        let t239 = rot_j_yx * t228 - rot_j_yy * t234 - rot_j_yz * t237;
+        let t240 = rot_j_zx * t228 - rot_j_zy * t234 - rot_j_zz * t237;
+        let t241 = rot_i_xx * t238 + rot_i_yx * t239 + rot_i_zx * t240;
+        let t242 = rot_i_xy * t238 + rot_i_yy * t239 + rot_i_zy * t240;
+        let t243 = rot_i_xz * t238 + rot_i_yz * t239 + rot_i_zz * t240;
+        let t244 = rot_j_xx * t231 - rot_j_xy * t225 + rot_j_xz * t222;
+        let t245 = rot_j_yx * t231 - rot_j_yy * t225 + rot_j_yz * t222;
+        let t246 = rot_j_zx * t231 - rot_j_zy * t225 + rot_j_zz * t222;
+        let t247 = rot_i_xx * t244 + rot_i_yx * t245 + rot_i_zx * t246;
+        let t248 = rot_i_xy * t244 + rot_i_yy * t245 + rot_i_zy * t246;
+        let t249 = rot_i_xz * t244 + rot_i_yz * t245 + rot_i_zz * t246;
+        let t250 = t247 * t49 - t248 * t43 + t249 * t40;
+        let t251 = rot_i_xx * axis_j_u_x + rot_i_yx * axis_j_u_y + rot_i_zx * axis_j_u_z;
+        let t252 = axis_local_vx * t241 + axis_local_vy * t242 + axis_local_vz * t243
+            + t250 + (t251 * t46 - t215 * t52 - t214 * t55 + t250);
+        let t253 = t247 * t11 - t248 * t5 + t249 * t2;
+        let t254 = axis_local_ux * t241 + axis_local_uy * t242 + axis_local_uz * t243
+            + t253 + (t251 * t8 - t215 * t14 - t214 * t17 + t253);
+        let t255 = turn_0_cos * t252 - turn_0_sin * t254;
+        let t256 = turn_0_cos * t254 + turn_0_sin * t252;
+        let t257 = turn_known_cos * t255 - turn_known_sin * t256;
+        let t258 = t38 * t248 + t41 * t249 - t247 * t172;
+        let t259 = t258 - (axis_local_vy * t243 - axis_local_vz * t242)
+            + (t258 + (t251 * t177 + t215 * t178 + t214 * t179));
+        let t260 = t0 * t248 + t3 * t249 - t247 * t130;
+        let t261 = t260 - (axis_local_uy * t243 - axis_local_uz * t242)
+            + (t260 + (t251 * t151 + t215 * t154 + t214 * t156));
+        let t262 = turn_0_cos * t259 - turn_0_sin * t261;
+        let t263 = turn_0_cos * t261 + turn_0_sin * t259;
+        let t264 = axis_local_ux * t251 + axis_local_uy * t215 + axis_local_uz * t214;
+        let t265 = axis_local_vx * t251 + axis_local_vy * t215 + axis_local_vz * t214;
+        let t266 = turn_0_cos * t264 + turn_0_sin * t265;
+        let t267 = turn_0_cos * t265 - turn_0_sin * t264;
+        let t268 = turn_known_cos * t266 + turn_known_sin * t267;
+        let t269 = t268 - T::from(4.0);
+        let t270 = t0 * t215 + t3 * t214 - t251 * t130
+            - (axis_local_uy * t249 - axis_local_uz * t248);
+        let t271 = t38 * t215 + t41 * t214 - t251 * t172
+            - (axis_local_vy * t249 - axis_local_vz * t248);
+        let t272 = turn_0_cos * t270 + turn_0_sin * t271;
+        let t273 = turn_0_cos * t271 - turn_0_sin * t270;
+        let t274 = axis_local_vx * t247 + axis_local_vy * t248 + axis_local_vz * t249
+            + (t251 * t49 - t215 * t43 + t214 * t40);
+        let t275 = axis_local_ux * t247 + axis_local_uy * t248 + axis_local_uz * t249
+            + (t251 * t11 - t215 * t5 + t214 * t2);
+        let t276 = turn_0_cos * t274 - turn_0_sin * t275;
+        let t277 = turn_0_cos * t275 + turn_0_sin * t274;
+        let t278 = turn_known_cos * t276 - turn_known_sin * t277;
+        let t279 = turn_known_cos * t277 + turn_known_sin * t276;
+        let t280 = (turn_known_cos * t272 + turn_known_sin * t273) * t278
+            + (turn_known_cos * t273 - turn_known_sin * t272) * t279;
+        let t281 = turn_known_cos * t267 - turn_known_sin * t266;
+        let t282 = turn_known_cos * t256 + turn_known_sin * t255;
+        let t283 = omega_i_y * axis_local_wy;
+        let t284 = omega_i_z * axis_local_wz;
+        let t285 = t283 + t284;
+        let t286 = t69 * t125 + t72 * t126 - t127 * t285;
+        let t287 = t69 * t138 + t72 * t139 - t140 * t285;
+        let t288 = alpha_i_y * axis_local_wy;
+        let t289 = alpha_i_z * axis_local_wz;
+        let t290 = alpha_i_y * s_i_z - alpha_i_z * s_i_y;
+        let t291 = omega_i_x * axis_local_ux;
+        let t292 = t291 + t129;
+        let t293 = t1 * t127 + t9 * t126 - t125 * t292;
+        let t294 = t1 * t140 + t9 * t139 - t138 * t292;
+        let t295 = omega_i_y * omega_i_y;
+        let t296 = t16 + (t295 * axis_local_uz + omega_i_z * t292);
+        let t297 = alpha_i_x * axis_local_ux;
+        let t298 = omega_i_y * t5 + (t297 + t150);
+        let t299 = t6 - (omega_i_x * t292 + t295 * axis_local_ux);
+        let t300 = rot_i_xx * t157 + rot_i_yx * t158 + rot_i_zx * t159;
+        let t301 = rot_i_xx * t165 + rot_i_yx * t166 + rot_i_zx * t167;
+        let t302 = omega_i_x * axis_local_vx;
+        let t303 = t302 + t171;
+        let t304 = t39 * t127 + t47 * t126 - t125 * t303;
+        let t305 = t39 * t140 + t47 * t139 - t138 * t303;
+        let t306 = t54 + (t295 * axis_local_vz + omega_i_z * t303);
+        let t307 = alpha_i_x * axis_local_vx;
+        let t308 = omega_i_y * t43 + (t307 + t176);
+        let t309 = t44 - (omega_i_x * t303 + t295 * axis_local_vx);
+        let t310 = t1 * t194 + t9 * t193 - t192 * t292;
+        let t311 = rot_i_xx * t205 + rot_i_yx * t206 + rot_i_zx * t207;
+        let t312 = t39 * t194 + t47 * t193 - t192 * t303;
+        let t313 = axis_local_ux * t214 - axis_local_uz * t251;
+        let t314 = axis_local_vx * t214 - axis_local_vz * t251;
+        let t315 = turn_0_cos * t313 + turn_0_sin * t314;
+        let t316 = turn_0_cos * t314 - turn_0_sin * t313;
+        let t317 = t39 * t247 + t47 * t249 - t248 * t303;
+        let t318 = t317 + (axis_local_vx * t243 - axis_local_vz * t241)
+            + (t317 + (t251 * t306 - t215 * t308 + t214 * t309));
+        let t319 = t1 * t247 + t9 * t249 - t248 * t292;
+        let t320 = t319 + (axis_local_ux * t243 - axis_local_uz * t241)
+            + (t319 + (t251 * t296 - t215 * t298 + t214 * t299));
+        let t321 = turn_0_cos * t318 - turn_0_sin * t320;
+        let t322 = turn_0_cos * t320 + turn_0_sin * t318;
+        let t323 = t1 * t251 + t9 * t214 - t215 * t292
+            + (axis_local_ux * t249 - axis_local_uz * t247);
+        let t324 = t39 * t251 + t47 * t214 - t215 * t303
+            + (axis_local_vx * t249 - axis_local_vz * t247);
+        let t325 = turn_0_cos * t323 + turn_0_sin * t324;
+        let t326 = turn_0_cos * t324 - turn_0_sin * t323;
+        let t327 = (turn_known_cos * t325 + turn_known_sin * t326) * t278
+            + (turn_known_cos * t326 - turn_known_sin * t325) * t279;
+        let t328 = omega_i_x * axis_local_wx;
+        let t329 = t328 + t284;
+        let t330 = t70 * t127 + t78 * t126 - t125 * t329;
+        let t331 = t70 * t140 + t78 * t139 - t138 * t329;
+        let t332 = alpha_i_x * axis_local_wx;
+        let t333 = t291 + t128;
+        let t334 = t4 * t127 + t10 * t125 - t126 * t333;
+        let t335 = t4 * t140 + t10 * t138 - t139 * t333;
+        let t336 = omega_i_z * omega_i_z;
+        let t337 = t13 - (omega_i_y * t333 + t336 * axis_local_uy);
+        let t338 = t7 + (omega_i_x * t333 + t336 * axis_local_ux);
+        let t339 = omega_i_z * t2 - (t297 + t149);
+        let t340 = t302 + t170;
+        let t341 = t42 * t127 + t48 * t125 - t126 * t340;
+        let t342 = t42 * t140 + t48 * t138 - t139 * t340;
+        let t343 = t51 - (omega_i_y * t340 + t336 * axis_local_vy);
+        let t344 = t45 + (omega_i_x * t340 + t336 * axis_local_vx);
+        let t345 = omega_i_z * t40 - (t307 + t175);
+        let t346 = t4 * t194 + t10 * t192 - t193 * t333;
+        let t347 = t42 * t194 + t48 * t192 - t193 * t340;
+        let t348 = axis_local_ux * t215 - axis_local_uy * t251;
+        let t349 = axis_local_vx * t215 - axis_local_vy * t251;
+        let t350 = turn_0_cos * t348 + turn_0_sin * t349;
+        let t351 = turn_0_cos * t349 - turn_0_sin * t348;
+        let t352 = t42 * t247 + t48 * t248 - t249 * t340;
+        let t353 = t352 - (axis_local_vx * t242 - axis_local_vy * t241)
+            + (t352 + (t251 * t343 + t215 * t344 + t214 * t345));
+        let t354 = t4 * t247 + t10 * t248 - t249 * t333;
+        let t355 = t354 - (axis_local_ux * t242 - axis_local_uy * t241)
+            + (t354 + (t251 * t337 + t215 * t338 + t214 * t339));
+        let t356 = turn_0_cos * t353 - turn_0_sin * t355;
+        let t357 = turn_0_cos * t355 + turn_0_sin * t353;
+        let t358 = t4 * t251 + t10 * t215 - t214 * t333
+            - (axis_local_ux * t248 - axis_local_uy * t247);
+        let t359 = t42 * t251 + t48 * t215 - t214 * t340
+            - (axis_local_vx * t248 - axis_local_vy * t247);
+        let t360 = turn_0_cos * t358 + turn_0_sin * t359;
+        let t361 = turn_0_cos * t359 - turn_0_sin * t358;
+        let t362 = (turn_known_cos * t360 + turn_known_sin * t361) * t278
+            + (turn_known_cos * t361 - turn_known_sin * t360) * t279;
+        let t363 = t328 + t283;
+        let t364 = t73 * t127 + t79 * t125 - t126 * t363;
+        let t365 = t73 * t140 + t79 * t138 - t139 * t363;
+        let t366 = pitch * lambda_4;
+        let t367 = omega_j_y * axis_j_local_uy;
+        let t368 = omega_j_z * axis_j_local_uz;
+        let t369 = t367 + t368;
+        let t370 = t220 * t26 + t223 * t25 - t100 * t369;
+        let t371 = alpha_j_y * axis_j_local_uy;
+        let t372 = alpha_j_z * axis_j_local_uz;
+        let t373 = omega_j_x * t231 - (t371 + t372);
+        let t374 = t235 - (t105 * axis_j_local_uz + omega_j_z * t369);
+        let t375 = t232 + (t105 * axis_j_local_uy + omega_j_y * t369);
+        let t376 = t370 - (axis_j_local_uy * t112 - axis_j_local_uz * t99)
+            + (t370 + (t34 * t373 + t33 * t374 + t30 * t375));
+        let t377 = t220 * t64 + t223 * t63 - t108 * t369;
+        let t378 = t377 - (axis_j_local_uy * t117 - axis_j_local_uz * t107)
+            + (t377 + (t68 * t373 + t67 * t374 + t66 * t375));
+        let t379 = turn_0_cos * t376 + turn_0_sin * t378;
+        let t380 = turn_0_cos * t378 - turn_0_sin * t376;
+        let t381 = axis_j_local_uy * t66 - axis_j_local_uz * t67;
+        let t382 = axis_j_local_uy * t30 - axis_j_local_uz * t33;
+        let t383 = turn_0_cos * t381 - turn_0_sin * t382;
+        let t384 = turn_0_cos * t382 + turn_0_sin * t381;
+        let t385 = t220 * t33 + t223 * t30 - t34 * t369
+            - (axis_j_local_uy * t25 - axis_j_local_uz * t26);
+        let t386 = t220 * t67 + t223 * t66 - t68 * t369
+            - (axis_j_local_uy * t63 - axis_j_local_uz * t64);
+        let t387 = turn_0_cos * t385 + turn_0_sin * t386;
+        let t388 = turn_0_cos * t386 - turn_0_sin * t385;
+        let t389 = (turn_known_cos * t387 + turn_known_sin * t388) * t278
+            + (turn_known_cos * t388 - turn_known_sin * t387) * t279;
+        let t390 = omega_j_y * axis_j_local_wy;
+        let t391 = omega_j_z * axis_j_local_wz;
+        let t392 = t390 + t391;
+        let t393 = t186 * t26 + t183 * t25 - t100 * t392;
+        let t394 = alpha_j_y * axis_j_local_wy;
+        let t395 = alpha_j_z * axis_j_local_wz;
+        let t396 = omega_j_x * t182 - (t394 + t395);
+        let t397 = t202 - (t105 * axis_j_local_wz + omega_j_z * t392);
+        let t398 = t199 + (t105 * axis_j_local_wy + omega_j_y * t392);
+        let t399 = t186 * t64 + t183 * t63 - t108 * t392;
+        let t400 = omega_j_x * axis_j_local_ux;
+        let t401 = t400 + t368;
+        let t402 = t221 * t100 + t229 * t25 - t26 * t401;
+        let t403 = t236 + (t35 * axis_j_local_uz + omega_j_z * t401);
+        let t404 = alpha_j_x * axis_j_local_ux;
+        let t405 = omega_j_y * t225 + (t404 + t372);
+        let t406 = t226 - (omega_j_x * t401 + t35 * axis_j_local_ux);
+        let t407 = t402 + (axis_j_local_ux * t112 - axis_j_local_uz * t21)
+            + (t402 + (t34 * t403 - t33 * t405 + t30 * t406));
+        let t408 = t221 * t108 + t229 * t63 - t64 * t401;
+        let t409 = t408 + (axis_j_local_ux * t117 - axis_j_local_uz * t59)
+            + (t408 + (t68 * t403 - t67 * t405 + t66 * t406));
+        let t410 = turn_0_cos * t407 + turn_0_sin * t409;
+        let t411 = turn_0_cos * t409 - turn_0_sin * t407;
+        let t412 = axis_j_local_ux * t66 - axis_j_local_uz * t68;
+        let t413 = axis_j_local_ux * t30 - axis_j_local_uz * t34;
+        let t414 = turn_0_cos * t412 - turn_0_sin * t413;
+        let t415 = turn_0_cos * t413 + turn_0_sin * t412;
+        let t416 = t221 * t34 + t229 * t30 - t33 * t401
+            + (axis_j_local_ux * t25 - axis_j_local_uz * t100);
+        let t417 = t221 * t68 + t229 * t66 - t67 * t401
+            + (axis_j_local_ux * t63 - axis_j_local_uz * t108);
+        let t418 = turn_0_cos * t416 + turn_0_sin * t417;
+        let t419 = turn_0_cos * t417 - turn_0_sin * t416;
+        let t420 = (turn_known_cos * t418 + turn_known_sin * t419) * t278
+            + (turn_known_cos * t419 - turn_known_sin * t418) * t279;
+        let t421 = omega_j_x * axis_j_local_wx;
+        let t422 = t421 + t391;
+        let t423 = t187 * t100 + t180 * t25 - t26 * t422;
+        let t424 = t203 + (t35 * axis_j_local_wz + omega_j_z * t422);
+        let t425 = alpha_j_x * axis_j_local_wx;
+        let t426 = omega_j_y * t185 + (t425 + t395);
+        let t427 = t196 - (omega_j_x * t422 + t35 * axis_j_local_wx);
+        let t428 = t187 * t108 + t180 * t63 - t64 * t422;
+        let t429 = t400 + t367;
+        let t430 = t224 * t100 + t230 * t26 - t25 * t429;
+        let t431 = t233 - (omega_j_y * t429 + t36 * axis_j_local_uy);
+        let t432 = t227 + (omega_j_x * t429 + t36 * axis_j_local_ux);
+        let t433 = omega_j_z * t222 - (t404 + t371);
+        let t434 = t430 - (axis_j_local_ux * t99 - axis_j_local_uy * t21)
+            + (t430 + (t34 * t431 + t33 * t432 + t30 * t433));
+        let t435 = t224 * t108 + t230 * t64 - t63 * t429;
+        let t436 = t435 - (axis_j_local_ux * t107 - axis_j_local_uy * t59)
+            + (t435 + (t68 * t431 + t67 * t432 + t66 * t433));
+        let t437 = turn_0_cos * t434 + turn_0_sin * t436;
+        let t438 = turn_0_cos * t436 - turn_0_sin * t434;
+        let t439 = axis_j_local_ux * t67 - axis_j_local_uy * t68;
+        let t440 = axis_j_local_ux * t33 - axis_j_local_uy * t34;
+        let t441 = turn_0_cos * t439 - turn_0_sin * t440;
+        let t442 = turn_0_cos * t440 + turn_0_sin * t439;
+        let t443 = t224 * t34 + t230 * t33 - t30 * t429
+            - (axis_j_local_ux * t26 - axis_j_local_uy * t100);
+        let t444 = t224 * t68 + t230 * t67 - t66 * t429
+            - (axis_j_local_ux * t64 - axis_j_local_uy * t108);
+        let t445 = turn_0_cos * t443 + turn_0_sin * t444;
+        let t446 = turn_0_cos * t444 - turn_0_sin * t443;
+        let t447 = (turn_known_cos * t445 + turn_known_sin * t446) * t278
+            + (turn_known_cos * t446 - turn_known_sin * t445) * t279;
+        let t448 = t421 + t390;
+        let t449 = t184 * t100 + t181 * t26 - t25 * t448;
+        let t450 = t200 - (omega_j_y * t448 + t36 * axis_j_local_wy);
+        let t451 = t197 + (omega_j_x * t448 + t36 * axis_j_local_wx);
+        let t452 = omega_j_z * t188 - (t425 + t394);
+        let t453 = t184 * t108 + t181 * t64 - t63 * t448;
+        let t454 = t279 * t278;
+        let t455 = t281 * t257;
+        let t456 = t279 * t279 - t278 * t278;
         out[0] = T::from(0.0);
         out[1] = T::from(0.0);
         out[2] = T::from(0.0);
@@ -4045,111 +4652,132 @@ impl<T: Ring> Derivatives<T, Space3> for Screw {
                 * (t213 - (axis_local_vy * t208 - axis_local_vz * t209)
                     + (t213 + (t210 * t177 + t211 * t178 + t212 * t179)))
             - lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t247 - turn_0_sin * t249)
-                            - turn_known_sin * (turn_0_cos * t249 + turn_0_sin * t247)))
+                        * ((turn_known_cos * t218 + turn_known_sin * t219) * t257
+                            - (turn_known_cos * t262 - turn_known_sin * t263) * t269
+                            - t280
+                            - (t281 * (turn_known_cos * t263 + turn_known_sin * t262)
+                                - (turn_known_cos * t219 - turn_known_sin * t218) * t282
+                                + t280)))
                     - (axis_local_wy * t120 + axis_local_wz * t121
-                        - (t253 - t254 - (t69 * t142 - t72 * t143 + t144 * t252)
-                            + (t148 * (omega_i_x * t80 - (t255 + t256))
-                                + t152 * (t84 - (t153 * axis_local_wz + omega_i_z * t252))
-                                + t155 * (t81 + (t153 * axis_local_wy + omega_i_y * t252))))
-                        - (t253 - (axis_local_wy * t160 - axis_local_wz * t161))
-                        + (t254 - (axis_local_wy * t168 - axis_local_wz * t169)))));
+                        - (t286 - t287 - (t69 * t142 - t72 * t143 + t144 * t285)
+                            + (t148 * (omega_i_x * t80 - (t288 + t289))
+                                + t152 * (t84 - (t153 * axis_local_wz + omega_i_z * t285))
+                                + t155 * (t81 + (t153 * axis_local_wy + omega_i_y * t285))))
+                        - (t286 - (axis_local_wy * t160 - axis_local_wz * t161))
+                        + (t287 - (axis_local_wy * t168 - axis_local_wz * t169)))));
         out[7] = lambda_0
-            * (axis_local_ux * t120 - axis_local_uz * t257
-                + (t260 - t261 + (t1 * t144 + t9 * t143 + t142 * t259)
-                    + (t148 * t263 - t152 * t265 + t155 * t266))
-                + (t260 + (axis_local_ux * t160 - axis_local_uz * t267))
-                - (t261 + (axis_local_ux * t168 - axis_local_uz * t268)))
+            * (axis_local_ux * t120 - axis_local_uz * t290
+                + (t293 - t294 + (t1 * t144 + t9 * t143 + t142 * t292)
+                    + (t148 * t296 - t152 * t298 + t155 * t299))
+                + (t293 + (axis_local_ux * t160 - axis_local_uz * t300))
+                - (t294 + (axis_local_ux * t168 - axis_local_uz * t301)))
             + lambda_1
-                * (axis_local_vx * t120 - axis_local_vz * t257
-                    + (t271 - t272 + (t39 * t144 + t47 * t143 + t142 * t270)
-                        + (t148 * t273 - t152 * t275 + t155 * t276))
-                    + (t271 + (axis_local_vx * t160 - axis_local_vz * t267))
-                    - (t272 + (axis_local_vx * t168 - axis_local_vz * t268)))
+                * (axis_local_vx * t120 - axis_local_vz * t290
+                    + (t304 - t305 + (t39 * t144 + t47 * t143 + t142 * t303)
+                        + (t148 * t306 - t152 * t308 + t155 * t309))
+                    + (t304 + (axis_local_vx * t160 - axis_local_vz * t300))
+                    - (t305 + (axis_local_vx * t168 - axis_local_vz * t301)))
             - lambda_2
-                * (t277 + (axis_local_ux * t208 - axis_local_uz * t278)
-                    + (t277 + (t210 * t263 - t211 * t265 + t212 * t266)))
+                * (t310 + (axis_local_ux * t208 - axis_local_uz * t311)
+                    + (t310 + (t210 * t296 - t211 * t298 + t212 * t299)))
             - lambda_3
-                * (t279 + (axis_local_vx * t208 - axis_local_vz * t278)
-                    + (t279 + (t210 * t273 - t211 * t275 + t212 * t276)))
-            + lambda_4
-                * (T::from(0.15915494309189535)
+                * (t312 + (axis_local_vx * t208 - axis_local_vz * t311)
+                    + (t312 + (t210 * t306 - t211 * t308 + t212 * t309)))
+            - lambda_4
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t282 - turn_0_sin * t284)
-                            - turn_known_sin * (turn_0_cos * t284 + turn_0_sin * t282)))
-                    + (axis_local_wx * t120 - axis_local_wz * t257
-                        + (t287 - t288 + (t70 * t144 + t78 * t143 + t142 * t286)
-                            + (t148 * (t85 + (t262 * axis_local_wz + omega_i_z * t286))
-                                - t152 * (omega_i_y * t74 + (t289 + t256))
-                                + t155 * (t75 - (omega_i_x * t286 + t262 * axis_local_wx))))
-                        + (t287 + (axis_local_wx * t160 - axis_local_wz * t267))
-                        - (t288 + (axis_local_wx * t168 - axis_local_wz * t268))));
+                        * ((turn_known_cos * t315 + turn_known_sin * t316) * t257
+                            + (turn_known_cos * t321 - turn_known_sin * t322) * t269
+                            + t327
+                            + (t281 * (turn_known_cos * t322 + turn_known_sin * t321)
+                                + (turn_known_cos * t316 - turn_known_sin * t315) * t282
+                                + t327)))
+                    - (axis_local_wx * t120 - axis_local_wz * t290
+                        + (t330 - t331 + (t70 * t144 + t78 * t143 + t142 * t329)
+                            + (t148 * (t85 + (t295 * axis_local_wz + omega_i_z * t329))
+                                - t152 * (omega_i_y * t74 + (t332 + t289))
+                                + t155 * (t75 - (omega_i_x * t329 + t295 * axis_local_wx))))
+                        + (t330 + (axis_local_wx * t160 - axis_local_wz * t300))
+                        - (t331 + (axis_local_wx * t168 - axis_local_wz * t301))));
         out[8] = lambda_0
-            * (axis_local_ux * t121 + axis_local_uy * t257
-                + (t291 - t292 + (t4 * t144 - t10 * t142 - t143 * t290)
-                    + (t148 * t294 + t152 * t295 + t155 * t296))
-                + (t291 - (axis_local_ux * t161 - axis_local_uy * t267))
-                - (t292 - (axis_local_ux * t169 - axis_local_uy * t268)))
+            * (axis_local_ux * t121 + axis_local_uy * t290
+                + (t334 - t335 + (t4 * t144 - t10 * t142 - t143 * t333)
+                    + (t148 * t337 + t152 * t338 + t155 * t339))
+                + (t334 - (axis_local_ux * t161 - axis_local_uy * t300))
+                - (t335 - (axis_local_ux * t169 - axis_local_uy * t301)))
             + lambda_1
-                * (axis_local_vx * t121 + axis_local_vy * t257
-                    + (t298 - t299 + (t42 * t144 - t48 * t142 - t143 * t297)
-                        + (t148 * t300 + t152 * t301 + t155 * t302))
-                    + (t298 - (axis_local_vx * t161 - axis_local_vy * t267))
-                    - (t299 - (axis_local_vx * t169 - axis_local_vy * t268)))
+                * (axis_local_vx * t121 + axis_local_vy * t290
+                    + (t341 - t342 + (t42 * t144 - t48 * t142 - t143 * t340)
+                        + (t148 * t343 + t152 * t344 + t155 * t345))
+                    + (t341 - (axis_local_vx * t161 - axis_local_vy * t300))
+                    - (t342 - (axis_local_vx * t169 - axis_local_vy * t301)))
             - lambda_2
-                * (t303 - (axis_local_ux * t209 - axis_local_uy * t278)
-                    + (t303 + (t210 * t294 + t211 * t295 + t212 * t296)))
+                * (t346 - (axis_local_ux * t209 - axis_local_uy * t311)
+                    + (t346 + (t210 * t337 + t211 * t338 + t212 * t339)))
             - lambda_3
-                * (t304 - (axis_local_vx * t209 - axis_local_vy * t278)
-                    + (t304 + (t210 * t300 + t211 * t301 + t212 * t302)))
+                * (t347 - (axis_local_vx * t209 - axis_local_vy * t311)
+                    + (t347 + (t210 * t343 + t211 * t344 + t212 * t345)))
             + lambda_4
-                * (T::from(0.15915494309189535)
+                * (T::from(0.05305164769729845)
                     * (pitch
-                        * (turn_known_cos * (turn_0_cos * t306 - turn_0_sin * t308)
-                            - turn_known_sin * (turn_0_cos * t308 + turn_0_sin * t306)))
-                    + (axis_local_wx * t121 + axis_local_wy * t257
-                        + (t310 - t311 + (t73 * t144 - t79 * t142 - t143 * t309)
-                            + (t148 * (t82 - (omega_i_y * t309 + t293 * axis_local_wy))
-                                + t152 * (t76 + (omega_i_x * t309 + t293 * axis_local_wx))
-                                + t155 * (omega_i_z * t71 - (t289 + t255))))
-                        + (t310 - (axis_local_wx * t161 - axis_local_wy * t267))
-                        - (t311 - (axis_local_wx * t169 - axis_local_wy * t268))));
-        out[9] = T::from(0.15915494309189535)
-            * (t312
-                * (turn_known_cos * (turn_0_cos * t322 - turn_0_sin * t324)
-                    - turn_known_sin * (turn_0_cos * t324 + turn_0_sin * t322)))
-            - lambda_2
-                * (t328 - (axis_j_local_wy * t112 - axis_j_local_wz * t99)
-                    + (t328 + (t34 * t331 + t33 * t332 + t30 * t333)))
-            - lambda_3
-                * (t334 - (axis_j_local_wy * t117 - axis_j_local_wz * t107)
-                    + (t334 + (t68 * t331 + t67 * t332 + t66 * t333)));
-        out[10] = T::from(0.15915494309189535)
-            * (t312
-                * (turn_known_cos * (turn_0_cos * t342 - turn_0_sin * t344)
-                    - turn_known_sin * (turn_0_cos * t344 + turn_0_sin * t342)))
-            - lambda_2
-                * (t347 + (axis_j_local_wx * t112 - axis_j_local_wz * t21)
-                    + (t347 + (t34 * t348 - t33 * t350 + t30 * t351)))
-            - lambda_3
-                * (t352 + (axis_j_local_wx * t117 - axis_j_local_wz * t59)
-                    + (t352 + (t68 * t348 - t67 * t350 + t66 * t351)));
-        out[11] = T::from(0.15915494309189535)
-            * (t312
-                * (turn_known_cos * (turn_0_cos * t358 - turn_0_sin * t360)
-                    - turn_known_sin * (turn_0_cos * t360 + turn_0_sin * t358)))
-            - lambda_2
-                * (t362 - (axis_j_local_wx * t99 - axis_j_local_wy * t21)
-                    + (t362 + (t34 * t363 + t33 * t364 + t30 * t365)))
-            - lambda_3
-                * (t366 - (axis_j_local_wx * t107 - axis_j_local_wy * t59)
-                    + (t366 + (t68 * t363 + t67 * t364 + t66 * t365)));
-        out[12] = -(T::from(0.15915494309189535)
-            * (lambda_4 * (turn_known_cos * t371 - turn_known_sin * t372)));
-        out[13] = T::from(0.15915494309189535)
-            * (t312 * (turn_known_cos * t372 + turn_known_sin * t371));
+                        * ((turn_known_cos * t350 + turn_known_sin * t351) * t257
+                            - (turn_known_cos * t356 - turn_known_sin * t357) * t269
+                            - t362
+                            - (t281 * (turn_known_cos * t357 + turn_known_sin * t356)
+                                - (turn_known_cos * t351 - turn_known_sin * t350) * t282
+                                + t362)))
+                    + (axis_local_wx * t121 + axis_local_wy * t290
+                        + (t364 - t365 + (t73 * t144 - t79 * t142 - t143 * t363)
+                            + (t148 * (t82 - (omega_i_y * t363 + t336 * axis_local_wy))
+                                + t152 * (t76 + (omega_i_x * t363 + t336 * axis_local_wx))
+                                + t155 * (omega_i_z * t71 - (t332 + t288))))
+                        + (t364 - (axis_local_wx * t161 - axis_local_wy * t300))
+                        - (t365 - (axis_local_wx * t169 - axis_local_wy * t301))));
+        out[9] = -(T::from(0.05305164769729845)
+            * (t366
+                * (t281 * (turn_known_cos * t379 + turn_known_sin * t380)
+                    - (turn_known_cos * t383 - turn_known_sin * t384) * t282 + t389
+                    - ((turn_known_cos * t384 + turn_known_sin * t383) * t257
+                        - (turn_known_cos * t380 - turn_known_sin * t379) * t269
+                        - t389)))
+            + lambda_2
+                * (t393 - (axis_j_local_wy * t112 - axis_j_local_wz * t99)
+                    + (t393 + (t34 * t396 + t33 * t397 + t30 * t398)))
+            + lambda_3
+                * (t399 - (axis_j_local_wy * t117 - axis_j_local_wz * t107)
+                    + (t399 + (t68 * t396 + t67 * t397 + t66 * t398))));
+        out[10] = -(T::from(0.05305164769729845)
+            * (t366
+                * (t281 * (turn_known_cos * t410 + turn_known_sin * t411)
+                    + (turn_known_cos * t414 - turn_known_sin * t415) * t282 + t420
+                    + ((turn_known_cos * t415 + turn_known_sin * t414) * t257
+                        + (turn_known_cos * t411 - turn_known_sin * t410) * t269
+                        + t420)))
+            + lambda_2
+                * (t423 + (axis_j_local_wx * t112 - axis_j_local_wz * t21)
+                    + (t423 + (t34 * t424 - t33 * t426 + t30 * t427)))
+            + lambda_3
+                * (t428 + (axis_j_local_wx * t117 - axis_j_local_wz * t59)
+                    + (t428 + (t68 * t424 - t67 * t426 + t66 * t427))));
+        out[11] = -(T::from(0.05305164769729845)
+            * (t366
+                * (t281 * (turn_known_cos * t437 + turn_known_sin * t438)
+                    - (turn_known_cos * t441 - turn_known_sin * t442) * t282 + t447
+                    - ((turn_known_cos * t442 + turn_known_sin * t441) * t257
+                        - (turn_known_cos * t438 - turn_known_sin * t437) * t269
+                        - t447)))
+            + lambda_2
+                * (t449 - (axis_j_local_wx * t99 - axis_j_local_wy * t21)
+                    + (t449 + (t34 * t450 + t33 * t451 + t30 * t452)))
+            + lambda_3
+                * (t453 - (axis_j_local_wx * t107 - axis_j_local_wy * t59)
+                    + (t453 + (t68 * t450 + t67 * t451 + t66 * t452))));
+        out[12] = T::from(0.05305164769729845)
+            * (lambda_4 * (t281 * t282 + t454 + (t454 + t257 * t269)));
+        out[13] = -(T::from(0.05305164769729845)
+            * (t366 * (t268 * t282 - t455 + t456 - (t455 - t282 * t269 - t456))));
         out[14] = T::from(0.0);
     }
 }
