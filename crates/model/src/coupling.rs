@@ -19,15 +19,18 @@ use facts::facts;
 use polynomial::Polynomial;
 use side::Side;
 
+/// Name of the datum with the initial value of a measure that has a row of its own.
+const OF_ROW: &str = "measure_0";
+
 /// A coupling of two measures.
 #[derive(Clone)]
 struct Coupling<S: BodySpace> {
     /// The measure x, and y that follows it.
     sides: [Side<S>; 2],
     law: Polynomial,
-    /// How the joint of y meets the first body: with its first body (1), with its second (−1), or
-    /// not at all.
-    meets: f64,
+    /// How the joints of both meet the first body: with their first body (1), with their second
+    /// (−1), or not at all.
+    meets: [f64; 2],
     facts: &'static facts::Facts,
 }
 
@@ -75,11 +78,17 @@ where
     Coupling<S>: ConstraintKernels<S>,
 {
     let law = Polynomial::new(coefficients).ok_or(CouplingError::Coefficients)?;
-    let mut bodies: Vec<BodyRef> = Vec::new();
+    // The first body is one that the coupling loads: the second of the joint of x, unless that is
+    // the ground.
+    let of_x = &measures[0].0;
+    let loaded = of_x.iter().rev().find(|body| body.moving().is_some());
+    let mut bodies: Vec<BodyRef> = loaded.copied().into_iter().collect();
     let mut slots = Vec::new();
     for (own, drive) in &measures {
         let spec = drive.spec();
-        let is_single = spec.rows.len() == 1 && spec.holonomic == 1 && own.len() == 2;
+        // A kept measure has no initial value of its own: its drive has the rows of the joint.
+        let has_own_row = spec.data.iter().any(|datum| datum.name == OF_ROW);
+        let is_single = has_own_row && spec.rows.len() == 1 && own.len() == 2;
         if !is_single || spec.common.slots.len() != 2 || spec.common.functions().count() != 1 {
             return Err(CouplingError::Measure {
                 definition: spec.common.name,
@@ -98,11 +107,11 @@ where
         slots.push([own[0], own[1]]);
     }
     let [(_, x), (_, y)] = measures;
-    let meets = match slots[1] {
+    let meets = [0, 1].map(|side| match slots[side] {
         [0, _] => 1.0,
         [_, 0] => -1.0,
         _ => 0.0,
-    };
+    });
     let facts = facts(
         [x.spec(), y.spec()],
         [slots[0], slots[1]],

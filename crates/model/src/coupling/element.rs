@@ -80,10 +80,6 @@ impl<S: Kinematics> Definition<S> for Coupling<S> {
         sides.flat_map(|side| side.drive.points()).collect()
     }
 
-    fn axes(&self) -> Option<[[f64; 3]; 3]> {
-        self.sides[0].drive.axes()
-    }
-
     fn data(&self, out: &mut [f64]) {
         for side in &self.sides {
             side.drive.data(&mut out[side.data.clone()]);
@@ -146,7 +142,8 @@ impl<T: Numbers, S: Kinematics> Element<T, S> for Coupling<S> {
     {
         let zero = T::from(0.0);
         let both = self.both(x, f);
-        let factors = [-both.h[1], T::from(self.meets)];
+        let [x_meets, y_meets] = self.meets.map(T::from);
+        let factors = [-(x_meets * both.h[1]), y_meets];
         let place = Element::<T, S>::place(self, x);
         out.fill(zero);
         for ((side, at), factor) in self.sides.iter().zip([&both.x, &both.y]).zip(factors) {
