@@ -1,10 +1,10 @@
-//! Couplings: a measure of one joint follows a measure of another by a polynomial, as the wheels of a
-//! gear train, a rack, or a cam of few terms.
+//! Couplings: a measure of one joint follows a measure of another by a polynomial, as the wheels of
+//! a gear train, a rack, or a cam of few terms.
 //!
-//! A drive states its measure by the row measure − initial measure − motion, or for an angle in space
-//! by the sine of what is left of the angle ([`joints::spec::ConstraintSpec::turning`]). A coupling
-//! has the kernels of two drives, x and y their measures since the start, and the row
-//! `y − (ratio·x + c₂·x² + …) = 0`.
+//! A drive states its measure by the row measure − initial measure − motion, or for an angle in
+//! space by the sine of what is left of the angle ([`joints::spec::ConstraintSpec::turning`]). A
+//! coupling has the kernels of two drives, x and y their measures since the start, and the row `y −
+//! (ratio·x + c₂·x² + …) = 0`.
 
 mod element;
 mod facts;

@@ -252,8 +252,8 @@ impl Mechanism {
         d
     }
 
-    /// Copies the freedoms of these columns of C from another configuration, exactly, and all counted
-    /// angles.
+    /// Copies the freedoms of these columns of C from another configuration, exactly, and all
+    /// counted angles.
     pub fn take(&self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         self.space().take(q, from, columns);
         let first = self.layout.n_q - self.layout.turns;

@@ -185,6 +185,7 @@ impl Study {
     /// ```
     /// use pfaff::prelude::*;
     /// use pfaff::dynamics::equilibrium::EquilibriumOptions;
+    /// use pfaff::joints::SpringDamper;
     ///
     /// // A mass on a spring of 100 N/m, described where the spring carries nothing.
     /// let mut d = Description { gravity: [0.0, -10.0], ..Description::new("scale") };

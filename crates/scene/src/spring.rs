@@ -1,5 +1,5 @@
-//! Forces of the type `torsion-spring-damper` in space: on the angle of a joint. They name a joint, as
-//! drives do; in the plane the type is a definition between two bodies.
+//! Forces of the type `torsion-spring-damper` in space: on the angle of a joint. They name a joint,
+//! as drives do; in the plane the type is a definition between two bodies.
 
 use joints::spec::Unit;
 use model::law::{Join, Law, Operation};

@@ -154,8 +154,8 @@ impl IndependentCoordinates {
 
     /// Takes the independent entries of a state. The others stay those of the last completed state:
     /// the values that an integrator carries for them may be wrong by as much as a step, and
-    /// Newton's method would converge to another branch or another revolution from there. Of counted
-    /// angles only the turns are read, which an integrator carries.
+    /// Newton's method would converge to another branch or another revolution from there. Of
+    /// counted angles only the turns are read, which an integrator carries.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
         mechanism.take(&mut self.q, q, &self.z);
         for &i in &self.u {

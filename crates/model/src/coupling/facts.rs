@@ -1,5 +1,5 @@
-//! The facts of couplings. Those of a definition are constants; those of a coupling depend on its two
-//! measures, and are made once for each pair and kept.
+//! The facts of couplings. Those of a definition are constants; those of a coupling depend on its
+//! two measures, and are made once for each pair and kept.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -38,8 +38,8 @@ impl Facts {
 /// Names of the slots of a coupling.
 const SLOTS: [&str; 4] = ["i", "j", "k", "l"];
 
-/// All facts that were made: at most one set for each pair of measures, each way in which they share
-/// bodies and each degree.
+/// All facts that were made: at most one set for each pair of measures, each way in which they
+/// share bodies and each degree.
 static KEPT: Mutex<Option<HashMap<String, &'static Facts>>> = Mutex::new(None);
 
 /// The facts of the coupling of two measures, whose bodies are in these slots.

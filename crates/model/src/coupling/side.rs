@@ -1,4 +1,5 @@
-//! One measure of a coupling: the kernels of its drive, and where they are in those of the coupling.
+//! One measure of a coupling: the kernels of its drive, and where they are in those of the
+//! coupling.
 
 use joints::{Element, Magnitude, Recorded, Ring};
 use linalg::Dd;

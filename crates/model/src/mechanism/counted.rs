@@ -1,8 +1,8 @@
-//! Angles in space with their full turns. A rotation knows an angle up to full turns only; a screw, a
-//! gear or a spring need the angle itself. So the configuration has one coordinate for each such
-//! angle, after those of the bodies: the angle since the start. It moves with the rate of the angle,
-//! and only the number of its turns is read from it, so that it need not be exact: the angle itself
-//! is that of the poses.
+//! Angles in space with their full turns. A rotation knows an angle up to full turns only; a screw,
+//! a gear or a spring need the angle itself. So the configuration has one coordinate for each such
+//! angle, after those of the bodies: the angle since the start. It moves with the rate of the
+//! angle, and only the number of its turns is read from it, so that it need not be exact: the angle
+//! itself is that of the poses.
 
 use std::f64::consts::TAU;
 

@@ -152,7 +152,7 @@ fn faults_have_their_places() {
                 "joint = \"lock\"\ntype = \"angle\"\nmotion = { type = \"table\", times = [0, 0.5, 1], values = [0, 1, 2] }\nactive = 0",
                 "joint = «\"lock\"»\ntype = \"angle\"\nmotion = { type = \"table\", times = [0, 1, 3], values = [0, 1, 2] }",
                 "drive `motor` drives joint `lock`, which is not active",
-                "write `active = false` for the drive, too, or remove it from the joint",
+                "write `active = false` here, too, or remove it from the joint",
             ),
             (
                 "members = [\"A\", \"lock\"]\nactive = false",

@@ -141,7 +141,9 @@ fn every_type_is_read_and_built() {
         .collect();
     assert_eq!(
         rows,
-        [3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 3, 3, 3, 3, 4]
+        [
+            3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 3, 3, 3, 3, 4, 5
+        ]
     );
     assert_eq!(d.forces.len(), forces.len());
     assert!(Mechanism::build(&d).is_ok());
