@@ -23,6 +23,7 @@
 //! | [`description`] | bodies, joints, drives and forces as plain data |
 //! | [`frame`] | frames whose origin is not the centre of mass, and states of points |
 //! | `data` | points, directions and numbers of constraints, and how rows change with them |
+//! | [`coupling`] | measures of joints that follow one another |
 //! | [`law`] | forces of drives as functions of a measure and its rate |
 //! | [`mechanism`] | the assembled equations |
 //! | `element` | kernels with the poses and velocities of their bodies |
@@ -45,7 +46,7 @@ mod body;
 pub mod codes;
 pub mod coupling;
 mod data;
-mod description;
+pub mod description;
 mod element;
 pub mod extended;
 pub mod frame;

@@ -40,22 +40,22 @@ pub(crate) struct Found<'t> {
     before: [usize; 2],
 }
 
+/// Whether the table of a joint is that of a coupling.
+pub(crate) fn is_meant(table: &Table) -> bool {
+    table.peek(TYPE) == Some(COUPLING)
+}
+
 impl<'t> Found<'t> {
-    /// The table of a joint, if it is a coupling.
-    pub(crate) fn of<S: SceneSpace>(
+    /// The table of a coupling behind the joints that were read.
+    pub(crate) fn behind<S: SceneSpace>(
         table: Table<'t>,
         name: String,
         joints: &Joints<S>,
-    ) -> Result<Self, (Table<'t>, String)> {
-        if table.peek(TYPE) == Some(COUPLING) {
-            let before = [joints.known.len(), joints.list.len()];
-            Ok(Self {
-                table,
-                name,
-                before,
-            })
-        } else {
-            Err((table, name))
+    ) -> Self {
+        Self {
+            table,
+            name,
+            before: [joints.known.len(), joints.list.len()],
         }
     }
 }

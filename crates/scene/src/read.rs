@@ -273,11 +273,10 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         let mut couplings = Vec::new();
         for (table, name) in tables(root, &section::JOINT, findings) {
             names.elements.push(Use::of(&name, &table));
-            match coupling::Found::of(table, name, joints) {
-                Ok(found) => couplings.push(found),
-                Err((table, name)) => {
-                    joints.read(table, &name, &types, bodies, domains, findings);
-                }
+            if coupling::is_meant(&table) {
+                couplings.push(coupling::Found::behind(table, name, joints));
+            } else {
+                joints.read(table, &name, &types, bodies, domains, findings);
             }
         }
         coupling::read(couplings, joints, findings);

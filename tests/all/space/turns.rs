@@ -131,8 +131,8 @@ fn a_torsion_spring_counts_its_turns() {
         ),
     ];
     for (tensor, inertia) in tensors {
-        let (k, omega) = (1.3, 60.0);
-        let own = (k / inertia as f64).sqrt();
+        let (k, omega) = (1.3_f64, 60.0);
+        let own = (k / inertia).sqrt();
         for method in [Method::Dop853, Method::Radau5] {
             for t in [0.25, 1.0, 1.9] {
                 let t = t * PI / own;

@@ -61,8 +61,7 @@ pub(super) fn facts(
     );
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     let kept = kept.get_or_insert_default();
-    *kept
-        .entry(key)
+    kept.entry(key)
         .or_insert_with(|| Box::leak(Box::new(made(measures, slots, n_slots, law.degree()))))
 }
 
