@@ -316,7 +316,13 @@ fn lu(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
             return Ok(());
         }
     };
-    let rhs = Col::from_fn(n + r, |k| if k < n { system.force[k] } else { system.gamma[k - n] });
+    let rhs = Col::from_fn(n + r, |k| {
+        if k < n {
+            system.force[k]
+        } else {
+            system.gamma[k - n]
+        }
+    });
     let (solve, x) = timed(|| lu.solve(&rhs));
     let a: Vec<f64> = (0..n).map(|j| x[j]).collect();
     let lambda: Vec<f64> = (n..n + r).map(|i| x[i]).collect();

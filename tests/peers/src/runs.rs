@@ -205,10 +205,13 @@ fn done<const N: usize>(
     error: impl Fn(&[f64; N]) -> f64,
 ) -> Result<Outcome, String> {
     let error = error(&end.y);
-    if error.is_finite() { Ok(Outcome {
+    if error.is_finite() {
+        Ok(Outcome {
             error,
             evaluations: end.evaluations,
             steps: end.steps,
         })
-} else { Err("the end is no number, and no error was reported".to_owned()) }
+    } else {
+        Err("the end is no number, and no error was reported".to_owned())
+    }
 }

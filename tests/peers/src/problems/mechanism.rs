@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 
-use dynamics::{KeptRowMotion, MotionError, Prepared, RowChoice, MotionFault, prepare};
+use dynamics::{KeptRowMotion, MotionError, MotionFault, Prepared, RowChoice, prepare};
 use model::{Mechanism, Registry, System};
 use suite::{Case, Kind, Quantity};
 
@@ -64,9 +64,9 @@ impl MovingCase {
             .map_err(|faults| CaseError::Scene(faults.len()))?;
         let bodies: Vec<String> = scene
             .description
-            .bodies
+            .bodies()
             .iter()
-            .map(|b| b.name.to_string())
+            .map(|b| b.name.clone())
             .collect();
         let mechanism = Mechanism::build(&scene.description)
             .map_err(|faults| CaseError::Scene(faults.len()))?;
