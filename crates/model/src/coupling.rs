@@ -115,8 +115,8 @@ where
     let facts = facts(
         [x.spec(), y.spec()],
         [slots[0], slots[1]],
-        bodies.len(),
-        &law,
+        [bodies.len(), S::N_DOF],
+        law.degree(),
     );
     let first = [0, x.spec().n_data()];
     let turns = [0, usize::from(x.spec().turning)];

@@ -8,8 +8,6 @@ use joints::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Parameter, Role, Row, Shape, Spec, Unit,
 };
 
-use super::polynomial::Polynomial;
-
 /// The facts of a coupling with the patterns of its kernels.
 pub(super) struct Facts {
     pub(super) spec: ConstraintSpec,
@@ -40,45 +38,35 @@ const SLOTS: [&str; 4] = ["i", "j", "k", "l"];
 
 /// All facts that were made: at most one set for each pair of measures, each way in which they
 /// share bodies and each degree.
-static KEPT: Mutex<Option<HashMap<String, &'static Facts>>> = Mutex::new(None);
+static KEPT: Mutex<Option<HashMap<Key, &'static Facts>>> = Mutex::new(None);
 
-/// The facts of the coupling of two measures, whose bodies are in these slots.
+/// Places of the specs of both measures, their slots, and the degree.
+type Key = ([usize; 2], [[usize; 2]; 2], usize);
+
+/// The facts of the coupling of two measures, whose bodies are in these slots: their number, and that
+/// of the velocities of a body, by a polynomial of this degree.
 pub(super) fn facts(
     measures: [&'static ConstraintSpec; 2],
     slots: [[usize; 2]; 2],
-    n_slots: usize,
-    law: &Polynomial,
+    [n_slots, n_dof]: [usize; 2],
+    degree: usize,
 ) -> &'static Facts {
-    let [x, y] = measures;
-    let key = format!(
-        "{}.{} {}.{} {slots:?} {} {}",
-        x.common.name,
-        x.c.len(),
-        y.common.name,
-        y.c.len(),
-        law.degree(),
-        x.common.parameters.len(),
-    );
+    // Specs are constants: one place, one content. Names are not enough: the plane, space and crates
+    // of users may have the same.
+    let place = |spec: &'static ConstraintSpec| std::ptr::from_ref(spec).addr();
+    let key = (measures.map(place), slots, degree);
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     let kept = kept.get_or_insert_default();
     kept.entry(key)
-        .or_insert_with(|| Box::leak(Box::new(made(measures, slots, n_slots, law.degree()))))
+        .or_insert_with(|| Box::leak(Box::new(made(measures, slots, [n_slots, n_dof], degree))))
 }
 
 fn made(
     measures: [&'static ConstraintSpec; 2],
     slots: [[usize; 2]; 2],
-    n_slots: usize,
+    [n_slots, n_dof]: [usize; 2],
     degree: usize,
 ) -> Facts {
-    let widest = measures.iter().flat_map(|m| m.wrench).map(|w| w[0] + 1);
-    let deepest = measures.iter().flat_map(|m| m.c).map(|e| e.dof + 1);
-    // Bodies of the plane have three velocities, bodies in space six.
-    let n_dof = if widest.chain(deepest).max().unwrap_or(0) > 3 {
-        6
-    } else {
-        3
-    };
     let columns = n_dof * n_slots;
     let mut facts = Facts {
         spec: ConstraintSpec {
