@@ -43,16 +43,16 @@ static KEPT: Mutex<Option<HashMap<Key, &'static Facts>>> = Mutex::new(None);
 /// Places of the specs of both measures, their slots, and the degree.
 type Key = ([usize; 2], [[usize; 2]; 2], usize);
 
-/// The facts of the coupling of two measures, whose bodies are in these slots: their number, and that
-/// of the velocities of a body, by a polynomial of this degree.
+/// The facts of the coupling of two measures by a polynomial of this degree. Their bodies are in
+/// these slots, of which there are so many, with so many velocities each.
 pub(super) fn facts(
     measures: [&'static ConstraintSpec; 2],
     slots: [[usize; 2]; 2],
     [n_slots, n_dof]: [usize; 2],
     degree: usize,
 ) -> &'static Facts {
-    // Specs are constants: one place, one content. Names are not enough: the plane, space and crates
-    // of users may have the same.
+    // Specs are constants: one place, one content. Names are not enough: the plane, space and
+    // crates of users may have the same.
     let place = |spec: &'static ConstraintSpec| std::ptr::from_ref(spec).addr();
     let key = (measures.map(place), slots, degree);
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
