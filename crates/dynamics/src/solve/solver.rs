@@ -158,8 +158,9 @@ impl Solver {
     /// Uses the coordinates of the last factorisation first in the next ones; the sparse order is
     /// always the same.
     pub(super) fn keep_order(&mut self) {
-        if let Self::Dense(it) = self {
-            it.saddle.keep_order();
+        match self {
+            Self::Dense(it) => it.saddle.keep_order(),
+            Self::Sparse(it) => it.saddle.keep_shares(),
         }
     }
 

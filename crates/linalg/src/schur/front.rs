@@ -57,8 +57,8 @@ pub(super) fn add_element(
 }
 
 /// Eliminates the first pivots, as many as `inverse` has entries: `F = L·D·Lᵀ + [0, 0; 0, update]`.
-/// Skips pivots that are at most `least[k]`: their column of L and their inverse are zero. Returns
-/// the smallest ratio `D_k/size_k` of the others.
+/// Skips pivots that are at most `floor` of their `size`: their column of L and their inverse are
+/// zero. Returns the smallest ratio `D_k/size_k` of the others.
 pub(super) fn eliminate(
     front: &mut [f64],
     f: usize,
