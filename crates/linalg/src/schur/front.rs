@@ -39,19 +39,35 @@ pub(super) fn add_element(
         };
     }
     let e = &scratch[..entries.len()];
-    for (k, &j) in at.iter().enumerate() {
-        let column = &mut front[j as usize * f..][..f];
-        let own = &e[k * width..];
-        if width == 3 {
-            let w = [own[0] * weight(0), own[1] * weight(1), own[2] * weight(2)];
-            for (x, &i) in own.as_chunks::<3>().0.iter().zip(&at[k..]) {
-                column[i as usize] += x[0] * w[0] + x[1] * w[1] + x[2] * w[2];
+    match width {
+        // Bodies in the plane and in space.
+        3 => add_products(front, f, at, e.as_chunks::<3>().0, weight),
+        6 => add_products(front, f, at, e.as_chunks::<6>().0, weight),
+        _ => {
+            for (k, &j) in at.iter().enumerate() {
+                let (column, own) = (&mut front[j as usize * f..][..f], &e[k * width..]);
+                for (l, &i) in at[k..].iter().enumerate() {
+                    let product = |c: usize| own[l * width + c] * weight(c) * own[c];
+                    column[i as usize] += (0..width).map(product).sum::<f64>();
+                }
             }
-            continue;
         }
-        for (l, &i) in at[k..].iter().enumerate() {
-            let product = |c: usize| own[l * width + c] * weight(c) * own[c];
-            column[i as usize] += (0..width).map(product).sum::<f64>();
+    }
+}
+
+/// [`add_element`] for rows of a known length.
+fn add_products<const N: usize>(
+    front: &mut [f64],
+    f: usize,
+    at: &[u32],
+    rows: &[[f64; N]],
+    weight: impl Fn(usize) -> f64,
+) {
+    for (k, (&j, row)) in at.iter().zip(rows).enumerate() {
+        let column = &mut front[j as usize * f..][..f];
+        let weighted: [f64; N] = std::array::from_fn(|c| row[c] * weight(c));
+        for (x, &i) in rows[k..].iter().zip(&at[k..]) {
+            column[i as usize] += (0..N).map(|c| x[c] * weighted[c]).sum::<f64>();
         }
     }
 }
