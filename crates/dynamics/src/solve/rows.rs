@@ -52,7 +52,7 @@ impl KeptRows {
     pub(crate) fn new(at: &Evaluation<'_>, rows: &RowDecision) -> Result<Self, MotionFault> {
         let units = units(at.mechanism, at.size);
         let (n, r) = (units.len(), rows.kept.len());
-        let solver = Solver::new(at.mechanism, &rows.kept, &units);
+        let solver = Solver::new(at.mechanism, &rows.kept, (&units, at.size));
         Ok(Self {
             kept: rows.kept.clone(),
             dropped: rows.dropped.clone(),

@@ -1,33 +1,42 @@
-//! Units of a mechanism: rotations are measured by the lengths of their bodies, rounded to powers of
-//! two so that scaling causes no rounding; and the sizes and masses that decide whether solutions
-//! are refined.
+//! Units of a mechanism: lengths are divided by its size, rounded to a power of two so that scaling
+//! causes no rounding; and the sizes and masses that decide whether solutions are refined.
 
 use model::{Mechanism, System};
 
 use crate::limits::FAR_FROM_A_METRE;
 
-/// The unit of each column of C for a mechanism of this size (m): a translation in metres, a
-/// rotation by the metres that it moves the joints of its body.
+/// The unit of each column of C for a mechanism of this size (m).
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let exponents = mechanism.layout().dimension_scaling(size).cols;
+    exponents.iter().map(|&e| f64::from(e).exp2()).collect()
+}
+
+/// The unit of each column of C by the bodies: a translation in metres, a rotation by the metres
+/// that it moves the joints of its body. The links of a row of a thousand metres have masses of one
+/// kind, although their moments of inertia are nothing beside the square of its size.
+pub(super) fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let (layout, space) = (mechanism.layout(), mechanism.space());
     let mut units = vec![1.0; layout.n_v];
     let bodies = units.chunks_exact_mut(space.n_v());
     for (body, length) in bodies.zip(lengths(mechanism, size)) {
-        body[space.torques()].fill((-length.log2().round()).exp2());
+        body[space.torques()].fill(length.recip());
     }
     units
 }
 
 /// The length (m) of each body: the longest arm from its mass centre to a point of its joints, or
 /// its largest radius of gyration if that is longer; the size of the mechanism (m) if a body has
-/// neither. Thin rods and short links of a large mechanism would be graded by its size, without
-/// reason.
+/// neither.
 fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let space = mechanism.space();
     let gyration = |mass: &[f64]| {
         let heaviest = |part: &[f64]| part.iter().fold(0.0, |a: f64, &m| a.max(m));
         let square = heaviest(&mass[space.torques()]) / heaviest(&mass[space.forces()]);
-        if square.is_finite() { square.sqrt() } else { 0.0 }
+        if square.is_finite() {
+            square.sqrt()
+        } else {
+            0.0
+        }
     };
     let bodies = mechanism.mass().chunks_exact(space.n_v());
     let mut lengths: Vec<f64> = bodies.map(gyration).collect();
@@ -58,7 +67,7 @@ pub(crate) fn is_far(size: f64) -> bool {
 }
 
 /// The largest mass divided by the smallest non-zero one, with moments of inertia divided by the
-/// squares of the lengths of their bodies; `size` is that of the mechanism (m). It decides whether solutions are refined.
+/// square of the size of the mechanism (m). It decides whether solutions are refined.
 pub(crate) fn mass_spread(mechanism: &Mechanism, size: f64) -> f64 {
     linalg::mass_spread(&mass_in_units(mechanism, &units(mechanism, size)))
 }

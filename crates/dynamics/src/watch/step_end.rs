@@ -226,10 +226,7 @@ impl Watch {
     /// until then have fallen within the step. It is passed from farther away, where stages are not
     /// yet rounding, so the step is repeated with this knowledge.
     fn came_upon(&self, equations: &KeptEquations<'_>, now: Now<'_>) -> Option<f64> {
-        let (before, pivot) = (
-            self.passage.pivot(),
-            equations.velocity.relative_pivot(),
-        );
+        let (before, pivot) = (self.passage.pivot(), equations.velocity.relative_pivot());
         if !GUARDED || self.delicate.is_some() || pivot >= FALLEN * before.min(1.0) {
             return None;
         }

@@ -2,7 +2,7 @@
 
 use super::front::{add_element, add_update, eliminate};
 use super::{Assembly, Factors, SchurSaddle};
-use crate::limits::SCHUR_NOISE;
+use crate::limits::{SCHUR_NOISE, SCHUR_WHOLE};
 use crate::{SaddleError, SparseMatrix};
 
 impl SchurSaddle {
@@ -177,8 +177,9 @@ impl SchurSaddle {
             ..
         } = &mut self.factors;
         for ((usual, inverse), size) in usual.iter_mut().zip(inverse).zip(diagonal) {
-            let share = 1.0 / (*inverse * *size * smallest);
-            *usual = if share.is_finite() { share } else { 1.0 };
+            let share = (1.0 / (*inverse * *size)).min(SCHUR_WHOLE.powi(2));
+            let usually = share / smallest;
+            *usual = if usually.is_finite() { usually.max(1.0) } else { 1.0 };
         }
     }
 }
