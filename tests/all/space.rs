@@ -4,6 +4,7 @@ mod adams;
 mod axles;
 mod bicycle;
 mod catalogue;
+mod choices;
 mod drifts;
 mod motion;
 mod robot;

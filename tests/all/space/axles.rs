@@ -1,8 +1,8 @@
-//! Two wheels on one axle. On a rigid axle both contact points belong to one body: six rows hold two
-//! of its points, five of them independent, and what is left is to turn about the line through both
-//! points. So the axle rolls straight on and cannot steer, and of two forces along this line only the
-//! sum is known. On hubs each wheel has its own spin, and the axle three freedoms: to roll, to
-//! steer, and to pitch on its hubs; still both wheels hold it sideways along one line.
+//! Two wheels on one axle. On a rigid axle both contact points belong to one body: six rows hold
+//! two of its points, five of them independent, and what is left is to turn about the line through
+//! both points. So the axle rolls straight on and cannot steer, and of two forces along this line
+//! only the sum is known. On hubs each wheel has its own spin, and the axle three freedoms: to
+//! roll, to steer, and to pitch on its hubs; still both wheels hold it sideways along one line.
 
 use std::fmt::Write;
 
@@ -122,8 +122,8 @@ fn wheels_that_are_fixed_on_one_axle() {
     }
 }
 
-/// An axle on two wheels that turn freely, which have turned by 0.3 and −1.1 and point inwards by an
-/// angle each.
+/// An axle on two wheels that turn freely, which have turned by 0.3 and −1.1 and point inwards by
+/// an angle each.
 fn hubs(toe: f64) -> String {
     let mut bodies = format!(
         "{{ name = \"axle\", mass = 5, inertia = [0.8, 0.1, 0.8], position = [0, 0, {RADIUS:?}] }}"

@@ -4,9 +4,10 @@
 //! DynamicistToolKit, `dtk/bicycle.py`.
 //!
 //! There z is up, the rear hub is at (x, y, z), and the frame has turned by θ about z, then by ψ
-//! about its new x, then by φ about its new z, which is the axis of the rear wheel, to the left. The
-//! bicycle is upright and goes along −x at θ = 0, ψ = π/2, φ = π. The fork turns against the frame by
-//! ψ_f about the steering axis, upwards, the wheels by β_r and β_f about their axes, to the left.
+//! about its new x, then by φ about its new z, which is the axis of the rear wheel, to the left.
+//! The bicycle is upright and goes along −x at θ = 0, ψ = π/2, φ = π. The fork turns against the
+//! frame by ψ_f about the steering axis, upwards, the wheels by β_r and β_f about their axes, to
+//! the left.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -8,10 +8,10 @@ use std::ops::ControlFlow;
 
 use dynamics::MotionOptions;
 use joints::space3::Pose;
-use model::{Registry, System};
-use oracle::{Answer, Pins, answer};
+use model::{ConstraintId, Registry, System};
+use oracle::{Answer, Pins, answer, idle_loads};
 use pfaff::{Overrides, Study};
-use solvability::{Analysis, analyse};
+use solvability::{Analysis, Choice, Compliance, NormWeights, Value, analyse};
 use suite::Quantity;
 use tests::largest;
 
@@ -21,6 +21,9 @@ use crate::examples;
 const NOT_UNIQUE: [&str; 10] = [
     "B", "C", "W1", "W2", "W3", "W4", "hub-1", "hub-2", "hub-3", "hub-4",
 ];
+
+/// Components of reactions.
+const NAMES: [&str; 6] = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
 
 /// The bodies that the plane has as well.
 const BODIES: [&str; 7] = [
@@ -139,7 +142,7 @@ fn assert_same(found: &Analysis, expected: &Answer, t: f64) {
             word(whole),
             "{name} at t = {t}"
         );
-        for (component, unique) in ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"].iter().zip(unique) {
+        for (component, unique) in NAMES.iter().zip(unique) {
             // What is zero under any load is not among the components.
             let own = reaction.components.iter().find(|c| c.name == *component);
             let own = own.map_or("unique", |c| c.judgement.verdict.word());
@@ -265,4 +268,53 @@ fn wheels_without_inertia_are_knife_edges() {
     let found = analyse(&light.prepared.mechanism, *t, q).expect("C is finite");
     assert_same(&found, &answer(q, Pins::Drawn), *t);
     assert_eq!(light.prepared.mechanism.layout().rows(), 74);
+}
+
+/// A sum of weighted squares is least if it does not change at first order for any load that needs
+/// no force on a body; for the norm with an arm of 0.3 m, and for supports as different as a prime
+/// is from the next one.
+#[test]
+fn choices_cannot_be_improved_by_a_load_that_nothing_feels() {
+    let text = scene().replace("t_end = 10.0", "t_end = 10.0, rtol = 1e-12, atol = 1e-12");
+    let study = study(&text);
+    let rows = moved(&study);
+    let groups = &study.prepared.mechanism.layout().groups;
+    let compliances: Vec<[f64; 2]> = (0..groups.len())
+        .map(|k| [1.0 + (3 * k % 7) as f64, 20.0 + (5 * k % 11) as f64].map(|x| 1e-6 * x))
+        .collect();
+    let elastic = compliances.iter().enumerate().map(|(k, c)| Compliance {
+        reaction: ConstraintId(k),
+        along: [c[0]; 3],
+        rotation: c[1],
+    });
+    let norm = Choice::MinimumNorm(NormWeights::with_arm(0.3));
+    let of_norm = vec![[1.0, 1.0 / 0.09]; groups.len()];
+    for (choice, weights) in [
+        (norm, of_norm),
+        (Choice::Compliance(elastic.collect()), compliances.clone()),
+    ] {
+        for (t, q) in [&rows[0], &rows[30], &rows[150]] {
+            let analysis = study.analyse(*t, None).unwrap_or_else(|e| panic!("{e}"));
+            let found = analysis.distribution(&choice);
+            let found = found.unwrap_or_else(|e| panic!("{choice:?}: {e}"));
+            let idle = idle_loads(q, Pins::Drawn);
+            assert_eq!(idle.len(), 3);
+            for load in idle {
+                let (mut change, mut size) = (0.0, 0.0);
+                for (reaction, weights) in found.reactions.iter().zip(&weights) {
+                    let own = load.iter().find(|(name, _)| *name == reaction.name);
+                    let (_, own) = own.expect("the same joints");
+                    for (name, value) in &reaction.components {
+                        let k = NAMES.iter().position(|n| n == name).expect("a component");
+                        let (Value::Unique(value) | Value::Chosen { value, .. }) = value;
+                        let term = weights[k / 3] * value * own[k];
+                        change += term;
+                        size += term.abs();
+                    }
+                }
+                assert!(change.abs() < 1e-9 * size, "{t}: {change:e} of {size:e}");
+                assert!(size > 0.0);
+            }
+        }
+    }
 }

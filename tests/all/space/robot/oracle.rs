@@ -206,8 +206,8 @@ pub(super) struct Answer {
     /// Ranks of the rows that restrict positions, of those that restrict velocities only, and of
     /// all.
     pub(super) ranks: [usize; 3],
-    /// Name of each joint, with the uniqueness of its force and its moment about its place in ground
-    /// axes.
+    /// Name of each joint, with the uniqueness of its force and its moment about its place in
+    /// ground axes.
     pub(super) reactions: Vec<(&'static str, [bool; 6])>,
 }
 
@@ -242,8 +242,24 @@ fn across(w: Vector) -> [Vector; 2] {
     [u, w.cross(&u)]
 }
 
-/// The robot with each body at 7 numbers, its place and its quaternion (w, x, y, z).
-pub(super) fn answer(q: &[f64], pins: Pins) -> Answer {
+/// The rows of the robot with each body at 7 numbers, its place and its quaternion (w, x, y, z).
+struct Table {
+    rows: Vec<Row>,
+    /// C, and beside it the components of all reactions: each row's wrench about the place of its
+    /// joint.
+    numbers: DMatrix<f64>,
+}
+
+/// Columns of C.
+const N: usize = 6 * BODIES.len();
+
+impl Table {
+    fn c(&self) -> DMatrix<f64> {
+        self.numbers.columns(0, N).into_owned()
+    }
+}
+
+fn table(q: &[f64], pins: Pins) -> Table {
     let poses: Vec<Pose> = q
         .chunks_exact(7)
         .map(|q| Pose {
@@ -311,9 +327,7 @@ pub(super) fn answer(q: &[f64], pins: Pins) -> Answer {
         places.push(place);
     }
 
-    // C beside the components of all reactions: each row's wrench about the place of its joint.
-    let n = 6 * BODIES.len();
-    let mut table = DMatrix::zeros(rows.len(), n + 6 * JOINTS.len());
+    let mut numbers = DMatrix::zeros(rows.len(), N + 6 * JOINTS.len());
     for (i, row) in rows.iter().enumerate() {
         let (_, _, bodies, _) = JOINTS[row.joint];
         for (body, sign) in [(index(bodies[0]), -1.0), (index(bodies[1]), 1.0)] {
@@ -321,15 +335,21 @@ pub(super) fn answer(q: &[f64], pins: Pins) -> Answer {
                 continue;
             };
             for (k, x) in row.wrench.about(poses[body].place).iter().enumerate() {
-                table[(i, 6 * body + k)] += sign * x;
+                numbers[(i, 6 * body + k)] += sign * x;
             }
         }
         let reaction = row.wrench.about(places[row.joint]);
         for (k, x) in reaction.iter().enumerate() {
-            table[(i, n + 6 * row.joint + k)] = *x;
+            numbers[(i, N + 6 * row.joint + k)] = *x;
         }
     }
-    let c = table.columns(0, n).into_owned();
+    Table { rows, numbers }
+}
+
+/// What is determined at this configuration.
+pub(super) fn answer(q: &[f64], pins: Pins) -> Answer {
+    let table = table(q, pins);
+    let (rows, c) = (&table.rows, table.c());
     let of = |is_slip: bool| {
         let own: Vec<usize> = (0..rows.len())
             .filter(|&i| rows[i].is_slip == is_slip)
@@ -337,23 +357,44 @@ pub(super) fn answer(q: &[f64], pins: Pins) -> Answer {
         rank(&c.select_rows(&own))
     };
     let ranks = [of(false), of(true), rank(&c)];
-    let left = eliminated(table, n, ranks[2]);
+    let left = eliminated(table.numbers, N, ranks[2]);
     let reactions = JOINTS.iter().enumerate().map(|(j, joint)| {
         let unique = |k: usize| {
-            let column = left.column(n + 6 * j + k);
+            let column = left.column(N + 6 * j + k);
             vanishes(column.amax(), joint.0)
         };
         (joint.0, std::array::from_fn(unique))
     });
     Answer {
-        rows: rows.len(),
+        rows: table.rows.len(),
         ranks,
         reactions: reactions.collect(),
     }
 }
 
-/// The rows that are left of a table after this number of pivots in its first n columns, the largest
-/// entry of all first. In the first n columns nothing is left.
+/// Loads that need no force on a body, a basis of all: for each joint its force and its moment
+/// about its place in ground axes.
+pub(super) fn idle_loads(q: &[f64], pins: Pins) -> Vec<Vec<(&'static str, [f64; 6])>> {
+    let table = table(q, pins);
+    let c = table.c();
+    // Multipliers z with Cᵀ·z = 0.
+    let eigen = (&c * c.transpose()).symmetric_eigen();
+    let largest = eigen.eigenvalues.max();
+    let squares = eigen.eigenvalues.iter().enumerate();
+    let idle = squares.filter(|(_, square)| square.abs() < NOTHING * largest);
+    let loads = idle.map(|(k, _)| eigen.eigenvectors.column(k).transpose() * &table.numbers);
+    let of_joints = |load: nalgebra::RowDVector<f64>| {
+        let joint = |(j, joint): (usize, &Joint)| {
+            let of = |k: usize| load[N + 6 * j + k];
+            (joint.0, std::array::from_fn(of))
+        };
+        JOINTS.iter().enumerate().map(joint).collect()
+    };
+    loads.map(of_joints).collect()
+}
+
+/// The rows that are left of a table after this number of pivots in its first n columns, the
+/// largest entry of all first. In the first n columns nothing is left.
 fn eliminated(mut table: DMatrix<f64>, n: usize, rank: usize) -> DMatrix<f64> {
     for k in 0..rank {
         let (mut at, mut largest) = ((k, k), 0.0);
