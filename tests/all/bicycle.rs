@@ -73,8 +73,9 @@ pub(crate) fn steering_point() -> [f64; 3] {
 
 /// The bicycle with its [`PARTS`] in these states.
 pub(crate) fn scene(states: &[State; 4]) -> String {
-    let mut text =
-        format!("[scene]\nname = \"bicycle\"\nspace = \"spatial\"\ngravity = [0.0, 0.0, -9.81]\n");
+    let mut text = String::from(
+        "[scene]\nname = \"bicycle\"\nspace = \"spatial\"\ngravity = [0.0, 0.0, -9.81]\n",
+    );
     for (part, state) in PARTS.iter().zip(states) {
         let [xx, yy, zz, xz] = part.inertia;
         let inertia = [[xx, 0.0, xz], [0.0, yy, 0.0], [xz, 0.0, zz]];
