@@ -1,9 +1,13 @@
 //! Mechanisms of space: verdicts and motions with known answers.
 
 mod adams;
+mod axles;
+mod bicycle;
 mod catalogue;
+mod choices;
 mod drifts;
 mod motion;
+mod robot;
 mod rolling;
 mod second_order;
 mod shafts;

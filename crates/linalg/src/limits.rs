@@ -132,6 +132,12 @@ pub(crate) const SCHUR_WHOLE: f64 = 0.4;
 /// `random_mechanisms_move_as_with_the_dense_solver`.
 pub(crate) const SCHUR_ENOUGH: f64 = 1e-14;
 
+/// What a correction leaves of a row is rounding if it is at most this share of all terms that were
+/// added, multipliers that balance each other included.
+/// Unit: share of all terms of the row. Less: corrections of rounding. More: digits are lost. Test:
+/// `a_correction_leaves_rounding_of_all_terms`.
+pub(crate) const SCHUR_ROUNDING: f64 = f64::EPSILON;
+
 /// Rows that miss by more than this after all corrections are not solved.
 /// Unit: share of the terms of the row. Less: good solutions are refused. More: poor ones are
 /// given. Test: `what_corrections_leave_is_refused_from_a_billionth_on`.

@@ -60,6 +60,19 @@ pub(super) fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     mass.map(|(unit, m)| unit * m * unit).collect()
 }
 
+/// The same where holonomic rows alone are solved: what only nonholonomic rows hold is free there,
+/// and in the metric of a body without mass or inertia no correction of it would be the smallest.
+/// So what has none gets the smallest value among those that have some, or 1.
+pub(super) fn mass_of_positions(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
+    let mut mass = mass_in_units(mechanism, units);
+    let some = mass.iter().copied().filter(|&m| m > 0.0);
+    let smallest = some.reduce(f64::min).unwrap_or(1.0);
+    for m in mass.iter_mut().filter(|m| **m == 0.0) {
+        *m = smallest;
+    }
+    mass
+}
+
 /// Whether the size of a mechanism (m) is far from that of ordinary machines: then the terms that
 /// are added up, such as weights and centrifugal terms, also differ by many powers of ten.
 pub(crate) fn is_far(size: f64) -> bool {

@@ -41,11 +41,12 @@ pub(super) fn add_element(
     let e = &scratch[..entries.len()];
     match width {
         // Bodies in the plane and in space.
-        3 => add_products(front, f, at, e.as_chunks::<3>().0, weight),
-        6 => add_products(front, f, at, e.as_chunks::<6>().0, weight),
+        3 => add_products::<3>(front, f, at, e, std::array::from_fn(weight)),
+        6 => add_products::<6>(front, f, at, e, std::array::from_fn(weight)),
         _ => {
             for (k, &j) in at.iter().enumerate() {
-                let (column, own) = (&mut front[j as usize * f..][..f], &e[k * width..]);
+                let column = &mut front[j as usize * f..][..f];
+                let own = &e[k * width..];
                 for (l, &i) in at[k..].iter().enumerate() {
                     let product = |c: usize| own[l * width + c] * weight(c) * own[c];
                     column[i as usize] += (0..width).map(product).sum::<f64>();
@@ -55,26 +56,31 @@ pub(super) fn add_element(
     }
 }
 
-/// [`add_element`] for rows of a known length.
-fn add_products<const N: usize>(
+/// As [`add_element`], for rows `e` of this width.
+fn add_products<const WIDTH: usize>(
     front: &mut [f64],
     f: usize,
     at: &[u32],
-    rows: &[[f64; N]],
-    weight: impl Fn(usize) -> f64,
+    e: &[f64],
+    weight: [f64; WIDTH],
 ) {
-    for (k, (&j, row)) in at.iter().zip(rows).enumerate() {
+    let rows = e.as_chunks::<WIDTH>().0;
+    for (k, (&j, own)) in at.iter().zip(rows).enumerate() {
         let column = &mut front[j as usize * f..][..f];
-        let weighted: [f64; N] = std::array::from_fn(|c| row[c] * weight(c));
+        let w: [f64; WIDTH] = std::array::from_fn(|c| own[c] * weight[c]);
         for (x, &i) in rows[k..].iter().zip(&at[k..]) {
-            column[i as usize] += (0..N).map(|c| x[c] * weighted[c]).sum::<f64>();
+            let mut sum = x[0] * w[0];
+            for c in 1..WIDTH {
+                sum += x[c] * w[c];
+            }
+            column[i as usize] += sum;
         }
     }
 }
 
 /// Eliminates the first pivots, as many as `inverse` has entries: `F = L·D·Lᵀ + [0, 0; 0, update]`.
-/// Skips pivots that are at most `floor` of their `size`: their column of L and their inverse are
-/// zero. Returns the smallest ratio `D_k/size_k` of the others.
+/// Skips pivots that are at most `least[k]`: their column of L and their inverse are zero. Returns
+/// the smallest ratio `D_k/size_k` of the others.
 pub(super) fn eliminate(
     front: &mut [f64],
     f: usize,
