@@ -3,6 +3,7 @@
 mod adams;
 mod catalogue;
 mod drifts;
+mod gears;
 mod motion;
 mod rolling;
 mod second_order;

@@ -12,6 +12,7 @@ use serde_json::json;
 
 use self::line::Axis;
 use crate::active;
+use crate::arguments::label;
 use crate::body::Bodies;
 use crate::dependent::Read;
 use crate::dimension::Dimension;
@@ -95,6 +96,13 @@ pub(crate) fn read<'r, S: SceneSpace>(
             }
         }
     };
+    if let Some(wheel) = borne.missed_by(line, pitch) {
+        let message = format!(
+            "{subject}: the line of action meets the axis of the {wheel} wheel, or is parallel to it"
+        );
+        findings.error(Mistake::Bearings, at, message, "turns nothing");
+        return (known, None);
+    }
     match (definition.build)(&borne.arguments(&definition.spec, pitch, line)) {
         Ok(element) => {
             let joint = model::Joint {
@@ -108,7 +116,7 @@ pub(crate) fn read<'r, S: SceneSpace>(
         }
         Err(error) => {
             let message = format!("{subject}: {error}");
-            findings.error(Mistake::from(&error), at, message, "not possible");
+            findings.error(Mistake::from(&error), at, message, label(&error));
             (known, None)
         }
     }
@@ -264,21 +272,30 @@ impl<'a> Borne<'a> {
         })
     }
 
+    /// The axis of bearing `k` on the carrier.
+    fn axis(&self, k: usize) -> Option<Axis> {
+        let Argument::Triple(point) = *self.points[k][1] else {
+            return None;
+        };
+        let axes = match *self.axes[k][1] {
+            Argument::Axes(axes) => Some(axes),
+            Argument::Axis(axis, across) => Axes::new(axis, across),
+            _ => None,
+        };
+        let [.., along] = axes?.uvw();
+        Some(Axis { point, along })
+    }
+
+    /// The wheel on whose axis a force along this line through the pitch point has no lever.
+    fn missed_by(&self, line: [f64; 3], pitch: [f64; 3]) -> Option<&'static str> {
+        let names = ["first", "second"].into_iter().enumerate();
+        let mut axes = names.filter_map(|(k, name)| Some((name, self.axis(k)?)));
+        axes.find_map(|(name, axis)| (!axis.has_lever(line, pitch)).then_some(name))
+    }
+
     /// The line of action of wheels that meet at a pitch point of the carrier, if none is written.
     fn line(&self, pitch: [f64; 3], pressure_angle: f64) -> Result<[f64; 3], &'static str> {
-        let on_carrier = [0, 1].map(|k| {
-            let Argument::Triple(point) = *self.points[k][1] else {
-                return None;
-            };
-            let axes = match *self.axes[k][1] {
-                Argument::Axes(axes) => Some(axes),
-                Argument::Axis(axis, across) => Axes::new(axis, across),
-                _ => None,
-            };
-            let [.., along] = axes?.uvw();
-            Some(Axis { point, along })
-        });
-        match on_carrier {
+        match [0, 1].map(|k| self.axis(k)) {
             [Some(first), Some(second)] => line::of_action([first, second], pitch, pressure_angle),
             _ => Err("an axis has no direction"),
         }

@@ -41,8 +41,6 @@ joint! { space Mesh(i, j, carrier) {
         across_i: Vector in carrier = local(carrier, n - a_i * dot(n, a_i)),
         across_j: Vector in carrier = local(carrier, n - a_j * dot(n, a_j)),
     }
-    require "the line of action does not meet the axis of a wheel, and is not parallel to it":
-        lever_i * lever_i > 0.000000000001 * dot(m_i, m_i) && lever_j * lever_j > 0.000000000001 * dot(m_j, m_j);
     let d_i = point(i, s_i) - point(carrier, p_i);
     let d_j = point(j, s_j) - point(carrier, p_j);
     let b_i = direction(i, own_i[2]);

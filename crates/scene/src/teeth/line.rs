@@ -12,6 +12,18 @@ pub(super) struct Axis {
     pub(super) along: [f64; 3],
 }
 
+impl Axis {
+    /// Whether a force along a line through a point has a moment about the axis.
+    pub(super) fn has_lever(&self, line: [f64; 3], at: [f64; 3]) -> bool {
+        let line = Direction::new(line).map(Direction::xyz);
+        // What has no direction is refused where the definition is built.
+        line.is_none_or(|line| {
+            let moment = cross(minus(at, self.point), line);
+            dot(moment, self.along).abs() > MEETING * length(moment)
+        })
+    }
+}
+
 /// N, a unit normal of the plane of both axes, and g, the direction of the line along which the
 /// wheels roll on each other.
 struct Roll {

@@ -65,7 +65,7 @@ impl Constraint<Space3> for Mesh {
             scene_type: "mesh",
             variant: None,
             doc: "Teeth of two wheels, each of which turns about an axis of one carrier: at the pitch point P of the carrier both wheels have one velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. Where the bearings hold, this is the rate of `Φ_i − Φ_j` with `Φ_k = n·(s_k − p_k) + (m_k·a_k)·θ_k + (m_k − x_k·a_k × n)·(a_k × b_k)`: p_k and a_k are point and axis of the bearing on the carrier, s_k and b_k those on wheel k, `m_k = (P − p_k) × n`, `x_k = a_k·(s_k − p_k)`, and θ_k is the angle that wheel k has turned, with its full turns. The place of the reaction is P; λ is the force of the teeth, along −n on wheel i.",
-            text: "joint! { space Mesh(i, j, carrier) {\n    /// Teeth of two wheels, each of which turns about an axis of one carrier: at the pitch point P of the carrier both wheels have one\n    /// velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. Where the bearings hold, this is the rate of `Φ_i − Φ_j` with\n    /// `Φ_k = n·(s_k − p_k) + (m_k·a_k)·θ_k + (m_k − x_k·a_k × n)·(a_k × b_k)`: p_k and a_k are point and axis of the bearing on the\n    /// carrier, s_k and b_k those on wheel k, `m_k = (P − p_k) × n`, `x_k = a_k·(s_k − p_k)`, and θ_k is the angle that wheel k has turned,\n    /// with its full turns. The place of the reaction is P; λ is the force of the teeth, along −n on wheel i.\n    params {\n        /// Point of the first bearing on wheel i.\n        s_i: Point in i,\n        /// Point of the second bearing on wheel j.\n        s_j: Point in j,\n        /// Point of the first bearing on the carrier.\n        p_i: Point in carrier,\n        /// Point of the second bearing on the carrier.\n        p_j: Point in carrier,\n        /// The pitch point.\n        pitch: Point in carrier,\n        /// Axis of the first bearing on the carrier.\n        axis_i: Axes in carrier,\n        /// Axis of the second bearing on the carrier.\n        axis_j: Axes in carrier,\n        /// Axis of the first bearing on wheel i.\n        own_i: Axes in i like axis_i,\n        /// Axis of the second bearing on wheel j.\n        own_j: Axes in j like axis_j,\n        /// The line of action.\n        line: Direction in carrier,\n    }\n    bearings;\n    let n = direction(carrier, line);\n    let a_i = direction(carrier, axis_i[2]);\n    let a_j = direction(carrier, axis_j[2]);\n    let m_i = cross(point(carrier, pitch) - point(carrier, p_i), n);\n    let m_j = cross(point(carrier, pitch) - point(carrier, p_j), n);\n    // m_k·a_k, m_k × a_k and (a_k × n) × a_k.\n    initial {\n        lever_i: Length = dot(m_i, a_i),\n        lever_j: Length = dot(m_j, a_j),\n        arm_i: Vector in carrier = local(carrier, cross(m_i, a_i)),\n        arm_j: Vector in carrier = local(carrier, cross(m_j, a_j)),\n        across_i: Vector in carrier = local(carrier, n - a_i * dot(n, a_i)),\n        across_j: Vector in carrier = local(carrier, n - a_j * dot(n, a_j)),\n    }\n    require \"the line of action does not meet the axis of a wheel, and is not parallel to it\":\n        lever_i * lever_i > 0.000000000001 * dot(m_i, m_i) && lever_j * lever_j > 0.000000000001 * dot(m_j, m_j);\n    let d_i = point(i, s_i) - point(carrier, p_i);\n    let d_j = point(j, s_j) - point(carrier, p_j);\n    let b_i = direction(i, own_i[2]);\n    let b_j = direction(j, own_j[2]);\n    let tilt_i = dot(vector(carrier, arm_i), b_i) - dot(a_i, d_i) * dot(vector(carrier, across_i), b_i);\n    let tilt_j = dot(vector(carrier, arm_j), b_j) - dot(a_j, d_j) * dot(vector(carrier, across_j), b_j);\n    let shift = dot(n, d_i - d_j) + tilt_i - tilt_j;\n    turns turn_i: angle(axis_i, own_i);\n    turns turn_j: angle(axis_j, own_j);\n    initial { phase: Length = shift }\n    rows: [teeth];\n    phi: shift - phase + lever_i * turn_i - lever_j * turn_j;\n    place: point(carrier, pitch);\n} }",
+            text: "joint! { space Mesh(i, j, carrier) {\n    /// Teeth of two wheels, each of which turns about an axis of one carrier: at the pitch point P of the carrier both wheels have one\n    /// velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. Where the bearings hold, this is the rate of `Φ_i − Φ_j` with\n    /// `Φ_k = n·(s_k − p_k) + (m_k·a_k)·θ_k + (m_k − x_k·a_k × n)·(a_k × b_k)`: p_k and a_k are point and axis of the bearing on the\n    /// carrier, s_k and b_k those on wheel k, `m_k = (P − p_k) × n`, `x_k = a_k·(s_k − p_k)`, and θ_k is the angle that wheel k has turned,\n    /// with its full turns. The place of the reaction is P; λ is the force of the teeth, along −n on wheel i.\n    params {\n        /// Point of the first bearing on wheel i.\n        s_i: Point in i,\n        /// Point of the second bearing on wheel j.\n        s_j: Point in j,\n        /// Point of the first bearing on the carrier.\n        p_i: Point in carrier,\n        /// Point of the second bearing on the carrier.\n        p_j: Point in carrier,\n        /// The pitch point.\n        pitch: Point in carrier,\n        /// Axis of the first bearing on the carrier.\n        axis_i: Axes in carrier,\n        /// Axis of the second bearing on the carrier.\n        axis_j: Axes in carrier,\n        /// Axis of the first bearing on wheel i.\n        own_i: Axes in i like axis_i,\n        /// Axis of the second bearing on wheel j.\n        own_j: Axes in j like axis_j,\n        /// The line of action.\n        line: Direction in carrier,\n    }\n    bearings;\n    let n = direction(carrier, line);\n    let a_i = direction(carrier, axis_i[2]);\n    let a_j = direction(carrier, axis_j[2]);\n    let m_i = cross(point(carrier, pitch) - point(carrier, p_i), n);\n    let m_j = cross(point(carrier, pitch) - point(carrier, p_j), n);\n    // m_k·a_k, m_k × a_k and (a_k × n) × a_k.\n    initial {\n        lever_i: Length = dot(m_i, a_i),\n        lever_j: Length = dot(m_j, a_j),\n        arm_i: Vector in carrier = local(carrier, cross(m_i, a_i)),\n        arm_j: Vector in carrier = local(carrier, cross(m_j, a_j)),\n        across_i: Vector in carrier = local(carrier, n - a_i * dot(n, a_i)),\n        across_j: Vector in carrier = local(carrier, n - a_j * dot(n, a_j)),\n    }\n    let d_i = point(i, s_i) - point(carrier, p_i);\n    let d_j = point(j, s_j) - point(carrier, p_j);\n    let b_i = direction(i, own_i[2]);\n    let b_j = direction(j, own_j[2]);\n    let tilt_i = dot(vector(carrier, arm_i), b_i) - dot(a_i, d_i) * dot(vector(carrier, across_i), b_i);\n    let tilt_j = dot(vector(carrier, arm_j), b_j) - dot(a_j, d_j) * dot(vector(carrier, across_j), b_j);\n    let shift = dot(n, d_i - d_j) + tilt_i - tilt_j;\n    turns turn_i: angle(axis_i, own_i);\n    turns turn_j: angle(axis_j, own_j);\n    initial { phase: Length = shift }\n    rows: [teeth];\n    phi: shift - phase + lever_i * turn_i - lever_j * turn_j;\n    place: point(carrier, pitch);\n} }",
             slots: &["i", "j", "carrier"],
             parameters: &[
                 Parameter::required(
@@ -127,9 +127,7 @@ impl Constraint<Space3> for Mesh {
             ],
             points_apart: false,
             bearings: true,
-            requirements: &[
-                "the line of action does not meet the axis of a wheel, and is not parallel to it",
-            ],
+            requirements: &[],
         },
         role: Role::Joint,
         rows: &[Row::keeping_start("teeth")],
@@ -951,65 +949,7 @@ impl Definition<Space3> for Mesh {
         };
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        match k {
-            0 => {
-                let rot_carrier_xx = x[2].rot[0][0];
-                let rot_carrier_xy = x[2].rot[0][1];
-                let rot_carrier_xz = x[2].rot[0][2];
-                let rot_carrier_yx = x[2].rot[1][0];
-                let rot_carrier_yy = x[2].rot[1][1];
-                let rot_carrier_yz = x[2].rot[1][2];
-                let rot_carrier_zx = x[2].rot[2][0];
-                let rot_carrier_zy = x[2].rot[2][1];
-                let rot_carrier_zz = x[2].rot[2][2];
-                let p_i_x = self.p_i[0];
-                let p_i_y = self.p_i[1];
-                let p_i_z = self.p_i[2];
-                let p_j_x = self.p_j[0];
-                let p_j_y = self.p_j[1];
-                let p_j_z = self.p_j[2];
-                let pitch_x = self.pitch[0];
-                let pitch_y = self.pitch[1];
-                let pitch_z = self.pitch[2];
-                let line_local_x = self.line.xyz()[0];
-                let line_local_y = self.line.xyz()[1];
-                let line_local_z = self.line.xyz()[2];
-                let lever_i = self.lever_i;
-                let lever_j = self.lever_j;
-                let n_x = rot_carrier_xx * line_local_x + rot_carrier_xy * line_local_y
-                    + rot_carrier_xz * line_local_z;
-                let t0 = p_i_x - pitch_x;
-                let t1 = p_i_y - pitch_y;
-                let t2 = p_i_z - pitch_z;
-                let t3 = rot_carrier_yx * t0 + rot_carrier_yy * t1 + rot_carrier_yz * t2;
-                let t4 = rot_carrier_xx * t0 + rot_carrier_xy * t1 + rot_carrier_xz * t2;
-                let n_y = rot_carrier_yx * line_local_x + rot_carrier_yy * line_local_y
-                    + rot_carrier_yz * line_local_z;
-                let m_i_z = n_x * t3 - t4 * n_y;
-                let t5 = rot_carrier_zx * t0 + rot_carrier_zy * t1 + rot_carrier_zz * t2;
-                let n_z = rot_carrier_zx * line_local_x + rot_carrier_zy * line_local_y
-                    + rot_carrier_zz * line_local_z;
-                let t6 = n_x * t5 - t4 * n_z;
-                let m_i_x = n_y * t5 - t3 * n_z;
-                let t7 = p_j_x - pitch_x;
-                let t8 = p_j_y - pitch_y;
-                let t9 = p_j_z - pitch_z;
-                let t10 = rot_carrier_yx * t7 + rot_carrier_yy * t8
-                    + rot_carrier_yz * t9;
-                let t11 = rot_carrier_xx * t7 + rot_carrier_xy * t8
-                    + rot_carrier_xz * t9;
-                let m_j_z = n_x * t10 - t11 * n_y;
-                let t12 = rot_carrier_zx * t7 + rot_carrier_zy * t8
-                    + rot_carrier_zz * t9;
-                let t13 = n_x * t12 - t11 * n_z;
-                let m_j_x = n_y * t12 - t10 * n_z;
-                lever_i * lever_i
-                    > 0.000000000001 * (m_i_z * m_i_z + t6 * t6 + m_i_x * m_i_x)
-                    && lever_j * lever_j
-                        > 0.000000000001 * (m_j_z * m_j_z + t13 * t13 + m_j_x * m_j_x)
-            }
-            _ => true,
-        }
+        true
     }
     fn turned(&self, k: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
         match k {
