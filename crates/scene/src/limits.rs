@@ -12,8 +12,8 @@ pub(crate) const MOST_SIGNS: usize = 1 << 23;
 
 /// Axes of two wheels are parallel if the sine of the angle between them is below this; they meet,
 /// and their pitch point lies in their plane, if the distance is below this share of those of the
-/// bearings and the pitch point from the apex. A line of action meets an axis, or is parallel to it,
-/// if its moment about the axis is below this share of that about the bearing.
+/// bearings and the pitch point from the apex. A line of action meets an axis, or is parallel to
+/// it, if its moment about the axis is below this share of that about the bearing.
 /// Unit: share. Less: axes written with few digits need a `line`. More: a line of action is not
 /// quite normal to the plane of the axes. Test: `bearings_of_teeth`.
 pub(crate) const MEETING: f64 = 1e-6;

@@ -1,5 +1,5 @@
-//! Teeth between wheels on a carrier: ranks and verdicts of differentials and planetary gears, their
-//! motion over hundreds of turns, and the force of teeth, by closed forms.
+//! Teeth between wheels on a carrier: ranks and verdicts of differentials and planetary gears,
+//! their motion over hundreds of turns, and the force of teeth, by closed forms.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -421,8 +421,8 @@ drive = [
     }
 }
 
-/// `examples/planetary-gear.toml` in space, with the teeth of its pitch circles: the same numbers as
-/// in the plane, and the same acceleration.
+/// `examples/planetary-gear.toml` in space, with the teeth of its pitch circles: the same numbers
+/// as in the plane, and the same acceleration.
 #[test]
 fn a_planetary_gear_has_the_answers_of_the_plane() {
     let places = [

@@ -85,7 +85,8 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     }
 
     /// The place moves with the first body, or with the carrier of wheels that other joints bear,
-    /// and with no other. Where a plane of the ground is touched, the body touches it elsewhere as it turns: then only its translation is asked.
+    /// and with no other. Where a plane of the ground is touched, the body touches it elsewhere as
+    /// it turns: then only its translation is asked.
     pub(super) fn place(&self) -> Result<(), Failure> {
         let Some(place) = self.place_of_reaction() else {
             return Ok(());

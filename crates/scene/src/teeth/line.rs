@@ -34,8 +34,8 @@ struct Roll {
 /// `cos α·N + sin α·(N × g)`, α being the pressure angle.
 ///
 /// Axes a₁, a₂ that are parallel: g = a₁, and N = a₁ × c with c along the centre line, from the
-/// first axis to the second, so that `N × g = c`. Axes that meet in an apex: g from the apex through
-/// the pitch point, N along a₁ × a₂.
+/// first axis to the second, so that `N × g = c`. Axes that meet in an apex: g from the apex
+/// through the pitch point, N along a₁ × a₂.
 ///
 /// # Errors
 /// Why there is no such line.
