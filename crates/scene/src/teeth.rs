@@ -73,7 +73,7 @@ pub(crate) fn read<'r, S: SceneSpace>(
     let borne = borne.and_then(|(field, named)| Borne::of(field, named, bodies, findings));
     let carrier = borne.as_ref().map(|borne| borne.carrier);
     let pitch = place::one(&mut table, carrier, bodies, findings).map(S::point);
-    let line = written_line(&mut table, &definition.spec, carrier, bodies, findings);
+    let line = written_line(&mut table, definition.spec, carrier, bodies, findings);
     let entry = Entry::switched(&name, &table, known.is_active);
     let (subject, header) = (table.subject.clone(), table.header.clone());
     table.close(findings);
@@ -103,7 +103,7 @@ pub(crate) fn read<'r, S: SceneSpace>(
         findings.error(Mistake::Bearings, at, message, "turns nothing");
         return (known, None);
     }
-    match (definition.build)(&borne.arguments(&definition.spec, pitch, line)) {
+    match (definition.build)(&borne.arguments(definition.spec, pitch, line)) {
         Ok(element) => {
             let joint = model::Joint {
                 name,
@@ -221,7 +221,7 @@ impl<'a> Borne<'a> {
         };
         let mut read = Vec::new();
         for joint in named {
-            if joint.is_coupling || joint.definition.is_some_and(|d| !bears(joint, &d.spec)) {
+            if joint.is_coupling || joint.definition.is_some_and(|d| !bears(joint, d.spec)) {
                 report(
                     format!(
                         "`{}` bears no wheel: a joint with one axis and one angle is needed",

@@ -35,9 +35,12 @@ pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: Kind) -> 
     specs.sort_by_key(|spec| spec.scene_type);
     let tables: Vec<Value> = specs
         .iter()
-        .map(|spec| match spec.bearings {
-            true => teeth::<S>(spec, title),
-            false => table::<S>(spec, kind, title),
+        .map(|spec| {
+            if spec.bearings {
+                teeth::<S>(spec, title)
+            } else {
+                table::<S>(spec, kind, title)
+            }
         })
         .collect();
     json!({ "title": title, "type": "object", "oneOf": tables })
