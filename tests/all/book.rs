@@ -165,12 +165,17 @@ fn in_space_of<S: BodySpace>(definitions: &Definitions<S>, has: &impl Fn(&str)) 
     for spec in constraints.chain(definitions.force_specs()) {
         has(&format!("| `{}` |", spec.scene_type));
         has(&format!("type = \"{}\"", spec.scene_type));
+        if spec.bearings {
+            has("`bearings`");
+        }
         for parameter in spec.parameters {
-            // The place has other keys, and what follows from another parameter has none.
-            let is_key = !matches!(
-                parameter.shape,
-                Shape::Point { .. } | Shape::Axes { like: Some(_), .. }
-            );
+            // The place has other keys, and what follows from another parameter or from bearings
+            // has none.
+            let is_key = match parameter.shape {
+                Shape::Point { .. } | Shape::Axes { like: Some(_), .. } => false,
+                Shape::Axes { like: None, .. } => !spec.bearings,
+                _ => true,
+            };
             if is_key {
                 has(parameter.name);
             }

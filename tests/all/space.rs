@@ -6,6 +6,7 @@ mod bicycle;
 mod catalogue;
 mod choices;
 mod drifts;
+mod gears;
 mod motion;
 mod robot;
 mod rolling;

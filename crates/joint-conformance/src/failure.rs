@@ -45,7 +45,7 @@ pub enum Property {
     DResidualDp,
     /// The wrench is −C of the first body, moved to the place.
     Wrench,
-    /// The place is fixed in the first body.
+    /// The place is fixed in its body: the first one, or the carrier of wheels that others bear.
     Place,
     /// The named component is the force along a unit vector, or the torque.
     Component,
@@ -92,7 +92,7 @@ impl fmt::Display for Property {
             Self::DPhiDp => "d_phi_dp = ∂(λᵀ·Φ)/∂p",
             Self::DResidualDp => "d_residual_dp = ∂(λᵀ·(C·a − Γ))/∂p",
             Self::Wrench => "the wrench is −C of the first body, moved to the place",
-            Self::Place => "the place is fixed in the first body",
+            Self::Place => "the place is fixed in its body",
             Self::Component => "the named component is not larger than the reaction",
             Self::Power => "the component of a drive times the rate of its motion is b",
             Self::Balance => "forces and moments on all bodies add up to zero",

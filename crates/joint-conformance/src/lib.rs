@@ -14,7 +14,7 @@
 //! | Γ | −d²Φ/dτ² along (x + τv, t + τ), and −d(C·v − b)/dτ, which also holds for velocity rows |
 //! | ∂(Cᵀλ)/∂x, ∂(C·a − Γ)/∂x, ∂Γ/∂v, ∂Q/∂x, ∂Q/∂v | derivatives of the kernels above, including entries outside the patterns |
 //! | ∂(λᵀΦ)/∂p, ∂(λᵀ(C·a − Γ))/∂p | differences through `set_data`; the second by dual numbers from the first |
-//! | wrench, place | −C of the first body, moved; a point fixed in the first body |
+//! | wrench, place | −C of the first body, moved; a point fixed in the first body, or in the carrier of wheels |
 //! | balance | forces and moments on all bodies add up to zero |
 //! | norms | unchanged when all bodies move as one |
 //! | start | rows that store an initial value are zero at the start |

@@ -24,6 +24,11 @@ pub struct Spec {
     /// Whether a place in a scene is one common point (`at = [x, y]`) or one point for each point
     /// parameter.
     pub points_apart: bool,
+    /// Whether its bodies, and its points and axes but for the last point, are those of two joints
+    /// that a scene names. The first two slots are wheels, each borne on the third by one of them:
+    /// the first point and the first axes in the third slot belong to the first bearing, the second
+    /// ones to the second, and the third point is the place.
+    pub bearings: bool,
     /// Requirements on the assembled start, as text, in the order of `requirement`.
     pub requirements: &'static [&'static str],
 }

@@ -157,7 +157,7 @@ fn harmless<S: SceneSpace>(shape: Shape) -> Argument {
     }
 }
 
-fn label(error: &ArgumentError) -> &'static str {
+pub(crate) fn label(error: &ArgumentError) -> &'static str {
     match error {
         ArgumentError::Negative { .. } => "may not be negative",
         ArgumentError::NoDirection { .. } => "has no direction",

@@ -1,13 +1,13 @@
-//! Joints of the type `coupling`: a measure of one joint follows a measure of another. They name
-//! other joints, so they are read when these are known.
+//! Joints of the type `coupling`: a measure of one joint follows a measure of another.
 
 use model::coupling::Measured;
 
 use crate::active;
+use crate::dependent::Read;
 use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
-use crate::joint::{JointNames, Joints, Known, dimension, must_be_active, of_name};
+use crate::joint::{JointNames, Known, dimension, must_be_active, of_name};
 use crate::key::{Interval, Key, TYPE, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
@@ -32,67 +32,13 @@ const COEFFICIENTS: Key = Key::optional("coefficients", "a list of numbers", Tak
 /// Keys of a coupling in addition to its name and its type.
 pub(crate) const KEYS: [Key; 3] = [MEASURES, RATIO, COEFFICIENTS];
 
-/// A coupling whose table was found and not yet read.
-pub(crate) struct Found<'t> {
-    pub(crate) table: Table<'t>,
-    pub(crate) name: String,
-    /// How many joints were known, and how many complete, before it.
-    before: [usize; 2],
-}
-
-/// Whether the table of a joint is that of a coupling.
-pub(crate) fn is_meant(table: &Table) -> bool {
-    table.peek(TYPE) == Some(COUPLING)
-}
-
-impl<'t> Found<'t> {
-    /// The table of a coupling behind the joints that were read.
-    pub(crate) fn behind<S: SceneSpace>(
-        table: Table<'t>,
-        name: String,
-        joints: &Joints<S>,
-    ) -> Self {
-        Self {
-            table,
-            name,
-            before: [joints.known.len(), joints.list.len()],
-        }
-    }
-}
-
-/// Reads couplings and puts each where its table stands among the joints.
-pub(crate) fn read<S: SceneSpace>(
-    found: Vec<Found<'_>>,
-    joints: &mut Joints<S>,
-    findings: &mut Findings,
-) {
-    let mut all = Vec::new();
-    for coupling in found {
-        let names = JointNames::of(joints);
-        let before = coupling.before;
-        all.push((before, one(coupling, &names, findings)));
-    }
-    let mut complete = 0;
-    for (more, ([known_before, list_before], (known, read))) in all.into_iter().enumerate() {
-        joints.known.insert(known_before + more, known);
-        if let Some((joint, entry)) = read {
-            joints.list.insert(list_before + complete, joint);
-            joints.entries.insert(list_before + complete, entry);
-            complete += 1;
-        }
-    }
-}
-
-type Read<'r, S> = (Known<'r, S>, Option<(model::Joint<S>, Entry)>);
-
-fn one<'r, S: SceneSpace>(
-    coupling: Found<'_>,
+/// Reads one coupling.
+pub(crate) fn read<'r, S: SceneSpace>(
+    mut table: Table,
+    name: String,
     joints: &JointNames<'_, 'r, S>,
     findings: &mut Findings,
 ) -> Read<'r, S> {
-    let Found {
-        mut table, name, ..
-    } = coupling;
     let mut known = Known::named(&name, &table);
     known.is_coupling = true;
     let _ = table.optional(TYPE);

@@ -223,12 +223,16 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
 }
 
 /// Components of a direction.
-fn direction<S: SceneSpace>(field: &Field, findings: &mut Findings) -> Option<S::Vector<f64>> {
+pub(crate) fn direction<S: SceneSpace>(
+    field: &Field,
+    findings: &mut Findings,
+) -> Option<S::Vector<f64>> {
     let expected = Shape::Direction { slot: 0 }.words(S::DIM).to_string();
     field.vector::<S>(&expected, Dimension::NONE, findings)
 }
 
-fn is_global(field: &Field, findings: &mut Findings) -> bool {
+/// Whether `frame` says that directions are written in ground axes.
+pub(crate) fn is_global(field: &Field, findings: &mut Findings) -> bool {
     let [own, global] = FRAMES;
     let expected = format!("\"{own}\" or \"{global}\"");
     let Some(text) = field.text(&expected, findings) else {

@@ -79,6 +79,12 @@ impl<S: SceneSpace> Known<'_, S> {
         }
     }
 
+    /// Its bodies and arguments, if all could be read.
+    pub(crate) fn complete(&self) -> Option<(&[BodyRef], &[Argument])> {
+        let (bodies, arguments) = self.complete.as_ref()?;
+        Some((bodies, arguments))
+    }
+
     /// Its bodies, and its arguments with one for the motion of a drive of a measure.
     pub(crate) fn with_motion(&self) -> Option<(Vec<BodyRef>, Vec<Argument>)> {
         let (bodies, arguments) = self.complete.as_ref()?;

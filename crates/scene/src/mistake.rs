@@ -60,6 +60,8 @@ pub(crate) enum Mistake {
     Inactive,
     /// A marker of another body than is needed.
     ForeignMarker,
+    /// Joints that do not bear two wheels on one carrier.
+    Bearings,
     /// An output with too many rows.
     TooManyRows,
     /// An option that is not one of a run.
@@ -127,6 +129,7 @@ impl Mistake {
             Self::Registry => const { Code::new(149) },
             Self::EmptyList => const { Code::new(150) },
             Self::Count => const { Code::new(151) },
+            Self::Bearings => const { Code::new(154) },
             Self::UnknownCoordinate => const { Code::new(205) },
             Self::UnknownRow => const { Code::new(310) },
             Self::Combination => const { Code::new(311) },

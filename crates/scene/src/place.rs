@@ -29,10 +29,13 @@ pub(crate) struct Place<S: SceneSpace> {
 /// The key of the place in global coordinates.
 pub(crate) const AT: &str = "at";
 
+/// The key of the place in the frame of one body.
+pub(crate) const POINT: &str = "point";
+
 /// The key of the place in the frames of the bodies.
 pub(crate) fn local_key(spec: &Spec) -> &'static str {
     match listed(spec) {
-        1 => "point",
+        1 => POINT,
         _ => "points",
     }
 }
@@ -73,7 +76,7 @@ pub(crate) fn read<S: SceneSpace>(
         },
         (None, Some(local)) => Place {
             points: match local_key {
-                "point" => {
+                POINT => {
                     let body = slots.first().copied().flatten();
                     of_body(&local, of.len(), body, bodies, findings)
                 }
@@ -117,28 +120,86 @@ fn global<S: SceneSpace>(
     let fields = fields.unwrap_or_default();
     let read = |field: &Field| point(field, S::GLOBAL_POINT, bodies, findings);
     let read: Vec<_> = fields.iter().map(read).collect();
-    let mut local = |(k, &slot): (usize, &usize)| {
+    let local = |(k, &slot): (usize, &usize)| {
         let body = slots.get(slot).copied().flatten()?;
-        let local = match *read.get(k).or(read.first())?.as_ref()? {
-            Point::Of(marker) if marker.body == body => bodies.place_of(marker),
-            Point::Of(marker) => bodies.to_local(body, bodies.global(marker)),
-            Point::At(point) => bodies.to_local(body, point),
-        };
-        if !S::point(local).iter().all(|x| is_usable(*x)) {
-            findings.error(Mistake::NotFinite,
-                at.span(),
-                format!(
-                    "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}",
-                    at.subject,
-                    bodies.names.name(body)
-                ),
-                "too far away",
-            );
-            return None;
-        }
-        Some(local)
+        local(
+            at,
+            read.get(k).or(read.first())?.as_ref()?,
+            body,
+            bodies,
+            findings,
+        )
     };
-    of.iter().enumerate().map(&mut local).collect()
+    of.iter().enumerate().map(local).collect()
+}
+
+/// A point that `at` gives, in the frame of a body relative to its centre of mass.
+fn local<S: SceneSpace>(
+    at: &Field,
+    point: &Point<S>,
+    body: BodyRef,
+    bodies: &Bodies<S>,
+    findings: &mut Findings,
+) -> Option<S::Vector<f64>> {
+    let local = match *point {
+        Point::Of(marker) if marker.body == body => bodies.place_of(marker),
+        Point::Of(marker) => bodies.to_local(body, bodies.global(marker)),
+        Point::At(point) => bodies.to_local(body, point),
+    };
+    if !S::point(local).iter().all(|x| is_usable(*x)) {
+        findings.error(Mistake::NotFinite,
+            at.span(),
+            format!(
+                "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}",
+                at.subject,
+                bodies.names.name(body)
+            ),
+            "too far away",
+        );
+        return None;
+    }
+    Some(local)
+}
+
+/// Reads one point of a body, `at` or in its frame by `point`. Returns `None` if it is missing or
+/// wrong, which is reported, or if the body is not known.
+pub(crate) fn one<S: SceneSpace>(
+    table: &mut Table,
+    body: Option<BodyRef>,
+    bodies: &Bodies<S>,
+    findings: &mut Findings,
+) -> Option<S::Vector<f64>> {
+    match (table.optional(AT), table.optional(POINT)) {
+        (Some(at), Some(own)) => {
+            findings.collision(
+                Mistake::Exclusive,
+                own.span(),
+                format!("{} takes `{AT}` or `{POINT}`, not both", table.subject),
+                "and here in the frame of the body",
+                at.span(),
+                "the place is given here",
+            );
+            None
+        }
+        (Some(at), None) => {
+            let read = point(&at, S::GLOBAL_POINT, bodies, findings)?;
+            local(&at, &read, body?, bodies, findings)
+        }
+        (None, Some(own)) => of_body(&own, 1, body, bodies, findings).pop()?,
+        (None, None) => {
+            findings.error(
+                Mistake::Missing,
+                table.header.clone(),
+                format!(
+                    "{} needs a place: `{AT} = {}` in global coordinates, or `{POINT}` in the frame of the body",
+                    table.subject,
+                    S::VECTOR
+                ),
+                "the place is missing here",
+            );
+            None
+        }
+    }
 }
 
 /// A point as it is written.

@@ -14,7 +14,7 @@ use toml::de::DeTable;
 use crate::active;
 use crate::body::{Bodies, SceneBody};
 use crate::combination::{ReactionNames, Reactions};
-use crate::coupling;
+use crate::dependent::{self, Found, Kind};
 use crate::diagnostic::Diagnostic;
 use crate::element::Types;
 use crate::findings::Findings;
@@ -270,16 +270,15 @@ impl<'r, S: SceneBody> Parts<'r, S> {
             measures.read(table, &name, S::KIND, &bodies.markers, findings);
         }
         let types = Types::of_joints(registry);
-        let mut couplings = Vec::new();
+        let mut dependent = Vec::new();
         for (table, name) in tables(root, &section::JOINT, findings) {
             names.elements.push(Use::of(&name, &table));
-            if coupling::is_meant(&table) {
-                couplings.push(coupling::Found::behind(table, name, joints));
-            } else {
-                joints.read(table, &name, &types, bodies, domains, findings);
+            match Kind::of(&table, &types) {
+                Some(kind) => dependent.push(Found::behind(kind, table, name, joints)),
+                None => joints.read(table, &name, &types, bodies, domains, findings),
             }
         }
-        coupling::read(couplings, joints, findings);
+        dependent::read(dependent, bodies, joints, findings);
         let by_name = JointNames::of(joints);
         for (table, name) in tables(root, &section::DRIVE, findings) {
             names.elements.push(Use::of(&name, &table));

@@ -153,7 +153,7 @@ fn common(
             )
         });
     }
-    let points_apart = d.points_apart;
+    let (points_apart, bearings) = (d.points_apart, d.bearings && !driven);
     let requirements = d.requirements.iter().map(|(words, _)| words.value());
     // The text of a drive is that of its joint, whose facts already contain it.
     let text = if driven { "" } else { text };
@@ -167,6 +167,7 @@ fn common(
             slots: &[#(#slots),*],
             parameters: &[#(#parameters),*],
             points_apart: #points_apart,
+            bearings: #bearings,
             requirements: &[#(#requirements),*],
         }
     }

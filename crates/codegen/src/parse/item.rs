@@ -23,7 +23,8 @@ mod kw {
 const COMMON: [&str; 7] = [
     "params", "points", "let", "initial", "require", "scene", "variant",
 ];
-const CONSTRAINT: [&str; 8] = [
+const CONSTRAINT: [&str; 9] = [
+    "bearings",
     "turns",
     "rows",
     "phi",
@@ -70,6 +71,7 @@ pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Defi
         slots,
         params: Vec::new(),
         points_apart: false,
+        bearings: false,
         bindings: Vec::new(),
         requirements: Vec::new(),
         rows: Vec::new(),
@@ -181,6 +183,13 @@ fn item(kind: Kind, input: ParseStream<'_>, d: &mut Definition) -> syn::Result<(
 
 fn constraint_item(word: &Ident, input: ParseStream<'_>, d: &mut Definition) -> syn::Result<()> {
     match word.to_string().as_str() {
+        "bearings" => {
+            once(word, d.bearings.then_some(()))?;
+            if !super::bearings::are_possible(d) {
+                return Err(syn::Error::new_spanned(word, super::bearings::NEEDED));
+            }
+            d.bearings = true;
+        }
         "turns" => {
             let name = name(input)?;
             input.parse::<Token![:]>()?;

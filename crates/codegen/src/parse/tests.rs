@@ -160,6 +160,10 @@ fn what_is_wrong_is_named() {
         ("phi: 1.0; phi: 2.0;", "`phi` is given twice"),
         ("psi: 2.0; phi: 1.0;", "`phi` stands before `psi`"),
         ("points apart; points apart;", "`points` is given twice"),
+        (
+            "bearings;",
+            "`bearings` stands after the parameters of a `space` definition",
+        ),
         ("params { a: Lengt }", "did you mean `Length`?"),
         ("params { a: Banana }", "known are `Point`, `Direction`"),
         (

@@ -28,6 +28,9 @@ pub struct Definition {
     pub params: Vec<Param>,
     /// Whether its place in a scene consists of one point for each point parameter.
     pub points_apart: bool,
+    /// Whether its bodies, and its points and axes but for the last point, are those of two joints
+    /// that bear the first two bodies on the third.
+    pub bearings: bool,
     /// `let`, `initial` and `turns`, in the order of the text.
     pub bindings: Vec<Binding>,
     /// Conditions on the assembled start.

@@ -84,8 +84,9 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         self.identity(Property::Component, &found, &expected)
     }
 
-    /// The place moves with the first body, and with no other. Where a plane of the ground is
-    /// touched, the body touches it elsewhere as it turns: then only its translation is asked.
+    /// The place moves with the first body, or with the carrier of wheels that other joints bear,
+    /// and with no other. Where a plane of the ground is touched, the body touches it elsewhere as
+    /// it turns: then only its translation is asked.
     pub(super) fn place(&self) -> Result<(), Failure> {
         let Some(place) = self.place_of_reaction() else {
             return Ok(());
@@ -93,9 +94,11 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         let (x, motion) = (&self.case.x, &self.case.motions[0]);
         let found = self.derivative::<DualNumbers>(Kernel::Place, By::Poses, motion);
         let mut expected = Block::filled(S::DIM, OfConstraint::<K, S>::columns(), 0.0);
-        let velocities = S::point_velocities(&x[0], point(&place));
-        for (column, velocity) in velocities.into_iter().enumerate() {
-            let touches = column >= S::DIM && touches_plane(K::SPEC.common.parameters);
+        let owner = if K::SPEC.common.bearings { 2 } else { 0 };
+        let velocities = S::point_velocities(&x[owner], point(&place)).into_iter();
+        for (dof, velocity) in velocities.enumerate() {
+            let touches = dof >= S::DIM && touches_plane(K::SPEC.common.parameters);
+            let column = S::N_DOF * owner + dof;
             for (k, velocity) in velocity.into_iter().enumerate().take(S::DIM) {
                 let value = if touches {
                     found.get(k, column)

@@ -29,6 +29,7 @@ impl Constraint for Angle {
             slots: &["i", "j"],
             parameters: &[],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

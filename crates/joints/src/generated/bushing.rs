@@ -57,6 +57,7 @@ impl Force for Bushing {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         q: &[0, 1, 2, 3, 4, 5],

@@ -37,6 +37,7 @@ impl Force for Damper {
                 ),
             ],
             points_apart: true,
+            bearings: false,
             requirements: &["the two points are apart"],
         },
         q: &[0, 1, 2, 3, 4, 5],

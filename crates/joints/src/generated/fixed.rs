@@ -46,6 +46,7 @@ impl Constraint for Fixed {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -38,6 +38,7 @@ impl Constraint for Gear {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

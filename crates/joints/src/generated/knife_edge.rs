@@ -38,6 +38,7 @@ impl Constraint for KnifeEdge {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

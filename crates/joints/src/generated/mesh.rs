@@ -71,6 +71,7 @@ impl Constraint for Mesh {
                 ),
             ],
             points_apart: true,
+            bearings: false,
             requirements: &["the ratio is not 1", "the two centres are apart"],
         },
         role: Role::Joint,

@@ -40,6 +40,7 @@ impl Force for PointForce {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         q: &[0, 1, 2],

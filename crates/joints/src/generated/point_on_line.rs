@@ -38,6 +38,7 @@ impl Constraint for PointOnLine {
                 Parameter::required("line", Shape::GroundLine, "The line."),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -56,6 +56,7 @@ impl Constraint for RackAndPinion {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -50,6 +50,7 @@ impl Constraint for Rolling {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &["the radius is not zero"],
         },
         role: Role::Joint,

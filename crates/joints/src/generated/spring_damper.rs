@@ -53,6 +53,7 @@ impl Force for SpringDamper {
                 ),
             ],
             points_apart: true,
+            bearings: false,
             requirements: &["the two points are apart, or the free length is zero"],
         },
         q: &[0, 1, 2, 3, 4, 5],

@@ -28,6 +28,7 @@ impl Force for TorqueBetween {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         q: &[2, 5],

@@ -47,6 +47,7 @@ impl Force for TorsionSpringDamper {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         q: &[2, 5],

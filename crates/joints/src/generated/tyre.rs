@@ -53,6 +53,7 @@ impl Force for Tyre {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &["the low speed is not zero"],
         },
         q: &[0, 1, 2],

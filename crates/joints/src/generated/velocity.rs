@@ -47,6 +47,7 @@ impl Constraint for Velocity {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -547,6 +547,17 @@ pub const TABLE: &[Entry] = &[
         Example::Scene("check -", block!("inertia = [3, 1, 1]\n")),
     ),
     entry(
+        154,
+        "Joints do not bear two wheels on one carrier",
+        "Name two revolute, cylindrical or screw joints, each between one wheel and the same carrier; write the line of action where it does not follow from their axes.",
+        Example::Scene(
+            "check -",
+            block!(
+                "inertia = [1, 1, 1]\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"block\"]\nat = [0, 0, 0]\naxis = [0, 0, 1]\n\n[[joint]]\nname = \"teeth\"\ntype = \"mesh\"\nbearings = [\"A\", \"A\"]\nat = [1, 0, 0]\n"
+            ),
+        ),
+    ),
+    entry(
         155,
         "A measure does not exist in this space",
         "In the plane there are distance, angle, x, y, speed and angular-velocity; in space there is z, and no angle.",

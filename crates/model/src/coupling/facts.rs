@@ -143,6 +143,7 @@ const PLAIN: ConstraintSpec = ConstraintSpec {
         slots: &[],
         parameters: &[],
         points_apart: false,
+        bearings: false,
         requirements: &[],
     },
     role: Role::Joint,

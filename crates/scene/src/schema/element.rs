@@ -12,9 +12,10 @@ use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
 use crate::direction::{self, AXES, CROSS, FRAME, FRAMES};
 use crate::key::{Interval, TYPE};
-use crate::place::{AT, local_key};
+use crate::place::{AT, POINT, local_key};
 use crate::section::NAME;
 use crate::space::SceneSpace;
+use crate::teeth::{BEARINGS, PRESSURE_ANGLE, line_of};
 use crate::tolerance;
 
 /// Kind of element in a section.
@@ -34,7 +35,13 @@ pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: Kind) -> 
     specs.sort_by_key(|spec| spec.scene_type);
     let tables: Vec<Value> = specs
         .iter()
-        .map(|spec| table::<S>(spec, kind, title))
+        .map(|spec| {
+            if spec.bearings {
+                teeth::<S>(spec, title)
+            } else {
+                table::<S>(spec, kind, title)
+            }
+        })
         .collect();
     json!({ "title": title, "type": "object", "oneOf": tables })
 }
@@ -133,6 +140,58 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
     table
 }
 
+/// The table of a definition whose bodies are borne by other joints.
+fn teeth<S: SceneSpace>(spec: &Spec, title: &str) -> Value {
+    let keys = [NAME, BEARINGS, PRESSURE_ANGLE, tolerance::OF_JOINT, ACTIVE];
+    let mut properties: Map<String, Value> = keys
+        .iter()
+        .map(|key| (key.name.to_owned(), described(key)))
+        .collect();
+    let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
+    properties.insert(TYPE.to_owned(), kind);
+    let place = |words: String| {
+        let mut place = reference(&name_in::<S>("place"));
+        place["description"] = words.into();
+        place
+    };
+    let at = format!(
+        "The pitch point {} in global coordinates, at the described start (m)",
+        S::VECTOR
+    );
+    let own = format!(
+        "The pitch point {} in the frame of the carrier (m)",
+        S::VECTOR
+    );
+    properties.insert(AT.to_owned(), place(at));
+    properties.insert(POINT.to_owned(), place(own));
+    properties.insert(FRAME.to_owned(), frame("the carrier"));
+    let mut all = vec![json!({ "oneOf": [{ "required": [AT] }, { "required": [POINT] }] })];
+    if let Some(line) = line_of(spec) {
+        let mut along = vector::<S>();
+        along["description"] = "The line of action in the frame of the carrier, or global; the normal of the plane of both axes, turned by the pressure angle, if it is not given".into();
+        properties.insert(line.to_owned(), along);
+        all.push(json!({ "not": { "required": [line, PRESSURE_ANGLE.name] } }));
+    }
+    json!({
+        "title": format!("{title} `{}`", spec.scene_type),
+        "description": in_one_line(spec.doc),
+        "type": "object",
+        "required": [NAME.name, TYPE, BEARINGS.name],
+        "additionalProperties": false,
+        "allOf": all,
+        "properties": properties,
+    })
+}
+
+/// `frame`
+fn frame(body: &str) -> Value {
+    json!({
+        "description": format!("Where directions are written: in the frame of {body}, or in ground axes of the described start"),
+        "enum": FRAMES,
+        "default": FRAMES[0],
+    })
+}
+
 /// `markers`
 fn two_markers() -> Value {
     let mut markers = tuple(vec![json!({ "type": "string" }); 2]);
@@ -144,11 +203,7 @@ fn two_markers() -> Value {
 /// A key for directions beside the parameters.
 fn beside<S: SceneSpace>(key: &str) -> Value {
     match key {
-        FRAME => json!({
-            "description": "Where directions are written: in the frame of the first body, or in ground axes of the described start",
-            "enum": FRAMES,
-            "default": FRAMES[0],
-        }),
+        FRAME => frame("the first body"),
         CROSS => {
             let mut cross = vector::<S>();
             cross["description"] = "A direction across the axis, for the rows and for the reaction in joint axes; the coordinate axis of the first body that lies least along the axis where it is not given".into();

@@ -109,6 +109,10 @@ fn every_type_is_read_and_built() {
             "screw",
             format!("{AB}{place}\naxis = [1, 0, 0]\npitch = 0.01"),
         ),
+        (
+            "mesh",
+            format!("bearings = [\"A\", \"B\"]\nat = [2, 3, 0]\n{SHAFTS}"),
+        ),
     ];
     let forces = [
         (
@@ -142,7 +146,7 @@ fn every_type_is_read_and_built() {
     assert_eq!(
         rows,
         [
-            3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 3, 3, 3, 3, 4, 5
+            3, 5, 4, 5, 4, 3, 6, 2, 1, 2, 1, 3, 1, 1, 1, 3, 3, 3, 3, 4, 5, 1, 5, 4
         ]
     );
     assert_eq!(d.forces.len(), forces.len());
@@ -606,5 +610,180 @@ fn the_other_space_is_named() {
     assert_eq!(
         help,
         Some("vectors of 3 components belong to `space = \"spatial\"`")
+    );
+}
+
+/// Two shafts of the ground that meet under a right angle at the origin.
+const SHAFTS: &str = r#"
+[[joint]]
+name = "A"
+type = "revolute"
+bodies = ["ground", "a"]
+at = [1, 0, 0]
+axis = [1, 0, 0]
+
+[[joint]]
+name = "B"
+type = "cylindrical"
+bodies = ["b", "ground"]
+at = [0, 1, 0]
+axis = [0, 1, 0]
+"#;
+
+/// The mesh of both shafts.
+fn teeth(keys: &str) -> model::Joint<joints::Space3> {
+    let text = format!(
+        "{BODIES}[[joint]]\nname = \"M\"\ntype = \"mesh\"\nbearings = [\"A\", \"B\"]\n{keys}\n{SHAFTS}"
+    );
+    // It stands where its table stands, before its bearings.
+    let first = described(&text).joints.into_iter().next();
+    first.expect("a joint")
+}
+
+/// The stored values of a joint by their names.
+fn value(joint: &model::Joint<joints::Space3>, name: &str) -> Vec<f64> {
+    let spec = joint.element.spec();
+    let datum = spec.data.iter().find(|d| d.name == name).expect(name);
+    let mut all = vec![0.0; spec.n_data()];
+    joint.element.data(&mut all);
+    all[datum.numbers()].to_vec()
+}
+
+/// Points and axes are those of the bearings, in the frames of wheels and carrier; the line of
+/// action is the normal of the plane of both axes, turned about the line from the apex.
+#[test]
+fn teeth_are_placed_by_their_bearings() {
+    let joint = teeth("at = [2, 3, 0]");
+    let bodies = [1, 0, 2].map(|k| joint.bodies[k]);
+    assert_eq!(
+        bodies,
+        [
+            model::BodyRef::Body(1),
+            model::BodyRef::Body(0),
+            model::BodyRef::Ground
+        ]
+    );
+    // Body a is at (1, 2, 3), turned by a right angle about z; b at (3, 2, 3).
+    assert_close(&value(&joint, "s_i"), &[-2.0, 0.0, -3.0]);
+    assert_close(&value(&joint, "s_j"), &[-3.0, -1.0, -3.0]);
+    assert_close(&value(&joint, "p_i"), &[1.0, 0.0, 0.0]);
+    assert_close(&value(&joint, "p_j"), &[0.0, 1.0, 0.0]);
+    assert_close(&value(&joint, "pitch"), &[2.0, 3.0, 0.0]);
+    assert_close(&value(&joint, "line"), &[0.0, 0.0, 1.0]);
+    // N × g with g = (0.8, 0.6, 0).
+    let joint = teeth("at = [4, 3, 0]\npressure_angle = 0.3");
+    let (sin, cos) = 0.3_f64.sin_cos();
+    assert_close(&value(&joint, "line"), &[-0.6 * sin, 0.8 * sin, cos]);
+    let joint = teeth("point = [4, 3, 0]\nline = [0, 3, 4]\nframe = \"global\"");
+    assert_close(&value(&joint, "line"), &[0.0, 0.6, 0.8]);
+}
+
+#[test]
+fn bearings_of_teeth() {
+    let scene = format!(
+        "{BODIES}{SHAFTS}[[joint]]\nname = \"C\"\ntype = \"revolute\"\nbodies = [\"a\", \"c\"]\nat = [0, 1, 0]\naxis = [0, 0, 1]\n\
+         [[joint]]\nname = \"D\"\ntype = \"spherical\"\nbodies = [\"ground\", \"c\"]\nat = [0, 0, 2]\n\
+         [[joint]]\nname = \"E\"\ntype = \"revolute\"\nbodies = [\"ground\", \"c\"]\nat = [0, 1, 2]\naxis = [0, 0, 1]\n\
+         [[joint]]\nname = \"M\"\ntype = \"mesh\"\nbearings = [\"A\", \"B\"]\nat = [2, 3, 0]\n"
+    );
+    let skew =
+        "joint `M` needs the key `line`: the axes of the wheels neither meet nor are parallel";
+    let follows = "the line of action does not follow from these";
+    check_in(
+        &scene,
+        &[
+            (
+                "[\"A\", \"B\"]",
+                "[\"A\", «\"nothing\"»]",
+                "joint `M` refers to the unknown joint `nothing`",
+                "no such joint",
+            ),
+            (
+                "[\"A\", \"B\"]",
+                "«[\"A\", \"D\"]»",
+                "joint `M`: `D` bears no wheel: a joint with one axis and one angle is needed",
+                "no bearing",
+            ),
+            (
+                "[\"A\", \"B\"]",
+                "«[\"B\", \"C\"]»",
+                "joint `M`: `B` and `C` connect no common body",
+                "both wheels turn on one carrier",
+            ),
+            (
+                "[\"A\", \"B\"]",
+                "«[\"A\", \"A\"]»",
+                "joint `M`: `A` and `A` both connect `ground` and `a`: there is one wheel only",
+                "two wheels and a carrier are three bodies",
+            ),
+            ("[\"A\", \"B\"]", "«[\"A\", \"E\"]»", skew, follows),
+        ],
+    );
+    let plane =
+        "joint `M` needs the key `line`: the pitch point does not lie in the plane of both axes";
+    let meets = "joint `M` needs the key `line`: the axes of the wheels meet in the pitch point";
+    let misses =
+        "joint `M`: the line of action meets the axis of the first wheel, or is parallel to it";
+    let place = scene.replace(
+        "bearings = [\"A\", \"B\"]\nat = [2, 3, 0]",
+        "at = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+    );
+    check_in(
+        &place,
+        &[
+            (
+                "at = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+                "at = [2, 3, 1e-3]\nbearings = «[\"A\", \"B\"]»",
+                plane,
+                follows,
+            ),
+            (
+                "at = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+                "at = [0, 0, 0]\nbearings = «[\"A\", \"B\"]»",
+                meets,
+                follows,
+            ),
+            (
+                "at = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+                "at = [2, 3, 0]\nline = «[2, 0, 0]»\nbearings = [\"A\", \"B\"]",
+                misses,
+                "turns nothing",
+            ),
+            (
+                "at = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+                "at = [2, 3, 0]\nline = «[0, 0, 0]»\nbearings = [\"A\", \"B\"]",
+                "joint `M`: `line` has no direction: the vector is (0, 0, 0), of length zero",
+                "has no direction",
+            ),
+            (
+                "at = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+                "at = [2, 3, 0]\nline = [0, 0, 1]\npressure_angle = «0.3»\nbearings = [\"A\", \"B\"]",
+                "joint `M` takes `line` or `pressure_angle`, not both",
+                "and here by an angle",
+            ),
+            (
+                "at = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+                "at = [2, 3, 0]\npoint = «[2, 3, 0]»\nbearings = [\"A\", \"B\"]",
+                "joint `M` takes `at` or `point`, not both",
+                "and here in the frame of the body",
+            ),
+            (
+                "at = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+                "«bodies» = [\"a\", \"b\"]\nat = [2, 3, 0]\nbearings = [\"A\", \"B\"]",
+                "joint `M` has no key `bodies`",
+                "unknown key",
+            ),
+        ],
+    );
+    // Few digits are enough: the share is of the distance from the apex.
+    let digits = scene.replace("at = [2, 3, 0]\n", "at = [2, 3, 1e-6]\n");
+    assert!(read(&digits).is_ok());
+    // What is not active cannot bear.
+    let off = scene.replacen("name = \"A\"\n", "name = \"A\"\nactive = false\n", 1);
+    let problems = read(&off).expect_err("a bearing is off");
+    let message = problems[0].to_string();
+    assert!(
+        message.contains("joint `A`, which is not active"),
+        "{message}"
     );
 }

@@ -50,6 +50,7 @@ impl Constraint<Space3> for Ball {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &["the radius is not zero"],
         },
         role: Role::Joint,

@@ -40,6 +40,7 @@ impl Force<Space3> for BodyPointForce {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         q: &[0, 1, 2, 3, 4, 5],

@@ -66,6 +66,7 @@ impl Constraint<Space3> for ConstantVelocity {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &["its axes do not point against each other"],
         },
         role: Role::Joint,

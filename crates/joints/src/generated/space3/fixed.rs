@@ -59,6 +59,7 @@ impl Constraint<Space3> for Fixed {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

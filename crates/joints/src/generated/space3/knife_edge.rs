@@ -38,6 +38,7 @@ impl Constraint<Space3> for KnifeEdge {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -25,6 +25,9 @@ pub use fixed::*;
 pub mod knife_edge;
 pub use knife_edge::*;
 #[rustfmt::skip]
+pub mod mesh;
+pub use mesh::*;
+#[rustfmt::skip]
 pub mod orientation;
 pub use orientation::*;
 #[rustfmt::skip]
@@ -83,6 +86,7 @@ pub fn constraints<V: Visitor<Space3>>(visitor: &mut V) {
     visitor.constraint::<Distance>();
     visitor.constraint::<Fixed>();
     visitor.constraint::<KnifeEdge>();
+    visitor.constraint::<Mesh>();
     visitor.constraint::<Orientation>();
     visitor.constraint::<Parallel>();
     visitor.constraint::<Perpendicular>();

@@ -45,6 +45,7 @@ impl Constraint<Space3> for Orientation {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

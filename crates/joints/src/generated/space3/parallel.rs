@@ -45,6 +45,7 @@ impl Constraint<Space3> for Parallel {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -42,6 +42,7 @@ impl Constraint<Space3> for Perpendicular {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &["its two axes do not lie along one line"],
         },
         role: Role::Joint,

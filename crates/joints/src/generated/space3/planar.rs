@@ -60,6 +60,7 @@ impl Constraint<Space3> for Planar {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -49,6 +49,7 @@ impl Constraint<Space3> for PointOnLine {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

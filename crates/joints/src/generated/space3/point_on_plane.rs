@@ -49,6 +49,7 @@ impl Constraint<Space3> for PointOnPlane {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -42,6 +42,7 @@ impl Constraint<Space3> for Spherical {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

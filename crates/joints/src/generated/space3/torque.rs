@@ -28,6 +28,7 @@ impl Force<Space3> for Torque {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         q: &[3, 4, 5],

@@ -47,6 +47,7 @@ impl Constraint<Space3> for Velocity {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         role: Role::Joint,

@@ -72,6 +72,7 @@ impl Constraint<Space3> for Wheel {
                 ),
             ],
             points_apart: false,
+            bearings: false,
             requirements: &[
                 "the radius is not zero",
                 "the wheel does not lie flat",

@@ -52,6 +52,7 @@ impl Law for Root {
             slots: &["i"],
             parameters: &[],
             points_apart: false,
+            bearings: false,
             requirements: &[],
         },
         q: &[0],

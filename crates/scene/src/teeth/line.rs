@@ -1,0 +1,117 @@
+//! The line of action of two wheels that turn about axes of one carrier, from their pitch point and
+//! a pressure angle.
+
+use joints::space3::{Direction, cross, dot};
+
+use crate::limits::MEETING;
+
+/// A line of the carrier: a point, and a unit vector along it.
+#[derive(Clone, Copy)]
+pub(super) struct Axis {
+    pub(super) point: [f64; 3],
+    pub(super) along: [f64; 3],
+}
+
+impl Axis {
+    /// Whether a force along a line through a point has a moment about the axis.
+    pub(super) fn has_lever(&self, line: [f64; 3], at: [f64; 3]) -> bool {
+        let line = Direction::new(line).map(Direction::xyz);
+        // What has no direction is refused where the definition is built.
+        line.is_none_or(|line| {
+            let moment = cross(minus(at, self.point), line);
+            dot(moment, self.along).abs() > MEETING * length(moment)
+        })
+    }
+}
+
+/// N, a unit normal of the plane of both axes, and g, the direction of the line along which the
+/// wheels roll on each other.
+struct Roll {
+    normal: [f64; 3],
+    along: [f64; 3],
+}
+
+/// `cos α·N + sin α·(N × g)`, α being the pressure angle.
+///
+/// Axes a₁, a₂ that are parallel: g = a₁, and N = a₁ × c with c along the centre line, from the
+/// first axis to the second, so that `N × g = c`. Axes that meet in an apex: g from the apex
+/// through the pitch point, N along a₁ × a₂.
+///
+/// # Errors
+/// Why there is no such line.
+pub(super) fn of_action(
+    axes: [Axis; 2],
+    pitch: [f64; 3],
+    pressure_angle: f64,
+) -> Result<[f64; 3], &'static str> {
+    let [first, second] = axes;
+    let across = cross(first.along, second.along);
+    let Roll { normal, along } = if length(across) < MEETING {
+        parallel(axes, pitch)?
+    } else {
+        meeting(axes, across, pitch)?
+    };
+    if pressure_angle == 0.0 {
+        return Ok(normal);
+    }
+    let (sin, cos) = pressure_angle.sin_cos();
+    let towards = cross(normal, along);
+    Ok([0, 1, 2].map(|k| cos * normal[k] + sin * towards[k]))
+}
+
+fn parallel([first, second]: [Axis; 2], pitch: [f64; 3]) -> Result<Roll, &'static str> {
+    let apart = minus(second.point, first.point);
+    let centres = moved(apart, -dot(apart, first.along), first.along);
+    let size = length(apart).max(length(minus(pitch, first.point)));
+    let normal = Direction::new(cross(first.along, centres));
+    match normal.filter(|_| length(centres) > MEETING * size) {
+        Some(normal) => Ok(Roll {
+            normal: normal.xyz(),
+            along: first.along,
+        }),
+        None => Err("the wheels turn about one line"),
+    }
+}
+
+/// `across` is a₁ × a₂.
+fn meeting(
+    [first, second]: [Axis; 2],
+    across: [f64; 3],
+    pitch: [f64; 3],
+) -> Result<Roll, &'static str> {
+    let apart = minus(second.point, first.point);
+    let to_apex = dot(cross(apart, second.along), across) / dot(across, across);
+    let apex = moved(first.point, to_apex, first.along);
+    let roll = minus(pitch, apex);
+    let size = [apart, minus(second.point, apex), roll].map(length);
+    let least = MEETING * size.into_iter().fold(0.0, f64::max);
+    let Some(normal) = Direction::new(across).map(Direction::xyz) else {
+        return Err("an axis has no direction");
+    };
+    if dot(normal, apart).abs() > least {
+        return Err("the axes of the wheels neither meet nor are parallel");
+    }
+    if dot(normal, roll).abs() > least {
+        return Err("the pitch point does not lie in the plane of both axes");
+    }
+    match Direction::new(roll).filter(|_| length(roll) > least) {
+        Some(roll) => Ok(Roll {
+            normal,
+            along: roll.xyz(),
+        }),
+        None => Err("the axes of the wheels meet in the pitch point"),
+    }
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+/// a + s·b
+fn moved(a: [f64; 3], s: f64, b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| a[k] + s * b[k])
+}
+
+fn length(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
