@@ -235,7 +235,7 @@ pub(crate) const WEAK: f64 = 0.5;
 /// Size of what is added up where an independent rotation is read of a quaternion: four products of
 /// at most two.
 /// Unit: rad. Less: completions fail at rounding. More: rotations drift. Test:
-/// `hinges_about_every_axis_fall_as_a_pendulum`.
+/// `bricards_linkage_by_an_implicit_method`.
 pub(crate) const READ_ROTATION: f64 = 8.0;
 
 /// Kept rows count as satisfied below this many roundings where a further correction does not
