@@ -1,6 +1,7 @@
 //! Mechanisms of space: verdicts and motions with known answers.
 
 mod adams;
+mod bushing;
 mod catalogue;
 mod drifts;
 mod gears;

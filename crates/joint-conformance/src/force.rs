@@ -77,6 +77,16 @@ impl<K: Force<S>, S: Bodies> Subject for OfForce<K, S> {
         DERIVATIVES.iter()
     }
 
+    /// A law may have no value at some poses: a rotation vector near half a turn.
+    fn is_defined(check: &Check<'_, Self>) -> bool {
+        let kernels = [Kernel::Q, Kernel::DqDx, Kernel::DqDv];
+        let mut blocks = kernels.into_iter().flat_map(|kernel| {
+            let motions = check.case.motions.iter();
+            motions.map(move |m| check.at(kernel, m))
+        });
+        blocks.all(|block| block.entries().iter().all(|entry| entry.is_finite()))
+    }
+
     fn properties(check: &Check<'_, Self>) -> Result<(), Failure> {
         for m in &check.case.motions {
             if is_internal::<Self>() {

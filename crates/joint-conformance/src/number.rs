@@ -38,6 +38,15 @@ impl<D: DualNum<Primitive = f64> + Copy> Real for Dual<D> {
     fn recip_or_zero(self) -> Self {
         self.unless_zero(DualNum::recip)
     }
+
+    /// By Taylor's series about the real part, of which the difference from it keeps three terms at
+    /// most.
+    fn angle_over_sine(self, order: u8) -> Self {
+        let c = self.0.re();
+        let of = |more: u8| Self::from(joints::angle_over_sine(c, order + more));
+        let d = self - Self::from(c);
+        of(0) + d * (of(1) + d * (Self::from(0.5) * of(2) + d * Self::from(1.0 / 6.0) * of(3)))
+    }
 }
 
 impl<D: DualNum<Primitive = f64> + Copy> Dual<D> {

@@ -5,6 +5,7 @@
 use crate::evaluate::Number;
 use crate::graph::{Function, Symbol};
 use crate::program::{Binary, Op, Program, Value};
+use crate::rotation_angle::angle_over_sine;
 
 impl Program {
     /// A program without operations.
@@ -193,6 +194,7 @@ impl Program {
             (Function::Cos, Some(x)) => self.number(x.cos()),
             (Function::RecipOrZero, Some(0.0)) => self.number(0.0),
             (Function::RecipOrZero, Some(x)) => self.number(1.0 / x),
+            (Function::AngleOverSine(order), Some(x)) => self.number(angle_over_sine(x, order)),
             _ => self.push(Op::Call(f, a)),
         }
     }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg};
 
 use crate::graph::{Expr, Function, Graph, Node, Symbol};
+use crate::rotation_angle::angle_over_sine;
 
 /// The operations of a number that direct evaluation needs.
 pub trait Number:
@@ -27,6 +28,7 @@ impl Number for f64 {
                     1.0 / self
                 }
             }
+            Function::AngleOverSine(order) => angle_over_sine(self, order),
         }
     }
 }

@@ -13,6 +13,7 @@
 use std::collections::HashMap;
 
 use crate::order;
+use crate::rotation_angle::angle_over_sine;
 
 /// Handle of an expression; in one [`Graph`], equal handles mean equal expressions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -41,6 +42,9 @@ pub enum Function {
     Cos,
     /// `1/u`, and 0 for `u = 0`: the direction of a vector of length zero counts as zero.
     RecipOrZero,
+    /// The derivative of this order, by u, of θ/sin θ with u = cos θ, see
+    /// [`angle_over_sine`](crate::angle_over_sine).
+    AngleOverSine(u8),
 }
 
 /// One node of the graph, in canonical form.
@@ -220,6 +224,7 @@ impl Graph {
             (Function::Cos, Some(0.0)) => self.number(1.0),
             (Function::RecipOrZero, Some(0.0)) => self.number(0.0),
             (Function::RecipOrZero, Some(x)) => self.number(1.0 / x),
+            (Function::AngleOverSine(order), Some(x)) => self.number(angle_over_sine(x, order)),
             _ => self.intern(Node::Call(f, u)),
         }
     }

@@ -1,0 +1,1 @@
+../../joints/src/rotation_angle.rs
