@@ -173,8 +173,7 @@ fn clamped_and_pinned_bar() {
     // A pin with the compliance 1/k, a clamp with the rotational compliance c: R·(1/k + c) = c/4.
     let compliance = |joint, y, rotation| Compliance {
         reaction: ConstraintId(joint),
-        x: 1e-9,
-        y,
+        along: [1e-9, y, 0.0],
         rotation,
     };
     let elastic = Choice::Compliance(vec![compliance(0, 0.0, 3e-4), compliance(1, 1e-4, 0.0)]);
@@ -197,8 +196,7 @@ fn beam_on_three_springs() {
     let elastic = |compliances: [f64; 3]| {
         let joint = |(k, y): (usize, f64)| Compliance {
             reaction: ConstraintId(k),
-            x: 0.0,
-            y,
+            along: [0.0, y, 0.0],
             rotation: 0.0,
         };
         state.distribute(&Choice::Compliance(

@@ -1,11 +1,11 @@
 //! Linearised motions against closed forms and published tables.
 
-use std::fmt::Write;
-
 use linalg::{Matrix, eigenpairs};
 use model::Registry;
 use pfaff::dynamics::linearise::{Linearisation, LineariseError, LineariseOptions, Stability};
 use pfaff::{Overrides, Study, StudyError};
+
+use crate::bicycle;
 
 fn study(text: &str) -> Study {
     let study = Study::read(
@@ -293,86 +293,6 @@ force = [{ name = \"push\", type = \"point-force\", body = \"rod\", point = [0.0
     }
 }
 
-/// The benchmark bicycle: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A. L. Schwab, Linearized
-/// dynamics equations for the balance and steer of a bicycle, Proc. R. Soc. A 463 (2007)
-/// 1955–1982, tables 1 and 2. z is down there, and up here.
-fn bicycle(speed: f64) -> String {
-    let (w, c, lambda) = (1.02, 0.08, std::f64::consts::PI / 10.0);
-    let (rr, rf) = (0.3, 0.35);
-    let (wr, wf) = (speed / rr, speed / rf);
-    let mut text = String::from(
-        "[scene]\nname = \"bicycle\"\nspace = \"spatial\"\ngravity = [0.0, 0.0, -9.81]\n",
-    );
-    let mut body = |name: &str, mass: f64, place: [f64; 3], inertia: [[f64; 3]; 3], omega: f64| {
-        writeln!(
-            text,
-            "[[body]]\nname = \"{name}\"\nmass = {mass:?}\nposition = {place:?}\ninertia = {inertia:?}\nvelocity = [{speed:?}, 0.0, 0.0]\nangular_velocity = [0.0, {omega:?}, 0.0]"
-        )
-        .expect("a string");
-    };
-    let wheel = |xx: f64, yy: f64| [[xx, 0.0, 0.0], [0.0, yy, 0.0], [0.0, 0.0, xx]];
-    // Products of inertia change their sign with the direction of z.
-    let part =
-        |xx: f64, xz: f64, yy: f64, zz: f64| [[xx, 0.0, -xz], [0.0, yy, 0.0], [-xz, 0.0, zz]];
-    body("rear", 2.0, [0.0, 0.0, rr], wheel(0.0603, 0.12), wr);
-    body(
-        "frame",
-        85.0,
-        [0.3, 0.0, 0.9],
-        part(9.2, 2.4, 11.0, 2.8),
-        0.0,
-    );
-    body(
-        "fork",
-        4.0,
-        [0.9, 0.0, 0.7],
-        part(0.05892, -0.00756, 0.06, 0.00708),
-        0.0,
-    );
-    body("front", 3.0, [w, 0.0, rf], wheel(0.1405, 0.28), wf);
-    let axis = [-lambda.sin(), 0.0, lambda.cos()];
-    // The steering axis meets the ground at the wheelbase plus the trail.
-    let joints = format!(
-        "
-[[joint]]
-name = \"rear hub\"
-type = \"revolute\"
-bodies = [\"frame\", \"rear\"]
-at = [0.0, 0.0, {rr:?}]
-axis = [0.0, 1.0, 0.0]
-[[joint]]
-name = \"head\"
-type = \"revolute\"
-bodies = [\"frame\", \"fork\"]
-at = [{:?}, 0.0, 0.0]
-axis = {axis:?}
-[[joint]]
-name = \"front hub\"
-type = \"revolute\"
-bodies = [\"fork\", \"front\"]
-at = [{w:?}, 0.0, {rf:?}]
-axis = [0.0, 1.0, 0.0]
-[[joint]]
-name = \"rear contact\"
-type = \"wheel\"
-body = \"rear\"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
-radius = {rr:?}
-[[joint]]
-name = \"front contact\"
-type = \"wheel\"
-body = \"front\"
-point = [0.0, 0.0, 0.0]
-axis = [0.0, 1.0, 0.0]
-radius = {rf:?}
-",
-        w + c
-    );
-    text.push_str(&joints);
-    text
-}
-
 /// Table 2 of Meijaard et al.: the eigenvalues of weave, capsize and castering.
 const BICYCLE: [(f64, [[f64; 2]; 4]); 11] = [
     (
@@ -479,7 +399,7 @@ const BICYCLE: [(f64, [[f64; 2]; 4]); 11] = [
 #[test]
 fn the_benchmark_bicycle_has_its_published_eigenvalues() {
     for (speed, expected) in BICYCLE {
-        let x = linearised(&bicycle(speed));
+        let x = linearised(&bicycle::upright(speed));
         let found = eigenvalues(&x.a);
         for value in expected {
             let nearest = found

@@ -4,6 +4,7 @@ mod actuators;
 mod allocations;
 mod along_motion;
 mod bad_matrices;
+mod bicycle;
 mod book;
 mod cases;
 mod choices;

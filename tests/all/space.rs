@@ -1,11 +1,15 @@
 //! Mechanisms of space: verdicts and motions with known answers.
 
 mod adams;
+mod axles;
+mod bicycle;
 mod bushing;
 mod catalogue;
+mod choices;
 mod drifts;
 mod gears;
 mod motion;
+mod robot;
 mod rolling;
 mod second_order;
 mod shafts;

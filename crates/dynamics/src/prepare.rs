@@ -109,8 +109,8 @@ impl Prepared {
     /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is
     /// free, and states are projected.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
-        let layout = self.mechanism.layout();
-        let is_held = self.decision.rank == layout.n_v && self.position_decision.rank == layout.n_q;
+        let n_v = self.mechanism.layout().n_v;
+        let is_held = self.decision.rank == n_v && self.position_decision.rank == n_v;
         is_held && options.stabilisation == Stabilisation::Projection
     }
 }

@@ -43,7 +43,7 @@ impl<D: DualNum<Primitive = f64> + Copy> Real for Dual<D> {
     /// most.
     fn angle_over_sine(self, order: u8) -> Self {
         let c = self.0.re();
-        let of = |more: u8| Self::from(joints::angle_over_sine(c, order + more));
+        let of = |more: u8| Self::from(rotation::angle_over_sine(c, order + more));
         let d = self - Self::from(c);
         of(0) + d * (of(1) + d * (Self::from(0.5) * of(2) + d * Self::from(1.0 / 6.0) * of(3)))
     }

@@ -5,7 +5,6 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`ring`] | the number types of kernels |
-//! | `rotation_angle` | the angle of a rotation over its sine |
 //! | [`recorded`] | a number type that records its operations |
 //! | [`space`] | the plane and space as types |
 //! | [`plane`], [`space3`] | poses and twists of bodies, and directions fixed in them |
@@ -27,7 +26,6 @@ pub mod generated;
 pub mod plane;
 pub mod recorded;
 pub mod ring;
-mod rotation_angle;
 pub mod space;
 pub mod space3;
 pub mod spec;
@@ -42,7 +40,6 @@ pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};
 pub use recorded::Recorded;
 pub use ring::{Magnitude, Real, Ring};
-pub use rotation_angle::angle_over_sine;
 pub use space::{Plane, Space, Space3};
 pub use spec::{ConstraintSpec, ForceSpec};
 pub use visitor::Visitor;

@@ -34,7 +34,7 @@ pub enum Operation {
     Sqrt(Recorded),
     /// `1/a`, or 0 if a is 0.
     RecipOrZero(Recorded),
-    /// [`crate::angle_over_sine`] of an order.
+    /// [`rotation::angle_over_sine`] of an order.
     AngleOverSine(Recorded, u8),
 }
 

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::rotation_angle::angle_over_sine;
+use rotation::angle_over_sine;
 
 /// Operations needed by constraint kernels, which are polynomials.
 pub trait Ring:

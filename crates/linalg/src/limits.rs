@@ -120,10 +120,23 @@ pub(crate) const REFINEMENT_NOISE: f64 = 1.262_177_448_353_619e-29;
 /// lost. Test: `a_row_of_which_little_is_left_is_lost`.
 pub(crate) const SCHUR_NOISE: f64 = 1e-7;
 
+/// A row of which more than this remains is as independent as a row can be: pivots are compared
+/// with this, or with what remained at first if that is less.
+/// Unit: share of the row in the metric of the inverse masses. Less: pivots of rows that fall to
+/// nothing hide behind those that are always small. More: singular configurations are passed from
+/// farther away than needed, with less accuracy. Test: `what_is_left_of_a_row_is_compared_with_itself`.
+pub(crate) const SCHUR_WHOLE: f64 = 0.4;
+
 /// Rows that miss by more than this are corrected.
 /// Unit: share of the terms of the row. Less: corrections of rounding. More: digits are lost. Test:
 /// `random_mechanisms_move_as_with_the_dense_solver`.
 pub(crate) const SCHUR_ENOUGH: f64 = 1e-14;
+
+/// What a correction leaves of a row is rounding if it is at most this share of all terms that were
+/// added, multipliers that balance each other included.
+/// Unit: share of all terms of the row. Less: corrections of rounding. More: digits are lost. Test:
+/// `a_correction_leaves_rounding_of_all_terms`.
+pub(crate) const SCHUR_ROUNDING: f64 = f64::EPSILON;
 
 /// Rows that miss by more than this after all corrections are not solved.
 /// Unit: share of the terms of the row. Less: good solutions are refused. More: poor ones are

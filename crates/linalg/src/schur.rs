@@ -63,6 +63,10 @@ struct Factors {
     inverse: Vec<f64>,
     /// S_kk of each row in the order of elimination.
     diagonal: Vec<f64>,
+    /// What is left of each row usually, in units of the smallest; 1 if that is not known.
+    usual: Vec<f64>,
+    /// What the pivots are compared with: diagonal · usual.
+    compared: Vec<f64>,
     /// Inverse masses 1/m, n.
     inverse_mass: Vec<f64>,
     pivot_ratio: f64,
@@ -104,6 +108,8 @@ impl SchurSaddle {
                 l: vec![0.0; size.entries],
                 inverse: vec![0.0; r],
                 diagonal: vec![0.0; r],
+                usual: vec![1.0; r],
+                compared: vec![0.0; r],
                 inverse_mass: vec![0.0; n],
                 pivot_ratio: f64::INFINITY,
                 n_left_out: 0,

@@ -20,10 +20,10 @@ macro_rules! examples {
 }
 
 /// From simple to rich, as in `examples/README.md`.
-const EXAMPLES: [Template; 32] = examples!(
+const EXAMPLES: [Template; 33] = examples!(
     "door" "carriage" "truss" "four-bar" "slider-crank" "knife-edge" "sleigh" "towed-cart" "scotch-yoke" "three-cranks" "gear-train" "planetary-gear"
     "sweeper" "car" "truck" "snakeboard" "pantograph" "peaucellier" "chebyshev" "five-bar" "scissor-lift" "andrews"
-    "hinges" "table" "wagon" "linkage" "hooke" "sarrus" "bricard" "bennett" "hexapod" "top"
+    "hinges" "table" "wagon" "robot-in-space" "linkage" "hooke" "sarrus" "bricard" "bennett" "hexapod" "top"
 );
 
 const ROBOT: Template = Template {

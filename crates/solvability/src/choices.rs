@@ -30,8 +30,8 @@ pub enum Choice {
     /// first body at the place of the joint.
     MinimumNorm(NormWeights),
     /// The forces that elastic supports of these compliances would carry, in the limit of stiff
-    /// supports: minimises the complementary energy `½·Σ (x·Fx² + y·Fy² + rotation·T²)`. Joints and
-    /// drives that are not listed are rigid.
+    /// supports: minimises the complementary energy `½·Σ (Σ along_k·F_k² + rotation·T²)`, with T²
+    /// the square of the torque vector. Joints and drives that are not listed are rigid.
     Compliance(Vec<Compliance>),
     /// Sets the reactions in these rows (from 0) to zero.
     Elimination(Vec<usize>),
@@ -74,11 +74,9 @@ impl NormWeights {
 pub struct Compliance {
     /// The joint or drive.
     pub reaction: ConstraintId,
-    /// Along x (m/N).
-    pub x: f64,
-    /// Along y (m/N).
-    pub y: f64,
-    /// In rotation (rad/(N·m)).
+    /// Along x, y and z (m/N); in the plane nothing acts along z.
+    pub along: [f64; 3],
+    /// In rotation, in space about every axis (rad/(N·m)).
     pub rotation: f64,
 }
 
@@ -286,11 +284,14 @@ impl Configuration<'_> {
     }
 
     fn elastic(&self, lambda_0: &[f64], joints: &[Compliance]) -> Result<Vec<f64>, ChoiceError> {
-        let mut of_joint = vec![[0.0; 3]; self.layout().groups.len()];
+        let space = self.layout().space;
+        let rigid = ([0.0; 3], 0.0);
+        let mut of_joint = vec![rigid; self.layout().groups.len()];
         for joint in joints {
             self.reactions.check_id(joint.reaction)?;
-            let total = &mut of_joint[joint.reaction.0];
-            for (total, compliance) in total.iter_mut().zip([joint.x, joint.y, joint.rotation]) {
+            let (along, rotation) = &mut of_joint[joint.reaction.0];
+            let totals = along.iter_mut().chain([rotation]);
+            for (total, compliance) in totals.zip(joint.along.into_iter().chain([joint.rotation])) {
                 if !(compliance.is_finite() && compliance >= 0.0) {
                     return Err(ChoiceError::Weight { value: compliance });
                 }
@@ -298,7 +299,14 @@ impl Configuration<'_> {
                 *total += compliance;
             }
         }
-        self.least(lambda_0, |id, component| of_joint[id.0][component])
+        self.least(lambda_0, |id, component| {
+            let (along, rotation) = of_joint[id.0];
+            if space.forces().contains(&component) {
+                along[space.axis_of(component)]
+            } else {
+                rotation
+            }
+        })
     }
 
     /// Minimises the weighted sum of squares of all wrenches.

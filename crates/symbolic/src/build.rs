@@ -2,10 +2,11 @@
 //! ones, signs, `x − x`. Nothing is regrouped, so that the order of operations, which determines
 //! the rounding, stays that of the caller.
 
+use rotation::angle_over_sine;
+
 use crate::evaluate::Number;
 use crate::graph::{Function, Symbol};
 use crate::program::{Binary, Op, Program, Value};
-use crate::rotation_angle::angle_over_sine;
 
 impl Program {
     /// A program without operations.

@@ -4,8 +4,9 @@
 use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg};
 
+use rotation::angle_over_sine;
+
 use crate::graph::{Expr, Function, Graph, Node, Symbol};
-use crate::rotation_angle::angle_over_sine;
 
 /// The operations of a number that direct evaluation needs.
 pub trait Number:

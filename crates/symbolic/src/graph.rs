@@ -12,8 +12,9 @@
 
 use std::collections::HashMap;
 
+use rotation::angle_over_sine;
+
 use crate::order;
-use crate::rotation_angle::angle_over_sine;
 
 /// Handle of an expression; in one [`Graph`], equal handles mean equal expressions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -43,7 +44,7 @@ pub enum Function {
     /// `1/u`, and 0 for `u = 0`: the direction of a vector of length zero counts as zero.
     RecipOrZero,
     /// The derivative of this order, by u, of θ/sin θ with u = cos θ, see
-    /// [`angle_over_sine`](crate::angle_over_sine).
+    /// [`angle_over_sine`](rotation::angle_over_sine).
     AngleOverSine(u8),
 }
 

@@ -5,7 +5,6 @@
 //! | module | step |
 //! | --- | --- |
 //! | [`graph`] | expressions as hash-consed nodes, simplified while they are built |
-//! | `rotation_angle` | the angle of a rotation over its sine; the file of the crate `joints` |
 //! | `order` | the canonical order of terms and factors |
 //! | [`differentiate`] | exact derivatives along any derivation |
 //! | [`evaluate`] | direct evaluation, for tests and constants |
@@ -24,7 +23,6 @@ mod lower;
 mod order;
 pub mod print;
 pub mod program;
-mod rotation_angle;
 mod substitute;
 
 pub use differentiate::Derivation;
@@ -32,4 +30,3 @@ pub use evaluate::Number;
 pub use graph::{Expr, Function, Graph, Node, Symbol};
 pub use print::{Printer, Scalar};
 pub use program::{Binary, Counts, Op, Program, Value};
-pub use rotation_angle::angle_over_sine;

@@ -29,7 +29,7 @@ const fn answer(
 }
 
 /// In the order of the table.
-const ANSWERS: [Answer; 33] = [
+const ANSWERS: [Answer; 34] = [
     answer("door", [3, 1, 0], &["lower", "upper"]),
     answer("carriage", [2, 2, 1], &["rear", "front"]),
     answer("truss", [12, 1, 0], &["AB", "BC", "CD", "DA", "AC", "BD"]),
@@ -111,6 +111,13 @@ const ANSWERS: [Answer; 33] = [
             "wheel-rear-left",
             "hub-rear-right",
             "wheel-rear-right",
+        ],
+    ),
+    answer(
+        "robot-in-space",
+        [71, 3, 1],
+        &[
+            "B", "C", "hub-1", "hub-2", "hub-3", "hub-4", "W1", "W2", "W3", "W4",
         ],
     ),
     answer("linkage", [18, 3, 0], &["A", "B", "C", "D"]),

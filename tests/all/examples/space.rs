@@ -242,3 +242,16 @@ fn wagon() {
     let contacts = contacts.each_ref().map(String::as_str);
     close(run.sum(run.0.last(), &contacts)[2].abs(), 24.0 * G, 240.0);
 }
+
+/// Straight on, and what the wheel of the trolley carries by the moments about its hitch.
+#[test]
+fn robot_in_space() {
+    let run = Spatial::of("robot-in-space");
+    let carried = (8.0 * 0.35 / 0.4 + 0.5) * G;
+    for row in run.0.rows.iter().filter(|row| row.t <= 1.0) {
+        close(run.centre(row, "platform")[0], row.t, 1.0);
+        close(run.spin(row, "trolley-wheel")[1], 1.0 / 0.08, 12.5);
+        close(run.sum(row, &["W5"])[2].abs(), carried, carried);
+    }
+    says("robot-in-space", carried, 4);
+}

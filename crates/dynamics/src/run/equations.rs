@@ -515,6 +515,7 @@ impl Ode for RunEquations<'_> {
             }
             Err(Next::Accept | Next::Keep(_) | Next::Reject) => {
                 self.is_void = false;
+                self.is_careful = self.wants_care();
                 Ok(StepEnd::Reject)
             }
         }

@@ -11,7 +11,7 @@ use solvability::RowDecision;
 
 use super::evaluation::Evaluation;
 use super::solver::Solver;
-use super::units::{is_far, mass_in_units, units};
+use super::units::{is_far, mass_in_units, mass_of_positions, units};
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
 use crate::limits::PIVOT_SINGULAR;
@@ -52,7 +52,14 @@ impl KeptRows {
     pub(crate) fn new(at: &Evaluation<'_>, rows: &RowDecision) -> Result<Self, MotionFault> {
         let units = units(at.mechanism, at.size);
         let (n, r) = (units.len(), rows.kept.len());
-        let solver = Solver::new(at.mechanism, &rows.kept, &units);
+        let solver = Solver::new(at.mechanism, &rows.kept, (&units, at.size));
+        let layout = at.mechanism.layout();
+        let mut level = rows.kept.iter().chain(&rows.dropped);
+        let mass = if layout.rows() > layout.m && level.all(|&i| i < layout.m) {
+            mass_of_positions(at.mechanism, &units)
+        } else {
+            mass_in_units(at.mechanism, &units)
+        };
         Ok(Self {
             kept: rows.kept.clone(),
             dropped: rows.dropped.clone(),
@@ -62,7 +69,7 @@ impl KeptRows {
                 time: at.s.t,
                 source,
             })?,
-            mass: mass_in_units(at.mechanism, &units),
+            mass,
             units,
             force: vec![0.0; n],
             motion: vec![0.0; n],

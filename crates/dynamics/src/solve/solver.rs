@@ -10,7 +10,7 @@ use model::{Mechanism, System};
 
 use super::dense::Dense;
 use super::sparse::{self, Sparse};
-use super::units::{mass_in_units, units};
+use super::units::{mass_in_units, units_of_bodies};
 use crate::limits::{DENSE_MATRICES, DENSE_MOST, REFINED_MOST, SPARSE_FROM, VECTORS};
 
 /// Kept rows and their factors.
@@ -32,13 +32,13 @@ macro_rules! each {
 
 /// Whether this number of kept rows of a mechanism of this size (m) is solved sparsely: if there
 /// are many of them, every coordinate has a mass, and solutions need no refinement because of
-/// different masses; or if there are too many rows for a dense solver.
+/// different masses; or if there are too many rows for a dense solver. The units of columns cancel
+/// in the Schur complement, so masses are compared by the lengths of their bodies.
 pub(crate) fn is_sparse(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
-    is_sparse_in(mechanism, &units(mechanism, size), rows)
-}
-
-fn is_sparse_in(mechanism: &Mechanism, units: &[f64], rows: usize) -> bool {
-    let is_graded = || linalg::mass_spread(&mass_in_units(mechanism, units)) >= GRADED_MASSES;
+    let is_graded = || {
+        let units = units_of_bodies(mechanism, size);
+        linalg::mass_spread(&mass_in_units(mechanism, &units)) >= GRADED_MASSES
+    };
     rows >= SPARSE_FROM
         && mechanism.mass().iter().all(|&m| m > 0.0)
         && (rows > REFINED_MOST || !is_graded())
@@ -63,9 +63,9 @@ impl Solver {
     pub(super) fn new(
         mechanism: &Mechanism,
         kept: &[usize],
-        units: &[f64],
+        (units, size): (&[f64], f64),
     ) -> Result<Self, SaddleError> {
-        if is_sparse_in(mechanism, units, kept.len()) {
+        if is_sparse(mechanism, size, kept.len()) {
             return Ok(Self::Sparse(Box::new(Sparse::new(mechanism, kept, units))));
         }
         let massless = mechanism.mass().iter().position(|&m| m <= 0.0);
@@ -158,8 +158,9 @@ impl Solver {
     /// Uses the coordinates of the last factorisation first in the next ones; the sparse order is
     /// always the same.
     pub(super) fn keep_order(&mut self) {
-        if let Self::Dense(it) = self {
-            it.saddle.keep_order();
+        match self {
+            Self::Dense(it) => it.saddle.keep_order(),
+            Self::Sparse(it) => it.saddle.keep_shares(),
         }
     }
 

@@ -11,10 +11,66 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     exponents.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
+/// The unit of each column of C by the bodies: a translation in metres, a rotation by the metres
+/// that it moves the joints of its body. The links of a row of a thousand metres have masses of one
+/// kind, although their moments of inertia are nothing beside the square of its size.
+pub(super) fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let (layout, space) = (mechanism.layout(), mechanism.space());
+    let mut units = vec![1.0; layout.n_v];
+    let bodies = units.chunks_exact_mut(space.n_v());
+    for (body, length) in bodies.zip(lengths(mechanism, size)) {
+        body[space.torques()].fill(length.recip());
+    }
+    units
+}
+
+/// The length (m) of each body: the longest arm from its mass centre to a point of its joints, or
+/// its largest radius of gyration if that is longer; the size of the mechanism (m) if a body has
+/// neither.
+fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let space = mechanism.space();
+    let gyration = |mass: &[f64]| {
+        let heaviest = |part: &[f64]| part.iter().fold(0.0, |a: f64, &m| a.max(m));
+        let square = heaviest(&mass[space.torques()]) / heaviest(&mass[space.forces()]);
+        if square.is_finite() {
+            square.sqrt()
+        } else {
+            0.0
+        }
+    };
+    let bodies = mechanism.mass().chunks_exact(space.n_v());
+    let mut lengths: Vec<f64> = bodies.map(gyration).collect();
+    for id in mechanism.layout().constraint_ids() {
+        for (body, point) in mechanism.points(id) {
+            if let Some(k) = body.moving() {
+                lengths[k] = lengths[k].max(linalg::kernels::norm(&point));
+            }
+        }
+    }
+    let known = |length: f64| length > 0.0 && length.log2().is_finite();
+    for length in &mut lengths {
+        *length = if known(*length) { *length } else { size };
+    }
+    lengths
+}
+
 /// Masses and moments of inertia in these units.
 pub(super) fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     let mass = units.iter().zip(mechanism.mass());
     mass.map(|(unit, m)| unit * m * unit).collect()
+}
+
+/// The same where holonomic rows alone are solved: what only nonholonomic rows hold is free there,
+/// and in the metric of a body without mass or inertia no correction of it would be the smallest.
+/// So what has none gets the smallest value among those that have some, or 1.
+pub(super) fn mass_of_positions(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
+    let mut mass = mass_in_units(mechanism, units);
+    let some = mass.iter().copied().filter(|&m| m > 0.0);
+    let smallest = some.reduce(f64::min).unwrap_or(1.0);
+    for m in mass.iter_mut().filter(|m| **m == 0.0) {
+        *m = smallest;
+    }
+    mass
 }
 
 /// Whether the size of a mechanism (m) is far from that of ordinary machines: then the terms that

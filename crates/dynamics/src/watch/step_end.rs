@@ -214,8 +214,24 @@ impl Watch {
         if may_have_passed && !remains_to_be_seen && !self.passage.is_continued_by(now, mass) {
             return Next::Stop(self.no_way_over(now.t));
         }
+        if let Some(delicate) = self.came_upon(equations, now) {
+            self.delicate = Some(delicate);
+            return Next::Reject;
+        }
         self.enter(equations, now);
         Next::Accept
+    }
+
+    /// The time of a singular configuration just ahead that nothing had announced: pivots that grew
+    /// until then have fallen within the step. It is passed from farther away, where stages are not
+    /// yet rounding, so the step is repeated with this knowledge.
+    fn came_upon(&self, equations: &KeptEquations<'_>, now: Now<'_>) -> Option<f64> {
+        let (before, pivot) = (self.passage.pivot(), equations.velocity.relative_pivot());
+        if !GUARDED || self.delicate.is_some() || pivot >= FALLEN * before.min(1.0) {
+            return None;
+        }
+        let step = now.t - self.passage.since();
+        search::foresee(equations, now, now.t + pivot / (before - pivot) * step)
     }
 
     /// Records an accepted state far from singular configurations.
@@ -242,7 +258,8 @@ impl Watch {
     /// one.
     pub(crate) fn look_ahead(&mut self, equations: &KeptEquations<'_>, now: Now<'_>, step: f64) {
         let t_last = now.t + FORESIGHT * step;
-        let expected = self.passage.expected().filter(|&e| e <= t_last);
+        let known = self.delicate.filter(|&known| known > now.t);
+        let expected = self.passage.expected().or(known).filter(|&e| e <= t_last);
         self.delicate = expected.and_then(|expected| search::foresee(equations, now, expected));
     }
 

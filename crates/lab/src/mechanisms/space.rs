@@ -43,6 +43,12 @@ pub fn top() -> SpatialDescription {
 /// height of the third pivot is `sin θ/(1 − sin θ)` with the angle θ of rod 1.
 #[must_use]
 pub fn bricard() -> SpatialDescription {
+    bricard_of_size(1.0)
+}
+
+/// The same with rods of this length (m).
+#[must_use]
+pub fn bricard_of_size(size: f64) -> SpatialDescription {
     let p: [[f64; 3]; 6] = [
         [0.0, 0.0, 0.0],
         [1.0, 0.0, 0.0],
@@ -50,11 +56,14 @@ pub fn bricard() -> SpatialDescription {
         [1.0, -1.0, 1.0],
         [0.0, -1.0, 1.0],
         [0.0, 0.0, 1.0],
-    ];
+    ]
+    .map(|p: [f64; 3]| p.map(|x| size * x));
     let hinges = [1, 2, 0, 1, 2, 0].map(|k| Axes::FRAME.uvw()[k]);
     let mut d = SpatialDescription::new("Bricard");
     d.gravity = [0.0, -9.81, 0.0];
-    let (long, thin) = ((1.0 + 0.01) / 12.0, 0.02 / 12.0);
+    let (long, thin) = [(1.0 + 0.01) / 12.0, 0.02 / 12.0]
+        .map(|x| x * size * size)
+        .into();
     let rods: Vec<BodyRef> = (0..5)
         .map(|k| {
             let along: [f64; 3] = std::array::from_fn(|j| p[k + 1][j] - p[k][j]);

@@ -7,6 +7,7 @@ mod drives;
 mod duplicates;
 mod far_away;
 mod freedom;
+mod in_space;
 mod invariance;
 mod long_runs;
 mod massless;
@@ -45,6 +46,7 @@ pub fn families() -> Vec<Family> {
         massless::FAMILY,
         invariance::FAMILY,
         accelerations::FAMILY,
+        in_space::FAMILY,
     ]
 }
 

@@ -2,7 +2,7 @@
 
 use super::front::{add_element, add_update, eliminate};
 use super::{Assembly, Factors, SchurSaddle};
-use crate::limits::SCHUR_NOISE;
+use crate::limits::{SCHUR_NOISE, SCHUR_WHOLE};
 use crate::{SaddleError, SparseMatrix};
 
 impl SchurSaddle {
@@ -50,7 +50,7 @@ impl SchurSaddle {
         let Factors {
             l,
             inverse,
-            diagonal,
+            compared,
             inverse_mass,
             ..
         } = &mut self.factors;
@@ -79,7 +79,7 @@ impl SchurSaddle {
             }
             let pivots = piece.pivots.clone();
             let own = &mut inverse[pivots.clone()];
-            let found = match eliminate(front, f, own, &diagonal[pivots.clone()], floor) {
+            let found = match eliminate(front, f, own, &compared[pivots.clone()], floor) {
                 Ok(found) => found,
                 Err(k) => return Err(not_finite(c, s.rows.row[pivots.start + k])),
             };
@@ -150,10 +150,36 @@ impl SchurSaddle {
     }
 
     fn take_diagonal(&mut self, c: &SparseMatrix) {
-        let inverse_mass = &self.factors.inverse_mass;
-        for (place, size) in self.factors.diagonal.iter_mut().enumerate() {
+        let Factors {
+            diagonal,
+            compared,
+            usual,
+            inverse_mass,
+            ..
+        } = &mut self.factors;
+        for (place, size) in diagonal.iter_mut().enumerate() {
             let terms = self.structure.rows.entries_at(place, c.values());
             *size = terms.map(|(j, x)| x * x * inverse_mass[j]).sum();
+            compared[place] = *size * usual[place];
+        }
+    }
+
+    /// Compares each row from now on with what is left of it now: the order of elimination does not
+    /// change, so its pivot changes smoothly, and what is left of a row far from a singular
+    /// configuration may be much more than of another row there. A factorisation of the same rows
+    /// has the same [`SchurSaddle::pivot_ratio`] as before.
+    pub fn keep_shares(&mut self) {
+        let smallest = self.factors.pivot_ratio.powi(2);
+        let Factors {
+            usual,
+            inverse,
+            diagonal,
+            ..
+        } = &mut self.factors;
+        for ((usual, inverse), size) in usual.iter_mut().zip(inverse).zip(diagonal) {
+            let share = (1.0 / (*inverse * *size)).min(SCHUR_WHOLE.powi(2));
+            let usually = share / smallest;
+            *usual = if usually.is_finite() { usually.max(1.0) } else { 1.0 };
         }
     }
 }

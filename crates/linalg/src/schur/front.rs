@@ -39,19 +39,41 @@ pub(super) fn add_element(
         };
     }
     let e = &scratch[..entries.len()];
-    for (k, &j) in at.iter().enumerate() {
-        let column = &mut front[j as usize * f..][..f];
-        let own = &e[k * width..];
-        if width == 3 {
-            let w = [own[0] * weight(0), own[1] * weight(1), own[2] * weight(2)];
-            for (x, &i) in own.as_chunks::<3>().0.iter().zip(&at[k..]) {
-                column[i as usize] += x[0] * w[0] + x[1] * w[1] + x[2] * w[2];
+    match width {
+        // Bodies in the plane and in space.
+        3 => add_products::<3>(front, f, at, e, std::array::from_fn(weight)),
+        6 => add_products::<6>(front, f, at, e, std::array::from_fn(weight)),
+        _ => {
+            for (k, &j) in at.iter().enumerate() {
+                let column = &mut front[j as usize * f..][..f];
+                let own = &e[k * width..];
+                for (l, &i) in at[k..].iter().enumerate() {
+                    let product = |c: usize| own[l * width + c] * weight(c) * own[c];
+                    column[i as usize] += (0..width).map(product).sum::<f64>();
+                }
             }
-            continue;
         }
-        for (l, &i) in at[k..].iter().enumerate() {
-            let product = |c: usize| own[l * width + c] * weight(c) * own[c];
-            column[i as usize] += (0..width).map(product).sum::<f64>();
+    }
+}
+
+/// As [`add_element`], for rows `e` of this width.
+fn add_products<const WIDTH: usize>(
+    front: &mut [f64],
+    f: usize,
+    at: &[u32],
+    e: &[f64],
+    weight: [f64; WIDTH],
+) {
+    let rows = e.as_chunks::<WIDTH>().0;
+    for (k, (&j, own)) in at.iter().zip(rows).enumerate() {
+        let column = &mut front[j as usize * f..][..f];
+        let w: [f64; WIDTH] = std::array::from_fn(|c| own[c] * weight[c]);
+        for (x, &i) in rows[k..].iter().zip(&at[k..]) {
+            let mut sum = x[0] * w[0];
+            for c in 1..WIDTH {
+                sum += x[c] * w[c];
+            }
+            column[i as usize] += sum;
         }
     }
 }

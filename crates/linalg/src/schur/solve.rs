@@ -2,7 +2,7 @@
 
 use super::{Factors, SchurSaddle, Work};
 use crate::kernels::all_finite;
-use crate::limits::{SCHUR_CORRECTIONS, SCHUR_ENOUGH, SCHUR_POOR, SCHUR_PROGRESS};
+use crate::limits::{SCHUR_CORRECTIONS, SCHUR_ENOUGH, SCHUR_POOR, SCHUR_PROGRESS, SCHUR_ROUNDING};
 use crate::{SaddleError, SparseMatrix};
 
 impl SchurSaddle {
@@ -55,25 +55,25 @@ impl SchurSaddle {
         self.add_solution(c, a, lambda);
         let mut before = f64::INFINITY;
         for round in 1..=SCHUR_CORRECTIONS {
-            let misfit = self.take_misfit(c, gamma, a);
-            if misfit <= SCHUR_ENOUGH {
+            let Misfit { of_motion, of_all } = self.take_misfit(c, gamma, a);
+            // Where large multipliers balance each other, a correction leaves their rounding.
+            if of_motion <= SCHUR_ENOUGH || round > 1 && of_all <= SCHUR_ROUNDING {
                 return Ok(());
             }
-            if !misfit.is_finite() {
+            if !of_motion.is_finite() {
                 return Err(first_non_finite([("f", f), ("gamma", gamma)]));
             }
             // The first round computes the solution, for which there is no earlier residual.
-            if round > 1 && misfit > SCHUR_PROGRESS * before || round == SCHUR_CORRECTIONS {
-                let left = misfit.min(before);
-                if left <= SCHUR_POOR || self.misfit_of_all(c, gamma, a) <= SCHUR_POOR {
+            if round > 1 && of_motion > SCHUR_PROGRESS * before || round == SCHUR_CORRECTIONS {
+                if of_motion.min(before) <= SCHUR_POOR || of_all <= SCHUR_POOR {
                     return Ok(());
                 }
                 return Err(SaddleError::Unrefined {
                     rounds: round,
-                    change: misfit,
+                    change: of_motion,
                 });
             }
-            before = misfit;
+            before = of_motion;
             self.substitute();
             self.add_solution(c, a, lambda);
         }
@@ -154,39 +154,47 @@ impl SchurSaddle {
         }
     }
 
-    /// Also returns the largest residual relative to its terms.
-    fn take_misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
-        for ((terms, free), a) in self.work.terms.iter_mut().zip(&self.work.free).zip(a) {
+    /// Also returns the largest residuals relative to their terms.
+    fn take_misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> Misfit {
+        let Work {
+            x,
+            terms,
+            all,
+            free,
+            ..
+        } = &mut self.work;
+        for ((terms, free), a) in terms.iter_mut().zip(free).zip(a) {
             *terms = free.abs().max(a.abs());
         }
-        self.misfit(c, gamma, a)
-    }
-
-    /// The largest residual relative to all terms that were added: if multipliers balance each
-    /// other, accelerations are only their rounding.
-    fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
-        std::mem::swap(&mut self.work.terms, &mut self.work.all);
-        self.misfit(c, gamma, a)
-    }
-
-    fn misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
-        let mut largest = 0.0_f64;
+        let mut largest = Misfit {
+            of_motion: 0.0,
+            of_all: 0.0,
+        };
         let s = &self.structure.rows;
-        let places = self.work.x.iter_mut().zip(&self.factors.inverse);
+        let places = x.iter_mut().zip(&self.factors.inverse);
         for (place, ((x, &inverse), &row)) in places.zip(&s.row).enumerate() {
             if inverse == 0.0 {
                 *x = 0.0;
                 continue;
             }
-            let (mut sum, mut size) = (-gamma[row], gamma[row].abs());
+            let (mut sum, mut size, mut of_all) = (-gamma[row], gamma[row].abs(), gamma[row].abs());
             for (j, c) in s.entries_at(place, c.values()) {
                 sum += c * a[j];
-                size += c.abs() * self.work.terms[j];
+                size += c.abs() * terms[j];
+                of_all += c.abs() * all[j];
             }
             *x = sum;
-            let share = if sum == 0.0 { 0.0 } else { sum.abs() / size };
-            if share > largest || share.is_nan() {
-                largest = share;
+            if sum == 0.0 {
+                continue;
+            }
+            for (largest, size) in [
+                (&mut largest.of_motion, size),
+                (&mut largest.of_all, of_all),
+            ] {
+                let share = sum.abs() / size;
+                if share > *largest || share.is_nan() {
+                    *largest = share;
+                }
             }
         }
         largest
@@ -269,6 +277,15 @@ impl SchurSaddle {
             x[p].copy_from_slice(own);
         }
     }
+}
+
+/// Largest residuals of rows relative to their terms.
+struct Misfit {
+    /// The larger of the accelerations and those of free bodies.
+    of_motion: f64,
+    /// All terms that were added: if multipliers balance each other, accelerations are only their
+    /// rounding.
+    of_all: f64,
 }
 
 fn first_non_finite(arguments: [(&'static str, &[f64]); 2]) -> SaddleError {

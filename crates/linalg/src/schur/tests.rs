@@ -230,3 +230,17 @@ fn what_corrections_leave_is_refused_from_a_billionth_on() {
         assert_eq!(found.is_err(), is_poor, "{left}: {found:?}");
     }
 }
+
+/// Each correction leaves a thousandth of what the one before has left: 1e-11, 1e-14 of the terms.
+#[test]
+fn a_correction_leaves_rounding_of_all_terms() {
+    let row = |x: f64| SparseMatrix::from_rows(2, [[(0, x), (1, -x)]]).expect("two columns");
+    let mut saddle = SchurSaddle::new(SchurStructure::new(&row(1.0), &whole(2)));
+    saddle.factor(&row(1.0), &[1.0; 2]).expect("one row");
+    let (mut a, miss) = ([0.0; 2], 1e-8);
+    let other = row((1.0 - 1e-3_f64).sqrt());
+    saddle
+        .solve(&other, &[1.0 + 2.0 * miss, 1.0], &[0.0], &mut a, &mut [0.0])
+        .expect("solved");
+    assert!((a[0] - a[1]).abs() < 5e-14, "{a:?}");
+}

@@ -101,8 +101,7 @@ fn compliance(
     };
     Ok(Compliance {
         reaction,
-        x: along,
-        y: along,
+        along: [along; 3],
         rotation,
     })
 }

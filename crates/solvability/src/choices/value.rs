@@ -77,10 +77,13 @@ impl Label {
             Choice::Compliance(joints) => {
                 let joint = |j: &Compliance| {
                     let name = &layout.groups[j.reaction.0].name;
-                    let along = if j.x == j.y {
-                        format!("{:e} m/N", j.x)
+                    let axes = ["x", "y", "z"].into_iter().zip(j.along);
+                    let directions = axes.take(layout.space.n_translations());
+                    let along = if directions.clone().all(|(_, along)| along == j.along[0]) {
+                        format!("{:e} m/N", j.along[0])
                     } else {
-                        format!("{:e} m/N along x, {:e} m/N along y", j.x, j.y)
+                        let each = directions.map(|(axis, c)| format!("{c:e} m/N along {axis}"));
+                        each.collect::<Vec<_>>().join(", ")
                     };
                     if j.rotation == 0.0 {
                         format!("`{name}` {along}")

@@ -163,7 +163,7 @@ impl Number for Running {
             Function::Cos => self.chain(self.dual.cos(), u.sin(), u.cos(), 1.0),
             Function::AngleOverSine(order) => {
                 let [value, slope, curve] =
-                    [0, 1, 2].map(|more| symbolic::angle_over_sine(u, order + more));
+                    [0, 1, 2].map(|more| rotation::angle_over_sine(u, order + more));
                 self.chain(Dual64::new(value, slope * self.dual.eps), slope, curve, 1.0)
             }
         }

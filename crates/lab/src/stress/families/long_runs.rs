@@ -115,7 +115,7 @@ fn pendulum() -> String {
 /// Angle of the bob relative to its start, and its rate, at t: released horizontally to the left of
 /// the pivot, it falls with `φ̈ = (g/L)·cos φ`, φ from 0 to π and back. With `ψ = φ − π/2`:
 /// `sin(ψ/2) = −k·cd(ω₀t)`, `k = sin(45°)`.
-fn swing(t: f64) -> [f64; 2] {
+pub(super) fn swing(t: f64) -> [f64; 2] {
     let omega_0 = 9.81_f64.sqrt();
     let m = 0.5_f64;
     let [sn, cn, dn] = jacobi(omega_0 * t, m);

@@ -1,17 +1,8 @@
-//! The angle of a rotation over its sine, as a function of its cosine: with it the rotation vector
-//! of a rotation R is `θ/sin θ · ½(R₃₂ − R₂₃, R₁₃ − R₃₁, R₂₁ − R₁₂)`, cos θ = ½(tr R − 1), without a
-//! direction that is not known where nothing is turned.
+#![doc = include_str!("../README.md")]
 
-/// Cosine of the largest angle, 3 rad, at which there is a value. At half a turn the rotation
-/// vector changes its sign.
-/// Unit: 1. Less: a step may jump over half a turn, where a force changes its sign unseen. More:
-/// bodies are refused that turn less far. Test: `a_bushing_is_refused_at_half_a_turn`.
-const LEAST_COSINE: f64 = -0.989_992_496_600_445_4;
+mod limits;
 
-/// sin² ½θ up to which the series is summed: beyond it the closed form loses no digits.
-/// Unit: 1. Less: cancellation in the closed form. More: time. Test:
-/// `series_and_closed_form_agree`.
-const SERIES_UP_TO: f64 = 0.25;
+use limits::{LEAST_COSINE, SERIES_UP_TO};
 
 /// The derivative of an order, by c, of `θ/sin θ` with c = cos θ, 0 ≤ θ ≤ 3: with x = (1 − c)/2
 /// `(−½)ⁿ·(n!)²/(3/2)ₙ · ₂F₁(n + 1, n + 1; n + 3/2; x)`. Its order 0 is 1 at c = 1. NaN beyond
@@ -45,6 +36,7 @@ pub fn angle_over_sine(c: f64, order: u8) -> f64 {
     now
 }
 
+/// The same by its series in x = (1 − c)/2.
 fn series(x: f64, order: u8) -> f64 {
     let n = f64::from(order);
     let mut term = (0..order).map(f64::from).fold(1.0, |product, k| {

@@ -1,1 +1,0 @@
-../../joints/src/rotation_angle.rs
