@@ -10,9 +10,9 @@ use crate::bodies::Bodies;
 use crate::case::Motion;
 use crate::check::{Check, is_internal};
 use crate::failure::{Claim, Failure, Oracle, Property, fact};
-use crate::number::Number;
+use crate::number::{Number, Traced};
 use crate::pattern::Pattern;
-use crate::state::State;
+use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, sparse};
 
 /// A force as a subject of the harness.
@@ -77,14 +77,13 @@ impl<K: Force<S>, S: Bodies> Subject for OfForce<K, S> {
         DERIVATIVES.iter()
     }
 
-    /// A law may have no value at some poses: a rotation vector near half a turn.
+    /// A law has no value where a rotation vector is near half a turn, and there only.
     fn is_defined(check: &Check<'_, Self>) -> bool {
-        let kernels = [Kernel::Q, Kernel::DqDx, Kernel::DqDv];
-        let mut blocks = kernels.into_iter().flat_map(|kernel| {
-            let motions = check.case.motions.iter();
-            motions.map(move |m| check.at(kernel, m))
-        });
-        blocks.all(|block| block.entries().iter().all(|entry| entry.is_finite()))
+        check.case.motions.iter().all(|motion| {
+            let state = Along::Motion.state(check.case, motion, Traced::from(0.0));
+            let q = check.subject.kernel(Kernel::Q, &state);
+            q.entries().iter().all(|entry| !entry.is_near_half_a_turn)
+        })
     }
 
     fn properties(check: &Check<'_, Self>) -> Result<(), Failure> {
