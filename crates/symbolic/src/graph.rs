@@ -44,7 +44,7 @@ pub enum Function {
     /// `1/u`, and 0 for `u = 0`: the direction of a vector of length zero counts as zero.
     RecipOrZero,
     /// The derivative of this order, by u, of θ/sin θ with u = cos θ, see
-    /// [`angle_over_sine`](rotation::angle_over_sine).
+    /// [`angle_over_sine`].
     AngleOverSine(u8),
 }
 
