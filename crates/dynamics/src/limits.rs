@@ -232,6 +232,12 @@ pub(crate) const FEW_ROUNDINGS: f64 = 1.0;
 /// correction more for each step. Test: none.
 pub(crate) const WEAK: f64 = 0.5;
 
+/// Size of what is added up where an independent rotation is read of a quaternion: four products of
+/// at most two.
+/// Unit: rad. Less: completions fail at rounding. More: rotations drift. Test:
+/// `bricards_linkage_by_an_implicit_method`.
+pub(crate) const READ_ROTATION: f64 = 8.0;
+
 /// Kept rows count as satisfied below this many roundings where a further correction does not
 /// help; and by generated code, which has no better look.
 /// Unit: roundings. Less: projections fail at rounding. More: drift. Test:

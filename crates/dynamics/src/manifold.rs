@@ -5,6 +5,7 @@
 mod coordinates;
 mod dropped;
 mod generated;
+mod held;
 mod levels;
 mod newton;
 mod project;

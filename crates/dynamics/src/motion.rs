@@ -158,8 +158,12 @@ impl<'m> KeptRowMotion<'m> {
         &mut self,
         has_begun: impl Fn(f64) -> bool,
     ) -> Result<(), MotionFault> {
-        let coordinates = self.manifold.coordinates.as_ref();
-        let Some(origin) = coordinates.and_then(|c| c.due(has_begun)) else {
+        let mechanism = self.mechanism();
+        let Some(coordinates) = &mut self.manifold.coordinates else {
+            return Ok(());
+        };
+        coordinates.begin_step(mechanism, &has_begun);
+        let Some(origin) = coordinates.due(has_begun) else {
             return Ok(());
         };
         let equations = &mut self.equations;

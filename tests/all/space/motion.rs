@@ -194,6 +194,21 @@ fn bricards_linkage() {
     assert!(drift < 1e-10, "{drift:e}");
 }
 
+/// With independent coordinates its state is the rotation of one rod about one of its axes, of which
+/// the two others are dependent: the error falls with the tolerance.
+#[test]
+fn bricards_linkage_by_an_implicit_method() {
+    for (rtol, most) in [(1e-6, 1e-5), (1e-8, 1e-7), (1e-10, 1e-9)] {
+        let (q, v, drift) = moved(&bricard(), 1.0, Method::Radau5, rtol);
+        let (theta, _) = bricards_angle(&q);
+        let off = (theta + 1.035_028_459_518).abs();
+        assert!(off < most, "{off:e} at {rtol:e}");
+        let off = (v[4].abs() - 2.036_415_381_0).abs();
+        assert!(off < 5.0 * most, "{off:e} at {rtol:e}");
+        assert!(drift < 10.0 * most, "{drift:e}");
+    }
+}
+
 /// The height of its third pivot is a closed form of its angle, along ten seconds.
 #[test]
 fn bricards_linkage_keeps_its_shape() {

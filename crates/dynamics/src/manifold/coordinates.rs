@@ -11,6 +11,7 @@
 use model::{Mechanism, System};
 
 use super::dropped::check_positions;
+use super::held::Held;
 use super::levels::{Moves, Storage, correct_position};
 use crate::error::MotionFault;
 use crate::limits::{FAR_AT_REST, FAR_COMPLETION, FAR_EXTRAPOLATED, FAR_IN_A_STEP};
@@ -26,6 +27,12 @@ pub(crate) struct IndependentCoordinates {
     pub(crate) v: Vec<f64>,
     /// The last accepted state.
     accepted: Origin,
+    /// Whether no step has begun from it.
+    is_fresh: bool,
+    /// The configuration against which independent rotations are read, and how many there were
+    /// before.
+    pub(crate) base: Vec<f64>,
+    pub(crate) bases: u64,
     /// Number of earlier partitions.
     pub(crate) generation: u64,
     /// The state at which this partition was chosen.
@@ -53,6 +60,7 @@ impl IndependentCoordinates {
         before: Option<&Self>,
     ) -> Result<Self, MotionFault> {
         let at = &equations.at;
+        let mechanism = at.mechanism;
         // Far from the origin of the frame, positions have fewer accurate digits than angles.
         let place = |j: usize| at.mechanism.space().position(&origin.q, j).abs();
         let far = |j: usize| (place(j) / at.mechanism.space().unit(j, at.size)).max(1.0);
@@ -62,15 +70,20 @@ impl IndependentCoordinates {
         if let Some(requested) = &mut equations.requested_rows {
             requested.forget_partition();
         }
+        let mut storage = Storage::new(origin.v.len());
+        storage.held = Held::among(mechanism, &z, &origin.q);
         Ok(Self {
             z,
             u,
+            is_fresh: false,
+            base: origin.q.clone(),
+            bases: before.map_or(0, |c| c.bases + 1),
             q: origin.q.clone(),
             v: origin.v.clone(),
             accepted: origin.clone(),
             generation: before.map_or(0, |c| c.generation + 1),
             guess: origin.q.clone(),
-            storage: Storage::new(origin.v.len()),
+            storage,
             origin,
             renewal: None,
         })
@@ -108,6 +121,7 @@ impl IndependentCoordinates {
             return Ok(());
         }
         self.q.copy_from_slice(q);
+        self.storage.held.keep(&mut self.q);
         if self
             .complete_from_here(equations, t, FAR_COMPLETION)
             .is_ok()
@@ -158,6 +172,7 @@ impl IndependentCoordinates {
     /// counted angles only the turns are read, which an integrator carries.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
         mechanism.take(&mut self.q, q, &self.z);
+        self.storage.held.keep(&mut self.q);
         for &i in &self.u {
             self.v[i] = v[i];
         }
@@ -197,8 +212,20 @@ impl IndependentCoordinates {
         self.accepted.t = t;
         self.accepted.q.copy_from_slice(&self.q);
         self.accepted.v.copy_from_slice(&self.v);
+        self.is_fresh = true;
         if is_worn {
             self.renewal = Some(self.accepted.clone());
+        }
+    }
+
+    /// Reads rotations against the accepted state, if a step has begun from it: far from where they
+    /// are read against, half a turn away, they cease to be coordinates.
+    pub(crate) fn begin_step(&mut self, mechanism: &Mechanism, has_begun: impl Fn(f64) -> bool) {
+        if self.is_fresh && has_begun(self.accepted.t) {
+            self.is_fresh = false;
+            self.base.copy_from_slice(&self.accepted.q);
+            self.bases += 1;
+            self.storage.held.read_from(mechanism, &self.base);
         }
     }
 

@@ -3,10 +3,12 @@
 
 use model::System;
 
+use super::held::Held;
 use super::newton::{Level, Limits, correct};
 use crate::error::MotionFault;
 use crate::limits::{
-    CORRECTIONS, FEW_ROUNDINGS, ROUNDINGS, SHARPENED, STALLED_ROUNDINGS, VELOCITY_CORRECTIONS, WEAK,
+    CORRECTIONS, FEW_ROUNDINGS, READ_ROTATION, ROUNDINGS, SHARPENED, STALLED_ROUNDINGS,
+    VELOCITY_CORRECTIONS, WEAK,
 };
 use crate::solve::{KeptEquations, KeptRows};
 
@@ -34,6 +36,8 @@ pub(super) struct Storage {
     /// Sizes of the terms of the kept rows of Φ at the first configuration: corrections change them
     /// only slightly.
     scales: Vec<f64>,
+    /// What a completion keeps of bodies that have dependent rotations, too.
+    pub(super) held: Held,
 }
 
 impl Storage {
@@ -41,6 +45,7 @@ impl Storage {
         Self {
             delta: vec![0.0; n_v],
             scales: Vec::with_capacity(n_v),
+            held: Held::default(),
         }
     }
 }
@@ -69,12 +74,18 @@ impl Level for Positions<'_, '_> {
                 worst = (i, roundings);
             }
         }
+        if self.moves == Moves::DependentCoordinates {
+            let off = self.storage.held.off(self.q) / (f64::EPSILON * READ_ROTATION);
+            if off > worst.1 || off.is_nan() {
+                worst.1 = off;
+            }
+        }
         worst
     }
 
     fn correct(&mut self, converges: bool) -> Result<(), MotionFault> {
         let KeptEquations { at, position, .. } = &mut *self.equations;
-        let delta = &mut self.storage.delta[..];
+        let Storage { delta, held, .. } = &mut *self.storage;
         match self.moves {
             Moves::AllCoordinates => {
                 position.factor(at)?;
@@ -86,6 +97,10 @@ impl Level for Positions<'_, '_> {
                 }
                 delta.fill(0.0);
                 position.complete(at, delta)?;
+                if !converges {
+                    held.find_tangents(at, position, self.q)?;
+                }
+                held.hold(at.mechanism, self.q, delta);
             }
         }
         at.mechanism.displace(self.q, delta);

@@ -19,7 +19,7 @@
 //! which no pose changes, f does not depend on y; there the exact solution `σ·x = r` is used.
 
 use linalg::{Lu, Matrix};
-use model::{Derivatives, System};
+use model::{Derivatives, Mechanism, System};
 
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
@@ -69,6 +69,8 @@ pub struct Reduced {
 #[derive(Default)]
 struct Partition {
     generation: u64,
+    /// Number of the configuration against which rotations are read.
+    base: u64,
     /// Columns of C whose coordinates are independent, and those whose velocities are.
     z: Vec<usize>,
     u: Vec<usize>,
@@ -100,6 +102,17 @@ struct Storage {
     rows: Vec<f64>,
     lambda: Vec<f64>,
     dy: Vec<f64>,
+}
+
+impl Partition {
+    /// Reads coordinates, and finds the normals, at this configuration.
+    fn read_from(&mut self, mechanism: &Mechanism, q: &[f64], base: u64) {
+        self.base = base;
+        for (terms, &z) in self.reads.iter_mut().zip(&self.z) {
+            mechanism.space().read_velocity(q, z, terms);
+        }
+        self.normals = mechanism.space().normals(mechanism.of_bodies(q));
+    }
 }
 
 impl Shifted {
@@ -193,10 +206,14 @@ impl Reduced {
         let Some(coordinates) = &motion.manifold.coordinates else {
             return Ok(());
         };
-        let Partition {
-            reads, generation, ..
-        } = &self.partition;
-        if reads.is_empty() || coordinates.generation == *generation {
+        let own = &mut self.partition;
+        if own.reads.is_empty() {
+            return Ok(());
+        }
+        if coordinates.generation == own.generation {
+            if coordinates.bases != own.base {
+                own.read_from(motion.mechanism(), &coordinates.base, coordinates.bases);
+            }
             return Ok(());
         }
         let Origin { t, q, v } = coordinates.origin.clone();
@@ -228,18 +245,18 @@ impl Reduced {
         let own = &mut self.partition;
         own.generation = coordinates.generation;
         own.reads.resize_with(z.len() + u.len(), Vec::new);
-        for (terms, &z) in own.reads.iter_mut().zip(z) {
-            mechanism.space().read_velocity(&y[..n_q], z, terms);
-        }
-        own.normals = mechanism.space().normals(mechanism.of_bodies(y));
         for (terms, u) in own.reads[z.len()..].iter_mut().zip(u) {
             terms.clear();
             terms.push((n_q + u, 1.0));
         }
-        if self.columns.ncols() == n && *z == own.z && *u == own.u {
+        let is_known = self.columns.ncols() == n && *z == own.z && *u == own.u;
+        if !is_known {
+            (own.z, own.u) = (z.clone(), u.clone());
+        }
+        own.read_from(mechanism, &coordinates.base, coordinates.bases);
+        if is_known {
             return;
         }
-        (own.z, own.u) = (z.clone(), u.clone());
         let moving = n_q + mechanism.layout().n_v;
         let first = n_q - mechanism.layout().turns;
         own.quadratures = (first..n_q).chain(moving..n).collect();

@@ -179,7 +179,11 @@ impl SchurSaddle {
         for ((usual, inverse), size) in usual.iter_mut().zip(inverse).zip(diagonal) {
             let share = (1.0 / (*inverse * *size)).min(SCHUR_WHOLE.powi(2));
             let usually = share / smallest;
-            *usual = if usually.is_finite() { usually.max(1.0) } else { 1.0 };
+            *usual = if usually.is_finite() {
+                usually.max(1.0)
+            } else {
+                1.0
+            };
         }
     }
 }

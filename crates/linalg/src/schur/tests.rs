@@ -134,6 +134,33 @@ fn a_dependent_row_is_left_out_or_refused() {
     assert!(saddle.uses(0) != saddle.uses(1));
 }
 
+/// Two rows that are always nearly parallel hide two others that become so: compared with itself, a
+/// row shows it.
+#[test]
+fn what_is_left_of_a_row_is_compared_with_itself() {
+    let rows = |apart: f64| {
+        let rows = [
+            [(0, 1.0), (1, 0.0)],
+            [(0, 1.0), (1, 1e-3)],
+            [(2, 1.0), (3, 0.0)],
+            [(2, 1.0), (3, apart)],
+        ];
+        SparseMatrix::from_rows(4, rows).expect("columns below 4")
+    };
+    let (mass, c) = ([1.0; 4], rows(1.0));
+    let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &[0..2, 2..4]));
+    saddle.factor(&c, &mass).expect("independent");
+    let first = saddle.pivot_ratio();
+    assert!((first - 1e-3).abs() < 1e-8, "{first}");
+    saddle.keep_shares();
+    // What is left of the last row, 0.707 at first, is compared with 0.4.
+    for (apart, expected) in [(1.0, 1e-3), (0.1, 0.25e-3), (0.01, 0.25e-4)] {
+        saddle.factor(&rows(apart), &mass).expect("independent");
+        let found = saddle.pivot_ratio();
+        assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+    }
+}
+
 #[test]
 fn nothing_to_hold_is_free() {
     let c = SparseMatrix::from_rows(2, std::iter::empty::<[(usize, f64); 0]>()).expect("no rows");

@@ -49,7 +49,6 @@ fn until(t_end: f64, size: f64) -> MotionOptions {
     MotionOptions {
         rtol: RTOL,
         atol: RTOL * size,
-        max_steps: 2_000_000,
         output_step: t_end,
         ..MotionOptions::to(t_end)
     }
@@ -89,7 +88,7 @@ fn rotors(cases: &mut Vec<Case>) {
         let speed = cross(AXIS.map(|x| omega * x), ARM);
         let text = rotor(
             &format!(
-                "velocity = {speed:?}, angular_velocity = {:?}",
+                ", velocity = {speed:?}, angular_velocity = {:?}",
                 AXIS.map(|x| omega * x)
             ),
             "",
@@ -115,7 +114,7 @@ fn rotors(cases: &mut Vec<Case>) {
         );
         let made = case(
             format!("a driven rotor, {turns:.0e} turns"),
-            rotor("velocity = [0, 0, 0]", &drive).replace("velocity = [0, 0, 0], ", ""),
+            rotor("", &drive),
             MotionOptions {
                 method: Method::Dop853,
                 ..until(t_end, size)
@@ -131,7 +130,7 @@ fn rotor(speed: &str, drive: &str) -> String {
     format!(
         r#"
 scene = {{ name = "rotor", space = "spatial" }}
-body = [{{ name = "rotor", mass = 2.0, inertia = [0.01, 0.02, 0.025], position = {ARM:?}, orientation = {{ axis = [1, -2, 3], angle = 0.8 }}, {speed} }}]
+body = [{{ name = "rotor", mass = 2.0, inertia = [0.01, 0.02, 0.025], position = {ARM:?}, orientation = {{ axis = [1, -2, 3], angle = 0.8 }}{speed} }}]
 joint = [{{ name = "pin", type = "revolute", bodies = ["ground", "rotor"], at = [0, 0, 0], axis = {AXIS:?} }}]
 {drive}
 "#
@@ -144,7 +143,7 @@ fn tops(cases: &mut Vec<Case>) {
     let tilt = 0.7_f64;
     let (sin, cos) = tilt.sin_cos();
     let (about_point, moment) = (across + mass * arm * arm, mass * GRAVITY * arm);
-    for spin in [1e2, 1e3, 1e4] {
+    for spin in [2e2, 1e3, 1e4] {
         let own = along * spin;
         let root = (own * own - 4.0 * about_point * cos * moment).sqrt();
         let precession = 2.0 * moment / (own + root);
@@ -221,7 +220,14 @@ fn needles(cases: &mut Vec<Case>) {
         for about_itself in [1e-3, 1e-6, 1e-9, 1e-12, 1e-18, 0.0] {
             let right = if about_itself == 0.0 && joint == BALL {
                 // Nothing says how fast it spins about itself.
-                Expected::refusal(&["`rod`", "mass"])
+                Expected::refusal(&["step size"])
+            } else if about_itself < 1e-15 {
+                // Rounding of the torque about the axis turns it as it likes.
+                Expected::AnswerOrRefusal {
+                    bound: 1e-7,
+                    source: "a compound pendulum by Jacobi's elliptic functions",
+                    parts: vec!["step".into(), "at t = ".into()],
+                }
             } else {
                 Expected::answer(
                     1e-7,
@@ -339,7 +345,7 @@ fn parallelograms(n: usize, angle: f64) -> String {
         );
         for (side, at) in [(k, x + cos), (k + 1, x + 1.0 + cos)] {
             text += &format!(
-                "[[joint]]\nname = \"pin {k} {side}\"\ntype = \"revolute\"\nbodies = [\"crank {side}\", \"rod {k}\"]\nglobal = true\nat = [{at:?}, {sin:?}, 0.0]\naxis = [0, 0, 1]\n"
+                "[[joint]]\nname = \"pin {k} {side}\"\ntype = \"revolute\"\nbodies = [\"crank {side}\", \"rod {k}\"]\nat = [{at:?}, {sin:?}, 0.0]\naxis = [0, 0, 1]\n"
             );
         }
     }
@@ -424,7 +430,7 @@ fn masses(cases: &mut Vec<Case>) {
             "}]\njoint = [",
             &format!(
                 "}},\n        {{ name = \"ball\", mass = {mass:?}, inertia = [{0:?}, {0:?}, {0:?}], position = [{1:?}, {2:?}, 0] }}]\n\
-                 joint = [{{ name = \"centre\", type = \"spherical\", bodies = [\"rod\", \"ball\"], global = true, at = [{1:?}, {2:?}, 0] }},\n         ",
+                 joint = [{{ name = \"centre\", type = \"spherical\", bodies = [\"rod\", \"ball\"], at = [{1:?}, {2:?}, 0] }},\n         ",
                 0.004 * mass, 0.5 * ALONG[0], 0.5 * ALONG[1],
             ),
         );
