@@ -7,10 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates whose constants are in a table, `limits.rs`, and the required entries of the table.
-const TABLES: [(&str, &str); 4] = [
+const TABLES: [(&str, &str); 5] = [
     ("dynamics", include_str!("../reference/limits-dynamics.txt")),
     ("linalg", include_str!("../reference/limits-linalg.txt")),
     ("rank", include_str!("../reference/limits-rank.txt")),
+    ("rotation", include_str!("../reference/limits-rotation.txt")),
     (
         "solvability",
         include_str!("../reference/limits-solvability.txt"),

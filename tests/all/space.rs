@@ -3,6 +3,7 @@
 mod adams;
 mod axles;
 mod bicycle;
+mod bushing;
 mod catalogue;
 mod choices;
 mod drifts;

@@ -74,6 +74,7 @@ impl Number for Measured {
             Function::Sqrt => 0.5 / value,
             Function::Sin | Function::Cos => 1.0,
             Function::RecipOrZero => value * value,
+            Function::AngleOverSine(order) => self.value.call(Function::AngleOverSine(order + 1)),
         };
         Self {
             value,

@@ -45,6 +45,8 @@ pub enum Property {
     DResidualDp,
     /// The wrench is −C of the first body, moved to the place.
     Wrench,
+    /// The law has a value at most poses.
+    Defined,
     /// The place is fixed in its body: the first one, or the carrier of wheels that others bear.
     Place,
     /// The named component is the force along a unit vector, or the torque.
@@ -92,6 +94,7 @@ impl fmt::Display for Property {
             Self::DPhiDp => "d_phi_dp = ∂(λᵀ·Φ)/∂p",
             Self::DResidualDp => "d_residual_dp = ∂(λᵀ·(C·a − Γ))/∂p",
             Self::Wrench => "the wrench is −C of the first body, moved to the place",
+            Self::Defined => "the law has a value at most poses",
             Self::Place => "the place is fixed in its body",
             Self::Component => "the named component is not larger than the reaction",
             Self::Power => "the component of a drive times the rate of its motion is b",

@@ -10,9 +10,9 @@ use crate::bodies::Bodies;
 use crate::case::Motion;
 use crate::check::{Check, is_internal};
 use crate::failure::{Claim, Failure, Oracle, Property, fact};
-use crate::number::Number;
+use crate::number::{Number, Traced};
 use crate::pattern::Pattern;
-use crate::state::State;
+use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, sparse};
 
 /// A force as a subject of the harness.
@@ -75,6 +75,15 @@ impl<K: Force<S>, S: Bodies> Subject for OfForce<K, S> {
 
     fn derivatives() -> impl Iterator<Item = &'static Derivative<Kernel>> {
         DERIVATIVES.iter()
+    }
+
+    /// A law has no value where a rotation vector is near half a turn, and there only.
+    fn is_defined(check: &Check<'_, Self>) -> bool {
+        check.case.motions.iter().all(|motion| {
+            let state = Along::Motion.state(check.case, motion, Traced::from(0.0));
+            let q = check.subject.kernel(Kernel::Q, &state);
+            q.entries().iter().all(|entry| !entry.is_near_half_a_turn)
+        })
     }
 
     fn properties(check: &Check<'_, Self>) -> Result<(), Failure> {

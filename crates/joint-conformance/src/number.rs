@@ -1,5 +1,5 @@
 //! Number types of the references: plain numbers for differences, dual numbers for exact
-//! derivatives.
+//! derivatives, and numbers that tell where a law has no value.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -37,6 +37,15 @@ impl<D: DualNum<Primitive = f64> + Copy> Real for Dual<D> {
 
     fn recip_or_zero(self) -> Self {
         self.unless_zero(DualNum::recip)
+    }
+
+    /// By Taylor's series about the real part, of which the difference from it keeps three terms at
+    /// most.
+    fn angle_over_sine(self, order: u8) -> Self {
+        let c = self.0.re();
+        let of = |more: u8| Self::from(rotation::angle_over_sine(c, order + more));
+        let d = self - Self::from(c);
+        of(0) + d * (of(1) + d * (Self::from(0.5) * of(2) + d * Self::from(1.0 / 6.0) * of(3)))
     }
 }
 
@@ -96,6 +105,103 @@ impl<D: DualNum> Neg for Dual<D> {
     }
 }
 
+/// A number that remembers whether it was made of a rotation vector near half a turn, which has no
+/// value. What is not a number for another reason, such as 0/0, is not excused by it.
+#[derive(Clone, Copy)]
+pub(crate) struct Traced {
+    value: f64,
+    pub(crate) is_near_half_a_turn: bool,
+}
+
+impl Traced {
+    fn with(self, y: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            value: operation(self.value, y.value),
+            is_near_half_a_turn: self.is_near_half_a_turn || y.is_near_half_a_turn,
+        }
+    }
+
+    fn map(self, function: impl Fn(f64) -> f64) -> Self {
+        let value = function(self.value);
+        Self { value, ..self }
+    }
+}
+
+impl From<f64> for Traced {
+    fn from(value: f64) -> Self {
+        let is_near_half_a_turn = false;
+        Self {
+            value,
+            is_near_half_a_turn,
+        }
+    }
+}
+
+impl Number for Traced {
+    fn sin_cos(self) -> (Self, Self) {
+        (self.map(f64::sin), self.map(f64::cos))
+    }
+}
+
+impl Real for Traced {
+    fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    fn recip_or_zero(self) -> Self {
+        self.map(Real::recip_or_zero)
+    }
+
+    fn angle_over_sine(self, order: u8) -> Self {
+        let value = rotation::angle_over_sine(self.value, order);
+        Self {
+            value,
+            is_near_half_a_turn: self.is_near_half_a_turn
+                || self.value.is_finite() && value.is_nan(),
+        }
+    }
+}
+
+impl Add for Traced {
+    type Output = Self;
+
+    fn add(self, y: Self) -> Self {
+        self.with(y, |x, y| x + y)
+    }
+}
+
+impl Sub for Traced {
+    type Output = Self;
+
+    fn sub(self, y: Self) -> Self {
+        self.with(y, |x, y| x - y)
+    }
+}
+
+impl Mul for Traced {
+    type Output = Self;
+
+    fn mul(self, y: Self) -> Self {
+        self.with(y, |x, y| x * y)
+    }
+}
+
+impl Div for Traced {
+    type Output = Self;
+
+    fn div(self, y: Self) -> Self {
+        self.with(y, |x, y| x / y)
+    }
+}
+
+impl Neg for Traced {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self.map(|x| -x)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use num_dual::{Dual2_64, Dual64};
@@ -120,5 +226,21 @@ mod tests {
         let (root, inverse) = (Real::sqrt(x).0, x.recip_or_zero().0);
         assert_eq!((root.re, root.eps), (0.0, 0.0));
         assert_eq!((inverse.re, inverse.eps), (0.0, 0.0));
+    }
+
+    #[test]
+    fn half_a_turn_is_told_from_other_numbers_that_are_none() {
+        let [one, zero, half_a_turn] = [1.0, 0.0, -1.0].map(Traced::from);
+        let undefined = half_a_turn.angle_over_sine(0);
+        assert!(undefined.is_near_half_a_turn && undefined.value.is_nan());
+        assert!((one - zero * undefined).is_near_half_a_turn);
+        let quotient = zero / zero;
+        for other in [
+            quotient,
+            quotient.angle_over_sine(0),
+            one.angle_over_sine(1),
+        ] {
+            assert!(!other.is_near_half_a_turn);
+        }
     }
 }

@@ -63,6 +63,11 @@ pub(crate) trait Subject: Sized {
     /// Kernels that are derivatives of others.
     fn derivatives() -> impl Iterator<Item = &'static Derivative<Self::Kernel>>;
 
+    /// Whether the kernels have values at all states of a case.
+    fn is_defined(_check: &Check<'_, Self>) -> bool {
+        true
+    }
+
     /// What must hold before kernels mean anything.
     fn before(_check: &Check<'_, Self>) -> Result<(), Failure> {
         Ok(())

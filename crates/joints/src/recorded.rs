@@ -34,6 +34,8 @@ pub enum Operation {
     Sqrt(Recorded),
     /// `1/a`, or 0 if a is 0.
     RecipOrZero(Recorded),
+    /// [`rotation::angle_over_sine`] of an order.
+    AngleOverSine(Recorded, u8),
 }
 
 thread_local! {
@@ -133,5 +135,9 @@ impl Real for Recorded {
 
     fn recip_or_zero(self) -> Self {
         Self::push(Operation::RecipOrZero(self))
+    }
+
+    fn angle_over_sine(self, order: u8) -> Self {
+        Self::push(Operation::AngleOverSine(self, order))
     }
 }

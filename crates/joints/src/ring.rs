@@ -3,6 +3,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use rotation::angle_over_sine;
+
 /// Operations needed by constraint kernels, which are polynomials.
 pub trait Ring:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
@@ -24,6 +26,10 @@ pub trait Real: Ring + Div<Output = Self> {
     /// `1/self`, and 0 for 0: the direction of a vector of length zero is zero.
     #[must_use]
     fn recip_or_zero(self) -> Self;
+
+    /// The derivative of an order by c, of θ/sin θ with c = cos θ, see [`angle_over_sine`].
+    #[must_use]
+    fn angle_over_sine(self, order: u8) -> Self;
 }
 
 impl Real for f64 {
@@ -33,6 +39,10 @@ impl Real for f64 {
 
     fn recip_or_zero(self) -> Self {
         if self == 0.0 { 0.0 } else { 1.0 / self }
+    }
+
+    fn angle_over_sine(self, order: u8) -> Self {
+        angle_over_sine(self, order)
     }
 }
 

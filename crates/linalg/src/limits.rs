@@ -124,7 +124,8 @@ pub(crate) const SCHUR_NOISE: f64 = 1e-7;
 /// with this, or with what remained at first if that is less.
 /// Unit: share of the row in the metric of the inverse masses. Less: pivots of rows that fall to
 /// nothing hide behind those that are always small. More: singular configurations are passed from
-/// farther away than needed, with less accuracy. Test: `what_is_left_of_a_row_is_compared_with_itself`.
+/// farther away than needed, with less accuracy. Test:
+/// `what_is_left_of_a_row_is_compared_with_itself`.
 pub(crate) const SCHUR_WHOLE: f64 = 0.4;
 
 /// Rows that miss by more than this are corrected.

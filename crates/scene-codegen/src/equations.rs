@@ -168,6 +168,7 @@ pub(crate) fn replay(
             Operation::Neg(a) => p.neg(of(a)),
             Operation::Sqrt(a) => p.call(Function::Sqrt, of(a)),
             Operation::RecipOrZero(a) => p.call(Function::RecipOrZero, of(a)),
+            Operation::AngleOverSine(a, order) => p.call(Function::AngleOverSine(order), of(a)),
         };
         values.push(value);
     }

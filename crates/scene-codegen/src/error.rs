@@ -48,6 +48,11 @@ pub enum CodeError {
         "joints and forces that count the turns of angles are not in generated code; run this scene interpreted"
     )]
     Turns,
+    /// Rotation vectors end before half a turn, where a run stops and generated code does not.
+    #[error(
+        "forces along a rotation vector have no value near half a turn, where generated code cannot stop by name; run this scene interpreted"
+    )]
+    RotationVector,
     /// A free motion has no mass.
     #[error(
         "the motion of velocity {} has no mass, so its acceleration is not determined; give its body mass or inertia",

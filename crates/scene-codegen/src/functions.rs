@@ -4,7 +4,7 @@
 use dynamics::code::LEAVE;
 use model::record::Input;
 use model::{SpaceKind, System};
-use symbolic::{Program, Value};
+use symbolic::{Function as Unary, Op, Program, Value};
 
 use crate::axes::Axes;
 use crate::eliminate::Factored;
@@ -146,6 +146,11 @@ impl Functions {
             #[allow(unreachable_patterns, reason = "the space for tests is a feature")]
             _ => return Err(CodeError::Coordinates),
         };
+        let is_of_rotation = |op: &Op| matches!(op, Op::Call(Unary::AngleOverSine(_), _));
+        let ops = || functions.list.iter().flat_map(|f| f.program.ops());
+        if ops().any(is_of_rotation) {
+            return Err(CodeError::RotationVector);
+        }
         let longest = functions
             .list
             .iter()

@@ -2,6 +2,8 @@
 //! ones, signs, `x − x`. Nothing is regrouped, so that the order of operations, which determines
 //! the rounding, stays that of the caller.
 
+use rotation::angle_over_sine;
+
 use crate::evaluate::Number;
 use crate::graph::{Function, Symbol};
 use crate::program::{Binary, Op, Program, Value};
@@ -193,6 +195,7 @@ impl Program {
             (Function::Cos, Some(x)) => self.number(x.cos()),
             (Function::RecipOrZero, Some(0.0)) => self.number(0.0),
             (Function::RecipOrZero, Some(x)) => self.number(1.0 / x),
+            (Function::AngleOverSine(order), Some(x)) => self.number(angle_over_sine(x, order)),
             _ => self.push(Op::Call(f, a)),
         }
     }

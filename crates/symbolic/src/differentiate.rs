@@ -114,6 +114,9 @@ impl Derivation {
                         let sin = g.call(Function::Sin, u);
                         g.neg(sin)
                     }
+                    Function::AngleOverSine(order) => {
+                        g.call(Function::AngleOverSine(order.saturating_add(1)), u)
+                    }
                 };
                 g.mul(outer, du)
             }

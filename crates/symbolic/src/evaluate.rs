@@ -4,6 +4,8 @@
 use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg};
 
+use rotation::angle_over_sine;
+
 use crate::graph::{Expr, Function, Graph, Node, Symbol};
 
 /// The operations of a number that direct evaluation needs.
@@ -27,6 +29,7 @@ impl Number for f64 {
                     1.0 / self
                 }
             }
+            Function::AngleOverSine(order) => angle_over_sine(self, order),
         }
     }
 }

@@ -12,6 +12,8 @@
 
 use std::collections::HashMap;
 
+use rotation::angle_over_sine;
+
 use crate::order;
 
 /// Handle of an expression; in one [`Graph`], equal handles mean equal expressions.
@@ -41,6 +43,9 @@ pub enum Function {
     Cos,
     /// `1/u`, and 0 for `u = 0`: the direction of a vector of length zero counts as zero.
     RecipOrZero,
+    /// The derivative of this order, by u, of θ/sin θ with u = cos θ, see
+    /// [`angle_over_sine`].
+    AngleOverSine(u8),
 }
 
 /// One node of the graph, in canonical form.
@@ -220,6 +225,7 @@ impl Graph {
             (Function::Cos, Some(0.0)) => self.number(1.0),
             (Function::RecipOrZero, Some(0.0)) => self.number(0.0),
             (Function::RecipOrZero, Some(x)) => self.number(1.0 / x),
+            (Function::AngleOverSine(order), Some(x)) => self.number(angle_over_sine(x, order)),
             _ => self.intern(Node::Call(f, u)),
         }
     }

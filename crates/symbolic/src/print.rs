@@ -137,16 +137,19 @@ impl<'a> Printer<'a> {
                 (quote!(-#a), Strength::Sign)
             }
             Op::Call(f, a) => {
-                let name = Ident::new(function_name(f), Span::call_site());
+                let (name, order) = function_name(f);
+                let name = Ident::new(name, Span::call_site());
+                let order = order.map(Literal::u8_unsuffixed);
+                let others = order.iter();
                 // A literal without suffix has no definite type, hence no methods.
                 let bare =
                     self.scalar == Scalar::F64 && matches!(self.program.op(a), Op::Number(_));
                 let tokens = if bare {
                     let a = self.operand(a, bound, Strength::Sum);
-                    quote!(f64::#name(#a))
+                    quote!(f64::#name(#a #(, #others)*))
                 } else {
                     let a = self.operand(a, bound, Strength::Atom);
-                    quote!(#a.#name())
+                    quote!(#a.#name(#(#others),*))
                 };
                 (tokens, Strength::Atom)
             }
@@ -204,11 +207,13 @@ impl<'a> Printer<'a> {
     }
 }
 
-fn function_name(f: Function) -> &'static str {
+/// The name of a function, and the order of its derivative as the second argument.
+fn function_name(f: Function) -> (&'static str, Option<u8>) {
     match f {
-        Function::Sqrt => "sqrt",
-        Function::Sin => "sin",
-        Function::Cos => "cos",
-        Function::RecipOrZero => "recip_or_zero",
+        Function::Sqrt => ("sqrt", None),
+        Function::Sin => ("sin", None),
+        Function::Cos => ("cos", None),
+        Function::RecipOrZero => ("recip_or_zero", None),
+        Function::AngleOverSine(order) => ("angle_over_sine", Some(order)),
     }
 }

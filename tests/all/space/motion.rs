@@ -194,8 +194,8 @@ fn bricards_linkage() {
     assert!(drift < 1e-10, "{drift:e}");
 }
 
-/// With independent coordinates its state is the rotation of one rod about one of its axes, of which
-/// the two others are dependent: the error falls with the tolerance.
+/// With independent coordinates its state is the rotation of one rod about one of its axes, of
+/// which the two others are dependent: the error falls with the tolerance.
 #[test]
 fn bricards_linkage_by_an_implicit_method() {
     for (rtol, most) in [(1e-6, 1e-5), (1e-8, 1e-7), (1e-10, 1e-9)] {

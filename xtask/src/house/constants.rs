@@ -8,7 +8,7 @@ use syn::{Attribute, Meta};
 use super::source::{Crate, Kind, Source};
 
 /// Crates whose constants are listed.
-pub(super) const CRATES: [&str; 4] = ["dynamics", "linalg", "rank", "solvability"];
+pub(super) const CRATES: [&str; 5] = ["dynamics", "linalg", "rank", "rotation", "solvability"];
 
 const NUMBERS: [&str; 14] = [
     "f64", "f32", "usize", "u128", "u64", "u32", "u16", "u8", "isize", "i128", "i64", "i32", "i16",

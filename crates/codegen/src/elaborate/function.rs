@@ -30,7 +30,7 @@ const FUNCTIONS: [(&str, usize); 11] = [
 const PLANE: [(&str, usize); 4] = [("angle", 1), ("start", 1), ("along", 1), ("perp", 1)];
 
 /// Names of the functions of space.
-const SPACE3: [(&str, usize); 7] = [
+const SPACE3: [(&str, usize); 8] = [
     ("angle", 2),
     ("turn", 3),
     ("spin", 1),
@@ -38,6 +38,7 @@ const SPACE3: [(&str, usize); 7] = [
     ("start", 1),
     ("along", 1),
     ("normal", 1),
+    ("angle_over_sine", 1),
 ];
 
 impl<'a> Scope<'a> {
@@ -154,10 +155,11 @@ impl<'a> Scope<'a> {
                 let square = v.dot(&mut model.g, &v, &model.turns);
                 Ok(Value::Scalar(model.g.call(Function::Sqrt, square)))
             }
-            "sin" | "cos" => {
+            "sin" | "cos" | "angle_over_sine" => {
                 let angle = self.scalar(args[0])?;
                 let function = match function {
                     "sin" => Function::Sin,
+                    "angle_over_sine" => Function::AngleOverSine(0),
                     _ => Function::Cos,
                 };
                 Ok(Value::Scalar(self.model.g.call(function, angle)))

@@ -3,9 +3,9 @@
 //! A quaternion has no entry for one of them: the integrator carries a whole orientation, of which
 //! the dependent part is a guess, and a correction of that part about two axes of a body turns it
 //! about the third one, too. So the independent part is what the Jacobian of an implicit method
-//! reads of an orientation ([`crate::run`]): a linear function of the quaternion, twice its part along
-//! the axis against the orientation at the beginning of a step. A completion keeps it: the rows and
-//! these functions together are solved for all rotations.
+//! reads of an orientation ([`crate::run`]): a linear function of the quaternion, twice its part
+//! along the axis against the orientation at the beginning of a step. A completion keeps it: the
+//! rows and these functions together are solved for all rotations.
 
 use std::ops::Range;
 
@@ -23,8 +23,8 @@ pub(super) struct Held {
     columns: Vec<usize>,
     /// How each is read: indices into q with coefficients.
     reads: Vec<Vec<(usize, f64)>>,
-    /// The quaternion of each body in q, and the length of that against which it is read: the motion
-    /// does not change lengths, while what an integrator carries for dependent parts does.
+    /// The quaternion of each body in q, and the length of that against which it is read: the
+    /// motion does not change lengths, while what an integrator carries for dependent parts does.
     quaternions: Vec<(Range<usize>, f64)>,
     /// The values that are kept.
     values: Vec<f64>,

@@ -127,6 +127,10 @@ fn every_type_is_read_and_built() {
             "point-force",
             "body = \"a\"\npoint = [0, 0, 0]\nforce = [1, 2, 3]\nframe = \"body\"".to_owned(),
         ),
+        (
+            "bushing",
+            format!("{AB}{place}\nstiffness = [1, 2, 3, 4, 5, 6]\ndamping = [0, 0, 0, 0, 0, 0]"),
+        ),
         ("torque", "body = \"a\"\ntorque = [1, 2, 3]".to_owned()),
         ("torque", format!("{AB}torque = [1, 2, 3]")),
     ];

@@ -161,6 +161,11 @@ impl Number for Running {
             Function::RecipOrZero => self.recip(),
             Function::Sin => self.chain(self.dual.sin(), u.cos(), u.sin(), 1.0),
             Function::Cos => self.chain(self.dual.cos(), u.sin(), u.cos(), 1.0),
+            Function::AngleOverSine(order) => {
+                let [value, slope, curve] =
+                    [0, 1, 2].map(|more| rotation::angle_over_sine(u, order + more));
+                self.chain(Dual64::new(value, slope * self.dual.eps), slope, curve, 1.0)
+            }
         }
     }
 }

@@ -10,6 +10,9 @@ pub use ball::*;
 pub mod body_point_force;
 pub use body_point_force::*;
 #[rustfmt::skip]
+pub mod bushing;
+pub use bushing::*;
+#[rustfmt::skip]
 pub mod constant_velocity;
 pub use constant_velocity::*;
 #[rustfmt::skip]
@@ -104,6 +107,7 @@ pub fn constraints<V: Visitor<Space3>>(visitor: &mut V) {
 /// Shows all spatial forces to a visitor, in alphabetical order.
 pub fn forces<V: Visitor<Space3>>(visitor: &mut V) {
     visitor.force::<BodyPointForce>();
+    visitor.force::<Bushing>();
     visitor.force::<PointForce>();
     visitor.force::<SpringDamper>();
     visitor.force::<Torque>();
