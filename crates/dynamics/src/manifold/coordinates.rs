@@ -221,11 +221,12 @@ impl IndependentCoordinates {
     /// Reads rotations against the accepted state, if a step has begun from it: far from where they
     /// are read against, half a turn away, they cease to be coordinates.
     pub(crate) fn begin_step(&mut self, mechanism: &Mechanism, has_begun: impl Fn(f64) -> bool) {
-        if self.is_fresh && has_begun(self.accepted.t) {
+        let held = &mut self.storage.held;
+        if self.is_fresh && !held.is_empty() && has_begun(self.accepted.t) {
             self.is_fresh = false;
             self.base.copy_from_slice(&self.accepted.q);
             self.bases += 1;
-            self.storage.held.read_from(mechanism, &self.base);
+            held.read_from(mechanism, &self.base);
         }
     }
 

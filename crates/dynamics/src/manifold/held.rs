@@ -2,11 +2,13 @@
 //!
 //! A quaternion has no entry for one of them: the integrator carries a whole orientation, of which
 //! the dependent part is a guess, and a correction of that part about two axes of a body turns it
-//! about the third one, too. So the independent part is what the Jacobian of an implicit method
-//! reads of an orientation ([`crate::run`]): a linear function of the quaternion, twice its part
-//! along the axis against the orientation at the beginning of a step. A completion keeps it: the
-//! rows and these functions together are solved for all rotations.
+//! about the third one, too. So the independent part is the twist about the axis against the
+//! orientation at the beginning of a step: with the relative quaternion (w, x, y, z) and the third
+//! axis `2·atan2(z, w)`, which does not depend on x and y. To first order it is what the Jacobian of
+//! an implicit method reads ([`crate::run`]). A completion keeps it: the rows and these functions
+//! together are solved for all rotations.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use linalg::kernels::norm;
@@ -16,16 +18,25 @@ use model::{Mechanism, System};
 use crate::error::MotionFault;
 use crate::solve::{Evaluation, KeptRows};
 
+/// How a twist is read of q.
+struct Twist {
+    /// The quaternion of the body in q, and the length of that against which it is read: the motion
+    /// does not change lengths, while what an integrator carries for dependent parts does.
+    own: Range<usize>,
+    length: f64,
+    /// Twice the sine of half the angle, and the cosine, but for a common factor: indices into q
+    /// with coefficients.
+    sine: Vec<(usize, f64)>,
+    cosine: Vec<(usize, f64)>,
+}
+
 /// Such rotations, and what a completion keeps of them.
 #[derive(Default)]
 pub(super) struct Held {
     /// Their columns of C.
     columns: Vec<usize>,
-    /// How each is read: indices into q with coefficients.
-    reads: Vec<Vec<(usize, f64)>>,
-    /// The quaternion of each body in q, and the length of that against which it is read: the
-    /// motion does not change lengths, while what an integrator carries for dependent parts does.
-    quaternions: Vec<(Range<usize>, f64)>,
+    /// How each is read.
+    twists: Vec<Twist>,
     /// The values that are kept.
     values: Vec<f64>,
     /// Row j: motion that keeps the rows and turns along column j alone among the independent ones,
@@ -48,14 +59,15 @@ impl Held {
             let body = space.body_of(column);
             let rotations = space.columns_of(body).filter(|&j| space.is_rotation(j));
             let mut dependent = rotations.filter(|j| !independent.contains(j));
-            let mut terms = Vec::new();
-            space.read_velocity(q, column, &mut terms);
             if space.is_rotation(column) && dependent.next().is_some() {
-                held.columns.push(column);
-                held.reads.push(terms);
                 let own = space.coordinates(body);
-                let own = own.start + space.forces().len()..own.end;
-                held.quaternions.push((own.clone(), norm(&q[own])));
+                held.columns.push(column);
+                held.twists.push(Twist {
+                    own: own.start + space.forces().len()..own.end,
+                    length: 1.0,
+                    sine: Vec::new(),
+                    cosine: Vec::new(),
+                });
             }
         }
         let k = held.columns.len();
@@ -65,36 +77,45 @@ impl Held {
             held.tangents = Matrix::zeros(k, mechanism.layout().n_v);
             held.system = Some(Lu::new(k));
             held.rate.resize(mechanism.layout().n_q, 0.0);
+            held.read_from(mechanism, q);
         }
         held
     }
 
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.columns.is_empty()
+    }
+
     /// Reads orientations against these ones from now on.
     pub(super) fn read_from(&mut self, mechanism: &Mechanism, q: &[f64]) {
-        for (terms, &column) in self.reads.iter_mut().zip(&self.columns) {
-            mechanism.space().read_velocity(q, column, terms);
-        }
-        for (own, length) in &mut self.quaternions {
-            *length = norm(&q[own.clone()]);
+        for (twist, &column) in self.twists.iter_mut().zip(&self.columns) {
+            mechanism.space().read_velocity(q, column, &mut twist.sine);
+            let base = &q[twist.own.clone()];
+            twist.length = norm(base);
+            let square = twist.length * twist.length;
+            let along = base.iter().map(|e| e / square);
+            twist.cosine.clear();
+            twist.cosine.extend(twist.own.clone().zip(along));
         }
     }
 
     /// Keeps the values of this configuration, and gives its quaternions their lengths.
     pub(super) fn keep(&mut self, q: &mut [f64]) {
-        for (value, terms) in self.values.iter_mut().zip(&self.reads) {
-            *value = read(terms, q);
+        for (value, twist) in self.values.iter_mut().zip(&self.twists) {
+            *value = twist.angle(q);
         }
-        for (own, length) in &self.quaternions {
-            let own = &mut q[own.clone()];
-            let factor = length / norm(own);
+        for twist in &self.twists {
+            let own = &mut q[twist.own.clone()];
+            let factor = twist.length / norm(own);
             own.iter_mut().for_each(|e| *e *= factor);
         }
     }
 
     /// The largest difference of this configuration from what is kept, in radians.
     pub(super) fn off(&self, q: &[f64]) -> f64 {
-        let of = |(value, terms): (&f64, &Vec<_>)| (value - read(terms, q)).abs();
-        let off = self.values.iter().zip(&self.reads).map(of);
+        let of = |(value, twist): (&f64, &Twist)| twist.behind(*value, q).abs();
+        let off = self.values.iter().zip(&self.twists).map(of);
         // NaN is worse than any number.
         off.fold(0.0, |a: f64, x| if x <= a { a } else { x })
     }
@@ -118,8 +139,8 @@ impl Held {
             tangent[column] = 1.0;
             rows.complete(at, tangent)?;
             at.mechanism.rate(q, tangent, &mut self.rate);
-            for (i, terms) in self.reads.iter().enumerate() {
-                entries[(i, j)] = read(terms, &self.rate);
+            for (i, twist) in self.twists.iter().enumerate() {
+                entries[(i, j)] = twist.rate(q, &self.rate);
             }
         }
         system
@@ -136,8 +157,8 @@ impl Held {
             return;
         };
         mechanism.rate(q, delta, &mut self.rate);
-        for (k, (share, terms)) in self.shares.iter_mut().zip(&self.reads).enumerate() {
-            *share = self.values[k] - read(terms, q) - read(terms, &self.rate);
+        for (k, (share, twist)) in self.shares.iter_mut().zip(&self.twists).enumerate() {
+            *share = twist.behind(self.values[k], q) - twist.rate(q, &self.rate);
         }
         system.solve(&mut self.shares);
         for (j, share) in self.shares.iter().enumerate() {
@@ -145,6 +166,31 @@ impl Held {
                 *delta += share * tangent;
             }
         }
+    }
+}
+
+impl Twist {
+    /// Sine and cosine of half the angle, but for a common factor.
+    fn half(&self, q: &[f64]) -> [f64; 2] {
+        [0.5 * read(&self.sine, q), read(&self.cosine, q)]
+    }
+
+    /// The angle (rad), within half a turn.
+    fn angle(&self, q: &[f64]) -> f64 {
+        let [sine, cosine] = self.half(q);
+        2.0 * (sine / cosine).atan()
+    }
+
+    /// What the angle of q is behind another one (rad), within half a turn.
+    fn behind(&self, angle: f64, q: &[f64]) -> f64 {
+        let off = angle - self.angle(q);
+        off - TAU * (off / TAU).round()
+    }
+
+    /// The rate of the angle at q where q changes at this rate.
+    fn rate(&self, q: &[f64], rate: &[f64]) -> f64 {
+        let ([s, c], [s_rate, c_rate]) = (self.half(q), self.half(rate));
+        2.0 * (c * s_rate - s * c_rate) / (s * s + c * c)
     }
 }
 

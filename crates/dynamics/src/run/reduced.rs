@@ -253,7 +253,7 @@ impl Reduced {
         if !is_known {
             (own.z, own.u) = (z.clone(), u.clone());
         }
-        own.read_from(mechanism, &coordinates.base, coordinates.bases);
+        own.read_from(mechanism, &y[..n_q], coordinates.bases);
         if is_known {
             return;
         }

@@ -379,7 +379,7 @@ fn parallelograms(n: usize, angle: f64) -> String {
 /// Disks in steady motion that nearly lie on the plane: the axis is tilted by an angle, and the
 /// point of contact runs round ever faster, as under a coin that comes to rest.
 fn disks(cases: &mut Vec<Case>) {
-    for tilt in [0.3, 1e-1, 1e-2, 1e-3, 1e-4] {
+    for tilt in [0.3, 1e-1, 1e-2, 2e-3, 1e-4] {
         let [across, _] = RollingDisk::MOMENTS;
         let weight = RollingDisk::MASS * RollingDisk::GRAVITY * RollingDisk::RADIUS;
         let precession = 1.1 * (weight / (across * f64::sin(tilt))).sqrt();
