@@ -59,6 +59,8 @@ pub struct Reduced {
     on_w: Matrix,
     /// Row j: change of y with w_j along the constraints, without what feeds nothing back.
     tangents: Matrix,
+    /// Row j: the displacements of the tangent j along the columns of C, n_v.
+    displacements: Matrix,
     /// Time of the Jacobian.
     time: f64,
     shifted: Shifted,
@@ -141,6 +143,7 @@ impl Reduced {
             columns: Matrix::default(),
             on_w: Matrix::default(),
             tangents: Matrix::default(),
+            displacements: Matrix::default(),
             time: 0.0,
             shifted: Shifted::new(0),
             storage: Storage {
@@ -212,7 +215,13 @@ impl Reduced {
         }
         if coordinates.generation == own.generation {
             if coordinates.bases != own.base {
-                own.read_from(motion.mechanism(), &coordinates.base, coordinates.bases);
+                let (mechanism, q) = (motion.mechanism(), &coordinates.base);
+                own.read_from(mechanism, q, coordinates.bases);
+                // The Jacobian in terms of rotations serves on; quaternions have turned.
+                for j in 0..own.reads.len() {
+                    let tangent = &mut self.tangents.row_mut(j)[..q.len()];
+                    mechanism.rate(q, self.displacements.row(j), tangent);
+                }
             }
             return Ok(());
         }
@@ -263,6 +272,7 @@ impl Reduced {
         let (k, shifted) = (own.reads.len(), &self.shifted);
         self.columns = Matrix::zeros(k, n);
         self.tangents = Matrix::zeros(k, n);
+        self.displacements = Matrix::zeros(k, mechanism.layout().n_v);
         self.shifted = Shifted {
             shift: shifted.shift,
             complex_shift: shifted.complex_shift,
@@ -309,6 +319,7 @@ impl Reduced {
         d.velocity_dq.subtract_product(dq, rows);
         velocity.take_rhs(|i| rows[i]);
         velocity.complete(at, dv)?;
+        self.displacements.row_mut(j).copy_from_slice(dq);
         let tangent = self.tangents.row_mut(j);
         mechanism.rate(&coordinates.q, dq, &mut tangent[..layout.n_q]);
         tangent[layout.n_q..layout.n_q + layout.n_v].copy_from_slice(dv);
