@@ -385,14 +385,20 @@ fn disks(cases: &mut Vec<Case>) {
         let precession = 1.1 * (weight / (across * f64::sin(tilt))).sqrt();
         let disk = RollingDisk { tilt, precession };
         let t_end = 20.0 / precession;
+        let source = "steady rolling: (C + m·r²)·ω₃ = A·Ω·cos θ − m·g·r·cos θ/(Ω·sin θ); the mass centre runs on a circle";
         let right = if tilt < 1e-3 {
             // The contact row is no coordinate there to working precision.
             Expected::refusal(&["edge", "flat"])
+        } else if tilt < 5e-3 {
+            // Its height is a sine, taken from a cosine that is nearly 1.
+            let parts = vec!["edge".into(), "contact".into()];
+            Expected::AnswerOrRefusal {
+                bound: 1e-6,
+                source,
+                parts,
+            }
         } else {
-            Expected::answer(
-                1e-6,
-                "steady rolling: (C + m·r²)·ω₃ = A·Ω·cos θ − m·g·r·cos θ/(Ω·sin θ); the mass centre runs on a circle",
-            )
+            Expected::answer(1e-6, source)
         };
         for options in combinations(&until(t_end, 1.0)) {
             let made = moving(
