@@ -1,12 +1,12 @@
 //! Independent rotations of bodies that also have dependent ones.
 //!
-//! A quaternion has no entry for one of them: the integrator carries a whole orientation, of which
-//! the dependent part is a guess, and a correction of that part about two axes of a body turns it
-//! about the third one, too. So the independent part is the twist about the axis against the
-//! orientation at the beginning of a step: for a relative quaternion (w, x, y, z) and the third axis
-//! it is `2·atan2(z, w)`, which does not depend on x and y. To first order it is what the Jacobian
-//! of an implicit method reads ([`crate::run`]). A completion keeps it: the rows and these functions
-//! together are solved for all rotations.
+//! A quaternion has no entry for one of them: the integrator carries a whole orientation, of
+//! which the dependent part is a guess, and a correction of that part about two axes of a body
+//! turns it about the third one, too. So the independent part is the twist about the axis
+//! against the orientation at the beginning of a step: for a relative quaternion (w, x, y, z)
+//! and the third axis it is `2·atan2(z, w)`, which does not depend on x and y. To first order
+//! it is what the Jacobian of an implicit method reads ([`crate::run`]). A completion keeps it:
+//! the rows and these functions together are solved for all rotations.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
