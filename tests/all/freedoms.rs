@@ -102,37 +102,39 @@ fn stays_on(mechanism: &Mechanism, q: &[f64], v: &[f64], drives: bool, name: &st
     }
 }
 
-#[test]
-fn motions_of_the_gallery_are_a_basis_of_what_the_rows_allow() {
+/// Asserts that the reported motions are a basis of what the rows allow, with the drives and
+/// without them; returns their number.
+pub(super) fn are_a_basis(study: &Study, name: &str) -> usize {
+    let (mechanism, q) = (&study.prepared.mechanism, &study.prepared.q);
+    let found = freedoms(study);
+    let without = found.without_drives.as_ref();
+    let with = Some((true, found.mobility, &found.motions));
+    let without = without.map(|d| (false, d.mobility, &d.motions));
     let mut seen = 0;
-    for name in files(".toml")
-        .iter()
-        .map(String::as_str)
-        .chain(["robot-trolley"])
-    {
-        let study = study(name);
-        let (mechanism, q) = (&study.prepared.mechanism, &study.prepared.q);
-        let found = freedoms(&study);
-        let without = found.without_drives.as_ref();
-        let with = Some((true, found.mobility, &found.motions));
-        let without = without.map(|d| (false, d.mobility, &d.motions));
-        for (drives, mobility, motions) in [with, without].into_iter().flatten() {
-            assert_eq!(motions.left_out, None, "{name}");
-            let all = velocities(mechanism, q, motions);
-            assert_eq!(all.len(), mobility, "{name}: {motions:?}");
-            let n = mechanism.layout().n_v;
-            let units = Matrix::from_fn(all.len(), n, |i, j| {
-                let length = all[i].iter().map(|v| v * v).sum::<f64>().sqrt();
-                all[i][j] / length
-            });
-            let smallest = PivotedQr::of_rows(units).r_diagonal().last();
-            assert!(smallest.is_none_or(|p| p.abs() > INDEPENDENT), "{name}");
-            for v in &all {
-                stays_on(mechanism, q, v, drives, name);
-                seen += 1;
-            }
+    for (drives, mobility, motions) in [with, without].into_iter().flatten() {
+        assert_eq!(motions.left_out, None, "{name}");
+        let all = velocities(mechanism, q, motions);
+        assert_eq!(all.len(), mobility, "{name}: {motions:?}");
+        let n = mechanism.layout().n_v;
+        let units = Matrix::from_fn(all.len(), n, |i, j| {
+            let length = all[i].iter().map(|v| v * v).sum::<f64>().sqrt();
+            all[i][j] / length
+        });
+        let smallest = PivotedQr::of_rows(units).r_diagonal().last();
+        assert!(smallest.is_none_or(|p| p.abs() > INDEPENDENT), "{name}");
+        for v in &all {
+            stays_on(mechanism, q, v, drives, name);
+            seen += 1;
         }
     }
+    seen
+}
+
+#[test]
+fn motions_of_the_gallery_are_a_basis_of_what_the_rows_allow() {
+    let names = files(".toml");
+    let all = names.iter().map(String::as_str).chain(["robot-trolley"]);
+    let seen: usize = all.map(|name| are_a_basis(&study(name), name)).sum();
     assert!(seen > 25, "{seen} motions");
 }
 

@@ -12,6 +12,7 @@ use pfaff::{ConfigurationAnalysis, Overrides, Study};
 use solvability::Verdict;
 
 use super::verdicts::Motion;
+use crate::freedoms::are_a_basis;
 
 fn study(text: &str) -> Study {
     let study = Study::read(
@@ -512,5 +513,30 @@ torque = [0, 0, -4.2]
     let rates = [1.0, 1.0 / 3.0, -1.0, -1.0, -1.0];
     for (body, ratio) in rates.into_iter().enumerate() {
         close(end.omega(body)[2], ratio * alpha, 1e-8 * alpha);
+    }
+}
+
+/// Two wheels on the ground, whose axes are parallel.
+const SPUR: &str = r#"
+scene = { name = "spur", space = "spatial" }
+body = [
+  { name = "a", mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0, 0, 0] },
+  { name = "b", mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.3, 0, 0] },
+]
+joint = [
+  { name = "A", type = "revolute", bodies = ["ground", "a"], at = [0, 0, 0], axis = [0, 0, 1] },
+  { name = "B", type = "revolute", bodies = ["ground", "b"], at = [0.3, 0, 0], axis = [0, 0, 1] },
+  { name = "teeth", type = "mesh", bearings = ["A", "B"], at = [0.1, 0, 0] },
+]
+"#;
+
+#[test]
+fn wheels_in_mesh_move_together() {
+    assert_eq!(are_a_basis(&study(SPUR), "spur wheels"), 1);
+    for n in 1..=3 {
+        for (motion, quaternion) in motions() {
+            let text = differential(n, motion, quaternion, [0.0; 2]);
+            are_a_basis(&study(&text), &format!("{n} planets"));
+        }
     }
 }

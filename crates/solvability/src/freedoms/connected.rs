@@ -137,13 +137,14 @@ impl<'a> Connected<'a> {
         let own: Vec<usize> = (0..part.places.rows.len())
             .filter(|&k| places(&part.places.rows[k]))
             .collect();
-        Component::new(&part.mechanism, t, &self.own(set, q)).pivots(&own)
+        Component::new(&part.mechanism, t, &self.coordinates(&part, q)).pivots(&own)
     }
 
-    /// Coordinates of a set.
-    fn own(&self, set: &[usize], q: &[f64]) -> Vec<f64> {
-        let places = set.iter().flat_map(|&b| self.whole.space().coordinates(b));
-        places.map(|k| q[k]).collect()
+    /// Coordinates of the part of a set, with the counted angles of its joints.
+    fn coordinates(&self, part: &Part, q: &[f64]) -> Vec<f64> {
+        let of_whole = &self.joined.places.coordinates;
+        let places = part.places.coordinates.iter();
+        places.map(|&k| q[of_whole[k]]).collect()
     }
 
     /// The mechanism of a set of connected bodies; its places refer to the mechanism of the chosen
@@ -169,7 +170,9 @@ impl<'a> Connected<'a> {
         if self.is_alone(set) {
             // About the centre of mass, in ground axes.
             let ground = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            let poses = Bodies::at(self.whole.space(), &self.own(set, q));
+            let places = set.iter().flat_map(|&b| self.whole.space().coordinates(b));
+            let own: Vec<f64> = places.map(|k| q[k]).collect();
+            let poses = Bodies::at(self.whole.space(), &own);
             let unit = |k: usize, own: usize| {
                 let motion = self.whole.space().rigid_motion(k, [0.0; 3], ground);
                 self.of_frame(set[own], poses.turned(own, self.to_frame(set[own])), motion)
@@ -185,7 +188,7 @@ impl<'a> Connected<'a> {
             return;
         }
         let part = self.part(set);
-        let component = Component::new(&part.mechanism, t, &self.own(set, q));
+        let component = Component::new(&part.mechanism, t, &self.coordinates(&part, q));
         let found = component.motions(rank, most);
         let numbered = |velocities| self.numbered(set, &component, velocities);
         if found.is_free {
@@ -247,7 +250,7 @@ impl<'a> Connected<'a> {
                 continue;
             }
             let part = self.part(set);
-            let component = Component::new(&part.mechanism, t, &self.own(set, q));
+            let component = Component::new(&part.mechanism, t, &self.coordinates(&part, q));
             let driven = self.driven(set);
             let most = MOTIONS_REPORTED.saturating_sub(described.len());
             for motion in component.among(&own, most) {
