@@ -300,6 +300,12 @@ pub(crate) const EDGE: f64 = 1e-10;
 /// Unit: 1. Less: minima are missed. More: time. Test: `minima_of_corners_and_parabolas`.
 pub(crate) const FALL: f64 = 4.0;
 
+/// A function that reaches a limit within an interval comes as near to it as this power of the
+/// width of the interval, at least: a square root does with 0.5; a jump stays where it is.
+/// Unit: 1. Less: time, at jumps. More: steep minima are missed. Test:
+/// `minima_of_corners_and_parabolas`.
+pub(crate) const NARROWING: f64 = 0.25;
+
 /// A sample that is singular relative to the best one of the motion is not regular, whatever its
 /// value.
 /// Unit: share of the largest singular value. Less: samples near a singular pose are regular. More:

@@ -1,6 +1,9 @@
 //! Instants at which a reaction is unique that is generically not unique, while the rank stays the
 //! same: its margin falls to zero and rises again.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
 use super::compare::{differences, verdicts};
 use super::data::{AlongError, Passage, PassageKind, Stretch};
 use super::passages::local_minima;
@@ -10,6 +13,33 @@ use crate::analysis::Analysis;
 use crate::limits::FINER;
 use crate::state::State;
 use crate::verdict::Verdict;
+
+/// Margins of all verdicts at the times that have been asked for: searches for several reactions
+/// often ask for the same ones.
+#[derive(Default)]
+struct Margins {
+    /// By the bits of the time.
+    at: HashMap<u64, Vec<f64>>,
+}
+
+impl Margins {
+    /// The margin of a verdict; all analyses have the same number of them.
+    fn of<F: FnMut(f64) -> State>(
+        &mut self,
+        path: &mut Path<'_, F>,
+        t: f64,
+        verdict: usize,
+    ) -> Result<f64, AlongError> {
+        let known = match self.at.entry(t.to_bits()) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(free) => {
+                let analysis = path.analysis(t)?;
+                free.insert(verdicts(&analysis).map(|v| v.judgement.margin).collect())
+            }
+        };
+        Ok(known.get(verdict).copied().unwrap_or(f64::NAN))
+    }
+}
 
 /// Finds isolated instants outside the stretches that have verdicts of their own, and outside
 /// nearly singular intervals.
@@ -40,11 +70,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
         .filter(|(_, v)| v.judgement.verdict == Verdict::NotUnique)
         .map(|(k, _)| k)
         .collect();
-    // All analyses have the same number of verdicts.
-    let margin = |analysis: &Analysis, part: usize| {
-        let of_part = verdicts(analysis).nth(part);
-        of_part.map_or(f64::NAN, |v| v.judgement.margin)
-    };
+    let mut margins_at = Margins::default();
     let mut found: Vec<(f64, Analysis)> = Vec::new();
     for part in not_unique {
         let margins: Vec<Option<f64>> = known
@@ -76,7 +102,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             let finer: Vec<f64> = (0..=FINER).map(|k| from + f64::from(k) * step).collect();
             let values = finer
                 .iter()
-                .map(|&t| Ok(Some(margin(&path.analysis(t)?, part))));
+                .map(|&t| Ok(Some(margins_at.of(path, t, part)?)));
             let values = values.collect::<Result<Vec<_>, AlongError>>()?;
             brackets.extend(local_minima(&finer, &values));
         }
@@ -95,9 +121,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             let (t, there) = match given.find(|s| is_unique(&s.analysis)) {
                 Some(sample) => (sample.t, sample.analysis.clone()),
                 None => {
-                    let least = search::minimum(bracket, 0.0, 0.0, |t| {
-                        Ok::<_, AlongError>(margin(&path.analysis(t)?, part))
-                    })?;
+                    let least =
+                        search::minimum(bracket, 0.0, 0.0, |t| margins_at.of(path, t, part))?;
                     let Some((t, _)) = least else {
                         continue;
                     };

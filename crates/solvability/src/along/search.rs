@@ -2,7 +2,7 @@
 //! and for a minimum. The function may return an error. They find singular instants along a given
 //! motion and within a step of a simulation.
 
-use crate::limits::{EDGE, FALL, RESOLUTION, SEARCH_ITERATIONS};
+use crate::limits::{EDGE, FALL, NARROWING, RESOLUTION, SEARCH_ITERATIONS};
 
 /// A root of `f` between a and b, where `f(a) > 0 > f(b)`: secant steps with the Illinois
 /// modification, bisection if these gain too little, until a value is at most `enough`.
@@ -84,7 +84,7 @@ pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
 /// Finds the minimum of `f` between a and b and its value, provided that there is one minimum.
 /// Golden section search, which finds the corner of an absolute value to rounding, or stops once
 /// the interval is as narrow as `enough`. Returns `None` as soon as it is clear that the minimum is
-/// above `limit`.
+/// above `limit`, also where a function that jumps stays above it as the interval gets narrow.
 ///
 /// # Errors
 /// The errors of `f`.
@@ -97,6 +97,7 @@ pub fn minimum<E>(
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut f_a, mut f_b) = (f(a)?, f(b)?);
     let mut best = lower(lower((a, f64::INFINITY), (a, f_a)), (b, f_b));
+    let (width, above) = (b - a, f_a.max(f_b) - limit);
     let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
     let (mut f_x, mut f_y) = (f(x)?, f(y)?);
     for _ in 0..SEARCH_ITERATIONS {
@@ -105,7 +106,9 @@ pub fn minimum<E>(
         if b - a <= narrow || best.1 == 0.0 {
             break;
         }
-        if !may_reach(limit, best.1, f_a.max(f_b)) {
+        let near = FALL * above * ((b - a) / width).powf(NARROWING);
+        let stays = best.1 > limit.max(limit + near);
+        if stays || !may_reach(limit, best.1, f_a.max(f_b)) {
             return Ok(None);
         }
         if f_x <= f_y {
@@ -179,5 +182,10 @@ mod tests {
         assert!(matches!(found(0.0, &|t| 0.1 + (t - 0.3).powi(2)), (None, asked) if asked < 14));
         assert!(matches!(found(0.0, &above), (None, asked) if asked < 24));
         assert!((found(0.11, &above).0.unwrap().0 - 0.3).abs() < 1e-15);
+        // A root is as steep as a minimum at zero may be.
+        assert!((at(&|t| (t - 0.3).abs().sqrt()) - 0.3).abs() < 1e-15);
+        // A jump does not reach zero, however narrow the interval.
+        let jump = |t: f64| if t < 0.3 { 0.2 } else { 0.1 + 1e-3 * t };
+        assert!(matches!(found(0.0, &jump), (None, asked) if asked < 30));
     }
 }
