@@ -1,6 +1,7 @@
 //! Free motions of the gallery: their number is the mobility, they are independent, they satisfy
 //! the constraints by differences of Φ, and their texts were derived by hand.
 
+use lab::fuzz::space::pose::Writing;
 use linalg::{Matrix, PivotedQr};
 use model::space::{cross, difference};
 use model::{Mechanism, Registry, System};
@@ -107,6 +108,11 @@ fn stays_on(mechanism: &Mechanism, q: &[f64], v: &[f64], drives: bool, name: &st
 pub(super) fn are_a_basis(study: &Study, name: &str) -> usize {
     let (mechanism, q) = (&study.prepared.mechanism, &study.prepared.q);
     let found = freedoms(study);
+    are_a_basis_at(mechanism, q, &found, name)
+}
+
+/// The same for motions that are known.
+fn are_a_basis_at(mechanism: &Mechanism, q: &[f64], found: &Freedoms, name: &str) -> usize {
     let without = found.without_drives.as_ref();
     let with = Some((true, found.mobility, &found.motions));
     let without = without.map(|d| (false, d.mobility, &d.motions));
@@ -136,6 +142,57 @@ fn motions_of_the_gallery_are_a_basis_of_what_the_rows_allow() {
     let all = names.iter().map(String::as_str).chain(["robot-trolley"]);
     let seen: usize = all.map(|name| are_a_basis(&study(name), name)).sum();
     assert!(seen > 25, "{seen} motions");
+}
+
+/// A body turned by some angle, held by one joint: what rounding leaves of a zero in its row is no
+/// direction of its own.
+#[test]
+fn rounding_of_a_row_is_no_direction() {
+    let joints = [
+        "type = \"distance\", bodies = [\"b\", \"ground\"], at = [[1.0, -2.0], [-1.5, -2.0]]",
+        "type = \"revolute\", bodies = [\"b\", \"ground\"], at = [1.0, -2.0]",
+        "type = \"translational\", bodies = [\"b\", \"ground\"], at = [1.0, -2.0], axis = [0.6, 0.8]",
+        "type = \"point-on-line\", body = \"b\", at = [1.0, -2.0], line = [[1.0, -2.0], [1.6, -1.2]]",
+    ];
+    for joint in joints {
+        for k in 0..40 {
+            let angle = 0.1 * f64::from(k) + 0.0435;
+            let text = format!(
+                "scene = {{ name = \"one\", space = \"plane\" }}\n\
+                 body = [{{ name = \"b\", mass = 1.0, inertia = 0.5, position = [-1.5, 1.0], angle = {angle:?} }}]\n\
+                 joint = [{{ name = \"j\", {joint} }}]\n"
+            );
+            let study = Study::read("one", &text, &Registry::standard(), &Overrides::default());
+            let study = study.unwrap_or_else(|e| panic!("{text}\n{e}"));
+            assert!(are_a_basis(&study, &text) > 0);
+        }
+    }
+}
+
+/// Random spatial mechanisms with planted redundancy.
+#[test]
+fn motions_of_random_mechanisms_satisfy_their_rows() {
+    let mut seen = 0;
+    for scene in lab::fuzz::space::scenes(11).take(240) {
+        if scene.writing == Writing::Far {
+            continue;
+        }
+        let what = format!("{}, {}", scene.number, scene.family.name());
+        let (text, _) = scene.drawing.judged();
+        let study = Study::read(
+            "random",
+            &text,
+            &Registry::standard(),
+            &Overrides::default(),
+        );
+        let study = study.unwrap_or_else(|e| panic!("{what}: {e}"));
+        let found = freedoms(&study);
+        if found.motions.left_out.is_none() {
+            let (mechanism, q) = (&study.prepared.mechanism, &study.prepared.q);
+            seen += are_a_basis_at(mechanism, q, &found, &what);
+        }
+    }
+    assert!(seen > 200, "{seen} motions");
 }
 
 /// The slider moves the links, which turn the knuckles of both axles; all other bodies are at rest.

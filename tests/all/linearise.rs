@@ -216,6 +216,33 @@ drive = [{ name = \"bumper\", joint = \"rail\", type = \"displacement\", force =
     );
 }
 
+/// A bob on a rod of 0.2 m beside a pendulum 10 m away: steps of the size of the mechanism are long
+/// for the rod. `ω² = g/l`, and `m·g·l/(J + m·l²)` of the pendulum.
+#[test]
+fn a_short_rod_in_a_large_mechanism_has_derivatives() {
+    let text = "
+scene = { name = \"bob\", space = \"plane\", gravity = [0.0, -9.81] }
+body = [
+    { name = \"bob\", mass = 1.0, inertia = 1.0, position = [0.0, -0.2] },
+    { name = \"far\", mass = 1.0, inertia = 1.0, position = [10.0, -1.0] },
+]
+joint = [
+    { name = \"rod\", type = \"distance\", bodies = [\"ground\", \"bob\"], at = [[0.0, 0.0], [0.0, -0.2]] },
+    { name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"far\"], at = [10.0, 0.0] },
+]
+";
+    let x = linearised(text);
+    let mut found: Vec<f64> = eigenvalues(&x.a).iter().map(|value| value[1]).collect();
+    found.sort_by(f64::total_cmp);
+    let [bob, far] = [(9.81_f64 / 0.2).sqrt(), (9.81_f64 / 2.0).sqrt()];
+    // The bob turns freely about its mass centre.
+    let expected = [-bob, -far, 0.0, 0.0, far, bob];
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-6, "{found}, not {expected}");
+    }
+}
+
 /// A rod on a pin, hanging or standing, with or without a damper.
 #[test]
 fn what_first_order_says_of_stability() {

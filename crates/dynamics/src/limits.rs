@@ -161,6 +161,11 @@ pub(crate) const LINEARISE_STEP: f64 = 1.0 / 128.0;
 /// `a_force_with_a_corner_is_refused`.
 pub(crate) const LINEARISE_ACCURACY: f64 = 1e-6;
 
+/// Quarterings of the step of a difference, while it is no derivative.
+/// Unit: quarterings. Less: forces that are steep for the size of the mechanism are refused. More:
+/// rounding passes as a corner. Test: `a_short_rod_in_a_large_mechanism_has_derivatives`.
+pub(crate) const LINEARISE_SHORTER: usize = 3;
+
 /// A body accelerates by no more than this share of what forces would do without joints.
 /// Unit: share. Less: places of rest known to a few digits are refused. More: matrices of a state
 /// that is left at once are believed. Test: `a_pendulum_held_aside_is_not_at_rest`.

@@ -185,7 +185,22 @@ impl<'a> ConfigurationAnalysis<'a> {
     /// [`StudyError::Choice`]
     pub fn sensitivities(&self) -> Result<Sensitivities, StudyError> {
         let State { q, v } = &self.state;
+        if self.has_no_velocities() {
+            return Ok(Sensitivities {
+                each: vec![None; self.mechanism.layout().groups.len()],
+                left_out: vec![
+                    "how strongly reactions depend on the data is not known: no velocities are known that satisfy the constraints"
+                        .to_owned(),
+                ],
+            });
+        }
         Ok(self.analysis.sensitivities(self.mechanism, q, v)?)
+    }
+
+    /// Whether no velocities of this configuration are known: its rank can be proved, but not be
+    /// used in `f64`.
+    fn has_no_velocities(&self) -> bool {
+        self.state.v.is_empty() && self.mechanism.layout().n_v > 0
     }
 
     /// The possible motions at this configuration, with the drives and without them.
@@ -390,6 +405,12 @@ impl<'a> ConfigurationAnalysis<'a> {
         let decision = &self.analysis.decision;
         if let rank::RankStatus::Undecided(doubt) = decision.status {
             return Err(ChoiceError::Undecided(doubt).into());
+        }
+        if self.has_no_velocities() {
+            let rows = solvability::rows(self.mechanism, self.analysis.time, &self.state.q)?;
+            if let rank::RankStatus::Undecided(doubt) = rows.all.status {
+                return Err(ChoiceError::Undecided(doubt).into());
+            }
         }
         let state = (self.analysis.time, &self.state.q[..], &self.state.v[..]);
         Ok(solution(self.mechanism, state, decision)?)

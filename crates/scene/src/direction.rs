@@ -2,7 +2,7 @@
 //! body, or of the ground (`frame = "global"`), of the described start; what is not given for
 //! another body follows from that start, like a place.
 
-use joints::space3::Axes;
+use joints::space3::{Axes, dot};
 use joints::spec::{Parameter, Shape, Spec};
 use joints::{Argument, Space3};
 use model::BodyRef;
@@ -215,9 +215,14 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         let axes = axes.unwrap_or(Axes::FRAME);
         let [from, to] = [from, slot].map(|slot| self.body(slot));
         let carried = axes.map(|d| S::point(S::carried(S::vector(d), from, to)));
-        let [u, _, _] = carried.uvw();
+        let [u, v, _] = carried.uvw();
         let own = self.own.and_then(|own| own.get(slot).copied());
-        let given = own.map(|axis| Argument::Axis(S::point(axis), Some(u)));
+        let given = own.map(|axis| {
+            let axis = S::point(axis);
+            // The axis that is given may lie along one of them.
+            let [of_u, of_v] = [u, v].map(|across| dot(across, axis).abs());
+            Argument::Axis(axis, Some(if of_u <= of_v { u } else { v }))
+        });
         given.unwrap_or(Argument::Axes(carried))
     }
 }

@@ -365,7 +365,12 @@ pub(crate) const GIVEN_DIGITS: i32 = 10;
 
 // Second order.
 
-/// New motions that are examined at once.
+/// New motions for which a proof that they are blocked is sought: the forms need Γ for each pair.
+/// Unit: motions. Less: blocked motions are called free. More: time. Test:
+/// `a_blocked_freedom_beside_many_others`.
+pub(crate) const FORMS_MAX: usize = 32;
+
+/// New motions among which branches are sought.
 /// Unit: motions. Less: uniqueness is undecided. More: time: it doubles with each. Test:
 /// `what_is_not_decided_is_said`.
 pub const KERNEL_MAX: usize = 4;

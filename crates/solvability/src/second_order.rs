@@ -20,6 +20,7 @@ use linalg::Matrix;
 use model::{Mechanism, System};
 use rank::{Grounds, RankDecision};
 
+use crate::limits::KERNEL_MAX;
 use crate::state::{self, StateError};
 use forms::Forms;
 
@@ -90,6 +91,10 @@ pub fn second_order(
     Ok(match forms {
         Err(reason) => Continuation::Undetermined(reason),
         Ok(forms) if forms.y() == 0 || blocked::is_blocked(&forms) => Continuation::Unique,
+        Ok(forms) if forms.y() > KERNEL_MAX => Continuation::Undetermined(Undetermined::Kernel {
+            found: forms.y(),
+            most: KERNEL_MAX,
+        }),
         Ok(forms) => match branches::others(&forms) {
             found if found.is_empty() => Continuation::Undetermined(Undetermined::Open),
             found => Continuation::Bifurcation {

@@ -1,11 +1,12 @@
 //! What second order says in space.
 
-use joints::space3::{Distance, Pose};
+use joints::generated::space3::{Revolute, Spherical, Universal};
+use joints::space3::{Axes, Direction, Distance, Pose};
 use lab::fuzz::space::text::Precision;
 use lab::fuzz::space::{catalogue, description};
 use linalg::Matrix;
 use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription, System};
-use solvability::{Continuation, analyse, decide, is_locked, second_order};
+use solvability::{Continuation, analyse, blocked_velocities, decide, is_locked, second_order};
 
 use super::verdicts::{Motion, TENSOR};
 
@@ -150,5 +151,83 @@ fn linkages_that_move_are_not_blocked() {
         assert!(!locked(
             &description(&drawing, &Precision::default()).expect("a mechanism")
         ));
+    }
+}
+
+/// The velocities of bodies that second order is said to exclude.
+fn blocked(d: &SpatialDescription) -> Vec<Vec<f64>> {
+    let mechanism = Mechanism::build(d).expect("builds");
+    let (q, _) = mechanism.described_state();
+    let found = analyse(&mechanism, 0.0, &q).expect("a verdict");
+    let decision = found.whole().expect("small");
+    blocked_velocities(&mechanism, 0.0, &q, &decision).expect("a configuration")
+}
+
+fn body(name: &str, position: [f64; 3]) -> SpatialBody {
+    SpatialBody {
+        position,
+        ..SpatialBody::new(name, 1.0, TENSOR)
+    }
+}
+
+/// Hangs a body on the ground.
+fn hang(d: &mut SpatialDescription, door: BodyRef, place: [f64; 3], axis: [f64; 3]) {
+    let axis = Axes::new(axis, None).expect("a direction");
+    let hinge = Revolute {
+        s_i: place,
+        s_j: d.local(door, place),
+        axis,
+        axis_j: axis,
+    };
+    let name = format!("hinge {door:?}");
+    d.joint(&name, &[BodyRef::Ground, door], hinge);
+}
+
+/// A door beside a rod that a ball joint and a Hooke joint hold at both ends: the length between
+/// these joints is constrained twice, always, and no form contains anything.
+#[test]
+fn what_rounding_leaves_of_a_self_stress_blocks_nothing() {
+    for k in 0..24 {
+        let turn = 0.27 * f64::from(k);
+        let (sin, cos) = turn.sin_cos();
+        let mut d = SpatialDescription::new("a door beside a rod");
+        let rod = d.body(body("rod", [0.5, 1.0, -1.0]));
+        let door = d.body(body("door", [-2.0, 1.0, 1.5]));
+        let [a, b] = [[0.5, 2.0, 0.5], [-1.0, -2.0, -2.0]];
+        let hooke = Universal {
+            s_i: a,
+            s_j: d.local(rod, a),
+            axis: Direction::new([-1.0, 0.0, 0.0]).expect("a direction"),
+            cross: Direction::new([0.0, cos, sin]).expect("a direction"),
+            b_in_i: [0.0; 3],
+            a_in_j: [0.0; 3],
+        };
+        d.joint("a", &[BodyRef::Ground, rod], hooke);
+        let s_j = d.local(rod, b);
+        d.joint("b", &[BodyRef::Ground, rod], Spherical { s_i: b, s_j });
+        hang(&mut d, door, [0.5, 1.0, 1.0], [0.3, cos, sin]);
+        assert_eq!(blocked(&d), Vec::<Vec<f64>>::new(), "{turn}");
+    }
+}
+
+/// V24 beside n doors: its one freedom is blocked, theirs are not.
+#[test]
+fn a_blocked_freedom_beside_many_others() {
+    for n in [0_u8, 1, 4, 9, 20] {
+        let mut d = triangle_on_bars(150.0, &Motion(Pose::GROUND), [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
+        for k in 0..n {
+            let place = [5.0 + f64::from(k), 0.5, 0.0];
+            let door = d.body(body(&format!("door {k}"), [place[0], 0.0, 0.0]));
+            hang(&mut d, door, place, [0.0, 0.0, 1.0]);
+        }
+        let [v] = &blocked(&d)[..] else {
+            panic!("{n} doors: {:?}", blocked(&d));
+        };
+        // v_z = −ω/2, and the doors are at rest.
+        assert!((v[2] + 0.5 * v[5]).abs() < 1e-12 * v[5].abs(), "{v:?}");
+        assert!(
+            v[6..].iter().all(|v_k| v_k.abs() < 1e-12 * v[5].abs()),
+            "{v:?}"
+        );
     }
 }

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dynamics::{Method, MotionOptions};
 use joints::space3::Pose;
-use model::Registry;
+use model::{Registry, System};
 use pfaff::{Overrides, Study};
 
 /// The rows of a joint are satisfied to rounding at output; the tolerance of the method is 1e-12.
@@ -79,6 +79,51 @@ fn a_constant_velocity_joint_transmits_the_rate() {
                 off.fold(0.0, f64::max) < TOLERANCE * rate,
                 "{t}: {omegas:?}"
             );
+        }
+    }
+}
+
+/// Axes at right angles, along any axes of both bodies: the row is `ω·(a + b)`, a and b the axes.
+#[test]
+fn axes_of_a_constant_velocity_joint_may_be_at_right_angles() {
+    let units = [
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+        [-1, 0, 0],
+        [0, -1, 0],
+        [0, 0, -1],
+    ];
+    let across = |a: [i32; 3], b: [i32; 3]| (0..3).all(|k| a[k] * b[k] == 0);
+    for a in units {
+        for b in units.into_iter().filter(|b| across(a, *b)) {
+            let text = format!(
+                "scene = {{ name = \"bend\", space = \"spatial\" }}\n\
+                 body = [{{ name = \"b\", mass = 1, inertia = [1, 1, 1] }}]\n\
+                 joint = [{{ name = \"cv\", type = \"constant-velocity\", bodies = [\"ground\", \"b\"], \
+                 at = [0, 0, 0], axes = {{ ground = {a:?}, b = {b:?} }} }}]\n"
+            );
+            let study = study(&text);
+            assert_eq!(judged(&study), [4, 4, 0, 2], "{text}");
+            let mechanism = &study.prepared.mechanism;
+            let mut s = mechanism.scratch();
+            mechanism.pose(0.0, &study.prepared.q, &mut s);
+            mechanism.c(&mut s);
+            let row = mechanism.layout().dense(&s).row(3)[3..].to_vec();
+            let size = row.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let sign = row
+                .iter()
+                .zip(a)
+                .map(|(c, a)| c * f64::from(a))
+                .sum::<f64>()
+                .signum();
+            for k in 0..3 {
+                let sum = f64::from(a[k] + b[k]) / 2.0_f64.sqrt();
+                assert!(
+                    (sign * row[k] / size - sum).abs() < 1e-14,
+                    "{a:?}, {b:?}: {row:?}"
+                );
+            }
         }
     }
 }

@@ -49,16 +49,20 @@ pub(super) fn methods(model: &Model, data: &[Datum]) -> TokenStream {
     let numbers = data.iter().flat_map(|d| {
         let changes = d.count() < d.symbols.len();
         let symbols = d.symbols.iter().take(d.count());
-        symbols.map(move |&e| (!changes).then_some(e))
+        symbols.map(move |&e| (d, (!changes).then_some(e)))
     });
-    let reads = numbers.enumerate().map(|(k, e)| {
+    let reads = numbers.enumerate().map(|(k, (datum, e))| {
         let k = index(k);
         let Some(e) = e else {
             return quote!(out[#k] = 0.0;);
         };
         let symbol = model.g.as_symbol(e).expect("data are inputs");
         let (access, _) = model.inputs.source(symbol).access();
-        quote!(out[#k] = #access;)
+        // Before `initialise` a value that the user stated is not yet where the kernels read it.
+        match &datum.overridden_by {
+            Some(given) => quote!(out[#k] = self.#given.unwrap_or(#access);),
+            None => quote!(out[#k] = #access;),
+        }
     });
     let mut first = 0;
     let writes = data.iter().map(|datum| {

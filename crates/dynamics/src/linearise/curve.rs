@@ -8,7 +8,9 @@ use model::{Mechanism, Push, System};
 use super::coordinates::Coordinate;
 use super::error::LineariseError;
 use super::frame_row;
-use crate::limits::{LINEARISE_ACCURACY, LINEARISE_STEP, STEADY_ACCELERATION, STEADY_FRACTION};
+use crate::limits::{
+    LINEARISE_ACCURACY, LINEARISE_SHORTER, LINEARISE_STEP, STEADY_ACCELERATION, STEADY_FRACTION,
+};
 use crate::motion::KeptRowMotion;
 use crate::prepare::Prepared;
 
@@ -178,14 +180,40 @@ impl<'m> Curves<'m> {
     ) -> Result<Derivative, LineariseError> {
         let bodies = self.mechanism().bodies().len();
         let moved = self.frames.times(shift);
-        let Some(step) = self.step(shift, dv) else {
+        let Some(mut step) = self.step(shift, dv) else {
             return Ok(Derivative {
                 shift: moved,
                 velocity: vec![0.0; BODY * bodies],
                 acceleration: vec![0.0; BODY * bodies],
             });
         };
-        let count = 2 * BODY * bodies;
+        // What is steep for a mechanism of this size needs shorter steps; a corner stays one.
+        let mut found = self.differences(shift, dv, step);
+        for _ in 0..LINEARISE_SHORTER {
+            if found.is_ok() {
+                break;
+            }
+            step /= 4.0;
+            found = self.differences(shift, dv, step);
+        }
+        let mut high = found?;
+        let acceleration = high.split_off(BODY * bodies);
+        Ok(Derivative {
+            shift: moved,
+            velocity: high,
+            acceleration,
+        })
+    }
+
+    /// Differences of order eight of velocities and accelerations along a curve, if they are
+    /// derivatives.
+    fn differences(
+        &mut self,
+        shift: &[f64],
+        dv: &[f64],
+        step: f64,
+    ) -> Result<Vec<f64>, LineariseError> {
+        let count = 2 * BODY * self.mechanism().bodies().len();
         let (mut high, mut low) = (vec![0.0; count], vec![0.0; count]);
         let mut corner = vec![0.0; count];
         let here = self.rates_at(0.0, shift, dv)?;
@@ -205,12 +233,7 @@ impl<'m> Curves<'m> {
             *low = (*low - high).abs().max(corner.abs());
         }
         self.judge(&high, &low, (shift, dv))?;
-        let acceleration = high.split_off(BODY * bodies);
-        Ok(Derivative {
-            shift: moved,
-            velocity: high,
-            acceleration,
-        })
+        Ok(high)
     }
 
     /// What functions of forces push at the state.
@@ -318,6 +341,7 @@ impl<'m> Curves<'m> {
         // Without dimensions: for a change of the mechanism by its size, or by one radian.
         let way = LINEARISE_STEP / step;
         let accelerations = high.len() / 2..high.len();
+        let (mut largest, mut doubt) = (self.largest, self.doubt);
         for i in accelerations {
             let unit = if i % BODY < 3 { self.size() } else { 1.0 };
             let scale = unit * way * self.rate * self.rate;
@@ -328,11 +352,10 @@ impl<'m> Curves<'m> {
                     body: self.name_of(i),
                 });
             }
-            self.largest = self.largest.max(found);
-            let doubt = doubts[i] / scale;
-            self.doubt = self.doubt.max(doubt);
+            largest = largest.max(found);
+            doubt = doubt.max(doubts[i] / scale);
         }
-        if self.doubt > LINEARISE_ACCURACY * self.largest.max(1.0) {
+        if doubt > LINEARISE_ACCURACY * largest.max(1.0) {
             let worst = (high.len() / 2..high.len()).fold(high.len() / 2, |a, b| {
                 if doubts[b] > doubts[a] { b } else { a }
             });
@@ -341,6 +364,7 @@ impl<'m> Curves<'m> {
                 body: self.name_of(worst),
             });
         }
+        (self.largest, self.doubt) = (largest, doubt);
         Ok(())
     }
 

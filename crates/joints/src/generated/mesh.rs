@@ -317,7 +317,7 @@ impl Definition for Mesh {
         out[2] = self.s_j[0];
         out[3] = self.s_j[1];
         out[4] = self.ratio;
-        out[5] = self.pressure_angle_0;
+        out[5] = self.pressure_angle.unwrap_or(self.pressure_angle_0);
         out[6] = self.centres[0];
         out[7] = self.centres[1];
         out[8] = self.line[0];

@@ -961,7 +961,7 @@ pub const TABLE: &[Entry] = &[
     entry(
         414,
         "A value became infinite or undefined",
-        "Look for a function of time or a force that grows without bound.",
+        "Look for a function of time or a force that grows without bound; a bushing in space has no value where it is turned by more than 3 rad.",
         RARE,
     ),
     entry(

@@ -64,9 +64,11 @@ impl Observation {
             r.components(space).chain([component])
         });
         let reactions = numbers.collect();
+        // Behind the bodies q counts turns.
+        let bodies = &q[..(v.len() / space.n_v() * space.n_q()).min(q.len())];
         Self {
             t,
-            values: [space.pose_numbers(&q), v, a, reactions],
+            values: [space.pose_numbers(bodies), v, a, reactions],
             q,
         }
     }
@@ -101,4 +103,20 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
     };
     let poses = columns.chunks_exact(space.n_v()).flat_map(of_pose);
     [poses.collect(), columns.clone(), columns, reactions]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Behind a body stand ten angles that count their turns, as many as a body has coordinates and
+    /// more: they belong to no pose.
+    #[test]
+    fn turns_are_no_poses() {
+        let pose = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0];
+        let q = [&pose[..], &[0.5; 10]].concat();
+        let rest = vec![0.0; 6];
+        let found = Observation::new(SpaceKind::Space3, 0.0, [q, rest.clone(), rest], &[]);
+        assert_eq!(found.values[0].len(), 12);
+    }
 }

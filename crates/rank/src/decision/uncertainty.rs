@@ -47,21 +47,27 @@ pub(crate) struct Spread {
 }
 
 impl Uncertainty<'_> {
-    /// The equilibration of the significant entries of `c`, and the uncertainty of the equilibrated
-    /// matrix.
-    pub(crate) fn equilibrate(self, c: &Matrix) -> Result<(Scaling, Spread), RankError> {
-        let scaling = match self {
-            Self::Equilibrated(_) => equilibrate(c),
-            Self::Entries(u) => {
-                self.check(c)?;
-                let mut significant = c.clone();
-                let entries = significant.as_mut_slice().iter_mut();
-                for (c, u) in entries.zip(u.as_slice()) {
-                    *c = if c.abs() > SIGNIFICANT * u { *c } else { 0.0 };
-                }
-                equilibrate(&significant)
-            }
+    /// The equilibration of the significant entries of `c`. What rounding left of an entry is not
+    /// scaled up to size one.
+    ///
+    /// # Errors
+    /// If the uncertainty has another shape than `c`, or is negative or not finite.
+    pub fn equilibration(self, c: &Matrix) -> Result<Scaling, RankError> {
+        let Self::Entries(u) = self else {
+            return Ok(equilibrate(c));
         };
+        self.check(c)?;
+        let mut significant = c.clone();
+        let entries = significant.as_mut_slice().iter_mut();
+        for (c, u) in entries.zip(u.as_slice()) {
+            *c = if c.abs() > SIGNIFICANT * u { *c } else { 0.0 };
+        }
+        Ok(equilibrate(&significant))
+    }
+
+    /// [`Self::equilibration`], and the uncertainty of the equilibrated matrix.
+    pub(crate) fn equilibrate(self, c: &Matrix) -> Result<(Scaling, Spread), RankError> {
+        let scaling = self.equilibration(c)?;
         let spread = self.equilibrated(c, &scaling)?;
         Ok((scaling, spread))
     }

@@ -118,7 +118,7 @@ impl FreedomsDocument {
     }
 
     /// The free motions as sentences: those with the drives, then those that the drives prescribe,
-    /// each once, with an introduction that distinguishes them.
+    /// each once, and those that second order blocks, with an introduction that distinguishes them.
     #[must_use]
     pub fn sentences(&self) -> Vec<(String, String)> {
         let mut told: Vec<(String, String)> = Vec::new();
@@ -142,7 +142,7 @@ impl FreedomsDocument {
                     ));
                 }
             };
-        let lead = if self.cannot_move {
+        let lead = if self.cannot_move || !self.freedoms_blocked.is_empty() {
             "free at first order"
         } else {
             "free"
@@ -151,6 +151,11 @@ impl FreedomsDocument {
         if let Some(without) = &self.without_drives {
             let lead = format!("free without {}", without.possessive());
             add(&lead, &without.free_motions, &without.free_motions_left_out);
+        }
+        if !self.cannot_move {
+            let blocked = self.freedoms_blocked.iter();
+            let lead = || "blocked at second order".to_owned();
+            told.extend(blocked.map(|motion| (lead(), motion.text.clone())));
         }
         told
     }

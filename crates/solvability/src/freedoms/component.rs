@@ -2,7 +2,7 @@
 //! each.
 
 use crate::limits::{AT_REST, NEW_MOTION, TRIALS};
-use crate::pose::{dimensionless, evaluated, velocity_units};
+use crate::pose::{dimensionless, evaluated, uncertainty, velocity_units};
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -11,6 +11,7 @@ use linalg::{Matrix, PivotedQr, equilibrate};
 use model::space::{cross, difference, norm};
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
+use rank::Uncertainty;
 
 use super::basis::{Form, Space, Subspace};
 
@@ -66,7 +67,11 @@ impl<'a> Component<'a> {
     /// QR factors of these rows, equilibrated, and the exponents of their columns.
     fn factors(&self, rows: &[usize]) -> (PivotedQr, Vec<i32>) {
         let c = dimensionless(self.mechanism, &self.s, self.size).select_rows(rows);
-        let scaling = equilibrate(&c);
+        let known = uncertainty(self.mechanism, &self.s, self.size).select_rows(rows);
+        // An uncertainty that is not finite belongs to a matrix that is none either.
+        let scaling = Uncertainty::from(&known)
+            .equilibration(&c)
+            .unwrap_or_else(|_| equilibrate(&c));
         (PivotedQr::of_rows(scaling.apply(&c)), scaling.cols)
     }
 

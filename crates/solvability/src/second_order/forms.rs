@@ -5,7 +5,7 @@
 //! time), x₁ the regular motions and y the new ones. Both are orthonormal in dimensionless
 //! velocities.
 
-use crate::limits::{FORM_ROUNDING, KERNEL_MAX, REGULAR};
+use crate::limits::{FORM_ROUNDING, FORMS_MAX, REGULAR};
 use crate::pose::{dimensionless, evaluated, velocity_units};
 use linalg::{Matrix, PivotedQr};
 use model::start::scene_size;
@@ -58,10 +58,10 @@ impl Forms {
         });
         let (coordinates, x_1) = split(&null.transpose().product(&own))?;
         let y = coordinates.ncols() - x_1;
-        if y > KERNEL_MAX {
+        if y > FORMS_MAX {
             return Err(Undetermined::Kernel {
                 found: y,
-                most: KERNEL_MAX,
+                most: FORMS_MAX,
             });
         }
         let motions = null.product(&coordinates).transpose();
@@ -78,7 +78,8 @@ impl Forms {
             driven,
         };
         let stresses = self_stresses(decision);
-        let terms = found.evaluate(mechanism, &mut s, &stresses, size);
+        let natural: Vec<f64> = units.iter().map(|u| u * speed).collect();
+        let terms = found.evaluate(mechanism, &mut s, &stresses, (size, &natural));
         found.normalise(terms)?;
         Ok(found)
     }
@@ -115,13 +116,15 @@ impl Forms {
         sum
     }
 
-    /// Extracts the forms from values of Γ; returns the size of the terms that are summed.
+    /// Extracts the forms from values of Γ; returns the size of the terms that are summed, or of
+    /// those that there would be if every body moved as fast as the motions do: bodies at rest move
+    /// by rounding, and the forms of that are rounding too.
     fn evaluate(
         &mut self,
         mechanism: &Mechanism,
         s: &mut Scratch,
         stresses: &[Vec<f64>],
-        size: f64,
+        (size, natural): (f64, &[f64]),
     ) -> f64 {
         // Without a drive and without freedom there is no velocity at all.
         let origin = if self.driven {
@@ -130,7 +133,15 @@ impl Forms {
             vec![0.0; mechanism.layout().n_v]
         };
         let first = usize::from(self.driven);
-        let mut terms = 0.0_f64;
+        let size_of = |z: &[f64], v: &[f64], s: &Scratch| -> f64 {
+            let scale =
+                |(i, z): (usize, &f64)| z.abs() * mechanism.scales(s).acceleration(i, v, size);
+            z.iter().enumerate().map(scale).sum()
+        };
+        mechanism.twist(natural, s);
+        mechanism.gamma(s);
+        let moving = stresses.iter().map(|z| size_of(z, natural, s));
+        let mut terms = moving.fold(0.0, f64::max);
         // z·Γ at zero velocity plus a sum of motions.
         let mut values = |motions: &[(usize, f64)]| -> Vec<f64> {
             let mut v = origin.clone();
@@ -143,9 +154,7 @@ impl Forms {
             mechanism.gamma(s);
             let sum = |z: &Vec<f64>| z.iter().zip(&s.gamma).map(|(z, g)| z * g).sum();
             for z in stresses {
-                let scale =
-                    |(i, z): (usize, &f64)| z.abs() * mechanism.scales(s).acceleration(i, &v, size);
-                terms = terms.max(z.iter().enumerate().map(scale).sum());
+                terms = terms.max(size_of(z, &v, s));
             }
             stresses.iter().map(sum).collect()
         };
@@ -224,9 +233,13 @@ fn split(columns: &Matrix) -> Result<(Matrix, usize), Undetermined> {
     }
 }
 
-/// Basis of the left null space, for the unscaled rows of C.
+/// Basis of the left null space, for the unscaled rows of C. Rows that are in no dependency are
+/// exactly zero: what rounding left of them would be a form where there is no other.
 fn self_stresses(decision: &RankDecision) -> Vec<Vec<f64>> {
-    let z = rank::orthonormal(decision);
+    let mut z = rank::orthonormal(decision);
+    let none = rank::support_tolerance(decision);
+    let entries = z.as_mut_slice().iter_mut();
+    entries.filter(|z| z.abs() <= none).for_each(|z| *z = 0.0);
     let of = |j: usize| (0..z.nrows()).map(move |i| (i, j));
     (0..z.ncols())
         .map(|j| {

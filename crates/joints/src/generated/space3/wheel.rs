@@ -358,7 +358,7 @@ impl Definition<Space3> for Wheel {
         out[10] = self.plane.normal().xyz()[0];
         out[11] = self.plane.normal().xyz()[1];
         out[12] = self.plane.normal().xyz()[2];
-        out[13] = self.tube_0;
+        out[13] = self.tube.unwrap_or(self.tube_0);
     }
     fn set_data(&mut self, numbers: &[f64]) {
         self.s = [numbers[0], numbers[1], numbers[2]];
