@@ -532,3 +532,30 @@ fn locked_parts() {
         }
     }
 }
+
+/// Beside a wheel that turns, what rounding left of a velocity of a locked part is as large as the
+/// rate of the wheel makes it; a billion times as much is an error.
+#[test]
+fn rounding_of_a_fast_wheel_is_no_velocity_of_a_locked_part() {
+    let scene = |rate: f64, noise: f64| {
+        format!(
+            "scene = {{ name = \"noise\", space = \"plane\" }}\n\
+             body = [\n\
+               {{ name = \"wheel\", mass = 1.0, inertia = 1.0, angular_velocity = {rate:e} }},\n\
+               {{ name = \"lever\", mass = 1.0, inertia = 1.0, position = [5.0, 0.0], angular_velocity = {noise:e} }},\n]\n\
+             joint = [\n\
+               {{ name = \"shaft\", type = \"revolute\", bodies = [\"ground\", \"wheel\"], at = [0.0, 0.0] }},\n\
+               {{ name = \"clamp\", type = \"fixed\", bodies = [\"ground\", \"lever\"], at = [5.0, 0.0] }},\n]\n"
+        )
+    };
+    for rate in [3.0, 3e3, 3e6] {
+        let study = read(&scene(rate, 1.5e-14 * rate)).prepare(&Overrides::default());
+        let v = study.unwrap_or_else(|e| panic!("{rate}: {e}")).prepared.v;
+        assert!(v[5].abs() <= 1e-16 * rate, "{v:?}");
+        let error = read(&scene(rate, 1e-5 * rate))
+            .prepare(&Overrides::default())
+            .err();
+        let said = error.expect("it is locked").to_string();
+        assert!(said.contains("of body `lever` is given as"), "{said}");
+    }
+}

@@ -142,9 +142,15 @@ impl<'m> Equations<'m> {
 
     /// Up to this value velocity `j` counts as zero.
     pub(super) fn rest_of(&self, j: usize) -> f64 {
+        self.rest_at(j, 0.0)
+    }
+
+    /// The same beside bodies that move at this rate (1/s): rounding of numbers that were computed
+    /// with theirs.
+    pub(super) fn rest_at(&self, j: usize, rate: f64) -> f64 {
         let body = self.mechanism.space().body_of(j);
         let place = norm(&self.s.bodies.origin(body)).max(self.size);
-        let rest = ROUNDINGS.powi(2) * f64::EPSILON * self.rest_rate * place;
+        let rest = ROUNDINGS.powi(2) * f64::EPSILON * self.rest_rate.max(rate) * place;
         rest / self.arm(j)
     }
 

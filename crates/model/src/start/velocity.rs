@@ -125,6 +125,8 @@ pub(super) struct Start<'m> {
     pub(super) is_written: Vec<bool>,
     pub(super) hold: Vec<Hold>,
     pub(super) limit: CorrectionLimit,
+    /// The fastest rate of the given velocities (1/s).
+    fastest: f64,
 }
 
 /// Reason why some rows have no acceptable velocities.
@@ -152,6 +154,7 @@ impl<'m> Start<'m> {
         let mut written: Vec<f64> = given.iter().map(|x| x.unwrap_or_default()).collect();
         equations.take(&mut written);
         Ok(Self {
+            fastest: equations.fastest(0..written.len(), &written),
             equations,
             written,
             is_written: given.iter().map(Option::is_some).collect(),
@@ -313,7 +316,7 @@ impl<'m> Start<'m> {
 
     /// Largest allowed correction of a given velocity: a thousandth of the fastest of the
     /// velocities that have rows in common with it, rotations times the size of the mechanism; and
-    /// the limit of rest.
+    /// the limit of rest beside the fastest of all.
     pub(super) fn allowed(&self, j: usize, columns: &[usize], hold: &[Hold], v: &[f64]) -> f64 {
         let of = &self.equations;
         if hold[j] == Hold::Kept {
@@ -321,6 +324,6 @@ impl<'m> Start<'m> {
         }
         let speed = |k: &usize| of.arm(*k) * v[*k].abs().max(self.written[*k].abs());
         let fastest = columns.iter().map(speed).fold(0.0, f64::max);
-        (SMALL_CORRECTION * fastest / of.arm(j)).max(of.rest_of(j))
+        (SMALL_CORRECTION * fastest / of.arm(j)).max(of.rest_at(j, self.fastest))
     }
 }
