@@ -210,7 +210,8 @@ impl Functions {
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
         let mechanism = &prepared.mechanism;
-        let (layout, mass) = (mechanism.layout(), mechanism.mass());
+        let (layout, mass) = (mechanism.layout(), e.mass.clone());
+        let mass = mass.as_slice();
         let (kept, position_kept) = (&prepared.decision.kept, &prepared.position_decision.kept);
         let mut seen = match view {
             View::Angle(angle) => Seen::from_body(&mut e, subject, angle)
@@ -244,7 +245,7 @@ impl Functions {
         let p = &mut e.code.program;
         let excess: Vec<Value> = (0..layout.n_v)
             .map(|i| {
-                let m = p.number(mass[i]);
+                let m = mass[i].value(p);
                 let inertia = p.mul(m, a_seen[i]);
                 p.sub(seen.force[i], inertia)
             })

@@ -9,6 +9,7 @@ use model::words::listed;
 use model::{Mechanism, System};
 
 use super::SceneCode;
+use super::inputs::for_mechanism;
 use crate::error::MotionFault;
 use crate::limits::{CODE_STATES, DISTANCE, LEAVE, SAME_VALUES, SPEED};
 use crate::motion::KeptRowMotion;
@@ -85,6 +86,36 @@ pub enum CodeMismatch {
         /// Its health.
         health: f64,
     },
+    /// It takes numbers of a mechanism as inputs, and this is another mechanism.
+    #[error(
+        "the code `{name}` takes numbers of a mechanism with other equations: joints, forces, functions of time or the bodies with products of inertia are others, \
+         or another version made it; generate it again"
+    )]
+    Shape {
+        /// Name of the code.
+        name: String,
+    },
+    /// Numbers that are one input of the code differ in the mechanism.
+    #[error(
+        "the code `{name}` takes {input} as one number, in the mechanism it is both {:.9e} and {:.9e}; generate it again with the key among `--inputs` that sets them apart",
+        values[0], values[1]
+    )]
+    Parts {
+        /// Name of the code.
+        name: String,
+        /// Name of the input.
+        input: String,
+        /// Two of its values.
+        values: [f64; 2],
+    },
+    /// It does not take as many inputs as it names.
+    #[error("the code `{name}` names {found} inputs and does not take them")]
+    Inputs {
+        /// Name of the code.
+        name: String,
+        /// How many it names.
+        found: usize,
+    },
     /// The mechanism itself cannot be evaluated at this state.
     #[error(transparent)]
     MotionFault(#[from] MotionFault),
@@ -130,11 +161,13 @@ pub enum NoCode {
 }
 
 impl Prepared {
-    /// Adds code generated for this mechanism; runs then use it if they can.
+    /// Adds code generated for this mechanism, or for one that differs from it only in numbers that
+    /// the code takes as inputs ([`SceneCode::inputs`]); runs then use it if they can.
     ///
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
     pub fn with_code(self, code: Arc<dyn SceneCode>) -> Result<Self, CodeMismatch> {
+        let code = for_mechanism(code, &self.mechanism)?;
         check_spec(&self, &*code)?;
         check_values(&self, &*code)?;
         Ok(Self {
