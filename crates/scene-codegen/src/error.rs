@@ -159,7 +159,9 @@ pub enum NotAnInput {
     )]
     BreakTimes,
     /// Kept rows are fixed in a module.
-    #[error("with it other rows are kept; say which rows to drop, with `--drop`")]
+    #[error(
+        "with it the rows that are kept depend on each other; say which rows to drop, with `--drop`"
+    )]
     Rows,
     /// It is no number of the equations.
     #[error(

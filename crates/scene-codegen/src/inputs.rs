@@ -190,25 +190,22 @@ impl<'s> Search<'s> {
         Ok(Varied { prepared, options })
     }
 
-    /// What a mechanism has in common with the described one, beside its numbers.
+    /// A mechanism on the rows of the described one, if it has everything but its numbers in common
+    /// with it.
     fn compared(
         &self,
         other: &Prepared,
         recordings: [&RecordedEquations; 2],
-    ) -> Result<(), NotAnInput> {
+    ) -> Result<Prepared, NotAnInput> {
         let breaks = |m: &Mechanism| m.layout().break_times.clone();
-        let rows = |p: &Prepared| {
-            let decisions = [&p.decision, &p.position_decision];
-            decisions.map(|d| d.kept.clone())
-        };
+        let rows = [&self.prepared.decision, &self.prepared.position_decision];
+        let [kept, position_kept] = rows.map(|d| d.kept.as_slice());
         if recordings[0].shape() != recordings[1].shape() {
             Err(NotAnInput::Structure)
         } else if breaks(&self.prepared.mechanism) != breaks(&other.mechanism) {
             Err(NotAnInput::BreakTimes)
-        } else if rows(self.prepared) != rows(other) {
-            Err(NotAnInput::Rows)
         } else {
-            Ok(())
+            other.on_rows(kept, position_kept).ok_or(NotAnInput::Rows)
         }
     }
 
@@ -257,13 +254,12 @@ impl<'s> Search<'s> {
         {
             let moved = self.changed(|_| true, share).and_then(|varied| {
                 let recording = RecordedEquations::of(&varied.prepared.mechanism);
-                self.compared(&varied.prepared, [described, &recording])
-                    .map_err(CodeError::Input)?;
+                let prepared = self.compared(&varied.prepared, [described, &recording])?;
                 let states = match &varied.options {
-                    Some(options) => Subject::of_run(&varied.prepared, options)?.states,
-                    None => Subject::at_start(&varied.prepared).states,
+                    Some(options) => Subject::of_run(&prepared, options)?.states,
+                    None => Subject::at_start(&prepared).states,
                 };
-                Ok((varied.prepared, states))
+                Ok((prepared, states))
             });
             match moved {
                 Ok(found) => return Ok(found),
@@ -311,12 +307,12 @@ impl<'s> Search<'s> {
                     pair.is_none_or(|pair| differ(&pair, place))
                 });
                 let by: Vec<&str> = by.map(|(key, _)| key.name.as_str()).collect();
+                let by = match by.as_slice() {
+                    [] => "all of them together".to_owned(),
+                    by => by.join(", "),
+                };
                 inputs.list.push(Parameter {
-                    name: format!(
-                        "{} ({})",
-                        self.described_place(described, place),
-                        by.join(", ")
-                    ),
+                    name: format!("{} ({by})", self.described_place(described, place)),
                     described: described.number(place).unwrap_or(f64::NAN),
                     places: Vec::new(),
                 });

@@ -162,17 +162,24 @@ pub enum NoCode {
 
 impl Prepared {
     /// Adds code generated for this mechanism, or for one that differs from it only in numbers that
-    /// the code takes as inputs ([`SceneCode::inputs`]); runs then use it if they can.
+    /// the code takes as inputs ([`SceneCode::inputs`]); runs then use it if they can. With inputs,
+    /// rows that nobody chose are those of the code ([`Prepared::on_rows`]): which of redundant rows
+    /// are kept may hang on any number.
     ///
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
     pub fn with_code(self, code: Arc<dyn SceneCode>) -> Result<Self, CodeMismatch> {
         let code = for_mechanism(code, &self.mechanism)?;
-        check_spec(&self, &*code)?;
-        check_values(&self, &*code)?;
+        let spec = code.spec();
+        let moved = code
+            .inputs()
+            .and_then(|_| self.on_rows(&spec.kept, &spec.position_kept));
+        let own = moved.unwrap_or(self);
+        check_spec(&own, &*code)?;
+        check_values(&own, &*code)?;
         Ok(Self {
             code: Some(code),
-            ..self
+            ..own
         })
     }
 
