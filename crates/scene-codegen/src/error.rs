@@ -69,7 +69,7 @@ pub enum CodeError {
     #[error(transparent)]
     Input(#[from] NotAnInput),
     /// The scene allows no other values of its inputs.
-    #[error("the scene does not allow other values of {} together: {reason}", keys.join(", "))]
+    #[error("the scene does not allow other values of {}: {reason}", keys.join(", "))]
     Varied {
         /// The keys of the inputs.
         keys: Vec<String>,

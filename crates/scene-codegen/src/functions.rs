@@ -3,7 +3,7 @@
 
 use dynamics::code::LEAVE;
 use model::record::Input;
-use model::{SpaceKind, System};
+use model::{Mechanism, SpaceKind, System};
 use symbolic::{Function as Unary, Op, Program, Value};
 
 use crate::axes::Axes;
@@ -137,9 +137,7 @@ impl Functions {
     /// In the view in which accelerations need the fewest operations; in space, in which the fewest
     /// sampled states are beyond the limit of runs.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
-        if subject.prepared.mechanism.layout().turns > 0 {
-            return Err(CodeError::Turns);
-        }
+        recordable(&subject.prepared.mechanism)?;
         let functions = match subject.prepared.mechanism.space() {
             SpaceKind::Plane => Self::in_plane(subject)?,
             SpaceKind::Space3 => Self::in_space(subject)?,
@@ -202,11 +200,6 @@ impl Functions {
 
     /// All functions, with the equations solved in this view.
     fn seen(subject: &Subject<'_>, view: View) -> Result<Self, CodeError> {
-        let forces = subject.prepared.mechanism.applied_forces();
-        if let Some((drive, _)) = forces.law_drives().next() {
-            let drive = drive.to_owned();
-            return Err(CodeError::Law { drive });
-        }
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
         let mechanism = &prepared.mechanism;
@@ -322,6 +315,22 @@ impl Functions {
                 View::Ground => Described::Ground,
             },
         })
+    }
+}
+
+/// Whether the kernels of a mechanism do on recorded numbers what they do in a run.
+pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
+    if mechanism.layout().turns > 0 {
+        return Err(CodeError::Turns);
+    }
+    if !matches!(mechanism.space(), SpaceKind::Plane | SpaceKind::Space3) {
+        return Err(CodeError::Coordinates);
+    }
+    match mechanism.applied_forces().law_drives().next() {
+        Some((drive, _)) => Err(CodeError::Law {
+            drive: drive.to_owned(),
+        }),
+        None => Ok(()),
     }
 }
 

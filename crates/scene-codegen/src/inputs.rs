@@ -17,6 +17,7 @@ use model::{Mechanism, RecordedEquations, Registry, System};
 use scene::{KeyError, Template};
 
 use crate::error::{CodeError, NotAnInput};
+use crate::functions::recordable;
 use crate::subject::{State, Subject};
 
 /// Shares by which numbers are varied, the largest that the scene allows: states of these motions
@@ -90,6 +91,7 @@ pub(crate) fn vary<'a>(
     keys: &[String],
     mut subject: Subject<'a>,
 ) -> Result<Subject<'a>, CodeError> {
+    recordable(&subject.prepared.mechanism)?;
     let search = Search::new(scene, keys, subject.prepared)?;
     let described = RecordedEquations::of(&subject.prepared.mechanism);
     let singles: Vec<Option<RecordedEquations>> = (0..search.keys.len())

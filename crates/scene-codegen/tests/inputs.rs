@@ -281,6 +281,78 @@ fn runs_take_the_numbers_of_their_scenes() {
     }
 }
 
+/// Which of redundant rows are kept may hang on any number. Where nobody chose them they are those
+/// of the code; rows that somebody chose stay.
+#[test]
+fn rows_that_nobody_chose_are_those_of_the_code() {
+    let code = || -> Arc<dyn SceneCode> { Arc::new(arm::Code(arm::DESCRIBED)) };
+    let text = ARM.replace("Jxx = 0.1", "Jxx = 0.118");
+    let alone = study(&text).prepared;
+    assert_ne!(alone.decision.kept, arm::KEPT);
+    let coded = alone.with_code(code()).expect("its own");
+    assert_eq!(coded.decision.kept, arm::KEPT);
+    let chosen = text.replace("t_end = 0.4", "t_end = 0.4\ndrop = [1, 7, 8, 9]");
+    let refused = study(&chosen).prepared.with_code(code()).err();
+    assert!(
+        matches!(refused, Some(CodeMismatch::Rows { .. })),
+        "{refused:?}"
+    );
+}
+
+/// Far from the described values the code is either right or refused for its pivots.
+#[test]
+fn far_values_are_served_or_refused() {
+    let code = four_bar::Code(four_bar::DESCRIBED);
+    let [mut served, mut refused] = [0, 0];
+    for (from, to) in [
+        ("mass = 2.0", "mass = 0.02"),
+        ("mass = 2.0", "mass = 200.0"),
+        ("inertia = 0.0075", "inertia = 3.0"),
+        ("stiffness = 40.0", "stiffness = 40000.0"),
+        ("at = [0.0, 0.3]", "at = [0.0, 0.1]"),
+        ("at = [0.0, 0.3]", "at = [0.0, 0.02]"),
+        ("at = [0.0, 0.3]", "at = [0.35, 0.4]"),
+        ("at = [0.0, 0.3]", "at = [0.0, -0.3]"),
+        ("at = [0.0, 0.3]", "at = [-3.0, 0.1]"),
+        ("at = [0.0, 0.3]", "at = [0.79, 0.89]"),
+        ("at = [0.0, 0.3]", "at = [1.2, 1.0]"),
+        ("at = [0.0, 0.3]", "at = [0.9, 1.4]"),
+    ] {
+        let study = study(&FOUR_BAR.replace(from, to));
+        match study.prepared.clone().with_code(Arc::new(code)) {
+            Ok(_) => {
+                served += 1;
+                compare(to, &*of(&code, &study.prepared), &study);
+            }
+            Err(CodeMismatch::Unhealthy { .. }) => refused += 1,
+            Err(other) => panic!("{to}: {other}"),
+        }
+    }
+    assert!(
+        served >= 9 && refused >= 1,
+        "{served} served, {refused} refused"
+    );
+}
+
+/// A whole tensor of inertia, in bodies whose frames are not principal.
+#[test]
+fn tensors_of_inertia_are_inputs() {
+    let text = include_str!("space/tumbling.toml");
+    let keys = ["body.a.inertia", "body.b.mass", "force.t.torque[1].phase"];
+    let names: Vec<String> = keys.iter().map(|key| (*key).to_owned()).collect();
+    let tape = scene_tape("tumbling.toml", text, &Registry::standard(), &names);
+    let tape = tape.unwrap_or_else(|e| panic!("{e}"));
+    let other = text
+        .replace(
+            "[[0.3, 0.05, -0.04], [0.05, 0.25, 0.03], [-0.04, 0.03, 0.2]]",
+            "[[0.4, -0.02, 0.01], [-0.02, 0.3, 0.05], [0.01, 0.05, 0.35]]",
+        )
+        .replace("mass = 2.0", "mass = 2.7")
+        .replace("phase = 0.1", "phase = 0.7");
+    let study = study(&other);
+    compare("tumbling", &*of(&tape, &study.prepared), &study);
+}
+
 /// Several states at once, each with its own numbers.
 #[test]
 fn lanes_have_numbers_of_their_own() {
@@ -431,8 +503,13 @@ fn what_is_no_number_of_the_equations_is_refused_by_name() {
     );
     let round = round.replace("Jxx = 0.1", "Jxx = 0.1\nk = 0.0");
     assert_eq!(why(&round, "k"), NotAnInput::Structure);
-    let unknown = refused(FOUR_BAR, "body.crank.mas");
-    assert!(matches!(unknown, CodeError::Key(_)), "{unknown}");
+    let unknown = refused(FOUR_BAR, "body.crunk.mass").to_string();
+    assert!(unknown.ends_with("did you mean `crank`?"), "{unknown}");
+    let misspelt = refused(FOUR_BAR, "body.crank.mas").to_string();
+    assert!(
+        misspelt.contains("body `crank` has no key `mas`"),
+        "{misspelt}"
+    );
     // As advised: with products it is one.
     let described = round.replace("k = 0.0", "k = 0.01");
     let choices = Choices {

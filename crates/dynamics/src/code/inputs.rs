@@ -8,7 +8,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use model::{Mechanism, RecordedEquations, SpaceKind};
+use model::{Mechanism, RecordedEquations, SpaceKind, System};
 
 use super::{CodeMismatch, SceneCode};
 use crate::limits::SAME_VALUES;
@@ -43,7 +43,8 @@ impl CodeInputs {
         let shape = || CodeMismatch::Shape {
             name: code.to_owned(),
         };
-        if !matches!(mechanism.space(), SpaceKind::Plane | SpaceKind::Space3) {
+        let is_recorded = matches!(mechanism.space(), SpaceKind::Plane | SpaceKind::Space3);
+        if !is_recorded || mechanism.layout().turns > 0 {
             return Err(shape());
         }
         let recording = RecordedEquations::of(mechanism);

@@ -76,7 +76,10 @@ pub const PARAMETERS: [(&str, f64); N_P] = [
     ("number of `shoulder` (joint.shoulder.axis[0])", 0.9952267030562385f64),
     ("number of `shoulder` (joint.shoulder.axis[0])", -0.09569487529386908f64),
     ("number of `shoulder` (joint.shoulder.axis[0])", -0.019138975058773815f64),
-    ("number of `shoulder` ()", 0.000000000000000003469446951953614f64),
+    (
+        "number of `shoulder` (all of them together)",
+        0.000000000000000003469446951953614f64,
+    ),
     (
         "number of `shoulder` (Jxx, Jxy, Jyz, joint.shoulder.axis[0])",
         -0.08568344543445272f64,
