@@ -380,7 +380,8 @@ fn differ(all: &[&RecordedEquations], place: usize) -> bool {
     all[1..].iter().any(|other| {
         let other = other.number(place).unwrap_or(f64::NAN);
         let size = f64::max(first.abs(), other.abs());
-        !((first - other).abs() <= ROUNDINGS * f64::EPSILON * size)
+        let by = (first - other).abs();
+        by.is_nan() || by > ROUNDINGS * f64::EPSILON * size
     })
 }
 
