@@ -40,7 +40,7 @@ impl RecordedEquations {
     ///     let d = Description { bodies: bodies.to_vec(), ..Description::default() };
     ///     RecordedEquations::of(&Mechanism::build(&d).unwrap())
     /// };
-    /// let [light, heavy] = [1.0, 5.0].map(|mass| Body::new("stone", mass, 0.1));
+    /// let [light, heavy] = [Body::new("light", 1.0, 0.1), Body::new("heavy", 5.0, 0.1)];
     /// let both = [recorded(&[light.clone()]), recorded(&[heavy.clone()])];
     /// assert_eq!(both[0].shape(), both[1].shape());
     /// let mass = both[0].mass[0].place();
