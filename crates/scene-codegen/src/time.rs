@@ -70,3 +70,39 @@ pub(crate) fn jets<'f>(
     }
     (format!("{text} [{names}]"), support)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every number of a function is at its place in the text, whether it is an input or not.
+    #[test]
+    fn numbers_of_functions_stand_where_they_are_used() {
+        let of = |function: Result<Function, model::FunctionError>| {
+            let function = function.expect("a function");
+            let n = function.parts().numbers().len();
+            let names: Vec<String> = (0..n).map(|k| format!("p[{k}]")).collect();
+            jet(&function, &names).0
+        };
+        assert_eq!(
+            of(Function::polynomial(&[1.0, 2.0])),
+            "polynomial(t, &[p[0], p[1]])"
+        );
+        assert_eq!(
+            of(Function::harmonic(1.0, 2.0, 3.0, 4.0)),
+            "harmonic(t, [p[0], p[1], p[2], p[3]])"
+        );
+        assert_eq!(
+            of(Function::steps(0.0, &[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])),
+            "steps(t, p[0], &[[p[1], p[2], p[3]], [p[4], p[5], p[6]]])"
+        );
+        assert_eq!(
+            of(Function::table(&[0.0, 1.0], &[5.0, 6.0])),
+            "spline(t, &[[p[0], p[1], p[2]], [p[3], p[4], p[5]]])"
+        );
+        assert_eq!(
+            of(Function::lines(&[0.0, 1.0], &[5.0, 6.0])),
+            "lines(t, &[[p[0], p[1]], [p[2], p[3]]])"
+        );
+    }
+}

@@ -353,6 +353,67 @@ fn tensors_of_inertia_are_inputs() {
     compare("tumbling", &*of(&tape, &study.prepared), &study);
 }
 
+/// Functions of time of every kind, by their values; the times of a module are its own.
+#[test]
+fn functions_of_time_have_their_coefficients_as_inputs() {
+    let text = r#"
+[scene]
+name = "pushed"
+space = "plane"
+[[body]]
+name = "a"
+mass = 1.0
+inertia = 0.2
+[[joint]]
+name = "pin"
+type = "revolute"
+bodies = ["ground", "a"]
+at = [0.3, -0.2]
+[[body]]
+name = "b"
+mass = 2.0
+inertia = 0.1
+position = [1.0, 0.0]
+[[joint]]
+name = "hinge"
+type = "revolute"
+bodies = ["ground", "b"]
+at = [1.0, 0.5]
+[[drive]]
+name = "turn"
+joint = "hinge"
+type = "angle"
+motion = { type = "table", times = [0.0, 0.4, 1.0], values = [0.1, 0.3, -0.2] }
+[[force]]
+name = "steps"
+type = "torque"
+body = "a"
+torque = { type = "steps", start = 0.5, steps = [{ from = 0.1, to = 0.3, by = 0.7 }] }
+[[force]]
+name = "push"
+type = "point-force"
+body = "a"
+point = [0.1, 0.2]
+force = [{ type = "polynomial", coefficients = [0.5, -0.3, 0.8] }, { type = "linear-table", times = [0.0, 0.2, 0.5], values = [1.0, -0.5, 0.3] }]
+[simulate]
+t_end = 0.5
+"#;
+    let keys = [
+        "drive.turn.motion.values",
+        "force.steps.torque.start",
+        "force.steps.torque.steps[0].by",
+        "force.push.force[0].coefficients",
+        "force.push.force[1].values[1]",
+    ];
+    let names: Vec<String> = keys.iter().map(|key| (*key).to_owned()).collect();
+    let tape = scene_tape("pushed.toml", text, &Registry::standard(), &names);
+    let tape = tape.unwrap_or_else(|e| panic!("{e}"));
+    for shares in SHARES {
+        let study = study(&changed(text, &keys, shares));
+        compare("pushed", &*of(&tape, &study.prepared), &study);
+    }
+}
+
 /// Several states at once, each with its own numbers.
 #[test]
 fn lanes_have_numbers_of_their_own() {
