@@ -12,12 +12,13 @@
 use std::collections::HashMap;
 
 use dynamics::{MotionOptions, Prepared};
-use model::record::TimeFunction;
-use model::{Mechanism, RecordedEquations, Registry, System};
+use model::{Mechanism, RecordedEquations, System};
 use scene::{KeyError, Template};
 
+use crate::assembled::{SceneText, prepared};
 use crate::error::{CodeError, NotAnInput};
 use crate::functions::recordable;
+use crate::parameters::{Inputs, Parameter, Variant};
 use crate::subject::{State, Subject};
 
 /// Shares by which numbers are varied, the largest that the scene allows: states of these motions
@@ -29,53 +30,6 @@ const ROUNDINGS: f64 = 4.0;
 
 /// The parts of a list of lists that are opened, one in the other.
 const NESTED: usize = 4;
-
-/// A scene with its name, its joints and the rows that are dropped instead of its own.
-pub(crate) struct SceneText<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) text: &'a str,
-    pub(crate) registry: &'a Registry,
-    pub(crate) drop: Option<&'a [usize]>,
-}
-
-/// One number of the equations.
-#[derive(Clone, Debug)]
-pub(crate) struct Parameter {
-    /// What it is, and the keys that change it.
-    pub(crate) name: String,
-    pub(crate) described: f64,
-    /// Its places in the recording.
-    pub(crate) places: Vec<usize>,
-}
-
-/// The numbers that a module takes, and mechanisms in which they have other values.
-#[derive(Clone, Default)]
-pub(crate) struct Inputs {
-    pub(crate) shape: u64,
-    pub(crate) keys: Vec<String>,
-    pub(crate) list: Vec<Parameter>,
-    of_place: HashMap<usize, usize>,
-    pub(crate) variants: Vec<Variant>,
-}
-
-/// Other values of the inputs, and the functions of time with these.
-#[derive(Clone)]
-pub(crate) struct Variant {
-    pub(crate) values: Vec<f64>,
-    pub(crate) functions: Vec<TimeFunction>,
-}
-
-impl Inputs {
-    /// The index of the number at a place of the recording, if it is an input.
-    pub(crate) fn at(&self, place: usize) -> Option<usize> {
-        self.of_place.get(&place).copied()
-    }
-
-    /// The values that are described.
-    pub(crate) fn described(&self) -> Vec<f64> {
-        self.list.iter().map(|p| p.described).collect()
-    }
-}
 
 /// A key as its user names it: one number, or a list of them.
 struct Key {
@@ -183,7 +137,7 @@ impl<'s> Search<'s> {
             drop,
             ..
         } = *self.scene;
-        let (prepared, options) = crate::prepared(&SceneText {
+        let (prepared, options) = prepared(&SceneText {
             name,
             text: &text,
             registry,
@@ -294,11 +248,7 @@ impl<'s> Search<'s> {
         let mut all = vec![described];
         all.extend(singles.iter().flatten());
         all.extend(&together);
-        let mut inputs = Inputs {
-            shape: described.shape(),
-            keys: self.names(),
-            ..Inputs::default()
-        };
+        let mut inputs = Inputs::new(described.shape(), self.names());
         let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
         for place in places_apart(&all) {
             let values = all.iter().filter_map(|r| r.number(place));
@@ -320,8 +270,7 @@ impl<'s> Search<'s> {
                 });
                 inputs.list.len() - 1
             });
-            inputs.list[parameter].places.push(place);
-            inputs.of_place.insert(place, parameter);
+            inputs.add_place(parameter, place);
         }
         inputs
     }

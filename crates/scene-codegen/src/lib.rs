@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod assembled;
 mod axes;
 mod eliminate;
 mod equations;
@@ -8,6 +9,7 @@ mod frame;
 mod functions;
 mod inputs;
 mod module;
+mod parameters;
 mod sampled;
 mod script;
 mod subject;
@@ -23,10 +25,9 @@ pub use tape::Tape;
 
 use std::path::Path;
 
-use dynamics::{MotionError, MotionOptions, Prepared, RowChoice, prepare};
-use model::{Mechanism, Registry};
+use model::Registry;
 
-use inputs::SceneText;
+use assembled::{SceneText, prepared};
 
 /// The module of a scene file, made for the run that the scene requests, or for its start if it
 /// requests none. The rows `drop`, counted from 0, are dropped instead of those that the scene
@@ -106,37 +107,6 @@ fn with_subject<R>(
         return then(&subject);
     }
     then(&inputs::vary(scene, inputs, subject)?)
-}
-
-/// The mechanism of a scene on its rows, and the run that the scene requests.
-fn prepared(scene: &SceneText<'_>) -> Result<(Prepared, Option<MotionOptions>), CodeError> {
-    let &SceneText {
-        name,
-        text,
-        registry,
-        drop,
-    } = scene;
-    let scene = ::scene::read(name, text, registry).map_err(CodeError::Scene)?;
-    let located = |e: MotionError| match scene.locate_motion(&e) {
-        Some(place) => CodeError::Scene(vec![place]),
-        None => e.into(),
-    };
-    let mechanism = Mechanism::build(&scene.description).map_err(|faults| {
-        let places = faults.iter().filter_map(|e| scene.locate_build(e));
-        CodeError::Scene(places.collect())
-    })?;
-    let mut options = scene.simulate.clone();
-    let rows = match (drop, &options) {
-        (Some(drop), _) => RowChoice::Drop(drop.to_vec()),
-        (None, Some(options)) => options.rows.clone(),
-        (None, None) => RowChoice::Automatic,
-    };
-    if let Some(options) = &mut options {
-        options.rows.clone_from(&rows);
-        options.check().map_err(located)?;
-    }
-    let prepared = prepare(mechanism, &scene.start, &rows).map_err(located)?;
-    Ok((prepared, options))
 }
 
 #[cfg(test)]

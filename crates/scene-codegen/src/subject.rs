@@ -8,7 +8,7 @@ use model::SpaceKind;
 use model::record::Input;
 
 use crate::error::CodeError;
-use crate::inputs::Inputs;
+use crate::parameters::Inputs;
 
 /// Number of states of a run for the choice of pivots.
 const STATES: f64 = 48.0;

@@ -7,7 +7,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::functions::Functions;
-use crate::inputs::Inputs;
+use crate::parameters::Inputs;
 use crate::subject::Subject;
 
 /// The numbers of the scene that functions take.
