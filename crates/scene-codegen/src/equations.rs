@@ -53,8 +53,6 @@ pub(crate) struct Equations {
     pub(crate) recording: RecordedEquations,
     /// The places of the recording that are inputs.
     pub(crate) numbers: HashMap<usize, Value>,
-    /// The diagonal of M.
-    pub(crate) mass: Vec<Number>,
     pub(crate) phi: Vec<Value>,
     /// Rows of C, dense, zeros as the constant 0.
     pub(crate) c: Vec<Vec<Value>>,
@@ -112,9 +110,7 @@ impl Equations {
         let numbers: HashMap<usize, Value> = places.collect();
         let values = replay(&mut code, &recording, &inputs, &numbers);
         let (c, of) = results(&mut code, &recording, &values);
-        let mass = recording.mass.iter();
         Self {
-            mass: mass.map(|r| number(&recording, &numbers, *r)).collect(),
             numbers,
             phi: of(&recording.phi),
             c,
@@ -134,6 +130,13 @@ impl Equations {
     pub(crate) fn input(&self, source: Source) -> Option<Value> {
         let at = self.sources.iter().position(|&s| s == source)?;
         self.inputs.get(at).copied()
+    }
+
+    /// The diagonal of M.
+    pub(crate) fn mass(&self) -> Vec<Number> {
+        let mass = self.recording.mass.iter();
+        let mass = mass.map(|r| number(&self.recording, &self.numbers, *r));
+        mass.collect()
     }
 
     /// The generalised force of gravity.

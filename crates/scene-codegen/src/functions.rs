@@ -203,7 +203,7 @@ impl Functions {
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
         let mechanism = &prepared.mechanism;
-        let (layout, mass) = (mechanism.layout(), e.mass.clone());
+        let (layout, mass) = (mechanism.layout(), e.mass());
         let mass = mass.as_slice();
         let (kept, position_kept) = (&prepared.decision.kept, &prepared.position_decision.kept);
         let mut seen = match view {
