@@ -2,9 +2,9 @@
 //!
 //! The scene is built with other values of the keys that its user varies, each key alone and all
 //! together. The places of the recorded equations at which a number differs then are what the keys
-//! touch: data of joints and forces, what they keep from the start, masses, weights, principal axes,
-//! coefficients of functions of time. These are the inputs, known by their places, never by their
-//! values. Places that have the same number whatever is varied are one input.
+//! touch: data of joints and forces, what they keep from the start, masses, weights, principal
+//! axes, coefficients of functions of time. These are the inputs, known by their places, never by
+//! their values. Places that have the same number whatever is varied are one input.
 //!
 //! What is not a number of the equations cannot be one: rows that are kept, the structure, break
 //! times. A key that changes them is refused by name.

@@ -28,8 +28,8 @@ pub(crate) fn jet(function: &Function, numbers: &[String]) -> (String, &'static 
     }
 }
 
-/// The body of the function that evaluates all jets: `[f, ḟ, f̈]` one after the other. `input` gives
-/// the text of a number that is an input, by function and place in the order of
+/// The body of the function that evaluates all jets: `[f, ḟ, f̈]` one after the other. `input`
+/// gives the text of a number that is an input, by function and place in the order of
 /// [`TimeFunction::numbers`].
 pub(crate) fn jets<'f>(
     functions: impl Iterator<Item = &'f TimeFunction>,

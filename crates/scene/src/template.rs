@@ -143,11 +143,13 @@ impl Template {
         self.filled(&texts)
     }
 
-    /// The text with every number changed by a share of itself, in the order of the keys; a zero, or
-    /// a number that the text leaves out, becomes the share. `None` if a key is of another value.
+    /// The text with every number changed by a share of itself, in the order of the keys; a zero,
+    /// or a number that the text leaves out, becomes the share. `None` if a key is of another
+    /// value.
     ///
     /// ```
-    /// let text = "[scene]\nformat = 2\n[parameters]\nL = 0.5\nH = \"L + 20 mm\"\nx = 0.0\n";
+    /// let head = "[scene]\nformat = 2\n[parameters]\n";
+    /// let text = &format!("{head}L = 0.5\nH = \"L + 20 mm\"\nx = 0.0\n");
     /// let template = scene::Template::new(text, &["L", "H", "x"])?;
     /// let changed = template.changed_by(&[0.5, 0.25, 0.125]).unwrap();
     /// assert!(changed.ends_with("L = 0.75\nH = \"(L + 20 mm)*1.25\"\nx = 0.125\n"));

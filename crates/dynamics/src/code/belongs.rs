@@ -218,8 +218,8 @@ fn for_mechanism(
 impl Prepared {
     /// Adds code generated for this mechanism, or for one that differs from it only in numbers that
     /// the code takes as inputs ([`SceneCode::inputs`]); runs then use it if they can. With inputs,
-    /// rows that nobody chose are those of the code ([`Prepared::on_rows`]): which of redundant rows
-    /// are kept may hang on any number.
+    /// rows that nobody chose are those of the code ([`Prepared::on_rows`]): which of redundant
+    /// rows are kept may hang on any number.
     ///
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
