@@ -23,8 +23,8 @@ use browser::Program;
 
 const USAGE: &str = "usage: cargo xtask COMMAND
   codegen [--check]   kernels of joints and forces from their definitions
-  codegen --scene FILE --out FILE.rs [--drop ROWS] [--dynamics PATH] [--libm] [--check]
-                      one mechanism as one module
+  codegen --scene FILE --out FILE.rs [--drop ROWS] [--dynamics PATH] [--libm] [--inputs KEYS] [--check]
+                      one mechanism as one module; what KEYS touch, numbers of the scene such as body.cart.mass,joint.A.at, is an argument of it
   right-hand-side     times and instructions of one right-hand side, into docs/reports/right-hand-side
   instructions        the same, told only
   choices             build time, size and dependencies of programs that use a part, into docs/reports/choices

@@ -9,11 +9,14 @@
 //! is never healthy. The caller has to check the health.
 
 mod belongs;
+mod inputs;
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 pub use crate::limits::LEAVE;
 pub use belongs::{CodeMismatch, NoCode};
+pub use inputs::{CodeInput, CodeInputs};
 
 /// The mechanism for which code was generated, and its sizes.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,4 +115,15 @@ pub trait SceneCode: Send + Sync {
     /// Computes the smallest `dv` in the mass metric with `C·dv = −residual` on the kept rows of C;
     /// returns the health.
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64;
+
+    /// The numbers that it takes from a mechanism; `None` if all are folded in.
+    fn inputs(&self) -> Option<&CodeInputs> {
+        None
+    }
+
+    /// The same code with these values of its inputs, in their order; `None` if it has no inputs,
+    /// or not as many.
+    fn with_inputs(&self, _values: &[f64]) -> Option<Arc<dyn SceneCode>> {
+        None
+    }
 }

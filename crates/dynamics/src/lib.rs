@@ -35,7 +35,7 @@ pub mod run;
 mod solve;
 mod watch;
 
-pub use code::{CodeMismatch, CodeSpec, NoCode, SceneCode};
+pub use code::{CodeInput, CodeInputs, CodeMismatch, CodeSpec, NoCode, SceneCode};
 pub use error::{DropError, MotionError, MotionFault};
 pub use events::{Event, EventKind};
 pub use manifold::Correction;

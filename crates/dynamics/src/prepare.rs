@@ -106,6 +106,61 @@ impl Prepared {
         }
     }
 
+    /// The same mechanism on these kept rows of C and of Φq, ascending, such as those of generated
+    /// code. `None` if they are dependent at the start, or not as many as its rank; if the caller
+    /// chose other rows; and where rows are chosen in a way of their own: within stated tolerances,
+    /// in a large mechanism, in a component of another one.
+    #[must_use]
+    pub fn on_rows(&self, kept: &[usize], position_kept: &[usize]) -> Option<Self> {
+        if kept == self.decision.kept && position_kept == self.position_decision.kept {
+            return Some(self.clone());
+        }
+        let found = self.decided.as_ref()?;
+        let is_own = kept == self.decision.kept || self.choice == RowChoice::Automatic;
+        if !is_own || self.may_miss || self.is_sparse() {
+            return None;
+        }
+        let layout = self.mechanism.layout();
+        let mut s = self.mechanism.scratch();
+        self.mechanism.pose(0.0, &self.q, &mut s);
+        self.mechanism.phi(&mut s);
+        self.mechanism.c(&mut s);
+        let others = |kept: &[usize], n: usize| -> Vec<usize> {
+            (0..n).filter(|i| kept.binary_search(i).is_err()).collect()
+        };
+        let dropped = others(kept, layout.rows());
+        let of_positions = others(position_kept, layout.m);
+        let decision = if kept == self.decision.kept {
+            self.decision.clone()
+        } else {
+            decide_rows_dropping(&self.mechanism, &s, &self.q, &dropped).ok()?
+        };
+        let holonomic = (layout.m, found.holonomic.rank);
+        let (mechanism, asked) = (&self.mechanism, Some(of_positions.as_slice()));
+        let position_decision = rows_of_rank(mechanism, &s, &self.q, holonomic, asked).ok()?;
+        if decision.kept != kept || position_decision.kept != position_kept {
+            return None;
+        }
+        let started = start_velocity(mechanism, &self.start, found, &self.q, kept);
+        let (StartVelocity { v, correction }, None) = started.ok()? else {
+            return None;
+        };
+        let choice = if kept == self.decision.kept {
+            self.choice.clone()
+        } else {
+            RowChoice::Drop(dropped)
+        };
+        Some(Self {
+            v,
+            velocity_correction: correction,
+            decision,
+            position_decision,
+            choice,
+            code: None,
+            ..self.clone()
+        })
+    }
+
     /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is
     /// free, and states are projected.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {

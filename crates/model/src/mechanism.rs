@@ -168,6 +168,27 @@ impl TimeFunction {
         self.form
     }
 
+    /// The numbers of the function ([`crate::function::Parts::numbers`]), then the value that is
+    /// subtracted from it.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        let mut numbers = self.function.parts().numbers();
+        numbers.push(self.offset);
+        numbers
+    }
+
+    /// The same with these numbers, in the order of [`TimeFunction::numbers`]. `None` if there are
+    /// not as many, or the function cannot have them.
+    #[must_use]
+    pub fn with_numbers(&self, numbers: &[f64]) -> Option<Self> {
+        let (&offset, numbers) = numbers.split_last()?;
+        Some(Self {
+            function: self.function.with_numbers(numbers)?,
+            offset,
+            form: self.form,
+        })
+    }
+
     /// Its value at t, in this form, with two derivatives.
     #[must_use]
     pub fn jet(&self, t: f64) -> [f64; 3] {

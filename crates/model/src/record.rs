@@ -1,6 +1,13 @@
 //! The equations of a mechanism as operations: every kernel runs once on numbers that record the
 //! operations applied to them. The result is valid for this mechanism with its parameters and
 //! initial values only; generators of code for one scene start from it.
+//!
+//! Every number of the mechanism stands at its own place of the recording, whether another one is
+//! equal to it or not. Two mechanisms of the same [shape](RecordedEquations::shape) have the same
+//! operations in the same order, so they differ in the numbers at some places only, and one of
+//! these is what the other has at the same place.
+
+mod shape;
 
 use joints::recorded::{Operation, Recorded, record};
 
@@ -14,8 +21,11 @@ use crate::system::System;
 /// The equations of one mechanism as operations on inputs.
 #[derive(Clone, Debug)]
 pub struct RecordedEquations {
-    /// All operations; results are indices of it.
+    /// All operations, then the numbers beside the equations; results are indices of it.
     pub tape: Vec<Operation>,
+    /// The place of the first number beside the equations: masses, principal axes, functions of
+    /// time.
+    pub beside: usize,
     /// Meaning of each input.
     pub inputs: Vec<Input>,
     /// Φ, m values.
@@ -30,6 +40,19 @@ pub struct RecordedEquations {
     pub force: Vec<Recorded>,
     /// q̇ = T(q)·v, n_q values.
     pub rate: Vec<Recorded>,
+    /// The generalised forces of gravity that Q begins with, n_v numbers.
+    pub weight: Vec<Recorded>,
+    /// The diagonal of M, n_v numbers.
+    pub mass: Vec<Recorded>,
+    /// In space: the quaternion (w, x, y, z) from the principal axes of each body to those of its
+    /// frame, if they are not the same.
+    pub principal: Vec<Option<[Recorded; 4]>>,
+    /// The numbers of each function of time, in the order of [`TimeFunction::numbers`].
+    pub functions: Vec<Vec<Recorded>>,
+    /// Form and kind of each function of time.
+    kinds: Vec<(FunctionForm, &'static str)>,
+    /// The joints, drives and forces, each with the first place of its operations, ascending.
+    pub owners: Vec<(usize, String)>,
 }
 
 /// Results collected while the kernels run.
@@ -40,6 +63,8 @@ struct Results {
     gamma: Vec<Recorded>,
     force: Vec<Recorded>,
     rate: Vec<Recorded>,
+    weight: Vec<Recorded>,
+    owners: Vec<(usize, String)>,
 }
 
 impl Mechanism {
@@ -75,7 +100,7 @@ impl RecordedEquations {
         );
         let layout = mechanism.layout();
         let n_functions = mechanism.elements.given.len();
-        let (tape, (inputs, results)) = record(|| {
+        let (tape, (inputs, results, beside)) = record(|| {
             let mut list = Vec::new();
             let input = |what: Input| {
                 list.push(what);
@@ -83,7 +108,7 @@ impl RecordedEquations {
             };
             let slots = RecordedSlots::new(space, mechanism.bodies().len(), n_functions, input);
             let results = run_on(mechanism, &slots);
-            (list, results)
+            (list, results, Beside::of(mechanism))
         });
         let row = |i: usize| {
             let entry = |k: usize| {
@@ -103,6 +128,53 @@ impl RecordedEquations {
             gamma: results.gamma,
             force: results.force,
             rate: results.rate,
+            weight: results.weight,
+            owners: results.owners,
+            beside: beside.first,
+            mass: beside.mass,
+            principal: beside.principal,
+            functions: beside.functions,
+            kinds: mechanism
+                .functions()
+                .map(|f| (f.form(), f.parts().0.parts().kind()))
+                .collect(),
+        }
+    }
+
+    /// The number at a place, if one stands there.
+    #[must_use]
+    pub fn number(&self, place: usize) -> Option<f64> {
+        match self.tape.get(place) {
+            Some(Operation::Number(x)) => Some(*x),
+            _ => None,
+        }
+    }
+}
+
+/// The numbers of a mechanism beside its equations.
+struct Beside {
+    first: usize,
+    mass: Vec<Recorded>,
+    principal: Vec<Option<[Recorded; 4]>>,
+    functions: Vec<Vec<Recorded>>,
+}
+
+impl Beside {
+    fn of(mechanism: &Mechanism) -> Self {
+        let numbers = |x: &[f64]| -> Vec<Recorded> { x.iter().map(|&x| x.into()).collect() };
+        let first = Recorded::from(0.0).place();
+        let axes = mechanism.bodies().iter().map(|body| {
+            let own = body.principal.as_ref()?;
+            Some(own.quaternion().map(Recorded::from))
+        });
+        Self {
+            first,
+            mass: numbers(mechanism.mass()),
+            principal: axes.collect(),
+            functions: mechanism
+                .functions()
+                .map(|f| numbers(&f.numbers()))
+                .collect(),
         }
     }
 }
@@ -118,7 +190,10 @@ fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
         gamma: vec![zero; layout.rows()],
         force: numbers(mechanism.weight()),
         rate: vec![zero; layout.n_q],
+        weight: Vec::new(),
+        owners: Vec::new(),
     };
+    r.weight.clone_from(&r.force);
     let (q, v) = inputs.state();
     mechanism.space().rate(q, v, &mut r.rate);
     for (body, omega) in inputs.spins().enumerate() {
@@ -128,10 +203,13 @@ fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
             *force = *force + torque;
         }
     }
-    for c in &elements.constraints {
+    let here = || Recorded::from(0.0).place();
+    for (c, group) in elements.constraints.iter().zip(&layout.groups) {
+        r.owners.push((here(), group.name.clone()));
         record_constraint(c, inputs, &mut r);
     }
     for f in &elements.forces {
+        r.owners.push((here(), f.name.clone()));
         let mut block = vec![zero; f.columns.len()];
         f.recorded_q(inputs, &mut block);
         for (column, value) in f.columns.iter().zip(block) {

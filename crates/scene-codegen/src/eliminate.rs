@@ -18,6 +18,7 @@ use std::cmp::Ordering;
 use symbolic::Value;
 
 use crate::axes::Axes;
+use crate::equations::Number;
 use crate::error::CodeError;
 use crate::sampled::Sampled;
 
@@ -66,7 +67,7 @@ impl Factored {
         code: &mut Sampled,
         mut rows: Vec<Vec<Value>>,
         axes: &Axes,
-        (mass, scale): (&[f64], &[f64]),
+        (mass, scale): (&[Number], &[f64]),
     ) -> Result<Self, CodeError> {
         let (r, n) = (rows.len(), mass.len());
         let mut open_rows: Vec<usize> = (0..r).collect();
@@ -131,7 +132,7 @@ impl Factored {
     pub(crate) fn solve(
         &self,
         code: &mut Sampled,
-        mass: &[f64],
+        mass: &[Number],
         rhs: &[Value],
         force: &[Value],
     ) -> Vec<Value> {
@@ -141,7 +142,7 @@ impl Factored {
         let left: Vec<Value> = (0..self.n)
             .map(|i| {
                 let inertia = {
-                    let m = p.number(mass[i]);
+                    let m = mass[i].value(p);
                     p.mul(m, x[i])
                 };
                 p.sub(force[i], inertia)
@@ -229,8 +230,10 @@ impl Factored {
     }
 
     /// NᵀMN = L·D·Lᵀ.
-    fn reduce_mass(&mut self, code: &mut Sampled, mass: &[f64]) -> Result<(), CodeError> {
-        let masses: Vec<Value> = mass.iter().map(|&m| code.program.number(m)).collect();
+    fn reduce_mass(&mut self, code: &mut Sampled, mass: &[Number]) -> Result<(), CodeError> {
+        let of = |m: &Number| m.value(&mut code.program);
+        let masses: Vec<Value> = mass.iter().map(of).collect();
+        let varies = mass.iter().any(|m| matches!(m, Number::Input(_)));
         let heavy: Vec<Vec<Value>> = self
             .frame
             .iter()
@@ -269,8 +272,14 @@ impl Factored {
                 });
             }
             let p = &mut code.program;
-            if p.as_number(diagonal).is_none() {
-                self.divisors.push(diagonal);
+            // What is left of a mass that is an input is compared with that mass.
+            let divisor = match varies {
+                true if diagonal == whole => p.number(1.0),
+                true => p.div(diagonal, whole),
+                false => diagonal,
+            };
+            if p.as_number(divisor).is_none() {
+                self.divisors.push(divisor);
             }
             let one = p.number(1.0);
             let inverse = p.div(one, diagonal);

@@ -1,10 +1,12 @@
 //! The recorded equations of a mechanism as one program, with the numbers of the mechanism folded
 //! in.
 
+use std::collections::HashMap;
+
 use joints::recorded::{Operation, Recorded};
 use model::record::Input;
 use model::{RecordedEquations, System};
-use symbolic::{Function, Graph, Value};
+use symbolic::{Function, Graph, Program, Value};
 
 use crate::sampled::Sampled;
 use crate::subject::{State, Subject};
@@ -19,6 +21,26 @@ pub(crate) enum Source {
     Mechanism(Input),
     /// An entry of a right-hand side, by row.
     Rhs(usize),
+    /// A number of the mechanism, by its index among the inputs.
+    Number(usize),
+}
+
+/// A number of the mechanism in a program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Number {
+    /// Folded in.
+    Known(f64),
+    /// An input.
+    Input(Value),
+}
+
+impl Number {
+    pub(crate) fn value(self, p: &mut Program) -> Value {
+        match self {
+            Self::Known(x) => p.number(x),
+            Self::Input(v) => v,
+        }
+    }
 }
 
 /// The equations as values of a program.
@@ -29,6 +51,8 @@ pub(crate) struct Equations {
     pub(crate) sources: Vec<Source>,
     inputs: Vec<Value>,
     pub(crate) recording: RecordedEquations,
+    /// The places of the recording that are inputs.
+    pub(crate) numbers: HashMap<usize, Value>,
     pub(crate) phi: Vec<Value>,
     /// Rows of C, dense, zeros as the constant 0.
     pub(crate) c: Vec<Vec<Value>>,
@@ -48,18 +72,26 @@ impl Equations {
             .iter()
             .map(|&i| Source::Mechanism(i))
             .chain((0..layout.rows()).map(Source::Rhs))
+            .chain((0..subject.inputs.list.len()).map(Source::Number))
             .collect();
-        let value = |source: &Source, state: &State| match *source {
-            Source::Mechanism(input) => subject.input(input, state),
-            Source::Rhs(_) => 0.0,
-        };
-        let states = subject.states.iter();
-        let samples = states.map(|state| sources.iter().map(|s| value(s, state)).collect());
+        let samples = (0..subject.states.len()).map(|state| {
+            let value = |source: &Source| match *source {
+                Source::Mechanism(input) => subject.input_at(input, state),
+                Source::Rhs(_) => 0.0,
+                Source::Number(k) => subject.number(k, state),
+            };
+            sources.iter().map(value).collect()
+        });
         let anywhere = (0..ANYWHERE).map(|k| {
             let state = anywhere(subject, k);
-            let value = |(i, source): (usize, &Source)| match source {
+            let value = |(i, source): (usize, &Source)| match *source {
                 Source::Mechanism(Input::Function { .. }) | Source::Rhs(_) => shift(i, k),
-                source => value(source, &state),
+                Source::Mechanism(input) => subject.input(input, &state),
+                // Whatever it is: what holds for all numbers holds for those of a mechanism.
+                Source::Number(n) => match subject.inputs.list[n].described {
+                    0.0 => shift(i, k),
+                    x => x * (1.0 + 0.5 * shift(i, k)),
+                },
             };
             sources.iter().enumerate().map(value).collect()
         });
@@ -72,9 +104,14 @@ impl Equations {
                 inputs.push(code.program.input(symbol));
             }
         }
-        let values = replay(&mut code, &recording, &inputs);
+        let known = recording.inputs.len() + layout.rows();
+        let places = subject.inputs.list.iter().zip(&inputs[known..]);
+        let places = places.flat_map(|(p, v)| p.places.iter().map(|place| (*place, *v)));
+        let numbers: HashMap<usize, Value> = places.collect();
+        let values = replay(&mut code, &recording, &inputs, &numbers);
         let (c, of) = results(&mut code, &recording, &values);
         Self {
+            numbers,
             phi: of(&recording.phi),
             c,
             b: of(&recording.b),
@@ -93,6 +130,20 @@ impl Equations {
     pub(crate) fn input(&self, source: Source) -> Option<Value> {
         let at = self.sources.iter().position(|&s| s == source)?;
         self.inputs.get(at).copied()
+    }
+
+    /// The diagonal of M.
+    pub(crate) fn mass(&self) -> Vec<Number> {
+        let mass = self.recording.mass.iter();
+        let mass = mass.map(|r| number(&self.recording, &self.numbers, *r));
+        mass.collect()
+    }
+
+    /// The generalised force of gravity.
+    pub(crate) fn weight(&mut self) -> Vec<Value> {
+        let weight = self.recording.weight.iter();
+        let weight = weight.map(|r| number(&self.recording, &self.numbers, *r));
+        weight.map(|w| w.value(&mut self.code.program)).collect()
     }
 
     /// `C·x` of a row.
@@ -148,18 +199,31 @@ pub(crate) fn results<'v>(
     (c, of)
 }
 
-/// Repeats the operations of a tape in a program, which folds known values.
+/// A number of a recording.
+fn number(recording: &RecordedEquations, numbers: &HashMap<usize, Value>, at: Recorded) -> Number {
+    let known = || Number::Known(recording.number(at.place()).unwrap_or(f64::NAN));
+    numbers
+        .get(&at.place())
+        .map_or_else(known, |v| Number::Input(*v))
+}
+
+/// Repeats the operations of a tape in a program, which folds known values; the numbers at some
+/// places are inputs.
 pub(crate) fn replay(
     code: &mut Sampled,
     recording: &RecordedEquations,
     inputs: &[Value],
+    numbers: &HashMap<usize, Value>,
 ) -> Vec<Value> {
     let p = &mut code.program;
-    let mut values: Vec<Value> = Vec::with_capacity(recording.tape.len());
-    for operation in &recording.tape {
+    let mut values: Vec<Value> = Vec::with_capacity(recording.beside);
+    for (place, operation) in recording.tape[..recording.beside].iter().enumerate() {
         let of = |r: Recorded| values[r.place()];
         let value = match *operation {
-            Operation::Number(x) => p.number(x),
+            Operation::Number(x) => match numbers.get(&place) {
+                Some(input) => *input,
+                None => p.number(x),
+            },
             Operation::Input(k) => inputs[k],
             Operation::Add(a, b) => p.add(of(a), of(b)),
             Operation::Sub(a, b) => p.sub(of(a), of(b)),
@@ -189,5 +253,6 @@ fn name(source: Source) -> String {
             derivative,
         }) => format!("{}{function}", ["f", "df", "ddf"][derivative.min(2)]),
         Source::Rhs(k) => format!("r{k}"),
+        Source::Number(k) => format!("p{k}"),
     }
 }

@@ -1,7 +1,7 @@
 //! Reasons why there is no code for a mechanism.
 
 use dynamics::{MotionError, MotionFault};
-use scene::Diagnostic;
+use scene::{Diagnostic, KeyError};
 
 /// The reason why a module could not be generated.
 #[derive(Debug, thiserror::Error)]
@@ -62,6 +62,25 @@ pub enum CodeError {
         /// Place of the velocity, from 0.
         column: usize,
     },
+    /// A key of an input refers to no number of the scene.
+    #[error("an input of code: {0}")]
+    Key(#[from] KeyError),
+    /// A number of the scene cannot be an input.
+    #[error(transparent)]
+    Input(#[from] NotAnInput),
+    /// The scene allows no other values of its inputs.
+    #[error("the scene does not allow other values of {}: {reason}", keys.join(", "))]
+    Varied {
+        /// The keys of the inputs.
+        keys: Vec<String>,
+        /// What the first attempt ended with.
+        reason: String,
+    },
+    /// Inputs are found in the text of a scene.
+    #[error(
+        "inputs are keys of the text of a scene, and a subject has none; call `scene_text` with them"
+    )]
+    NoText,
     /// The code would be too long to compile.
     #[error(
         "the module would have {operations} operations, more than {limit}: compilers take minutes for that; run this scene interpreted"
@@ -112,6 +131,43 @@ pub enum CodeError {
     /// The generated text is not valid Rust: a bug in this crate.
     #[error("the generated text is no Rust: {0}")]
     Text(String),
+}
+
+/// Why a number of a scene cannot be an input of code.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotAnInput {
+    /// The one with this key.
+    #[error("`{key}` cannot be an input of code: {why}")]
+    OfKey {
+        /// The key.
+        key: String,
+        /// The reason.
+        why: Box<NotAnInput>,
+    },
+    /// It switches something on or off.
+    #[error("it is true or false, not a number; generate code for both scenes")]
+    Switch,
+    /// The operations are others.
+    #[error(
+        "with it the equations have other parts, as where a tensor of inertia gets its first products; describe the scene with them"
+    )]
+    Structure,
+    /// Break times are constants of a module.
+    #[error(
+        "it moves a time at which a function of time is not smooth, and these times are constants of a module; generate code for each of its values"
+    )]
+    BreakTimes,
+    /// Kept rows are fixed in a module.
+    #[error(
+        "with it the rows that are kept depend on each other; say which rows to drop, with `--drop`"
+    )]
+    Rows,
+    /// It is no number of the equations.
+    #[error(
+        "no number of the equations depends on it, so code without this input serves all of its values; leave it out"
+    )]
+    Nothing,
 }
 
 /// One line for each place.

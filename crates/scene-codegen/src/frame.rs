@@ -134,15 +134,11 @@ impl Seen {
         };
         let inputs = inputs_in(e, &frame, angle)?;
         let recording = e.recording.clone();
-        let values = replay(&mut e.code, &recording, &inputs);
+        let values = replay(&mut e.code, &recording, &inputs, &e.numbers);
         let (c, of) = results(&mut e.code, &recording, &values);
         let (gamma, mut force) = (of(&recording.gamma), of(&recording.force));
         // The weight has a fixed direction on the ground, so it is turned.
-        let weight: Vec<Value> = mechanism
-            .weight()
-            .iter()
-            .map(|&w| e.code.program.number(w))
-            .collect();
+        let weight = e.weight();
         let seen = frame.velocities_in(&mut e.code, &weight);
         for ((force, weight), seen) in force.iter_mut().zip(weight).zip(seen) {
             let applied = e.code.program.sub(*force, weight);
@@ -221,8 +217,11 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
 /// index: C, Γ and Q in its frame equal the turned ones, at states that violate the constraints.
 pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
     let elsewhere = Subject {
-        prepared: subject.prepared,
-        states: (0..ANYWHERE).map(|k| anywhere(subject, k)).collect(),
+        inputs: subject.inputs.clone(),
+        ..Subject::at_states(
+            subject.prepared,
+            (0..ANYWHERE).map(|k| anywhere(subject, k)).collect(),
+        )
     };
     let mut e = Equations::new(&elsewhere);
     let Some(seen) = Seen::from_body(&mut e, &elsewhere, angle) else {

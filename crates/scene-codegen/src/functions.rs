@@ -3,7 +3,7 @@
 
 use dynamics::code::LEAVE;
 use model::record::Input;
-use model::{SpaceKind, System};
+use model::{Mechanism, SpaceKind, System};
 use symbolic::{Function as Unary, Op, Program, Value};
 
 use crate::axes::Axes;
@@ -137,9 +137,7 @@ impl Functions {
     /// In the view in which accelerations need the fewest operations; in space, in which the fewest
     /// sampled states are beyond the limit of runs.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
-        if subject.prepared.mechanism.layout().turns > 0 {
-            return Err(CodeError::Turns);
-        }
+        recordable(&subject.prepared.mechanism)?;
         let functions = match subject.prepared.mechanism.space() {
             SpaceKind::Plane => Self::in_plane(subject)?,
             SpaceKind::Space3 => Self::in_space(subject)?,
@@ -202,15 +200,11 @@ impl Functions {
 
     /// All functions, with the equations solved in this view.
     fn seen(subject: &Subject<'_>, view: View) -> Result<Self, CodeError> {
-        let forces = subject.prepared.mechanism.applied_forces();
-        if let Some((drive, _)) = forces.law_drives().next() {
-            let drive = drive.to_owned();
-            return Err(CodeError::Law { drive });
-        }
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
         let mechanism = &prepared.mechanism;
-        let (layout, mass) = (mechanism.layout(), mechanism.mass());
+        let (layout, mass) = (mechanism.layout(), e.mass());
+        let mass = mass.as_slice();
         let (kept, position_kept) = (&prepared.decision.kept, &prepared.position_decision.kept);
         let mut seen = match view {
             View::Angle(angle) => Seen::from_body(&mut e, subject, angle)
@@ -244,7 +238,7 @@ impl Functions {
         let p = &mut e.code.program;
         let excess: Vec<Value> = (0..layout.n_v)
             .map(|i| {
-                let m = p.number(mass[i]);
+                let m = mass[i].value(p);
                 let inertia = p.mul(m, a_seen[i]);
                 p.sub(seen.force[i], inertia)
             })
@@ -321,6 +315,22 @@ impl Functions {
                 View::Ground => Described::Ground,
             },
         })
+    }
+}
+
+/// Whether the kernels of a mechanism do on recorded numbers what they do in a run.
+pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
+    if mechanism.layout().turns > 0 {
+        return Err(CodeError::Turns);
+    }
+    if !matches!(mechanism.space(), SpaceKind::Plane | SpaceKind::Space3) {
+        return Err(CodeError::Coordinates);
+    }
+    match mechanism.applied_forces().law_drives().next() {
+        Some((drive, _)) => Err(CodeError::Law {
+            drive: drive.to_owned(),
+        }),
+        None => Ok(()),
     }
 }
 

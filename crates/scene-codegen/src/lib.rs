@@ -1,12 +1,15 @@
 #![doc = include_str!("../README.md")]
 
+mod assembled;
 mod axes;
 mod eliminate;
 mod equations;
 mod error;
 mod frame;
 mod functions;
+mod inputs;
 mod module;
+mod parameters;
 mod sampled;
 mod script;
 mod subject;
@@ -14,7 +17,7 @@ mod support;
 mod tape;
 mod time;
 
-pub use error::CodeError;
+pub use error::{CodeError, NotAnInput};
 pub use module::{Choices, Module, generate};
 pub use script::to_out_dir;
 pub use subject::{State, Subject};
@@ -22,8 +25,9 @@ pub use tape::Tape;
 
 use std::path::Path;
 
-use dynamics::{MotionError, RowChoice, prepare};
-use model::{Mechanism, Registry};
+use model::Registry;
+
+use assembled::{SceneText, prepared};
 
 /// The module of a scene file, made for the run that the scene requests, or for its start if it
 /// requests none. The rows `drop`, counted from 0, are dropped instead of those that the scene
@@ -57,31 +61,52 @@ pub fn scene_text(
     drop: Option<&[usize]>,
     choices: &Choices,
 ) -> Result<Module, CodeError> {
-    let scene = ::scene::read(name, text, registry).map_err(CodeError::Scene)?;
-    let located = |e: MotionError| match scene.locate_motion(&e) {
-        Some(place) => CodeError::Scene(vec![place]),
-        None => e.into(),
+    let scene = SceneText {
+        name,
+        text,
+        registry,
+        drop,
     };
-    let mechanism = Mechanism::build(&scene.description).map_err(|faults| {
-        let places = faults.iter().filter_map(|e| scene.locate_build(e));
-        CodeError::Scene(places.collect())
-    })?;
-    let mut options = scene.simulate.clone();
-    let rows = match (drop, &options) {
-        (Some(drop), _) => RowChoice::Drop(drop.to_vec()),
-        (None, Some(options)) => options.rows.clone(),
-        (None, None) => RowChoice::Automatic,
+    with_subject(&scene, &choices.inputs, |subject| {
+        module::of_subject(subject, choices)
+    })
+}
+
+/// The code of a scene as a list of operations, as [`scene_text`] writes it.
+///
+/// # Errors
+/// As [`scene_text`].
+pub fn scene_tape(
+    name: &str,
+    text: &str,
+    registry: &Registry,
+    inputs: &[String],
+) -> Result<Tape, CodeError> {
+    let scene = SceneText {
+        name,
+        text,
+        registry,
+        drop: None,
     };
-    if let Some(options) = &mut options {
-        options.rows.clone_from(&rows);
-        options.check().map_err(located)?;
-    }
-    let prepared = prepare(mechanism, &scene.start, &rows).map_err(located)?;
+    with_subject(&scene, inputs, Tape::of)
+}
+
+/// Calls a function with the subject of a scene: for the run that it requests, or for its start,
+/// with the numbers of these keys as inputs.
+fn with_subject<R>(
+    scene: &SceneText<'_>,
+    inputs: &[String],
+    then: impl FnOnce(&Subject<'_>) -> Result<R, CodeError>,
+) -> Result<R, CodeError> {
+    let (prepared, options) = prepared(scene)?;
     let subject = match &options {
         Some(options) => Subject::of_run(&prepared, options)?,
         None => Subject::at_start(&prepared),
     };
-    generate(&subject, choices)
+    if inputs.is_empty() {
+        return then(&subject);
+    }
+    then(&inputs::vary(scene, inputs, subject)?)
 }
 
 #[cfg(test)]

@@ -26,6 +26,11 @@ struct Arguments {
     /// Use sines and roots of the crate `libm`, for programs without the standard library.
     #[arg(long)]
     libm: bool,
+    /// Keys of numbers of the scene that are varied, separated by commas, as `pfaff sweep --vary`
+    /// takes them: `body.cart.mass,joint.A.at,L`. Functions of the module take what they touch as
+    /// an argument, and `SceneCode` reads it from the mechanism of a run.
+    #[arg(long, value_delimiter = ',', value_name = "KEYS")]
+    inputs: Vec<String>,
     /// Compare with the file instead of writing it.
     #[arg(long)]
     check: bool,
@@ -54,6 +59,7 @@ fn run(arguments: &Arguments) -> Result<String, CodeError> {
     let choices = Choices {
         dynamics: arguments.dynamics.clone(),
         libm: arguments.libm,
+        inputs: arguments.inputs.clone(),
     };
     let drop = match &arguments.drop {
         Some(rows) if rows.contains(&0) => return Err(CodeError::RowZero),
@@ -103,6 +109,9 @@ fn command(arguments: &Arguments) -> String {
     }
     if arguments.libm {
         command += " --libm";
+    }
+    if !arguments.inputs.is_empty() {
+        command += &format!(" --inputs {}", arguments.inputs.join(","));
     }
     command
 }

@@ -1,12 +1,14 @@
 //! The text of a module: constants, functions on arrays, the same for several states at once, and
 //! the interface to `dynamics`.
 
+mod parameters;
+
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use dynamics::code::LEAVE;
 use model::record::Input;
-use model::{BodyRecord, SpaceKind, System};
+use model::{SpaceKind, System};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use symbolic::{Op, Printer, Scalar, Symbol};
@@ -26,6 +28,10 @@ pub struct Choices {
     pub dynamics: Option<String>,
     /// Use sines, cosines and roots of the crate `libm` instead of `std`.
     pub libm: bool,
+    /// Keys of numbers of the scene that are varied, as [`scene::Template`] knows them, a list for
+    /// all of its numbers: what they touch in the equations is an argument of the functions of the
+    /// module.
+    pub inputs: Vec<String>,
 }
 
 /// The code of one mechanism.
@@ -84,12 +90,25 @@ impl Module {
 ///
 /// # Errors
 /// If no order of elimination serves all states, a free motion has no mass, or the code would be
-/// too long.
+/// too long. Inputs need the text of the scene: [`crate::scene_text`].
 pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, CodeError> {
+    if choices.inputs.is_empty() {
+        of_subject(subject, choices)
+    } else {
+        Err(CodeError::NoText)
+    }
+}
+
+/// The module of a subject with its inputs.
+pub(crate) fn of_subject(subject: &Subject<'_>, choices: &Choices) -> Result<Module, CodeError> {
     let functions = Functions::new(subject)?;
     let mechanism = &subject.prepared.mechanism;
     let rotations = rotations(&functions);
-    let (jets, mut support) = time::jets(mechanism.functions());
+    let of_time = &functions.equations.recording.functions;
+    let (jets, mut support) = time::jets(mechanism.functions(), |function, number| {
+        let place = of_time[function][number].place();
+        subject.inputs.at(place).map(|k| format!("p[{k}]"))
+    });
     if !rotations.is_empty() {
         support.push(match mechanism.space() {
             SpaceKind::Space3 => "rotation",
@@ -108,6 +127,7 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
         space: mechanism.space(),
         rotations,
         n_functions: mechanism.functions().count(),
+        takes_numbers: !subject.inputs.list.is_empty(),
     };
     let mut items = TokenStream::new();
     items.extend(constants(subject, &functions));
@@ -117,7 +137,10 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
     }
     if let Some(path) = &choices.dynamics {
         let path = syn::parse_str(path).map_err(|_| CodeError::Path { path: path.clone() })?;
-        items.extend(face(&functions, &path));
+        items.extend(face(&functions, &path, &shape));
+        if shape.takes_numbers {
+            items.extend(parameters::inputs_of_code(&subject.inputs, &path));
+        }
     }
     let mut text = print(items)?;
     for (name, snippet) in SUPPORT {
@@ -187,6 +210,8 @@ struct Shape {
     /// bodies.
     rotations: Vec<usize>,
     n_functions: usize,
+    /// Whether functions take numbers of the scene.
+    takes_numbers: bool,
 }
 
 impl Shape {
@@ -232,7 +257,8 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
     let break_times = &layout.break_times;
     let (n_kept, n_position, n_breaks) = (kept.len(), position_kept.len(), break_times.len());
     let operations = operations(functions).join("; ");
-    let axes = principal_axes(prepared.mechanism.bodies(), prepared.mechanism.space());
+    let axes = parameters::principal_axes(subject, functions);
+    let parameters = parameters::parameters(&subject.inputs);
     quote! {
         /// Name of the scene.
         pub const NAME: &str = #name;
@@ -254,28 +280,8 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
         pub const BREAK_TIMES: [f64; #n_breaks] = [#(#break_times),*];
         /// Operations of each function; rotations and functions of time are not counted.
         pub const OPERATIONS: &str = #operations;
+        #parameters
         #axes
-    }
-}
-
-/// How the velocities of bodies in space are turned against their frames.
-fn principal_axes(bodies: &[BodyRecord], space: SpaceKind) -> TokenStream {
-    if space != SpaceKind::Space3 {
-        return TokenStream::new();
-    }
-    let n = bodies.len();
-    let of = |body: &BodyRecord| match &body.principal {
-        Some(principal) => principal.quaternion(),
-        None => [1.0, 0.0, 0.0, 0.0],
-    };
-    let axes = bodies.iter().map(|body| {
-        let e = of(body);
-        quote!([#(#e),*])
-    });
-    quote! {
-        /// The rotation of each body from its principal axes to those of its frame, as a
-        /// quaternion (w, x, y, z).
-        pub const PRINCIPAL_AXES: [[f64; 4]; #n] = [#(#axes),*];
     }
 }
 
@@ -341,6 +347,17 @@ fn docs(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
     if prepared.mechanism.space() == SpaceKind::Space3 {
         docs.extend(IN_SPACE.map(str::to_owned));
     }
+    if !subject.inputs.list.is_empty() {
+        docs.extend([
+            format!(
+                "Functions take {} numbers of the scene as `p`, see `PARAMETERS`; these keys of the scene are varied: {}.",
+                subject.inputs.list.len(),
+                one_line(&subject.inputs.keys.join(", "))
+            ),
+            "The health is that of the given numbers: it is the one of the states above, of which some are of motions with other numbers."
+                .to_owned(),
+        ]);
+    }
     docs.extend(["", "| function | operations |", "| --- | --- |"].map(str::to_owned));
     for f in &functions.list {
         docs.push(format!(
@@ -391,13 +408,20 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
     } else {
         " Cosines and sines of the angles that turn something."
     };
+    let numbers = shape.takes_numbers.then(|| quote!(, p: &[f64; N_P]));
+    let (numbers_of, at) = if shape.takes_numbers {
+        let at = quote!(t[l], &core::array::from_fn(|k| p[k][l]));
+        (Some(quote!(, p: &[[f64; L]; N_P])), at)
+    } else {
+        (None, quote!(t[l]))
+    };
     Ok(quote! {
         /// The smaller one; NaN if one is.
         #[inline(always)]
         fn least(a: f64, b: f64) -> f64 { if b < a || b.is_nan() { b } else { a } }
         /// Functions of time, each with two derivatives.
         #[inline]
-        fn jets(t: f64) -> [f64; #n_jets] { #jets }
+        fn jets(t: f64 #numbers) -> [f64; #n_jets] { #jets }
         #[doc = #doc]
         #[inline(always)]
         fn rotations(q: &[f64; N_Q]) -> [f64; #n_rotations] {
@@ -406,10 +430,10 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
             x
         }
         #[inline(always)]
-        fn jets_of<const L: usize>(t: &[f64; L]) -> [[f64; L]; #n_jets] {
+        fn jets_of<const L: usize>(t: &[f64; L] #numbers_of) -> [[f64; L]; #n_jets] {
             let mut f = [[0.0; L]; #n_jets];
             for l in 0..L {
-                for (f, jet) in f.iter_mut().zip(jets(t[l])) { f[l] = jet; }
+                for (f, jet) in f.iter_mut().zip(jets(#at)) { f[l] = jet; }
             }
             f
         }
@@ -448,7 +472,8 @@ fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     let [out, length] = [out, length].map(|x| format_ident!("{x}"));
     let readers: Vec<_> = arrays.iter().map(|a| format_ident!("{a}")).collect();
     let (mut one, mut many) = (Vec::new(), Vec::new());
-    for &(name, length) in signature.arguments {
+    let numbers = shape.takes_numbers.then_some(("p", "N_P"));
+    for (name, length) in signature.arguments.iter().copied().chain(numbers) {
         let name = format_ident!("{name}");
         let length = format_ident!("{length}");
         one.push(quote!(#name: &[f64; #length]));
@@ -459,8 +484,9 @@ fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
         let x = arrays.contains("x").then(|| quote!(let x = #rotations;));
         quote!(#f #x)
     };
-    let one_shared = prepare(quote!(jets(t)), quote!(rotations(q)));
-    let many_shared = prepare(quote!(jets_of(t)), quote!(rotations_of(q)));
+    let numbers = shape.takes_numbers.then(|| quote!(, p));
+    let one_shared = prepare(quote!(jets(t #numbers)), quote!(rotations(q)));
+    let many_shared = prepare(quote!(jets_of(t #numbers)), quote!(rotations_of(q)));
     let doc = signature.doc;
     let counts = format!("Operations: {}.", f.program.counts());
     let many_doc = "The same for L states at once, state by state in the last index.";
@@ -533,11 +559,13 @@ fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
             derivative,
         }) => ("f", 3 * function + derivative),
         Source::Rhs(k) => ("r", k),
+        Source::Number(k) => ("p", k),
     }
 }
 
 /// `Code`, which implements `dynamics::SceneCode`.
-fn face(functions: &Functions, path: &syn::Path) -> TokenStream {
+fn face(functions: &Functions, path: &syn::Path, shape: &Shape) -> TokenStream {
+    let numbers = shape.takes_numbers.then(|| quote!(&self.0,));
     // Runs take q̇ from the mechanism.
     let of_runs = functions
         .list
@@ -564,14 +592,37 @@ fn face(functions: &Functions, path: &syn::Path) -> TokenStream {
                 let (#(Some(#names),)* Some(#out)) =
                     (#(#names.first_chunk::<#lengths>(),)* #out.first_chunk_mut::<#out_length>())
                 else { #otherwise };
-                #name(t, #(#names,)* #out)
+                #name(t, #(#names,)* #numbers #out)
             }
         }
     });
+    let (code, inputs) = if shape.takes_numbers {
+        let code = quote! {
+            /// The mechanism as a run takes it, with its numbers; the run takes these from its
+            /// mechanism.
+            #[derive(Clone, Copy, Debug)]
+            pub struct Code(pub [f64; N_P]);
+        };
+        let inputs = quote! {
+            fn inputs(&self) -> Option<&#path::code::CodeInputs> { Some(&INPUTS) }
+            fn with_inputs(
+                &self,
+                values: &[f64],
+            ) -> Option<::std::sync::Arc<dyn #path::SceneCode>> {
+                Some(::std::sync::Arc::new(Self(values.try_into().ok()?)))
+            }
+        };
+        (code, Some(inputs))
+    } else {
+        let code = quote! {
+            /// The mechanism as a run takes it.
+            #[derive(Clone, Copy, Debug)]
+            pub struct Code;
+        };
+        (code, None)
+    };
     quote! {
-        /// The mechanism as a run takes it.
-        #[derive(Clone, Copy, Debug)]
-        pub struct Code;
+        #code
         static SPEC: #path::code::CodeSpec = #path::code::CodeSpec {
             name: ::std::borrow::Cow::Borrowed(NAME),
             n_q: N_Q,
@@ -586,6 +637,7 @@ fn face(functions: &Functions, path: &syn::Path) -> TokenStream {
         impl #path::SceneCode for Code {
             fn spec(&self) -> &#path::code::CodeSpec { &SPEC }
             #(#methods)*
+            #inputs
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::module::Choices;
 ///
 /// ```no_run
 /// // build.rs
-/// let choices = scene_codegen::Choices { dynamics: Some("pfaff::dynamics".into()), libm: false };
+/// let choices = scene_codegen::Choices { dynamics: Some("pfaff::dynamics".into()), ..Default::default() };
 /// let joints = model::Registry::standard();
 /// let said = scene_codegen::to_out_dir("scenes/robot.toml".as_ref(), "robot", &joints, &choices);
 /// println!("{}", said.unwrap());

@@ -8,6 +8,7 @@ use model::SpaceKind;
 use model::record::Input;
 
 use crate::error::CodeError;
+use crate::parameters::Inputs;
 
 /// Number of states of a run for the choice of pivots.
 const STATES: f64 = 48.0;
@@ -27,8 +28,13 @@ pub struct State {
 pub struct Subject<'a> {
     /// The mechanism, its start and its kept rows.
     pub prepared: &'a Prepared,
-    /// States of the motion; the start is the first.
+    /// States of the motion; the start is the first. After those of the described mechanism come
+    /// those of mechanisms in which the inputs have other values.
     pub states: Vec<State>,
+    /// For each state, in which of these mechanisms it is; `None` for the described one.
+    pub(crate) variants: Vec<Option<usize>>,
+    /// The numbers that code takes as inputs.
+    pub(crate) inputs: Inputs,
 }
 
 /// The matrix of the rotation of a body in space; NaN if q is too short.
@@ -43,10 +49,16 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn at_start(prepared: &'a Prepared) -> Self {
         let (q, v) = (prepared.q.clone(), prepared.v.clone());
-        let start = State { t: 0.0, q, v };
+        Self::at_states(prepared, vec![State { t: 0.0, q, v }])
+    }
+
+    /// States without inputs.
+    pub(crate) fn at_states(prepared: &'a Prepared, states: Vec<State>) -> Self {
         Self {
             prepared,
-            states: vec![start],
+            variants: vec![None; states.len()],
+            states,
+            inputs: Inputs::default(),
         }
     }
 
@@ -71,10 +83,36 @@ impl<'a> Subject<'a> {
             });
             Ok(ControlFlow::Continue(()))
         })?;
-        Ok(Self { prepared, states })
+        Ok(Self::at_states(prepared, states))
     }
 
-    /// The value of an input at a state.
+    /// The value of the input with this index among the numbers of the mechanism, at the state with
+    /// this index.
+    pub(crate) fn number(&self, k: usize, state: usize) -> f64 {
+        match self.variants[state] {
+            Some(variant) => self.inputs.variants[variant].values[k],
+            None => self.inputs.list[k].described,
+        }
+    }
+
+    /// The value of an input at the state with this index.
+    pub(crate) fn input_at(&self, input: Input, state: usize) -> f64 {
+        match (input, self.variants[state]) {
+            (
+                Input::Function {
+                    function,
+                    derivative,
+                },
+                Some(variant),
+            ) => {
+                let f = self.inputs.variants[variant].functions.get(function);
+                f.map_or(f64::NAN, |f| f.jet(self.states[state].t)[derivative])
+            }
+            _ => self.input(input, &self.states[state]),
+        }
+    }
+
+    /// The value of an input at a state of the described mechanism.
     pub(crate) fn input(&self, input: Input, state: &State) -> f64 {
         match input {
             Input::Coordinate(k) => state.q[k],

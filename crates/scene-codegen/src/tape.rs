@@ -4,8 +4,10 @@
 
 use std::cell::RefCell;
 
+use std::sync::Arc;
+
 use dynamics::SceneCode;
-use dynamics::code::CodeSpec;
+use dynamics::code::{CodeInput, CodeInputs, CodeSpec};
 use model::record::{Input, TimeFunction};
 use model::{SpaceKind, System};
 use symbolic::{Op, Program};
@@ -32,10 +34,16 @@ use crate::subject::{Subject, rotation};
 /// study.prepared = study.prepared.with_code(Arc::new(tape))?; // its runs are on the tape from now on
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[derive(Clone)]
 pub struct Tape {
     spec: CodeSpec,
-    functions: Vec<(&'static str, List)>,
+    functions: Arc<[(&'static str, List)]>,
     times: Vec<TimeFunction>,
+    /// For each number of each function of time, the input that it is.
+    numbers_of_times: Vec<Vec<Option<usize>>>,
+    /// The numbers of the mechanism that are inputs, and their values.
+    inputs: Option<CodeInputs>,
+    values: Vec<f64>,
     /// Bodies with quaternions.
     spatial: usize,
 }
@@ -99,10 +107,25 @@ impl Tape {
             operations: operations.join("; ").into(),
         };
         let times = prepared.mechanism.functions();
+        let inputs = &subject.inputs;
+        let numbers_of_times = equations.recording.functions.iter();
+        let list_of_inputs = inputs.list.iter().map(|p| CodeInput {
+            name: p.name.clone().into(),
+            described: p.described,
+            places: p.places.clone().into(),
+        });
         Ok(Self {
             spec,
             functions: list.collect(),
             times: times.cloned().collect(),
+            numbers_of_times: numbers_of_times
+                .map(|numbers| numbers.iter().map(|r| inputs.at(r.place())).collect())
+                .collect(),
+            values: inputs.described(),
+            inputs: (!inputs.list.is_empty()).then(|| CodeInputs {
+                shape: inputs.shape,
+                list: list_of_inputs.collect(),
+            }),
             spatial: match prepared.mechanism.space() {
                 SpaceKind::Space3 => prepared.mechanism.bodies().len(),
                 _ => 0,
@@ -134,7 +157,10 @@ impl Tape {
             values.clear();
             for op in list.program.ops() {
                 let value = match op {
-                    Op::Input(s) => read(list.sources[s.index()], arguments, jets, &rotations),
+                    Op::Input(s) => match list.sources[s.index()] {
+                        Source::Number(k) => self.values.get(k).copied().unwrap_or(f64::NAN),
+                        source => read(source, arguments, jets, &rotations),
+                    },
                     op => op.evaluate(|v| values[v.index()], |_| f64::NAN),
                 };
                 values.push(value);
@@ -172,12 +198,35 @@ fn read(source: Source, a: Arguments<'_>, jets: &[[f64; 3]], rotations: &[[[f64;
             derivative,
         }) => jets.get(function).map_or(f64::NAN, |jet| jet[derivative]),
         Source::Rhs(k) => of(a.rhs, k),
+        Source::Number(_) => f64::NAN,
     }
 }
 
 impl SceneCode for Tape {
     fn spec(&self) -> &CodeSpec {
         &self.spec
+    }
+
+    fn inputs(&self) -> Option<&CodeInputs> {
+        self.inputs.as_ref()
+    }
+
+    fn with_inputs(&self, values: &[f64]) -> Option<Arc<dyn SceneCode>> {
+        if self.inputs.as_ref()?.list.len() != values.len() {
+            return None;
+        }
+        let mut tape = self.clone();
+        tape.values = values.to_vec();
+        for (f, places) in tape.times.iter_mut().zip(&self.numbers_of_times) {
+            let mut numbers = f.numbers();
+            for (number, input) in numbers.iter_mut().zip(places) {
+                if let Some(k) = input {
+                    *number = values[*k];
+                }
+            }
+            *f = f.with_numbers(&numbers)?;
+        }
+        Some(Arc::new(tape))
     }
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64 {

@@ -213,7 +213,7 @@ fn corrections_are_exact(name: &str, text: &str) {
     let rhs = |i: usize| 1e-3 * (1.0 + i as f64).sin();
     let extra = |source| match source {
         Source::Rhs(i) => rhs(i),
-        Source::Mechanism(_) => 0.0,
+        _ => 0.0,
     };
     for state in states(&study, &subject, 5) {
         let mut s = mechanism.scratch();

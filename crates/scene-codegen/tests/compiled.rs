@@ -197,7 +197,7 @@ fn the_checked_in_modules_agree_with_their_scenes() {
         let text = std::fs::read_to_string(root.join(scene)).expect("the scene");
         let choices = Choices {
             dynamics: Some(dynamics.into()),
-            libm: false,
+            ..Choices::default()
         };
         let registry = Registry::standard();
         let module = scene_codegen::scene_text(scene, &text, &registry, None, &choices);

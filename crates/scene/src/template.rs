@@ -57,6 +57,18 @@ struct Slot {
     span: Range<usize>,
     before: String,
     after: &'static str,
+    was: Was,
+}
+
+/// What the text has at the place of a number.
+#[derive(Clone, Debug)]
+enum Was {
+    /// Nothing, or something that is no number.
+    Other,
+    /// A number.
+    Number(f64),
+    /// An expression.
+    Expression(String),
 }
 
 impl Template {
@@ -131,6 +143,41 @@ impl Template {
         self.filled(&texts)
     }
 
+    /// The text with every number changed by a share of itself, in the order of the keys; a zero,
+    /// or a number that the text leaves out, becomes the share. `None` if a key is of another
+    /// value.
+    ///
+    /// ```
+    /// let head = "[scene]\nformat = 2\n[parameters]\n";
+    /// let text = &format!("{head}L = 0.5\nH = \"L + 20 mm\"\nx = 0.0\n");
+    /// let template = scene::Template::new(text, &["L", "H", "x"])?;
+    /// let changed = template.changed_by(&[0.5, 0.25, 0.125]).unwrap();
+    /// assert!(changed.ends_with("L = 0.75\nH = \"(L + 20 mm)*1.25\"\nx = 0.125\n"));
+    /// # Ok::<(), scene::KeyError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there are not as many shares as keys.
+    #[must_use]
+    pub fn changed_by(&self, shares: &[f64]) -> Option<String> {
+        let mut texts = vec![String::new(); self.slots.len()];
+        for (k, slot) in &self.slots {
+            let share = shares[*k];
+            texts[*k] = match &slot.was {
+                _ if share == 0.0 => self.text[slot.span.clone()].to_owned(),
+                Was::Number(x) if *x == 0.0 => number(share),
+                Was::Number(x) => number(x * (1.0 + share)),
+                Was::Expression(text) => {
+                    let factor = number(1.0 + share);
+                    toml::Value::from(format!("({text})*{factor}")).to_string()
+                }
+                Was::Other if slot.span.is_empty() => number(share),
+                Was::Other => return None,
+            };
+        }
+        Some(self.filled(&texts))
+    }
+
     /// The text with these values as TOML writes them.
     fn filled(&self, texts: &[String]) -> String {
         let n = self.slots.len();
@@ -143,10 +190,13 @@ impl Template {
         let mut at = 0;
         for (k, slot) in &self.slots {
             out.push_str(&self.text[at..slot.span.start]);
+            at = slot.span.end;
+            if texts[*k].is_empty() {
+                continue;
+            }
             out.push_str(&slot.before);
             out.push_str(&texts[*k]);
             out.push_str(slot.after);
-            at = slot.span.end;
         }
         out.push_str(&self.text[at..]);
         out

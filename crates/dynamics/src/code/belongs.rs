@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use linalg::GRADED_MASSES;
 use model::words::listed;
-use model::{Mechanism, System};
+use model::{Mechanism, RecordedEquations, SpaceKind, System};
 
 use super::SceneCode;
+use super::inputs::{CodeInput, CodeInputs};
 use crate::error::MotionFault;
 use crate::limits::{CODE_STATES, DISTANCE, LEAVE, SAME_VALUES, SPEED};
 use crate::motion::KeptRowMotion;
@@ -85,6 +86,36 @@ pub enum CodeMismatch {
         /// Its health.
         health: f64,
     },
+    /// It takes numbers of a mechanism as inputs, and this is another mechanism.
+    #[error(
+        "the code `{name}` takes numbers of a mechanism with other equations: joints, forces, functions of time or the bodies with products of inertia are others, \
+         or another version made it; generate it again"
+    )]
+    Shape {
+        /// Name of the code.
+        name: String,
+    },
+    /// Numbers that are one input of the code differ in the mechanism.
+    #[error(
+        "the code `{name}` takes {input} as one number, in the mechanism it is both {:.9e} and {:.9e}; generate it again with the key among `--inputs` that sets them apart",
+        values[0], values[1]
+    )]
+    Parts {
+        /// Name of the code.
+        name: String,
+        /// Name of the input.
+        input: String,
+        /// Two of its values.
+        values: [f64; 2],
+    },
+    /// It does not take as many inputs as it names.
+    #[error("the code `{name}` names {found} inputs and does not take them")]
+    Inputs {
+        /// Name of the code.
+        name: String,
+        /// How many it names.
+        found: usize,
+    },
     /// The mechanism itself cannot be evaluated at this state.
     #[error(transparent)]
     MotionFault(#[from] MotionFault),
@@ -129,17 +160,81 @@ pub enum NoCode {
     },
 }
 
+impl CodeInputs {
+    /// The values in a mechanism, in their order; `code` is the name of the code in messages.
+    ///
+    /// # Errors
+    /// - [`CodeMismatch::Shape`]: the equations of the mechanism are not those of the code.
+    /// - [`CodeMismatch::Parts`]: what is one number in the code is several in the mechanism.
+    pub fn of(&self, code: &str, mechanism: &Mechanism) -> Result<Vec<f64>, CodeMismatch> {
+        let shape = || CodeMismatch::Shape {
+            name: code.to_owned(),
+        };
+        let is_recorded = matches!(mechanism.space(), SpaceKind::Plane | SpaceKind::Space3);
+        if !is_recorded || mechanism.layout().turns > 0 {
+            return Err(shape());
+        }
+        let recording = RecordedEquations::of(mechanism);
+        if recording.shape() != self.shape {
+            return Err(shape());
+        }
+        let value = |input: &CodeInput| {
+            let mut all = input.places.iter().map(|&place| recording.number(place));
+            let first = all.next().flatten().ok_or_else(shape)?;
+            for other in all {
+                let other = other.ok_or_else(shape)?;
+                let size = f64::max(first.abs(), other.abs());
+                if (first - other).abs() > SAME_VALUES * size {
+                    return Err(CodeMismatch::Parts {
+                        name: code.to_owned(),
+                        input: input.name.to_string(),
+                        values: [first, other],
+                    });
+                }
+            }
+            Ok(first)
+        };
+        self.list.iter().map(value).collect()
+    }
+}
+
+/// The code with the numbers of a mechanism, if it takes any.
+fn for_mechanism(
+    code: Arc<dyn SceneCode>,
+    mechanism: &Mechanism,
+) -> Result<Arc<dyn SceneCode>, CodeMismatch> {
+    let name = &code.spec().name;
+    let Some(inputs) = code.inputs() else {
+        return Ok(code);
+    };
+    let values = inputs.of(name, mechanism)?;
+    let own = code.with_inputs(&values);
+    own.ok_or_else(|| CodeMismatch::Inputs {
+        name: name.to_string(),
+        found: values.len(),
+    })
+}
+
 impl Prepared {
-    /// Adds code generated for this mechanism; runs then use it if they can.
+    /// Adds code generated for this mechanism, or for one that differs from it only in numbers that
+    /// the code takes as inputs ([`SceneCode::inputs`]); runs then use it if they can. With inputs,
+    /// rows that nobody chose are those of the code ([`Prepared::on_rows`]): which of redundant
+    /// rows are kept may hang on any number.
     ///
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
     pub fn with_code(self, code: Arc<dyn SceneCode>) -> Result<Self, CodeMismatch> {
-        check_spec(&self, &*code)?;
-        check_values(&self, &*code)?;
+        let code = for_mechanism(code, &self.mechanism)?;
+        let spec = code.spec();
+        let moved = code
+            .inputs()
+            .and_then(|_| self.on_rows(&spec.kept, &spec.position_kept));
+        let own = moved.unwrap_or(self);
+        check_spec(&own, &*code)?;
+        check_values(&own, &*code)?;
         Ok(Self {
             code: Some(code),
-            ..self
+            ..own
         })
     }
 

@@ -1,6 +1,7 @@
 //! The parts of a function of time, for generators of code.
 
-use super::{Function, Law};
+use super::spline::Spline;
+use super::{Function, Law, points};
 
 /// The kind of a function, with its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +44,94 @@ pub enum Parts<'a> {
     },
 }
 
+impl Parts<'_> {
+    /// The name of the kind.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Polynomial(_) => "polynomial",
+            Self::Harmonic { .. } => "harmonic",
+            Self::Steps { .. } => "steps",
+            Self::Spline { .. } => "spline",
+            Self::Lines { .. } => "lines",
+        }
+    }
+
+    /// All its numbers: the coefficients; amplitude, omega, phase and offset; the start, then each
+    /// step; time, value and curvature of each point; or time and value of each point.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        match self {
+            Self::Polynomial(c) => c.to_vec(),
+            &Self::Harmonic {
+                amplitude,
+                omega,
+                phase,
+                offset,
+            } => vec![amplitude, omega, phase, offset],
+            Self::Steps { start, steps } => {
+                let steps = steps.iter().flatten();
+                std::iter::once(start).chain(steps).copied().collect()
+            }
+            Self::Spline {
+                times,
+                values,
+                curvatures,
+            } => {
+                let points = times.iter().zip(*values).zip(*curvatures);
+                points.flat_map(|((t, f), k)| [*t, *f, *k]).collect()
+            }
+            Self::Lines { times, values } => {
+                let points = times.iter().zip(*values);
+                points.flat_map(|(t, f)| [*t, *f]).collect()
+            }
+        }
+    }
+}
+
 impl Function {
+    /// The function of the same kind with these numbers, in the order of [`Parts::numbers`]. `None`
+    /// if there are not as many, or a function of this kind cannot have them.
+    ///
+    /// ```
+    /// let f = model::Function::harmonic(2.0, 3.0, 0.1, 0.5).unwrap();
+    /// let mut numbers = f.parts().numbers();
+    /// numbers[0] = 4.0;
+    /// assert_eq!(f.with_numbers(&numbers), model::Function::harmonic(4.0, 3.0, 0.1, 0.5).ok());
+    /// assert_eq!(f.with_numbers(&[1.0]), None);
+    /// ```
+    #[must_use]
+    pub fn with_numbers(&self, numbers: &[f64]) -> Option<Self> {
+        if numbers.len() != self.parts().numbers().len() {
+            return None;
+        }
+        let every = |n: usize, from: usize| -> Vec<f64> {
+            numbers.iter().skip(from).step_by(n).copied().collect()
+        };
+        match &self.0 {
+            Law::Polynomial(_) => Self::polynomial(numbers).ok(),
+            Law::Harmonic { .. } => {
+                let &[amplitude, omega, phase, offset] = numbers else {
+                    return None;
+                };
+                Self::harmonic(amplitude, omega, phase, offset).ok()
+            }
+            Law::Steps { .. } => {
+                let (start, steps) = numbers.split_first()?;
+                let (steps, _) = steps.as_chunks();
+                Self::steps(*start, steps).ok()
+            }
+            Law::Table(_) => {
+                let [times, values, curvatures] = [0, 1, 2].map(|from| every(3, from));
+                points(&times, &values, |earlier, later| later > earlier).ok()?;
+                Some(Self(Law::Table(Spline::of_points(
+                    times, values, curvatures,
+                ))))
+            }
+            Law::Lines(_) => Self::lines(&every(2, 0), &every(2, 1)).ok(),
+        }
+    }
+
     /// The kind of the function, with its numbers.
     ///
     /// ```

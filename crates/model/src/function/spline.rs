@@ -36,6 +36,15 @@ impl Spline {
         }
     }
 
+    /// The spline with these values and second derivatives.
+    pub(super) fn of_points(times: Vec<f64>, values: Vec<f64>, curvatures: Vec<f64>) -> Self {
+        Self {
+            times,
+            values,
+            curvatures,
+        }
+    }
+
     pub(super) fn times(&self) -> &[f64] {
         &self.times
     }

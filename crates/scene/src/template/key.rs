@@ -4,7 +4,7 @@ use model::codes::Code;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::Slot;
+use super::{Slot, Was};
 use crate::active::ACTIVE;
 use crate::field::{as_number, found};
 use crate::language::read::{COMPUTING, FORMAT};
@@ -282,6 +282,7 @@ impl<'k> Walk<'k> {
             span,
             before: String::new(),
             after: "",
+            was: Was::Other,
         })
     }
 
@@ -292,6 +293,11 @@ impl<'k> Walk<'k> {
                 span: node.span(),
                 before: String::new(),
                 after: "",
+                was: match (as_number(value), value.as_str()) {
+                    (Some(x), _) => Was::Number(x),
+                    (None, Some(text)) => Was::Expression(text.to_owned()),
+                    (None, None) => Was::Other,
+                },
             }),
             DeValue::Array(items) => Err(not_a_number(self.key, items)),
             value => Err(KeyError::NotANumber {
@@ -341,6 +347,7 @@ impl<'k> Walk<'k> {
             span: at..at,
             before,
             after,
+            was: Was::Other,
         })
     }
 }

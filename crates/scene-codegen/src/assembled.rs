@@ -1,0 +1,47 @@
+//! A scene from its text to a mechanism on its rows.
+
+use dynamics::{MotionError, MotionOptions, Prepared, RowChoice, prepare};
+use model::{Mechanism, Registry};
+
+use crate::error::CodeError;
+
+/// A scene with its name, its joints and the rows that are dropped instead of its own.
+pub(crate) struct SceneText<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) text: &'a str,
+    pub(crate) registry: &'a Registry,
+    pub(crate) drop: Option<&'a [usize]>,
+}
+
+/// The mechanism of a scene on its rows, and the run that the scene requests.
+pub(crate) fn prepared(
+    scene: &SceneText<'_>,
+) -> Result<(Prepared, Option<MotionOptions>), CodeError> {
+    let &SceneText {
+        name,
+        text,
+        registry,
+        drop,
+    } = scene;
+    let scene = ::scene::read(name, text, registry).map_err(CodeError::Scene)?;
+    let located = |e: MotionError| match scene.locate_motion(&e) {
+        Some(place) => CodeError::Scene(vec![place]),
+        None => e.into(),
+    };
+    let mechanism = Mechanism::build(&scene.description).map_err(|faults| {
+        let places = faults.iter().filter_map(|e| scene.locate_build(e));
+        CodeError::Scene(places.collect())
+    })?;
+    let mut options = scene.simulate.clone();
+    let rows = match (drop, &options) {
+        (Some(drop), _) => RowChoice::Drop(drop.to_vec()),
+        (None, Some(options)) => options.rows.clone(),
+        (None, None) => RowChoice::Automatic,
+    };
+    if let Some(options) = &mut options {
+        options.rows.clone_from(&rows);
+        options.check().map_err(located)?;
+    }
+    let prepared = prepare(mechanism, &scene.start, &rows).map_err(located)?;
+    Ok((prepared, options))
+}

@@ -1,0 +1,102 @@
+//! The numbers of a scene in its module: what its functions take, and where a run finds it; and how
+//! the velocities of bodies in space are turned, which may depend on them.
+
+use joints::Recorded;
+use model::{BodyRecord, Principal, SpaceKind};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::functions::Functions;
+use crate::parameters::Inputs;
+use crate::subject::Subject;
+
+/// The numbers of the scene that functions take.
+pub(super) fn parameters(inputs: &Inputs) -> TokenStream {
+    let n = inputs.list.len();
+    if n == 0 {
+        return TokenStream::new();
+    }
+    let of = inputs.list.iter().map(|p| {
+        let (name, described) = (&p.name, p.described);
+        quote!((#name, #described))
+    });
+    let described = inputs.list.iter().map(|p| p.described);
+    quote! {
+        /// Number of numbers of the scene that functions take as `p`.
+        pub const N_P: usize = #n;
+        /// What each of them is, with the keys of the scene that change it, and its value in the
+        /// scene.
+        pub const PARAMETERS: [(&str, f64); N_P] = [#(#of),*];
+        /// Their values in the scene.
+        pub const DESCRIBED: [f64; N_P] = [#(#described),*];
+    }
+}
+
+/// How the velocities of bodies in space are turned against their frames.
+pub(super) fn principal_axes(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
+    let mechanism = &subject.prepared.mechanism;
+    let (bodies, space) = (mechanism.bodies(), mechanism.space());
+    if space != SpaceKind::Space3 {
+        return TokenStream::new();
+    }
+    let recorded = &functions.equations.recording.principal;
+    let number = |r: &Recorded| subject.inputs.at(r.place());
+    let varies = recorded
+        .iter()
+        .flatten()
+        .flatten()
+        .any(|r| number(r).is_some());
+    if varies {
+        let n = bodies.len();
+        let axes = bodies.iter().zip(recorded).map(|(body, recorded)| {
+            let known = body.principal.as_ref().map(Principal::quaternion);
+            let known = known.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+            let e = [0, 1, 2, 3].map(|i| {
+                let input = recorded.as_ref().and_then(|e| number(&e[i]));
+                let x = known[i];
+                input.map_or_else(|| quote!(#x), |k| quote!(p[#k]))
+            });
+            quote!([#(#e),*])
+        });
+        return quote! {
+            /// The rotation of each body from its principal axes to those of its frame, as a
+            /// quaternion (w, x, y, z).
+            pub fn principal_axes(p: &[f64; N_P]) -> [[f64; 4]; #n] { [#(#axes),*] }
+        };
+    }
+    let n = bodies.len();
+    let of = |body: &BodyRecord| match &body.principal {
+        Some(principal) => principal.quaternion(),
+        None => [1.0, 0.0, 0.0, 0.0],
+    };
+    let axes = bodies.iter().map(|body| {
+        let e = of(body);
+        quote!([#(#e),*])
+    });
+    quote! {
+        /// The rotation of each body from its principal axes to those of its frame, as a
+        /// quaternion (w, x, y, z).
+        pub const PRINCIPAL_AXES: [[f64; 4]; #n] = [#(#axes),*];
+    }
+}
+
+/// Where a run finds the numbers in its mechanism.
+pub(super) fn inputs_of_code(inputs: &Inputs, path: &syn::Path) -> TokenStream {
+    let shape = inputs.shape;
+    let list = inputs.list.iter().enumerate().map(|(k, p)| {
+        let places = &p.places;
+        quote! {
+            #path::code::CodeInput {
+                name: ::std::borrow::Cow::Borrowed(PARAMETERS[#k].0),
+                described: DESCRIBED[#k],
+                places: ::std::borrow::Cow::Borrowed(&[#(#places),*]),
+            }
+        }
+    });
+    quote! {
+        static INPUTS: #path::code::CodeInputs = #path::code::CodeInputs {
+            shape: #shape,
+            list: ::std::borrow::Cow::Borrowed(&[#(#list),*]),
+        };
+    }
+}
