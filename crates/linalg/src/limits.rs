@@ -164,4 +164,4 @@ pub(crate) const FRONT_ZEROS: f64 = 0.15;
 /// costs as much as some ten products.
 /// Unit: entries. Less: many small fronts. More: products with zeros. Test:
 /// `a_hanging_chain_of_point_masses_pulls_with_its_weight`.
-pub(crate) const FRONT_FEW_ZEROS: usize = 24;
+pub(crate) const FRONT_FEW_ZEROS: usize = 48;
