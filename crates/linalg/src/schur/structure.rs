@@ -6,13 +6,12 @@
 //! triangle over the rows that are eliminated in it, its pivots, and the later rows with which they
 //! have non-zero entries. `C_b·M_b⁻¹·C_bᵀ` of a block b is added to the front in which the first of
 //! its rows is a pivot; the remainder of a front after elimination is added to the front of the
-//! first of its other rows, its parent. Fronts that are almost equal to their parent are merged
-//! with it.
+//! first of its other rows, its parent. A front becomes one with its parent where L has no more
+//! [tiles](super::tiles) then.
 
 use std::ops::Range;
 
 use super::tiles::{Lane, SIDE, diagonal, lanes, triangle};
-use crate::limits::{FRONT_FEW_ZEROS, FRONT_ZEROS};
 use crate::{EliminationTree, SparseMatrix};
 
 /// The pattern of `S = C·M⁻¹·Cᵀ` and of its factor.
@@ -293,6 +292,12 @@ impl Nodes {
     }
 }
 
+/// Number of tiles of L in the columns of so many pivots, with so many other rows.
+fn tiles(pivots: usize, rest: usize) -> usize {
+    let rest = lanes(rest);
+    triangle(lanes(pivots) + rest) - triangle(rest)
+}
+
 /// Nodes in the order of elimination, with their later neighbours.
 struct Tree {
     /// Nodes in this order.
@@ -308,11 +313,10 @@ impl Tree {
         let n = nodes.rows.len();
         let (order, meets) = postordered(EliminationTree::new(n, &nodes.touching));
         let width = |k: usize| nodes.rows[order[k]].len();
-        // Rows of a front, its columns, and the zeros among their entries so far.
+        // Other rows of a front, and its columns so far.
         let rows_of = |k: usize| meets[k].iter().map(|&j| width(j)).sum::<usize>();
         let mut merged = vec![0; n];
         let mut columns: Vec<usize> = (0..n).map(width).collect();
-        let mut zeros = vec![0; n];
         for k in 1..n {
             loop {
                 let last = k - merged[k];
@@ -322,17 +326,13 @@ impl Tree {
                 let Some(child) = last.checked_sub(1).filter(is_child) else {
                     break;
                 };
-                let (rest, own) = (rows_of(k), columns[k]);
-                let missing = columns[child] * ((rest + own).saturating_sub(rows_of(child)));
-                let all = zeros[k] + zeros[child] + missing;
-                let total = columns[child] + own;
-                let entries = total * (total + 1) / 2 + total * rest;
-                if all > FRONT_FEW_ZEROS && all as f64 > FRONT_ZEROS * entries as f64 {
+                let total = columns[child] + columns[k];
+                let apart = tiles(columns[child], rows_of(child)) + tiles(columns[k], rows_of(k));
+                if tiles(total, rows_of(k)) > apart {
                     break;
                 }
                 merged[k] += 1 + merged[child];
                 columns[k] = total;
-                zeros[k] = all;
             }
         }
         Self {
