@@ -43,6 +43,7 @@ pub(super) fn add_element(
     });
 }
 
+/// As [`add_element`], for blocks of this width.
 fn add_products<const N: usize>(
     (front, lanes): (&mut [Tile], usize),
     rows: &[RowsOfLane],
