@@ -217,7 +217,7 @@ impl SchurSaddle {
         for value in values.as_flattened_mut() {
             *value = value.abs();
         }
-        // What is subtracted from sizes and added to them has the sign of a residual.
+        // What is subtracted leaves sizes with a minus sign.
         for (terms, free) in terms.iter_mut().zip(&*free) {
             *terms = -free.abs();
         }
