@@ -59,7 +59,7 @@ pub struct SchurSaddle {
 /// Factors `S = L·D·Lᵀ`, and the data from which they were computed.
 #[derive(Clone, Debug)]
 struct Factors {
-    /// Columns of L of each front, one after the other, with zeros in place of their unit diagonals.
+    /// Columns of L of each front, one after the other, with zeros in place of unit diagonals.
     l: Vec<Tile>,
     /// 1/D of each place in the order of elimination, 0 for a skipped row and for no row.
     inverse: Vec<Lane>,

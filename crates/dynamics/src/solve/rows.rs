@@ -50,8 +50,8 @@ pub(crate) struct KeptRows {
 struct PartitionPivot(Option<f64>);
 
 impl KeptRows {
-    /// Allocates storage for the rows of a decision, with the solver for `of_c` kept rows of C: both
-    /// levels are solved in the same way.
+    /// Allocates storage for the rows of a decision, with the solver for `of_c` kept rows of C:
+    /// both levels are solved in the same way.
     pub(crate) fn new(
         at: &Evaluation<'_>,
         rows: &RowDecision,

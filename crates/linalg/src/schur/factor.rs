@@ -219,8 +219,8 @@ impl SchurSaddle {
 }
 
 impl SchurStructure {
-    /// Finds the entry that is not finite, in a row or, if sums have overflowed, the row itself, which
-    /// is that at this place.
+    /// Finds the entry that is not finite, in a row or, if sums have overflowed, the row itself,
+    /// which is that at this place.
     fn not_finite(&self, c: &SparseMatrix, place: usize) -> SaddleError {
         let row = self.rows.place.iter().position(|&p| p == place);
         let of_row = (row.unwrap_or_default(), 0, f64::INFINITY);

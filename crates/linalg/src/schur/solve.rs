@@ -160,8 +160,8 @@ impl SchurSaddle {
         clear_unused(x, &self.factors);
     }
 
-    /// Also returns the largest residual relative to its terms, with the larger of the accelerations
-    /// and those of free bodies.
+    /// Also returns the largest residual relative to its terms, with the larger of the
+    /// accelerations and those of free bodies.
     fn take_misfit(&mut self, gamma: &[f64], a: &[f64]) -> f64 {
         let s = &self.structure;
         let Work {

@@ -1,6 +1,6 @@
-//! Tiles: matrices of 4 × 4 numbers, of which fronts and factors consist, and the same lanes of four
-//! rows for the columns of elements. Rows are filled up with zeros to whole tiles, so that no loop
-//! has a remainder, and everything of a tile stays in registers.
+//! Tiles: matrices of 4 × 4 numbers, of which fronts and factors consist, and the same lanes of
+//! four rows for the columns of elements. Rows are filled up with zeros to whole tiles, so that no
+//! loop has a remainder, and everything of a tile stays in registers.
 
 /// Rows of a tile, and columns.
 pub(super) const SIDE: usize = 4;
