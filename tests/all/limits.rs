@@ -28,7 +28,7 @@ const FACTS: [(&str, &[&str]); 14] = [
         &["HALVINGS", "TERMS", "LARGEST"],
     ),
     ("linalg/src/powers.rs", &["STEP", "BIAS", "TO_NORMAL"]),
-    ("linalg/src/schur/structure.rs", &["NONE"]),
+    ("linalg/src/schur/tiles.rs", &["$n", "SIDE"]),
     ("linalg/src/sparse/order/buckets.rs", &["NONE"]),
     ("rank/src/decision/modular.rs", &["FRACTION"]),
     ("rank/src/sparse/front.rs", &["OUTSIDE"]),

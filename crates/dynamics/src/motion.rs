@@ -60,8 +60,9 @@ impl<'m> KeptRowMotion<'m> {
 
     fn interpreted(prepared: &'m Prepared, options: &MotionOptions) -> Result<Self, MotionFault> {
         let at = Evaluation::new(&prepared.mechanism, prepared.assembly.size);
-        let velocity = KeptRows::new(&at, &prepared.decision)?;
-        let position = KeptRows::new(&at, &prepared.position_decision)?;
+        let of_c = prepared.decision.kept.len();
+        let velocity = KeptRows::new(&at, &prepared.decision, of_c)?;
+        let position = KeptRows::new(&at, &prepared.position_decision, of_c)?;
         let horizon = if options.t_end > 0.0 {
             options.t_end
         } else {

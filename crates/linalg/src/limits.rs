@@ -153,15 +153,3 @@ pub(crate) const SCHUR_CORRECTIONS: usize = 4;
 /// Unit: share of the miss before. Less: slow corrections are given up. More: time. Test:
 /// `corrections_go_on_while_they_halve_what_is_left`.
 pub(crate) const SCHUR_PROGRESS: f64 = 0.5;
-
-/// A front becomes one with its parent if that leaves at most this share of zeros in the columns
-/// of both.
-/// Unit: share of the entries. Less: many small fronts. More: products with zeros. Test:
-/// `a_hanging_chain_of_point_masses_pulls_with_its_weight`.
-pub(crate) const FRONT_ZEROS: f64 = 0.15;
-
-/// A front becomes one with its parent if that adds no more than so many zeros: a front of its own
-/// costs as much as some ten products.
-/// Unit: entries. Less: many small fronts. More: products with zeros. Test:
-/// `a_hanging_chain_of_point_masses_pulls_with_its_weight`.
-pub(crate) const FRONT_FEW_ZEROS: usize = 24;

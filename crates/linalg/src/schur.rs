@@ -27,8 +27,10 @@ mod solve;
 mod structure;
 #[cfg(test)]
 mod tests;
+mod tiles;
 
 pub use structure::SchurStructure;
+use tiles::{Lane, SIDE, Tile, triangle};
 
 /// Solver of the saddle equations for n coordinates and r independent, sparse constraint rows. All
 /// storage is allocated in [`SchurSaddle::new`]; factorisations and solutions do not allocate
@@ -57,75 +59,82 @@ pub struct SchurSaddle {
 /// Factors `S = L·D·Lᵀ`, and the data from which they were computed.
 #[derive(Clone, Debug)]
 struct Factors {
-    /// Columns of L of each front, one after the other, below their unit diagonals.
-    l: Vec<f64>,
-    /// 1/D of each row in the order of elimination, 0 for a skipped row.
-    inverse: Vec<f64>,
-    /// S_kk of each row in the order of elimination.
-    diagonal: Vec<f64>,
+    /// Columns of L of each front, one after the other, with zeros in place of unit diagonals.
+    l: Vec<Tile>,
+    /// 1/D of each place in the order of elimination, 0 for a skipped row and for no row.
+    inverse: Vec<Lane>,
+    /// S_kk of each place, and a lane for no row.
+    diagonal: Vec<Lane>,
     /// What is left of each row usually, in units of the smallest; 1 if that is not known.
-    usual: Vec<f64>,
+    usual: Vec<Lane>,
     /// What the pivots are compared with: diagonal · usual.
-    compared: Vec<f64>,
-    /// Inverse masses 1/m, n.
+    compared: Vec<Lane>,
+    /// Masses m, NaN if they are not known, and their inverses, n each.
+    mass: Vec<f64>,
     inverse_mass: Vec<f64>,
     pivot_ratio: f64,
     n_left_out: usize,
 }
 
-/// Scratch of a factorisation.
+/// C by elements, and scratch of a factorisation.
 #[derive(Clone, Debug)]
 struct Assembly {
+    /// Values of C, element by element. Those that do not belong to an entry stay zero.
+    values: Vec<Lane>,
     /// The present front.
-    front: Vec<f64>,
+    front: Vec<Tile>,
     /// Updates that have not been added to their parents, the last one on top.
-    waiting: Vec<f64>,
-    /// C of one block, scaled by the square roots of the inverse masses.
-    element: Vec<f64>,
+    waiting: Vec<Tile>,
 }
 
 /// Scratch of a solution.
 #[derive(Clone, Debug)]
 struct Work {
-    /// A right-hand side and its solution in the order of elimination, r.
-    x: Vec<f64>,
-    /// Entries of one front.
-    local: Vec<f64>,
-    /// `M⁻¹·f`, the larger of it and a, and the sizes of all terms added to a, n each.
+    /// A right-hand side and its solution in the order of elimination, sizes of the terms of each
+    /// row, and of what all solutions have added to its multiplier; each has a lane for no row.
+    x: Vec<Lane>,
+    size: Vec<Lane>,
+    added: Vec<Lane>,
+    /// Lanes of one front or element, and their sizes.
+    local: Vec<[Lane; 2]>,
+    /// `M⁻¹·f`, and sizes of the terms of a, n each.
     free: Vec<f64>,
     terms: Vec<f64>,
-    all: Vec<f64>,
 }
 
 impl SchurSaddle {
     /// Allocates storage for this structure.
     #[must_use]
     pub fn new(structure: SchurStructure) -> Self {
-        let (n, r) = (structure.n_coordinates(), structure.n_rows());
+        let (n, lanes) = (structure.n_coordinates(), structure.rows.lanes);
         let size = &structure.size;
+        let zeros = [0.0; SIDE];
+        let tile = [zeros; SIDE];
         Self {
             factors: Factors {
-                l: vec![0.0; size.entries],
-                inverse: vec![0.0; r],
-                diagonal: vec![0.0; r],
-                usual: vec![1.0; r],
-                compared: vec![0.0; r],
+                l: vec![tile; size.tiles],
+                inverse: vec![zeros; lanes],
+                diagonal: vec![zeros; lanes + 1],
+                usual: vec![[1.0; SIDE]; lanes],
+                compared: vec![zeros; lanes],
+                mass: vec![f64::NAN; n],
                 inverse_mass: vec![0.0; n],
                 pivot_ratio: f64::INFINITY,
                 n_left_out: 0,
             },
             is_factored: false,
             assembly: Assembly {
-                front: vec![0.0; size.front * size.front],
+                values: vec![zeros; structure.elements.n_lanes],
+                front: vec![tile; triangle(size.front)],
                 waiting: Vec::with_capacity(size.waiting),
-                element: vec![0.0; size.element],
             },
             work: Work {
-                x: vec![0.0; r],
-                local: vec![0.0; size.front],
+                x: vec![zeros; lanes + 1],
+                size: vec![zeros; lanes + 1],
+                added: vec![zeros; lanes + 1],
+                local: vec![[zeros; 2]; size.front],
                 free: vec![0.0; n],
                 terms: vec![0.0; n],
-                all: vec![0.0; n],
             },
             structure,
         }
@@ -153,6 +162,6 @@ impl SchurSaddle {
     /// Whether the last factorisation uses row k.
     #[must_use]
     pub fn uses(&self, k: usize) -> bool {
-        self.factors.inverse[self.structure.rows.place[k]] != 0.0
+        self.factors.inverse.as_flattened()[self.structure.rows.place[k]] != 0.0
     }
 }

@@ -35,6 +35,8 @@ pub(crate) struct KeptRows {
     motion: Vec<f64>,
     /// The rows in these units, and their factors.
     solver: Solver,
+    /// Number of kept rows of C, by which the solver was chosen.
+    of_c: usize,
     /// Whether the size of the mechanism is so far from a metre that solutions are refined.
     is_far: bool,
     /// Pivot ratio at the time when these rows were chosen; later ones are compared with it.
@@ -48,11 +50,16 @@ pub(crate) struct KeptRows {
 struct PartitionPivot(Option<f64>);
 
 impl KeptRows {
-    /// Allocates storage for the rows of a decision.
-    pub(crate) fn new(at: &Evaluation<'_>, rows: &RowDecision) -> Result<Self, MotionFault> {
+    /// Allocates storage for the rows of a decision, with the solver for `of_c` kept rows of C:
+    /// both levels are solved in the same way.
+    pub(crate) fn new(
+        at: &Evaluation<'_>,
+        rows: &RowDecision,
+        of_c: usize,
+    ) -> Result<Self, MotionFault> {
         let units = units(at.mechanism, at.size);
         let (n, r) = (units.len(), rows.kept.len());
-        let solver = Solver::new(at.mechanism, &rows.kept, (&units, at.size));
+        let solver = Solver::new(at.mechanism, &rows.kept, (&units, at.size), of_c);
         let layout = at.mechanism.layout();
         let mut level = rows.kept.iter().chain(&rows.dropped);
         let mass = if layout.rows() > layout.m && level.all(|&i| i < layout.m) {
@@ -69,6 +76,7 @@ impl KeptRows {
                 time: at.s.t,
                 source,
             })?,
+            of_c,
             mass,
             units,
             force: vec![0.0; n],
@@ -77,6 +85,15 @@ impl KeptRows {
             reference_pivot: None,
             partition: None,
         })
+    }
+
+    /// The same for the rows of another decision at this level.
+    pub(crate) fn others(
+        &self,
+        at: &Evaluation<'_>,
+        rows: &RowDecision,
+    ) -> Result<Self, MotionFault> {
+        Self::new(at, rows, self.of_c)
     }
 
     /// Factors the rows with the entries of C in the scratch. Rows that are dependent for an

@@ -30,10 +30,11 @@ macro_rules! each {
     };
 }
 
-/// Whether this number of kept rows of a mechanism of this size (m) is solved sparsely: if there
-/// are many of them, every coordinate has a mass, and solutions need no refinement because of
-/// different masses; or if there are too many rows for a dense solver. The units of columns cancel
-/// in the Schur complement, so masses are compared by the lengths of their bodies.
+/// Whether this number of kept rows of C of a mechanism of this size (m) is solved sparsely, and so
+/// are its kept rows of Φq: if there are many of them, every coordinate has a mass, and solutions
+/// need no refinement because of different masses; or if there are too many rows for a dense
+/// solver. The units of columns cancel in the Schur complement, so masses are compared by the
+/// lengths of their bodies.
 pub(crate) fn is_sparse(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     let is_graded = || {
         let units = units_of_bodies(mechanism, size);
@@ -44,12 +45,12 @@ pub(crate) fn is_sparse(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
         && (rows > REFINED_MOST || !is_graded())
 }
 
-/// Estimated upper bound (bytes) on the memory of a motion: solvers of these levels of kept rows,
-/// stages, and rows of output.
+/// Estimated upper bound (bytes) on the memory of a motion: solvers of the kept rows of C and of
+/// Φq, stages, and rows of output.
 pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) -> usize {
     let layout = mechanism.layout();
     let of_level = |kept: &[usize]| {
-        if is_sparse(mechanism, size, kept.len()) {
+        if is_sparse(mechanism, size, levels[0].len()) {
             sparse::memory(mechanism, kept)
         } else {
             DENSE_MATRICES * size_of::<f64>() * (layout.n_v + kept.len()).pow(2)
@@ -64,8 +65,9 @@ impl Solver {
         mechanism: &Mechanism,
         kept: &[usize],
         (units, size): (&[f64], f64),
+        of_c: usize,
     ) -> Result<Self, SaddleError> {
-        if is_sparse(mechanism, size, kept.len()) {
+        if is_sparse(mechanism, size, of_c) {
             return Ok(Self::Sparse(Box::new(Sparse::new(mechanism, kept, units))));
         }
         let massless = mechanism.mass().iter().position(|&m| m <= 0.0);

@@ -7,8 +7,11 @@ use model::{Mechanism, System};
 #[derive(Clone)]
 pub(super) struct Sparse {
     pub(super) c: SparseMatrix,
-    /// For each entry: its index among the values, its index among the entries of C, and its unit.
-    entries: Vec<(u32, u32, f64)>,
+    /// For each value: its index among the entries of C, and its unit.
+    first: Vec<(u32, f64)>,
+    /// Entries that are added to a value, with its index: a joint may contribute twice to a
+    /// coordinate.
+    more: Vec<(u32, (u32, f64))>,
     pub(super) saddle: SchurSaddle,
 }
 
@@ -16,19 +19,26 @@ impl Sparse {
     pub(super) fn new(mechanism: &Mechanism, kept: &[usize], units: &[f64]) -> Self {
         let pattern = &mechanism.layout().pattern;
         let c = rows_of(mechanism, kept);
-        let mut entries = Vec::with_capacity(c.nnz());
+        let mut first = vec![(u32::MAX, 0.0); c.nnz()];
+        let mut more = Vec::new();
         for (k, &i) in kept.iter().enumerate() {
             let (start, columns) = (c.start(k), c.row(k).0);
             for at in pattern.start[i]..pattern.start[i + 1] {
                 let column = pattern.column[at];
                 let place = start + columns.partition_point(|&j| j < column);
-                entries.push((place as u32, pattern.entry[at] as u32, units[column]));
+                let entry = (pattern.entry[at] as u32, units[column]);
+                if first[place].0 == u32::MAX {
+                    first[place] = entry;
+                } else {
+                    more.push((place as u32, entry));
+                }
             }
         }
         Self {
             saddle: SchurSaddle::new(structure(mechanism, &c)),
             c,
-            entries,
+            first,
+            more,
         }
     }
 
@@ -41,8 +51,10 @@ impl Sparse {
         mass: &[f64],
     ) -> Result<(), SaddleError> {
         let values = self.c.values_mut();
-        values.fill(0.0);
-        for &(place, entry, unit) in &self.entries {
+        for (value, &(entry, unit)) in values.iter_mut().zip(&self.first) {
+            *value = entries[entry as usize] * unit;
+        }
+        for &(place, (entry, unit)) in &self.more {
             values[place as usize] += entries[entry as usize] * unit;
         }
         self.saddle.factor_above(floor, &self.c, mass)
@@ -69,6 +81,6 @@ fn structure(mechanism: &Mechanism, c: &SparseMatrix) -> SchurStructure {
 /// Memory of the solver of these rows (bytes).
 pub(super) fn memory(mechanism: &Mechanism, kept: &[usize]) -> usize {
     let c = rows_of(mechanism, kept);
-    let entries = c.nnz() * (size_of::<(usize, f64)>() + size_of::<(u32, u32, f64)>());
+    let entries = c.nnz() * (size_of::<(usize, f64)>() + size_of::<(u32, f64)>());
     structure(mechanism, &c).bytes() + entries
 }

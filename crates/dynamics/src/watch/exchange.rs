@@ -174,7 +174,7 @@ fn better<E: std::fmt::Display>(
     if !decision.is_decided() || decision.rank != old.kept.len() || decision.kept == old.kept {
         return Ok(None);
     }
-    let mut rows = KeptRows::new(at, &decision)?;
+    let mut rows = old.others(at, &decision)?;
     rows.factor(at)?;
     rows.compare_as(old);
     let [new, old] = [&mut rows, old].map(|r| r.largest_coefficient(at));

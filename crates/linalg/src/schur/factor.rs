@@ -1,7 +1,8 @@
 //! Factorisation: front by front, children before their parents.
 
 use super::front::{add_element, add_update, eliminate};
-use super::{Assembly, Factors, SchurSaddle};
+use super::tiles::{SIDE, by_width, diagonal, of_columns, squares, triangle};
+use super::{Assembly, Factors, SchurSaddle, SchurStructure};
 use crate::limits::{SCHUR_NOISE, SCHUR_WHOLE};
 use crate::{SaddleError, SparseMatrix};
 
@@ -43,7 +44,8 @@ impl SchurSaddle {
         self.is_factored = false;
         self.take_mass(mass)?;
         self.check_shape(c)?;
-        self.take_diagonal(c);
+        self.take_values(c);
+        self.take_diagonal();
         let floor = floor.max(SCHUR_NOISE).powi(2);
         let (mut smallest, mut n_left_out) = (f64::INFINITY, 0);
         let s = &self.structure;
@@ -55,45 +57,41 @@ impl SchurSaddle {
             ..
         } = &mut self.factors;
         let Assembly {
+            values,
             front,
             waiting,
-            element,
         } = &mut self.assembly;
         waiting.clear();
         for piece in &s.fronts {
-            let f = piece.order();
-            let front = &mut front[..f * f];
-            front.fill(0.0);
+            let [of_pivots, of_rest] = piece.lanes();
+            let lanes = of_pivots + of_rest;
+            let front = &mut front[..triangle(lanes)];
+            front.fill([[0.0; SIDE]; SIDE]);
             for &child in &piece.children {
-                let rest = s.fronts[child].rest.clone();
-                let from = waiting.len() - rest.len() * (rest.len() + 1) / 2;
-                add_update(front, f, &waiting[from..], &s.in_parent[rest]);
+                let child = &s.fronts[child];
+                let [_, of_child] = child.lanes();
+                let from = waiting.len() - child.n_update();
+                let at = &s.in_parent[child.rest.clone()];
+                add_update(front, (&waiting[from..], of_child), at);
                 waiting.truncate(from);
             }
             for block in &s.elements.of_fronts[piece.elements.clone()] {
+                let rows = &s.elements.rows[block.rows.clone()];
                 let columns = &s.elements.columns[block.columns.clone()];
-                let at = &s.elements.in_front[block.rows.clone()];
-                let entries = &s.elements.entries[block.entries..][..at.len() * columns.len()];
-                let weight = |k: usize| inverse_mass[columns[k] as usize];
-                add_element(front, f, at, (entries, c.values()), weight, element);
+                let e = (columns, &values[block.values.clone()]);
+                add_element((front, lanes), rows, e, inverse_mass);
             }
-            let pivots = piece.pivots.clone();
-            let own = &mut inverse[pivots.clone()];
-            let found = match eliminate(front, f, own, &compared[pivots.clone()], floor) {
+            let own = (&mut inverse[piece.pivots.clone()], piece.n_pivots);
+            let sizes = &compared[piece.pivots.clone()];
+            let update = diagonal(lanes, of_pivots);
+            let l = &mut l[piece.l..][..update];
+            let found = match eliminate((front, lanes), own, sizes, floor, l) {
                 Ok(found) => found,
-                Err(k) => return Err(not_finite(c, s.rows.row[pivots.start + k])),
+                Err(k) => return Err(s.not_finite(c, SIDE * piece.pivots.start + k)),
             };
             smallest = smallest.min(found.smallest);
             n_left_out += found.n_left_out;
-            let mut at = piece.l;
-            for k in 0..pivots.len() {
-                let column = &front[k * f + k + 1..(k + 1) * f];
-                l[at..at + column.len()].copy_from_slice(column);
-                at += column.len();
-            }
-            for k in pivots.len()..f {
-                waiting.extend_from_slice(&front[k * f + k..(k + 1) * f]);
-            }
+            waiting.extend_from_slice(&front[update..]);
         }
         self.factors.pivot_ratio = smallest.sqrt();
         self.factors.n_left_out = n_left_out;
@@ -110,6 +108,11 @@ impl SchurSaddle {
                 expected,
             });
         }
+        // Masses do not change along a motion.
+        if self.factors.mass == mass {
+            return Ok(());
+        }
+        self.factors.mass.fill(f64::NAN);
         for (index, (inverse, &value)) in self.factors.inverse_mass.iter_mut().zip(mass).enumerate()
         {
             *inverse = 1.0 / value;
@@ -126,6 +129,7 @@ impl SchurSaddle {
                 _ => SaddleError::ZeroMass { index, value },
             });
         }
+        self.factors.mass.copy_from_slice(mass);
         Ok(())
     }
 
@@ -134,7 +138,7 @@ impl SchurSaddle {
         let shapes = [
             ("rows", c.nrows(), s.n_rows()),
             ("columns", c.ncols(), s.n_coordinates()),
-            ("entries", c.nnz(), s.rows.nnz),
+            ("entries", c.nnz(), s.elements.index.len()),
         ];
         match shapes
             .into_iter()
@@ -149,7 +153,15 @@ impl SchurSaddle {
         }
     }
 
-    fn take_diagonal(&mut self, c: &SparseMatrix) {
+    /// Writes the values of C to the elements.
+    pub(super) fn take_values(&mut self, c: &SparseMatrix) {
+        let values = self.assembly.values.as_flattened_mut();
+        for (&index, &value) in self.structure.elements.index.iter().zip(c.values()) {
+            values[index as usize] = value;
+        }
+    }
+
+    fn take_diagonal(&mut self) {
         let Factors {
             diagonal,
             compared,
@@ -157,10 +169,27 @@ impl SchurSaddle {
             inverse_mass,
             ..
         } = &mut self.factors;
-        for (place, size) in diagonal.iter_mut().enumerate() {
-            let terms = self.structure.rows.entries_at(place, c.values());
-            *size = terms.map(|(j, x)| x * x * inverse_mass[j]).sum();
-            compared[place] = *size * usual[place];
+        let numbers = diagonal.as_flattened_mut();
+        numbers.fill(0.0);
+        let local = &mut self.work.local;
+        let s = &self.structure.elements;
+        for block in &s.of_fronts {
+            let columns = &s.columns[block.columns.clone()];
+            let rows = &s.rows[block.rows.clone()];
+            let e = &self.assembly.values[block.values.clone()];
+            by_width!(columns.len(), N => {
+                let weights = of_columns::<N>(columns, inverse_mass);
+                for (local, e) in local.iter_mut().zip(e.as_chunks::<N>().0) {
+                    squares(&mut local[0], e, &weights);
+                }
+            });
+            for (rows, [squares, _]) in rows.iter().zip(&*local) {
+                rows.add_to(numbers, squares);
+            }
+        }
+        let sizes = diagonal.as_flattened().iter().zip(usual.as_flattened());
+        for (compared, (size, usual)) in compared.as_flattened_mut().iter_mut().zip(sizes) {
+            *compared = size * usual;
         }
     }
 
@@ -176,7 +205,8 @@ impl SchurSaddle {
             diagonal,
             ..
         } = &mut self.factors;
-        for ((usual, inverse), size) in usual.iter_mut().zip(inverse).zip(diagonal) {
+        let pivots = inverse.as_flattened().iter().zip(diagonal.as_flattened());
+        for (usual, (inverse, size)) in usual.as_flattened_mut().iter_mut().zip(pivots) {
             let share = (1.0 / (*inverse * *size)).min(SCHUR_WHOLE.powi(2));
             let usually = share / smallest;
             *usual = if usually.is_finite() {
@@ -188,12 +218,17 @@ impl SchurSaddle {
     }
 }
 
-/// Finds the entry that is not finite, in a row or, if sums have overflowed, the row itself.
-fn not_finite(c: &SparseMatrix, row: usize) -> SaddleError {
-    let (row, column, value) = c.first_non_finite().unwrap_or((row, 0, f64::INFINITY));
-    SaddleError::NonFinite {
-        argument: "C",
-        index: row * c.ncols() + column,
-        value,
+impl SchurStructure {
+    /// Finds the entry that is not finite, in a row or, if sums have overflowed, the row itself,
+    /// which is that at this place.
+    fn not_finite(&self, c: &SparseMatrix, place: usize) -> SaddleError {
+        let row = self.rows.place.iter().position(|&p| p == place);
+        let of_row = (row.unwrap_or_default(), 0, f64::INFINITY);
+        let (row, column, value) = c.first_non_finite().unwrap_or(of_row);
+        SaddleError::NonFinite {
+            argument: "C",
+            index: row * c.ncols() + column,
+            value,
+        }
     }
 }

@@ -1,124 +1,153 @@
 //! One dense front: its assembly, and the elimination of its pivots.
 //!
-//! A front of order f is stored by columns, f numbers each, of which only those from the diagonal
-//! on are used.
+//! A front is the lower triangle of a matrix of [tiles](super::tiles), stored by columns of tiles.
+//! What its diagonal tiles have above the diagonal is finite and means nothing.
 
-use super::structure::NONE;
-use crate::kernels::axpy;
+use super::structure::{InParent, RowsOfLane};
+use super::tiles::{
+    Lane, SIDE, Tile, add_product, by_width, diagonal, of_columns, scaled, subtract_product, sum,
+};
 
-/// Adds the remaining triangle of a child, `later` × `later` packed by columns, at these ascending
-/// indices.
-pub(super) fn add_update(front: &mut [f64], f: usize, update: &[f64], at: &[u32]) {
-    let mut from = 0;
-    for (k, &j) in at.iter().enumerate() {
-        let column = &mut front[j as usize * f..][..f];
-        let own = &at[k..];
-        for (u, &i) in update[from..from + own.len()].iter().zip(own) {
-            column[i as usize] += u;
+/// Adds what a child has left over, a triangle of so many lanes, in these rows and columns.
+pub(super) fn add_update(
+    front: &mut [Tile],
+    (update, of_child): (&[Tile], usize),
+    at: &[InParent],
+) {
+    let front = front.as_flattened_mut().as_flattened_mut();
+    for (k, to) in at.iter().enumerate() {
+        let lane = k / SIDE;
+        let from = &update[diagonal(of_child, lane)..];
+        let to = &mut front[to.column as usize..];
+        let mut skipped = k % SIDE;
+        for (tile, rows) in from.iter().zip(at[lane * SIDE..].chunks(SIDE)) {
+            let update = &tile[k % SIDE][..rows.len()];
+            for l in skipped..rows.len() {
+                to[rows[l].row as usize] += update[l];
+            }
+            skipped = 0;
         }
-        from += own.len();
     }
 }
 
-/// Adds `E·diag(weight)·Eᵀ` for a block: its rows at these ascending indices, and for each row and
-/// column the place of the entry in `values`.
+/// Adds `E·diag(weight)·Eᵀ` for the columns E of a block.
 pub(super) fn add_element(
-    front: &mut [f64],
-    f: usize,
-    at: &[u32],
-    (entries, values): (&[u32], &[f64]),
-    weight: impl Fn(usize) -> f64,
-    scratch: &mut [f64],
+    (front, lanes): (&mut [Tile], usize),
+    rows: &[RowsOfLane],
+    (columns, e): (&[u32], &[Lane]),
+    inverse_mass: &[f64],
 ) {
-    let width = entries.len() / at.len().max(1);
-    for (x, &entry) in scratch.iter_mut().zip(entries) {
-        *x = if entry == NONE {
-            0.0
-        } else {
-            values[entry as usize]
-        };
-    }
-    let e = &scratch[..entries.len()];
-    match width {
-        // Bodies in the plane and in space.
-        3 => add_products::<3>(front, f, at, e, std::array::from_fn(weight)),
-        6 => add_products::<6>(front, f, at, e, std::array::from_fn(weight)),
-        _ => {
-            for (k, &j) in at.iter().enumerate() {
-                let column = &mut front[j as usize * f..][..f];
-                let own = &e[k * width..];
-                for (l, &i) in at[k..].iter().enumerate() {
-                    let product = |c: usize| own[l * width + c] * weight(c) * own[c];
-                    column[i as usize] += (0..width).map(product).sum::<f64>();
-                }
-            }
+    by_width!(columns.len(), N => {
+        let weights = of_columns::<N>(columns, inverse_mass);
+        add_products((front, lanes), rows, e.as_chunks::<N>().0, weights);
+    });
+}
+
+/// As [`add_element`], for blocks of this width.
+fn add_products<const N: usize>(
+    (front, lanes): (&mut [Tile], usize),
+    rows: &[RowsOfLane],
+    e: &[[Lane; N]],
+    weights: [f64; N],
+) {
+    for (k, (of_lane, own)) in rows.iter().zip(e).enumerate() {
+        let column = of_lane.lane as usize;
+        let tiles = &mut front[diagonal(lanes, column)..][..lanes - column];
+        let mut weighted = [[0.0; SIDE]; N];
+        scaled(&mut weighted, own, &weights);
+        for (x, to) in e[k..].iter().zip(&rows[k..]) {
+            add_product(&mut tiles[to.lane as usize - column], x, &weighted);
         }
     }
 }
 
-/// As [`add_element`], for rows `e` of this width.
-fn add_products<const WIDTH: usize>(
-    front: &mut [f64],
-    f: usize,
-    at: &[u32],
-    e: &[f64],
-    weight: [f64; WIDTH],
-) {
-    let rows = e.as_chunks::<WIDTH>().0;
-    for (k, (&j, own)) in at.iter().zip(rows).enumerate() {
-        let column = &mut front[j as usize * f..][..f];
-        let w: [f64; WIDTH] = std::array::from_fn(|c| own[c] * weight[c]);
-        for (x, &i) in rows[k..].iter().zip(&at[k..]) {
-            let mut sum = x[0] * w[0];
-            for c in 1..WIDTH {
-                sum += x[c] * w[c];
-            }
-            column[i as usize] += sum;
-        }
-    }
-}
-
-/// Eliminates the first pivots, as many as `inverse` has entries: `F = L·D·Lᵀ + [0, 0; 0, update]`.
-/// Skips pivots that are at most `least[k]`: their column of L and their inverse are zero. Returns
-/// the smallest ratio `D_k/size_k` of the others.
+/// Eliminates the first `p` pivots of a front and writes their columns of L:
+/// `F = L·D·Lᵀ + [0, 0; 0, update]`. Skips pivots that are at most `floor` of their size: their
+/// column of L and their inverse are zero. Returns the smallest ratio `D_k/size_k` of the others.
 pub(super) fn eliminate(
-    front: &mut [f64],
-    f: usize,
-    inverse: &mut [f64],
-    size: &[f64],
+    (front, lanes): (&mut [Tile], usize),
+    (inverse, p): (&mut [Lane], usize),
+    size: &[Lane],
     floor: f64,
+    l: &mut [Tile],
 ) -> Result<Eliminated, usize> {
     let mut found = Eliminated {
         smallest: f64::INFINITY,
         n_left_out: 0,
     };
-    for (k, (inverse, &size)) in inverse.iter_mut().zip(size).enumerate() {
-        let (head, tail) = front.split_at_mut((k + 1) * f);
-        let column = &mut head[k * f + k..];
-        let pivot = column[0];
+    let (mut front, mut l) = (front, l);
+    for (k, (inverse, size)) in inverse.iter_mut().zip(size).enumerate() {
+        let (panel, later) = front.split_at_mut(lanes - k);
+        let (of_l, later_l) = l.split_at_mut(lanes - k);
+        *inverse = [0.0; SIDE];
+        let real = SIDE.min(p - k * SIDE);
+        let pivots = (&mut inverse[..real], &size[..real]);
+        eliminate_panel(panel, pivots, floor, &mut found).map_err(|at| k * SIDE + at)?;
+        for (l, u) in of_l.iter_mut().zip(&*panel) {
+            scaled(l, u, inverse);
+        }
+        let mut columns = &mut *later;
+        for (k, l) in of_l.iter().enumerate().skip(1) {
+            let panel = &panel[k..];
+            let (own, others) = columns.split_at_mut(panel.len());
+            for (tile, u) in own.iter_mut().zip(panel) {
+                subtract_product(tile, u, l);
+            }
+            columns = others;
+        }
+        for (n, column) in of_l[0].iter_mut().enumerate() {
+            column[..=n].fill(0.0);
+        }
+        (front, l) = (later, later_l);
+    }
+    Ok(found)
+}
+
+/// Eliminates the pivots of the first tile, which is that on the diagonal, from the columns of a
+/// panel.
+fn eliminate_panel(
+    panel: &mut [Tile],
+    (inverse, size): (&mut [f64], &[f64]),
+    floor: f64,
+    found: &mut Eliminated,
+) -> Result<(), usize> {
+    // Column j loses factor[k][j] times column k.
+    let mut factors = [[0.0; SIDE]; SIDE];
+    let (first, below) = panel.split_at_mut(1);
+    let first = &mut first[0];
+    for (k, (inverse, size)) in inverse.iter_mut().zip(size).enumerate() {
+        let pivot = first[k][k];
         if !pivot.is_finite() {
             return Err(k);
         }
         let share = pivot / size;
         // A row of zeros is dependent.
         if share.is_nan() || share <= floor {
-            *inverse = 0.0;
-            column.fill(0.0);
             found.n_left_out += 1;
             continue;
         }
         found.smallest = found.smallest.min(share);
         *inverse = 1.0 / pivot;
-        let column = &mut column[1..];
-        for (j, target) in tail.chunks_exact_mut(f).enumerate() {
-            let factor = column[j] * *inverse;
-            if factor != 0.0 {
-                axpy(-factor, &column[j..], &mut target[k + 1 + j..]);
-            }
+        for j in k + 1..SIDE {
+            factors[k][j] = -(first[k][j] * *inverse);
+            first[j] = sum(first[j], &[first[k]], &[factors[k][j]]);
         }
-        column.iter_mut().for_each(|x| *x *= *inverse);
     }
-    Ok(found)
+    for tile in below {
+        eliminate_within(tile, &factors);
+    }
+    Ok(())
+}
+
+/// Eliminates the pivots of a panel from the columns of one of its tiles.
+#[inline(never)]
+fn eliminate_within(tile: &mut Tile, factors: &[[f64; SIDE]; SIDE]) {
+    let [[_, a1, a2, a3], [_, _, b2, b3], [_, _, _, c3], _] = *factors;
+    let [u0, u1, u2, u3] = *tile;
+    let u1 = sum(u1, &[u0], &[a1]);
+    let u2 = sum(u2, &[u0, u1], &[a2, b2]);
+    let u3 = sum(u3, &[u0, u1, u2], &[a3, b3, c3]);
+    *tile = [u0, u1, u2, u3];
 }
 
 /// Result of an elimination.

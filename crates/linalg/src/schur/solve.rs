@@ -1,6 +1,10 @@
 //! Solution with the factors, and correction of its rounding.
 
-use super::{Factors, SchurSaddle, Work};
+use super::tiles::{
+    Lane, SIDE, Tile, add_times, add_transposed_times, by_width, dot, of_columns, subtract_times,
+    sum, times_and_size, triangle,
+};
+use super::{Factors, SchurSaddle, SchurStructure, Work};
 use crate::kernels::all_finite;
 use crate::limits::{SCHUR_CORRECTIONS, SCHUR_ENOUGH, SCHUR_POOR, SCHUR_PROGRESS, SCHUR_ROUNDING};
 use crate::{SaddleError, SparseMatrix};
@@ -33,49 +37,50 @@ impl SchurSaddle {
             [("f", f.len()), ("a", a.len())],
             [("gamma", gamma.len()), ("lambda", lambda.len())],
         )?;
-        for ((free, f), inverse) in self
-            .work
-            .free
-            .iter_mut()
-            .zip(f)
-            .zip(&self.factors.inverse_mass)
-        {
+        self.take_values(c);
+        let inverse_mass = &self.factors.inverse_mass;
+        for ((free, f), inverse) in self.work.free.iter_mut().zip(f).zip(inverse_mass) {
             *free = f * inverse;
         }
         a.copy_from_slice(&self.work.free);
-        for (all, free) in self.work.all.iter_mut().zip(&self.work.free) {
-            *all = free.abs();
-        }
         lambda.fill(0.0);
-        self.take_residual(c, gamma, a);
-        if !all_finite(&self.work.x) {
+        self.work.added.fill([0.0; SIDE]);
+        self.take_residual(gamma, a);
+        if !all_finite(self.work.x.as_flattened()) {
             return Err(first_non_finite([("f", f), ("gamma", gamma)]));
         }
         self.substitute();
-        self.add_solution(c, a, lambda);
+        self.add_solution(a, lambda);
         let mut before = f64::INFINITY;
         for round in 1..=SCHUR_CORRECTIONS {
-            let Misfit { of_motion, of_all } = self.take_misfit(c, gamma, a);
-            // Where large multipliers balance each other, a correction leaves their rounding.
-            if of_motion <= SCHUR_ENOUGH || round > 1 && of_all <= SCHUR_ROUNDING {
+            let of_motion = self.take_misfit(gamma, a);
+            if of_motion <= SCHUR_ENOUGH {
                 return Ok(());
+            }
+            // The first round computes the solution, for which there is no earlier residual.
+            if round > 1 {
+                let of_all = self.misfit_of_all(c, gamma);
+                // Where large multipliers balance each other, a correction leaves their rounding.
+                if of_all <= SCHUR_ROUNDING {
+                    return Ok(());
+                }
+                let is_stuck = of_motion > SCHUR_PROGRESS * before || round == SCHUR_CORRECTIONS;
+                if of_motion.is_finite() && is_stuck {
+                    if of_motion.min(before) <= SCHUR_POOR || of_all <= SCHUR_POOR {
+                        return Ok(());
+                    }
+                    return Err(SaddleError::Unrefined {
+                        rounds: round,
+                        change: of_motion,
+                    });
+                }
             }
             if !of_motion.is_finite() {
                 return Err(first_non_finite([("f", f), ("gamma", gamma)]));
             }
-            // The first round computes the solution, for which there is no earlier residual.
-            if round > 1 && of_motion > SCHUR_PROGRESS * before || round == SCHUR_CORRECTIONS {
-                if of_motion.min(before) <= SCHUR_POOR || of_all <= SCHUR_POOR {
-                    return Ok(());
-                }
-                return Err(SaddleError::Unrefined {
-                    rounds: round,
-                    change: of_motion,
-                });
-            }
             before = of_motion;
             self.substitute();
-            self.add_solution(c, a, lambda);
+            self.add_solution(a, lambda);
         }
         Ok(())
     }
@@ -97,16 +102,18 @@ impl SchurSaddle {
             [("f", f.len()), ("a", a.len())],
             [("lambda", lambda.len()), ("lambda", lambda.len())],
         )?;
+        self.take_values(c);
         for (k, free) in self.work.free.iter_mut().enumerate() {
             *free = f[k] * self.factors.inverse_mass[k] - a[k];
         }
-        for (place, x) in self.work.x.iter_mut().enumerate() {
-            let terms = self.structure.rows.entries_at(place, c.values());
-            *x = terms.map(|(j, c)| c * self.work.free[j]).sum();
-        }
+        let Work { x, local, free, .. } = &mut self.work;
+        x.fill([0.0; SIDE]);
+        let x = x.as_flattened_mut();
+        add_all_times(&self.structure, &self.assembly.values, free, local, x);
         self.substitute();
-        for (x, &row) in self.work.x.iter().zip(&self.structure.rows.row) {
-            lambda[row] = *x;
+        let x = self.work.x.as_flattened();
+        for (lambda, &place) in lambda.iter_mut().zip(&self.structure.rows.place) {
+            *lambda = x[place];
         }
         if all_finite(lambda) {
             Ok(())
@@ -125,7 +132,7 @@ impl SchurSaddle {
             return Err(SaddleError::NotFactored);
         }
         self.check_shape(c)?;
-        let (n, r) = (self.factors.inverse_mass.len(), self.factors.inverse.len());
+        let (n, r) = (self.structure.n_coordinates(), self.structure.n_rows());
         let lengths = of_n.map(|a| (a, n)).into_iter().chain(of_r.map(|a| (a, r)));
         match lengths
             .into_iter()
@@ -141,80 +148,108 @@ impl SchurSaddle {
     }
 
     /// Writes `C·a − γ` of the rows in use to x, in the order of elimination.
-    fn take_residual(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) {
-        let s = &self.structure.rows;
-        let places = self.work.x.iter_mut().zip(&self.factors.inverse);
-        for (place, ((x, &inverse), &row)) in places.zip(&s.row).enumerate() {
-            *x = match inverse {
-                0.0 => 0.0,
-                _ => s
-                    .entries_at(place, c.values())
-                    .fold(-gamma[row], |sum, (j, c)| sum + c * a[j]),
-            };
+    fn take_residual(&mut self, gamma: &[f64], a: &[f64]) {
+        let s = &self.structure;
+        let Work { x, local, .. } = &mut self.work;
+        x.fill([0.0; SIDE]);
+        let numbers = x.as_flattened_mut();
+        for (gamma, &place) in gamma.iter().zip(&s.rows.place) {
+            numbers[place] = -gamma;
         }
+        add_all_times(s, &self.assembly.values, a, local, numbers);
+        clear_unused(x, &self.factors);
     }
 
-    /// Also returns the largest residuals relative to their terms.
-    fn take_misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> Misfit {
+    /// Also returns the largest residual relative to its terms, with the larger of the
+    /// accelerations and those of free bodies.
+    fn take_misfit(&mut self, gamma: &[f64], a: &[f64]) -> f64 {
+        let s = &self.structure;
         let Work {
             x,
-            terms,
-            all,
+            size,
+            local,
             free,
+            terms,
             ..
         } = &mut self.work;
-        for ((terms, free), a) in terms.iter_mut().zip(free).zip(a) {
+        for ((terms, free), a) in terms.iter_mut().zip(&*free).zip(a) {
             *terms = free.abs().max(a.abs());
         }
-        let mut largest = Misfit {
-            of_motion: 0.0,
-            of_all: 0.0,
-        };
-        let s = &self.structure.rows;
-        let places = x.iter_mut().zip(&self.factors.inverse);
-        for (place, ((x, &inverse), &row)) in places.zip(&s.row).enumerate() {
-            if inverse == 0.0 {
-                *x = 0.0;
-                continue;
-            }
-            let (mut sum, mut size, mut of_all) = (-gamma[row], gamma[row].abs(), gamma[row].abs());
-            for (j, c) in s.entries_at(place, c.values()) {
-                sum += c * a[j];
-                size += c.abs() * terms[j];
-                of_all += c.abs() * all[j];
-            }
-            *x = sum;
-            if sum == 0.0 {
-                continue;
-            }
-            for (largest, size) in [
-                (&mut largest.of_motion, size),
-                (&mut largest.of_all, of_all),
-            ] {
-                let share = sum.abs() / size;
-                if share > *largest || share.is_nan() {
-                    *largest = share;
+        x.fill([0.0; SIDE]);
+        size.fill([0.0; SIDE]);
+        let (sums, sizes) = (x.as_flattened_mut(), size.as_flattened_mut());
+        for (gamma, &place) in gamma.iter().zip(&s.rows.place) {
+            (sums[place], sizes[place]) = (-gamma, gamma.abs());
+        }
+        let elements = &s.elements;
+        for block in &elements.of_fronts {
+            let columns = &elements.columns[block.columns.clone()];
+            let rows = &elements.rows[block.rows.clone()];
+            let e = &self.assembly.values[block.values.clone()];
+            by_width!(columns.len(), N => {
+                let (a, terms) = (of_columns::<N>(columns, a), of_columns::<N>(columns, terms));
+                for (local, e) in local.iter_mut().zip(e.as_chunks::<N>().0) {
+                    times_and_size(local, e, &a, &terms);
                 }
+            });
+            for (rows, [sum, of_terms]) in rows.iter().zip(&*local) {
+                rows.add_to(sums, sum);
+                rows.add_to(sizes, of_terms);
             }
         }
-        largest
+        clear_unused(x, &self.factors);
+        largest_share(x, size)
     }
 
-    /// Adds the multipliers in x and their effect on the motion; accumulates the sizes of the
-    /// terms.
-    fn add_solution(&mut self, c: &SparseMatrix, a: &mut [f64], lambda: &mut [f64]) {
-        let s = &self.structure.rows;
-        for (place, (&x, &row)) in self.work.x.iter().zip(&s.row).enumerate() {
-            if x == 0.0 {
-                continue;
-            }
-            lambda[row] += x;
-            for (j, c) in s.entries_at(place, c.values()) {
-                let term = c * x * self.factors.inverse_mass[j];
-                a[j] -= term;
-                self.work.all[j] += term.abs();
-            }
+    /// The largest residual in x relative to all terms that were added: if multipliers balance each
+    /// other, accelerations are only their rounding.
+    fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64]) -> f64 {
+        let s = &self.structure;
+        let Work {
+            x,
+            size,
+            added,
+            local,
+            free,
+            terms,
+        } = &mut self.work;
+        let values = &mut self.assembly.values;
+        for value in values.as_flattened_mut() {
+            *value = value.abs();
         }
+        // What is subtracted leaves sizes with a minus sign.
+        for (terms, free) in terms.iter_mut().zip(&*free) {
+            *terms = -free.abs();
+        }
+        let (added, weights) = (added.as_flattened(), &self.factors.inverse_mass);
+        subtract_transposed(s, values, weights, (added, local), terms);
+        size.fill([0.0; SIDE]);
+        let sizes = size.as_flattened_mut();
+        for (gamma, &place) in gamma.iter().zip(&s.rows.place) {
+            sizes[place] = -gamma.abs();
+        }
+        add_all_times(s, values, terms, local, sizes);
+        sizes.iter_mut().for_each(|size| *size = -*size);
+        let share = largest_share(x, size);
+        self.take_values(c);
+        share
+    }
+
+    /// Adds the multipliers in x and their effect on the motion, and their sizes to what was added.
+    fn add_solution(&mut self, a: &mut [f64], lambda: &mut [f64]) {
+        let s = &self.structure;
+        let Work {
+            x, added, local, ..
+        } = &mut self.work;
+        let x = x.as_flattened();
+        for (lambda, &place) in lambda.iter_mut().zip(&s.rows.place) {
+            *lambda += x[place];
+        }
+        for (added, x) in added.as_flattened_mut().iter_mut().zip(x) {
+            *added += x.abs();
+        }
+        let (values, weights) = (&self.assembly.values, &self.factors.inverse_mass);
+        subtract_transposed(s, values, weights, (x, local), a);
     }
 
     /// `x ← S⁻¹·x` in the order of elimination.
@@ -222,70 +257,172 @@ impl SchurSaddle {
         let s = &self.structure;
         let Factors { l, inverse, .. } = &self.factors;
         let Work { x, local, .. } = &mut self.work;
+        let local = local.as_flattened_mut();
         for front in &s.fronts {
-            let (p, later) = (front.pivots.clone(), &s.later[front.rest.clone()]);
-            let local = &mut local[..front.order()];
-            let (own, rest) = local.split_at_mut(p.len());
-            own.copy_from_slice(&x[p.clone()]);
-            rest.fill(0.0);
-            let mut at = front.l;
-            for k in 0..own.len() {
-                let value = own[k];
-                let (inside, outside) =
-                    l[at..at + own.len() - 1 - k + rest.len()].split_at(own.len() - 1 - k);
-                at += inside.len() + outside.len();
-                if value == 0.0 {
-                    continue;
-                }
-                own[k + 1..]
-                    .iter_mut()
-                    .zip(inside)
-                    .for_each(|(x, l)| *x -= l * value);
-                rest.iter_mut()
-                    .zip(outside)
-                    .for_each(|(x, l)| *x += l * value);
+            let [of_pivots, of_rest] = front.lanes();
+            let lanes = of_pivots + of_rest;
+            let rest = &mut local[..of_rest];
+            for lane in &mut *rest {
+                *lane = [0.0; SIDE];
             }
-            x[p].copy_from_slice(own);
-            for (&j, r) in later.iter().zip(&*rest) {
-                x[j as usize] -= r;
+            let own = &mut x[front.pivots.clone()];
+            let mut l = &l[front.l..];
+            for k in 0..of_pivots {
+                let (tiles, next) = l.split_at(lanes - k);
+                let (own, below) = own[k..].split_at_mut(1);
+                solve_within(&mut own[0], &tiles[0]);
+                let (in_front, of_rest) = tiles[1..].split_at(below.len());
+                for (x, tile) in below.iter_mut().zip(in_front) {
+                    subtract_times(x, tile, &own[0]);
+                }
+                for (x, tile) in rest.iter_mut().zip(of_rest) {
+                    subtract_times(x, tile, &own[0]);
+                }
+                l = next;
+            }
+            for (x, inverse) in own.iter_mut().zip(&inverse[front.pivots.clone()]) {
+                for n in 0..SIDE {
+                    x[n] *= inverse[n];
+                }
+            }
+            let (x, rest) = (x.as_flattened_mut(), rest.as_flattened());
+            for (&j, value) in s.later[front.rest.clone()].iter().zip(rest) {
+                x[j as usize] += value;
             }
         }
-        x.iter_mut().zip(inverse).for_each(|(x, d)| *x *= d);
         for front in s.fronts.iter().rev() {
-            let (p, later) = (front.pivots.clone(), &s.later[front.rest.clone()]);
-            if p.is_empty() {
-                continue;
+            let [of_pivots, of_rest] = front.lanes();
+            let lanes = of_pivots + of_rest;
+            let rest = &mut local[..of_rest];
+            if let Some(last) = rest.last_mut() {
+                *last = [0.0; SIDE];
             }
-            let local = &mut local[..front.order()];
-            let (own, rest) = local.split_at_mut(p.len());
-            own.copy_from_slice(&x[p.clone()]);
-            for (r, &j) in rest.iter_mut().zip(later) {
-                *r = x[j as usize];
+            let numbers = x.as_flattened();
+            for (value, &j) in rest
+                .as_flattened_mut()
+                .iter_mut()
+                .zip(&s.later[front.rest.clone()])
+            {
+                *value = numbers[j as usize];
             }
-            let mut end = front.l
-                + (0..p.len())
-                    .map(|k| p.len() + rest.len() - 1 - k)
-                    .sum::<usize>();
-            for k in (0..own.len()).rev() {
-                let n = own.len() - 1 - k + rest.len();
-                let column = &l[end - n..end];
-                end -= n;
-                let (inside, outside) = column.split_at(own.len() - 1 - k);
-                let inner: f64 = own[k + 1..].iter().zip(inside).map(|(x, l)| x * l).sum();
-                own[k] -= inner + crate::kernels::dot(outside, rest);
+            let own = &mut x[front.pivots.clone()];
+            let mut l = &l[front.l..][..triangle(lanes) - front.n_update()];
+            for k in (0..of_pivots).rev() {
+                let (before, tiles) = l.split_at(l.len() - (lanes - k));
+                let (own, below) = own[k..].split_at_mut(1);
+                let mut sums = [0.0; SIDE];
+                let (in_front, of_rest) = tiles[1..].split_at(below.len());
+                for (x, tile) in below.iter().zip(in_front) {
+                    add_transposed_times(&mut sums, tile, x);
+                }
+                for (x, tile) in rest.iter().zip(of_rest) {
+                    add_transposed_times(&mut sums, tile, x);
+                }
+                let own = &mut own[0];
+                for n in (0..SIDE).rev() {
+                    own[n] -= sums[n] + dot(&tiles[0][n], own);
+                }
+                l = before;
             }
-            x[p].copy_from_slice(own);
         }
     }
 }
 
-/// Largest residuals of rows relative to their terms.
-struct Misfit {
-    /// The larger of the accelerations and those of free bodies.
-    of_motion: f64,
-    /// All terms that were added: if multipliers balance each other, accelerations are only their
-    /// rounding.
-    of_all: f64,
+/// Eliminates the pivots of a diagonal tile, which has zeros on and above its diagonal, from their
+/// own lane.
+fn solve_within(own: &mut Lane, tile: &Tile) {
+    let mut x = *own;
+    for n in 0..SIDE {
+        x = sum(x, &[tile[n]], &[-x[n]]);
+    }
+    *own = x;
+}
+
+/// `out ← out + E·v` for all elements with these values, in the order of elimination.
+fn add_all_times(
+    s: &SchurStructure,
+    values: &[Lane],
+    v: &[f64],
+    local: &mut [[Lane; 2]],
+    out: &mut [f64],
+) {
+    let elements = &s.elements;
+    for block in &elements.of_fronts {
+        let columns = &elements.columns[block.columns.clone()];
+        let rows = &elements.rows[block.rows.clone()];
+        let e = &values[block.values.clone()];
+        by_width!(columns.len(), N => {
+            let v = of_columns::<N>(columns, v);
+            for (local, e) in local.iter_mut().zip(e.as_chunks::<N>().0) {
+                local[0] = [0.0; SIDE];
+                add_times(&mut local[0], e, &v);
+            }
+        });
+        for (rows, [sum, _]) in rows.iter().zip(&*local) {
+            rows.add_to(out, sum);
+        }
+    }
+}
+
+/// `out ← out − diag(weights)·Eᵀ·x` for all elements with these values.
+fn subtract_transposed(
+    s: &SchurStructure,
+    values: &[Lane],
+    weights: &[f64],
+    (x, local): (&[f64], &mut [[Lane; 2]]),
+    out: &mut [f64],
+) {
+    let elements = &s.elements;
+    for block in &elements.of_fronts {
+        let columns = &elements.columns[block.columns.clone()];
+        let rows = &elements.rows[block.rows.clone()];
+        let e = &values[block.values.clone()];
+        for ([local, _], rows) in local.iter_mut().zip(rows) {
+            *local = rows.take_from(x);
+        }
+        by_width!(columns.len(), N => {
+            let mut sums = [0.0; N];
+            for (e, [x, _]) in e.as_chunks::<N>().0.iter().zip(&*local) {
+                add_transposed_times(&mut sums, e, x);
+            }
+            for (&j, sum) in columns.iter().zip(sums) {
+                out[j as usize] -= weights[j as usize] * sum;
+            }
+        });
+    }
+}
+
+/// Skipped rows have no residual.
+fn clear_unused(x: &mut [Lane], factors: &Factors) {
+    if factors.n_left_out == 0 {
+        return;
+    }
+    let inverse = factors.inverse.as_flattened();
+    for (x, &inverse) in x.as_flattened_mut().iter_mut().zip(inverse) {
+        *x = if inverse == 0.0 { 0.0 } else { *x };
+    }
+}
+
+/// The largest `|x|/size`, where x is not zero; NaN if one is not finite.
+fn largest_share(x: &[Lane], size: &[Lane]) -> f64 {
+    let (mut largest, mut none) = ([0.0_f64; SIDE], [0.0; SIDE]);
+    for (x, size) in x.iter().zip(size) {
+        for l in 0..SIDE {
+            let share = x[l].abs() / size[l];
+            let share = if x[l] == 0.0 { 0.0 } else { share };
+            none[l] += share * 0.0;
+            largest[l] = if share > largest[l] {
+                share
+            } else {
+                largest[l]
+            };
+        }
+    }
+    if all_finite(&none) {
+        largest.into_iter().fold(0.0, f64::max)
+    } else {
+        f64::NAN
+    }
 }
 
 fn first_non_finite(arguments: [(&'static str, &[f64]); 2]) -> SaddleError {

@@ -6,16 +6,13 @@
 //! triangle over the rows that are eliminated in it, its pivots, and the later rows with which they
 //! have non-zero entries. `C_b·M_b⁻¹·C_bᵀ` of a block b is added to the front in which the first of
 //! its rows is a pivot; the remainder of a front after elimination is added to the front of the
-//! first of its other rows, its parent. Fronts that are almost equal to their parent are merged
-//! with it.
+//! first of its other rows, its parent. A front becomes one with its parent where L has no more
+//! [tiles](super::tiles) then.
 
 use std::ops::Range;
 
-use crate::limits::{FRONT_FEW_ZEROS, FRONT_ZEROS};
+use super::tiles::{Lane, SIDE, diagonal, lanes, triangle};
 use crate::{EliminationTree, SparseMatrix};
-
-/// Marks a place without an entry of C.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// The pattern of `S = C·M⁻¹·Cᵀ` and of its factor.
 ///
@@ -36,64 +33,22 @@ pub struct SchurStructure {
     pub(super) fronts: Vec<Front>,
     /// Later rows of all fronts, as places in the order.
     pub(super) later: Vec<u32>,
-    /// For each later row its index in the parent.
-    pub(super) in_parent: Vec<u32>,
+    /// For each later row its place in the parent.
+    pub(super) in_parent: Vec<InParent>,
     pub(super) elements: Elements,
     pub(super) size: Size,
 }
 
-/// C by rows in the order of elimination.
+/// The rows of C and the order of their elimination. Places of the pivots of a front begin with a
+/// lane; those that fill up its last one belong to no row.
 #[derive(Clone, Debug)]
 pub(super) struct Rows {
     /// Number of columns of C.
     n: usize,
-    /// Number of entries of C.
-    pub(super) nnz: usize,
-    /// The row at each place of the order of elimination, and the place of each row.
-    pub(super) row: Vec<usize>,
+    /// The place of each row in the order of elimination.
     pub(super) place: Vec<usize>,
-    /// For each place, the index of its first column in `columns` and of its first value in C; one
-    /// more for the end.
-    start: Vec<[u32; 2]>,
-    /// Columns of all rows.
-    columns: Vec<u32>,
-}
-
-impl Rows {
-    fn new(c: &SparseMatrix, row: Vec<usize>) -> Self {
-        let mut place = vec![0; row.len()];
-        row.iter().enumerate().for_each(|(k, &i)| place[i] = k);
-        let mut start = Vec::with_capacity(row.len() + 1);
-        let mut columns = Vec::with_capacity(c.nnz());
-        for &row in &row {
-            start.push([columns.len() as u32, c.start(row) as u32]);
-            columns.extend(c.row(row).0.iter().map(|&j| j as u32));
-        }
-        start.push([columns.len() as u32, 0]);
-        Self {
-            n: c.ncols(),
-            nnz: c.nnz(),
-            row,
-            place,
-            start,
-            columns,
-        }
-    }
-
-    /// Entries (column, value) of the row at a place, for the values of C.
-    pub(super) fn entries_at<'c>(
-        &'c self,
-        place: usize,
-        values: &'c [f64],
-    ) -> impl Iterator<Item = (usize, f64)> + 'c {
-        let [[first, value], [end, _]] = [self.start[place], self.start[place + 1]];
-        let columns = &self.columns[first as usize..end as usize];
-        let values = &values[value as usize..][..columns.len()];
-        columns
-            .iter()
-            .map(|&j| j as usize)
-            .zip(values.iter().copied())
-    }
+    /// Lanes of all places.
+    pub(super) lanes: usize,
 }
 
 /// Blocks of columns, with the rows that touch them.
@@ -102,28 +57,77 @@ pub(super) struct Elements {
     pub(super) of_fronts: Vec<Element>,
     /// Columns of all elements.
     pub(super) columns: Vec<u32>,
-    /// For each row of all elements its index in the front.
-    pub(super) in_front: Vec<u32>,
-    /// For each row and column of all elements the entry of C, or [`NONE`].
-    pub(super) entries: Vec<u32>,
+    pub(super) rows: Vec<RowsOfLane>,
+    /// For each value of C its index among the values of all elements.
+    pub(super) index: Vec<u32>,
+    /// Number of lanes of values of all elements.
+    pub(super) n_lanes: usize,
+}
+
+/// Rows of an element that lie in the same lane of its front.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowsOfLane {
+    /// The lane in the front.
+    pub(super) lane: u32,
+    /// The place of each row in the order; behind all places for no row.
+    pub(super) places: [u32; SIDE],
+}
+
+impl RowsOfLane {
+    /// The values of its rows, the last one of x for no row.
+    #[inline(always)]
+    pub(super) fn take_from(&self, x: &[f64]) -> Lane {
+        self.places.map(|place| x[place as usize])
+    }
+
+    /// Adds values of its rows, and nothing where there is no row.
+    #[inline(always)]
+    pub(super) fn add_to(&self, x: &mut [f64], values: &Lane) {
+        for (&place, value) in self.places.iter().zip(values) {
+            x[place as usize] += value;
+        }
+    }
 }
 
 /// Size and work of a factorisation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Size {
     /// Number of entries of L.
-    pub(super) entries: usize,
-    /// Largest number of values that are stored for their parents.
+    entries: usize,
+    /// Number of tiles of L.
+    pub(super) tiles: usize,
+    /// Largest number of tiles that are stored for their parents.
     pub(super) waiting: usize,
+    /// Largest number of lanes of a front.
     pub(super) front: usize,
-    pub(super) element: usize,
     multiplications: f64,
 }
 
-/// A dense triangle.
+/// Where a row and its column are in a front, as offsets into its numbers that are added: tiles of
+/// the same columns follow each other.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct InParent {
+    /// Where its column would begin, if there were tiles above the diagonal.
+    pub(super) column: u32,
+    /// How far its row is from there.
+    pub(super) row: u32,
+}
+
+impl InParent {
+    fn new(lanes: usize, index: usize) -> Self {
+        let (lane, within) = (index / SIDE, index % SIDE);
+        Self {
+            column: (((diagonal(lanes, lane) - lane) * SIDE + within) * SIDE) as u32,
+            row: (lane * SIDE * SIDE + within) as u32,
+        }
+    }
+}
+
+/// A dense triangle. Its pivots are filled up to whole lanes, and so are its other rows.
 #[derive(Clone, Debug)]
 pub(super) struct Front {
-    /// Places of its pivots.
+    /// Number of its pivots, and the lanes of their places.
+    pub(super) n_pivots: usize,
     pub(super) pivots: Range<usize>,
     /// Its other rows in `later` and `in_parent`.
     pub(super) rest: Range<usize>,
@@ -131,13 +135,19 @@ pub(super) struct Front {
     pub(super) elements: Range<usize>,
     /// Fronts whose parent it is, the last one first.
     pub(super) children: Vec<usize>,
-    /// Index of its first column of L, below the unit diagonal.
+    /// Index of its first tile of L.
     pub(super) l: usize,
 }
 
 impl Front {
-    pub(super) fn order(&self) -> usize {
-        self.pivots.len() + self.rest.len()
+    /// Lanes of its pivots, and of its other rows.
+    pub(super) fn lanes(&self) -> [usize; 2] {
+        [self.pivots.len(), lanes(self.rest.len())]
+    }
+
+    /// Number of tiles that its pivots leave for its parent.
+    pub(super) fn n_update(&self) -> usize {
+        triangle(lanes(self.rest.len()))
     }
 }
 
@@ -146,10 +156,11 @@ impl Front {
 pub(super) struct Element {
     /// In the columns of all elements.
     pub(super) columns: Range<usize>,
-    /// In `in_front` of all elements.
+    /// In the rows of all elements.
     pub(super) rows: Range<usize>,
-    /// Index of its first entry in `entries`, row by row.
-    pub(super) entries: usize,
+    /// Its lanes of values: one for each column, for all columns of its first lane of rows, then
+    /// for those of the next one.
+    pub(super) values: Range<usize>,
 }
 
 impl SchurStructure {
@@ -172,7 +183,7 @@ impl SchurStructure {
     /// Number of rows r.
     #[must_use]
     pub fn n_rows(&self) -> usize {
-        self.rows.row.len()
+        self.rows.place.len()
     }
 
     /// Number of stored entries of L, below its diagonal.
@@ -191,20 +202,19 @@ impl SchurStructure {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let Size {
-            entries,
+            tiles,
             waiting,
             front,
             ..
         } = self.size;
-        let numbers =
-            entries + waiting + front * (front + 1) + 5 * self.n_rows() + 3 * self.n_coordinates();
-        let indices = 2 * (self.later.len() + self.rows.start.len())
-            + self.rows.columns.len()
-            + self.elements.columns.len()
-            + self.elements.in_front.len()
-            + self.elements.entries.len();
+        let of_tiles = SIDE * SIDE * (tiles + waiting + triangle(front));
+        let of_lanes = SIDE * (self.elements.n_lanes + front);
+        let numbers = of_tiles + of_lanes + 8 * self.n_rows() + 5 * self.n_coordinates();
+        let indices =
+            3 * self.later.len() + self.elements.columns.len() + self.elements.index.len();
         let records = self.fronts.len() * size_of::<Front>()
-            + self.elements.of_fronts.len() * size_of::<Element>();
+            + self.elements.of_fronts.len() * size_of::<Element>()
+            + self.elements.rows.len() * size_of::<RowsOfLane>();
         8 * numbers + 4 * indices + records
     }
 }
@@ -282,6 +292,12 @@ impl Nodes {
     }
 }
 
+/// Number of tiles of L in the columns of so many pivots, with so many other rows.
+fn tiles(pivots: usize, rest: usize) -> usize {
+    let rest = lanes(rest);
+    triangle(lanes(pivots) + rest) - triangle(rest)
+}
+
 /// Nodes in the order of elimination, with their later neighbours.
 struct Tree {
     /// Nodes in this order.
@@ -297,11 +313,10 @@ impl Tree {
         let n = nodes.rows.len();
         let (order, meets) = postordered(EliminationTree::new(n, &nodes.touching));
         let width = |k: usize| nodes.rows[order[k]].len();
-        // Rows of a front, its columns, and the zeros among their entries so far.
+        // Other rows of a front, and its columns so far.
         let rows_of = |k: usize| meets[k].iter().map(|&j| width(j)).sum::<usize>();
         let mut merged = vec![0; n];
         let mut columns: Vec<usize> = (0..n).map(width).collect();
-        let mut zeros = vec![0; n];
         for k in 1..n {
             loop {
                 let last = k - merged[k];
@@ -311,17 +326,13 @@ impl Tree {
                 let Some(child) = last.checked_sub(1).filter(is_child) else {
                     break;
                 };
-                let (rest, own) = (rows_of(k), columns[k]);
-                let missing = columns[child] * ((rest + own).saturating_sub(rows_of(child)));
-                let all = zeros[k] + zeros[child] + missing;
-                let total = columns[child] + own;
-                let entries = total * (total + 1) / 2 + total * rest;
-                if all > FRONT_FEW_ZEROS && all as f64 > FRONT_ZEROS * entries as f64 {
+                let total = columns[child] + columns[k];
+                let apart = tiles(columns[child], rows_of(child)) + tiles(columns[k], rows_of(k));
+                if tiles(total, rows_of(k)) > apart {
                     break;
                 }
                 merged[k] += 1 + merged[child];
                 columns[k] = total;
-                zeros[k] = all;
             }
         }
         Self {
@@ -333,22 +344,44 @@ impl Tree {
 
     fn into_structure(self, c: &SparseMatrix, blocks: &Blocks, nodes: &Nodes) -> SchurStructure {
         let n = self.order.len();
-        let row: Vec<usize> = self
-            .order
-            .iter()
-            .flat_map(|&node| nodes.rows[node].iter().copied())
-            .collect();
-        // First place of each node, and the front of each.
-        let mut first = vec![0; n + 1];
-        for k in 0..n {
-            first[k + 1] = first[k] + nodes.rows[self.order[k]].len();
+        // A node is the last one of a front unless a later one has been merged with it.
+        let mut end = n;
+        let mut ends = Vec::new();
+        while end > 0 {
+            ends.push(end - 1);
+            end -= 1 + self.merged[end - 1];
         }
+        ends.reverse();
+        // First place of each node, behind all places at last.
+        let mut first = vec![0; n + 1];
+        let mut place = vec![0; c.nrows()];
+        let (mut from, mut next) = (0, 0);
+        for &last in &ends {
+            for k in from..=last {
+                first[k] = next;
+                for &row in &nodes.rows[self.order[k]] {
+                    place[row] = next;
+                    next += 1;
+                }
+            }
+            next = SIDE * lanes(next);
+            from = last + 1;
+        }
+        first[n] = next;
+        let places_of = |k: usize| first[k]..first[k] + nodes.rows[self.order[k]].len();
         let mut s = SchurStructure {
-            rows: Rows::new(c, row),
+            rows: Rows {
+                n: c.ncols(),
+                place,
+                lanes: lanes(next),
+            },
             fronts: Vec::new(),
             later: Vec::new(),
             in_parent: Vec::new(),
-            elements: Elements::default(),
+            elements: Elements {
+                index: vec![0; c.nnz()],
+                ..Elements::default()
+            },
             size: Size::default(),
         };
         let mut place_of_node = vec![0; n];
@@ -363,34 +396,27 @@ impl Tree {
                 blocks_at[k].push(block);
             }
         }
-        // A place is the end of a front unless a later one has been merged with it.
         let mut front_of = vec![usize::MAX; n];
-        let mut end = n;
-        let mut ends = Vec::new();
-        while end > 0 {
-            ends.push(end - 1);
-            end -= 1 + self.merged[end - 1];
-        }
-        ends.reverse();
-        let mut local = vec![0_u32; s.n_rows()];
+        let mut local = vec![0_u32; next];
         let mut from = 0;
         for last in ends {
             let index = s.fronts.len();
-            let pivots = first[from]..first[last + 1];
+            let pivots = first[from]..places_of(last).end;
             let rest = s.later.len();
             for &j in &self.meets[last] {
-                s.later.extend((first[j]..first[j + 1]).map(|p| p as u32));
+                s.later.extend(places_of(j).map(|p| p as u32));
             }
             let rest = rest..s.later.len();
-            s.in_parent.resize(s.later.len(), 0);
+            s.in_parent.resize(s.later.len(), InParent::default());
             (from..=last).for_each(|k| front_of[k] = index);
             let order = pivots.len() + rest.len();
             pivots
                 .clone()
                 .enumerate()
                 .for_each(|(k, p)| local[p] = k as u32);
+            let filled = SIDE * lanes(pivots.len());
             for (k, at) in rest.clone().enumerate() {
-                local[s.later[at] as usize] = (pivots.len() + k) as u32;
+                local[s.later[at] as usize] = (filled + k) as u32;
             }
             let elements = s.elements.of_fronts.len();
             for k in from..=last {
@@ -398,15 +424,19 @@ impl Tree {
                     s.add_element(c, blocks, nodes, block, &local);
                 }
             }
-            s.fronts.push(Front {
+            let front = Front {
                 elements: elements..s.elements.of_fronts.len(),
                 children: Vec::new(),
-                l: s.size.entries,
-                pivots: pivots.clone(),
+                l: s.size.tiles,
+                n_pivots: pivots.len(),
+                pivots: lanes(pivots.start)..lanes(pivots.end),
                 rest,
-            });
+            };
+            let all = front.lanes().iter().sum();
+            s.size.tiles += triangle(all) - front.n_update();
+            s.size.front = s.size.front.max(all);
+            s.fronts.push(front);
             s.size.entries += (0..pivots.len()).map(|k| order - 1 - k).sum::<usize>();
-            s.size.front = s.size.front.max(order);
             s.size.multiplications += (0..pivots.len())
                 .map(|k| 0.5 * ((order - k) * (order - k)) as f64)
                 .sum::<f64>();
@@ -427,26 +457,50 @@ impl SchurStructure {
         local: &[u32],
     ) {
         let own = &blocks.columns[block];
-        let to = &mut self.elements;
-        let (columns, rows, entries) = (to.columns.len(), to.in_front.len(), to.entries.len());
-        to.columns.extend(own.iter().map(|&j| j as u32));
         let touching = nodes.touching[block].iter();
         let mut of_block: Vec<usize> = touching
             .flat_map(|&node| nodes.rows[node].iter().copied())
             .collect();
         of_block.sort_unstable_by_key(|&row| self.rows.place[row]);
-        for row in of_block {
-            to.in_front.push(local[self.rows.place[row]]);
-            let (start, of_row) = (c.start(row), c.row(row).0);
-            let entry = |j| of_row.binary_search(j).map_or(NONE, |k| (start + k) as u32);
-            to.entries.extend(own.iter().map(entry));
+        // Columns of bodies stay together, in space and in the plane.
+        let width = if matches!(own.len(), 3 | 6) {
+            own.len()
+        } else {
+            1
+        };
+        for own in own.chunks(width) {
+            self.add_columns(c, own, &of_block, local);
         }
-        let rows = rows..to.in_front.len();
-        self.size.element = self.size.element.max(rows.len() * own.len());
+    }
+
+    fn add_columns(&mut self, c: &SparseMatrix, own: &[usize], rows: &[usize], local: &[u32]) {
+        let none = (SIDE * self.rows.lanes) as u32;
+        let to = &mut self.elements;
+        let (columns, first, values) = (to.columns.len(), to.rows.len(), to.n_lanes);
+        to.columns.extend(own.iter().map(|&j| j as u32));
+        for &row in rows {
+            let (start, of_row) = (c.start(row), c.row(row).0);
+            let place = self.rows.place[row];
+            let (lane, within) = (local[place] / SIDE as u32, local[place] as usize % SIDE);
+            for (k, j) in own.iter().enumerate() {
+                let Ok(at) = of_row.binary_search(j) else {
+                    continue;
+                };
+                if to.rows[first..].last().is_none_or(|last| last.lane != lane) {
+                    to.n_lanes += own.len();
+                    let places = [none; SIDE];
+                    to.rows.push(RowsOfLane { lane, places });
+                }
+                let last = to.rows.len() - 1;
+                to.rows[last].places[within] = place as u32;
+                let value = values + (last - first) * own.len() + k;
+                to.index[start + at] = (SIDE * value + within) as u32;
+            }
+        }
         to.of_fronts.push(Element {
             columns: columns..to.columns.len(),
-            rows,
-            entries,
+            rows: first..to.rows.len(),
+            values: values..to.n_lanes,
         });
     }
 
@@ -454,30 +508,32 @@ impl SchurStructure {
     fn join(&mut self, front_of: &[usize], first: &[usize]) {
         let node_of = |place: usize| first.partition_point(|&f| f <= place) - 1;
         let mut waiting = 0;
-        let triangle = |front: &Front| front.rest.len() * (front.rest.len() + 1) / 2;
         for k in 0..self.fronts.len() {
             let children = self.fronts[k].children.iter();
-            waiting -= children.map(|&c| triangle(&self.fronts[c])).sum::<usize>();
+            waiting -= children.map(|&c| self.fronts[c].n_update()).sum::<usize>();
             let rest = self.fronts[k].rest.clone();
             let Some(at) = rest.clone().next() else {
                 continue;
             };
             let parent = front_of[node_of(self.later[at] as usize)];
-            waiting += triangle(&self.fronts[k]);
+            waiting += self.fronts[k].n_update();
             self.size.waiting = self.size.waiting.max(waiting);
             let to = &self.fronts[parent];
             let (pivots, later) = (to.pivots.clone(), to.rest.clone());
+            let (own, filled) = (SIDE * pivots.start, SIDE * pivots.len());
+            let all = to.lanes().iter().sum();
             let mut next = later.start;
             for at in rest {
                 let p = self.later[at] as usize;
-                self.in_parent[at] = if pivots.contains(&p) {
-                    p - pivots.start
+                let index = if p < SIDE * pivots.end {
+                    p - own
                 } else {
                     while self.later[next] as usize != p {
                         next += 1;
                     }
-                    pivots.len() + next - later.start
-                } as u32;
+                    filled + next - later.start
+                };
+                self.in_parent[at] = InParent::new(all, index);
             }
             // The last child is on top of the stack.
             self.fronts[parent].children.insert(0, k);

@@ -19,23 +19,26 @@ impl Numbers {
     }
 }
 
-/// Rows between random bodies of three columns each, fewer than columns.
-fn random(bodies: usize, numbers: &mut Numbers) -> SparseMatrix {
+/// Rows between random bodies of this many columns each, fewer than columns; one entry of each row
+/// in four is missing.
+fn random((bodies, width): (usize, usize), numbers: &mut Numbers) -> SparseMatrix {
     let joints = 1 + numbers.below(3 * bodies / 2);
     let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();
     for _ in 0..joints {
         let pair = [numbers.below(bodies), numbers.below(bodies)];
-        for _ in 0..1 + numbers.below(2) {
-            let columns = pair.iter().flat_map(|b| 3 * b..3 * b + 3);
-            rows.push(columns.map(|j| (j, numbers.next())).collect());
+        for _ in 0..1 + numbers.below(width - 1) {
+            let columns = pair.iter().flat_map(|b| width * b..width * (b + 1));
+            let mut entries: Vec<_> = columns.map(|j| (j, numbers.next())).collect();
+            entries.retain(|_| numbers.below(4) > 0);
+            rows.push(entries);
         }
     }
-    rows.truncate(3 * bodies - 1);
-    SparseMatrix::from_rows(3 * bodies, rows).expect("columns below 3·bodies")
+    rows.truncate(width * bodies - 1);
+    SparseMatrix::from_rows(width * bodies, rows).expect("columns of bodies")
 }
 
-fn blocks(bodies: usize) -> Vec<std::ops::Range<usize>> {
-    (0..bodies).map(|b| 3 * b..3 * b + 3).collect()
+fn blocks((bodies, width): (usize, usize)) -> Vec<std::ops::Range<usize>> {
+    (0..bodies).map(|b| width * b..width * (b + 1)).collect()
 }
 
 /// One block of all columns.
@@ -54,9 +57,11 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn random_mechanisms_move_as_with_the_dense_solver() {
     let mut numbers = Numbers(7);
-    let mut compared = 0;
-    for _ in 0..300 {
-        let bodies = 1 + numbers.below(12);
+    let mut compared = [0; 7];
+    for k in 0..900 {
+        // Bodies in the plane, in space, and others.
+        let width = [3, 6, 2][k % 3];
+        let bodies = (1 + numbers.below(12), width);
         let c = random(bodies, &mut numbers);
         let (n, r) = (c.ncols(), c.nrows());
         let mass: Vec<f64> = (0..n).map(|_| 1.5 + numbers.next()).collect();
@@ -82,9 +87,10 @@ fn random_mechanisms_move_as_with_the_dense_solver() {
         let mut again = vec![0.0; r];
         saddle.multipliers(&c, &f, &a, &mut again).expect("solved");
         assert!(largest_difference(&again, &lambda) < 1e-8);
-        compared += 1;
+        compared[width] += 1;
     }
-    assert!(compared > 200, "{compared}");
+    let compared = [2, 3, 6].map(|width| compared[width]);
+    assert!(compared.iter().all(|&n| n > 100), "{compared:?}");
 }
 
 #[test]
@@ -211,6 +217,12 @@ fn bad_numbers_are_refused() {
             ..
         })
     ));
+    // Nothing of them is left.
+    let mut a = [0.0; 2];
+    saddle
+        .solve(&c, &[3.0, 1.0], &[0.0], &mut a, &mut [0.0])
+        .expect("solved");
+    assert_eq!(a, [1.0, -1.0]);
 }
 
 /// With unit masses, the remaining fraction of the second of two rows is the sine of the angle
