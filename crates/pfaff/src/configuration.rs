@@ -186,12 +186,16 @@ impl<'a> ConfigurationAnalysis<'a> {
     pub fn sensitivities(&self) -> Result<Sensitivities, StudyError> {
         let State { q, v } = &self.state;
         if self.has_no_velocities() {
+            let reactions = &self.analysis.reactions;
+            let are_asked = self.analysis.decision.is_decided()
+                && reactions.iter().any(|r| r.wrench.verdict.is_unique());
+            let unknown = || {
+                "how strongly reactions depend on the data is not known: no velocities are known that satisfy the constraints"
+                    .to_owned()
+            };
             return Ok(Sensitivities {
-                each: vec![None; self.mechanism.layout().groups.len()],
-                left_out: vec![
-                    "how strongly reactions depend on the data is not known: no velocities are known that satisfy the constraints"
-                        .to_owned(),
-                ],
+                each: vec![None; reactions.len()],
+                left_out: are_asked.then(unknown).into_iter().collect(),
             });
         }
         Ok(self.analysis.sensitivities(self.mechanism, q, v)?)
@@ -233,9 +237,12 @@ impl<'a> ConfigurationAnalysis<'a> {
             return Ok(None);
         }
         let rank = decision.rank + decision.redundancy - generic.redundancy;
+        let moves = v.iter().any(|v| *v != 0.0);
+        // A mechanism that is rigid elsewhere moves among poses like this one, if it moves.
+        let is_driven = self.mechanism.layout().rheonomic;
         let regular = match self.analysis.velocities - rank {
-            0 => Matrix::zeros(v.len(), 0),
-            1 if v.iter().any(|v| *v != 0.0) => Matrix::from_fn(v.len(), 1, |i, _| v[i]),
+            0 if is_driven || !moves => Matrix::zeros(v.len(), 0),
+            0 | 1 if moves => Matrix::from_fn(v.len(), 1, |i, _| v[i]),
             _ => return Ok(None),
         };
         let found = second_order(
