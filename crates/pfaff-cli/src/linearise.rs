@@ -204,7 +204,10 @@ fn describe(d: &LinearisationDocument) -> String {
             },
             mode.damping_ratio
                 .filter(|_| mode.frequency != 0.0)
-                .map_or("–".to_owned(), |x| format!("{:.4} %", 100.0 * x)),
+                // Rounding of an undamped motion has no sign.
+                .map_or("–".to_owned(), |x| {
+                    format!("{:.4} %", (1e6 * x).round() / 1e4 + 0.0)
+                }),
             movers(mode, d.positions),
         ]
     });
