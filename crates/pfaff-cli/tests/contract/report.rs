@@ -228,3 +228,30 @@ fn a_comparison_of_methods_in_the_same_directory_is_taken_in() {
     );
     assert!(page.contains("%231"));
 }
+
+/// The configuration of wheels in mesh counts their turns; pictures are made of the bodies alone.
+#[test]
+fn wheels_in_mesh_have_a_page() {
+    let scene = r#"
+scene = { name = "spur", space = "spatial" }
+body = [
+  { name = "a", mass = 1.0, inertia = [0.1, 0.1, 0.1], angular_velocity = [0, 0, 3] },
+  { name = "b", mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0.3, 0, 0] },
+]
+joint = [
+  { name = "A", type = "revolute", bodies = ["ground", "a"], at = [0, 0, 0], axis = [0, 0, 1] },
+  { name = "B", type = "revolute", bodies = ["ground", "b"], at = [0.3, 0, 0], axis = [0, 0, 1] },
+  { name = "teeth", type = "mesh", bearings = ["A", "B"], at = [0.1, 0, 0] },
+]
+force = [{ name = "mount", type = "bushing", bodies = ["ground", "a"], at = [0, 0, 0],
+  stiffness = [0, 0, 0, 0, 0, 5], damping = [0, 0, 0, 0, 0, 0.1] }]
+simulate = { t_end = 1.0 }
+"#;
+    let folder = Folder::new("report-mesh");
+    let page = page(&folder, scene);
+    let data = data(&page);
+    for name in ["A", "B", "teeth"] {
+        joint(&data, name);
+    }
+    assert!(page.contains("<svg"));
+}
