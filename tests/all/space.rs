@@ -10,6 +10,7 @@ mod drifts;
 mod gears;
 mod motion;
 mod robot;
+mod rods;
 mod rolling;
 mod second_order;
 mod shafts;

@@ -27,7 +27,7 @@ pub(crate) fn method(
             "the state is a function of time: nothing is free, so that nothing can be stiff",
         );
     }
-    if options.method.needs_independent_coordinates() && prepared.is_sparse() {
+    if options.method.needs_independent_coordinates() && prepared.is_schur() {
         let rows = prepared.decision.kept.len();
         return Err(MotionFault::Saddle {
             time: 0.0,
@@ -40,9 +40,9 @@ pub(crate) fn method(
     if prepared.mechanism.applied_forces().is_empty() {
         return explicit("no applied forces, so that nothing can be stiff");
     }
-    if prepared.is_sparse() {
+    if prepared.is_schur() {
         return explicit(
-            "its rows are solved sparsely, for explicit methods alone; whether it is stiff was not measured",
+            "its many free motions are solved for through the Schur complement, for explicit methods alone; whether it is stiff was not measured",
         );
     }
     if options.stabilisation != Stabilisation::Projection {

@@ -11,26 +11,31 @@ use crate::options::MotionOptions;
 
 // Solvers.
 
-/// From so many kept rows on they are solved sparsely.
+/// From so many kept rows on they are solved through the Schur complement, if they leave more than
+/// [`FREE_MOST`] motions free.
 /// Unit: rows. Less: small mechanisms lose independent coordinates and refinement. More: an
 /// evaluation of a chain grows with the cube of its rows. Test:
 /// `it_is_where_its_drive_is_by_every_method`.
-pub(crate) const SPARSE_FROM: usize = 64;
+pub(crate) const SCHUR_FROM: usize = 64;
 
-/// Kept rows up to which solutions with graded masses are refined.
+/// Up to so many free motions the null space is less work than the Schur complement.
+/// Unit: motions. Less: time, and mechanisms of few motions lose independent coordinates and
+/// refinement. More: time. Test: none, work only.
+pub(crate) const FREE_MOST: usize = 16;
+
+/// From so many kept rows on the dropped ones are compared with them in sums.
+/// Unit: rows. Less: large coefficients may cancel. More: time. Test: none, work only.
+pub(crate) const SUMMED_FROM: usize = 64;
+
+/// Kept rows up to which solutions with graded masses are refined, however many motions are free.
 /// Unit: rows. Less: light bodies of large mechanisms lose digits. More: work grows with the
 /// cube. Test: none.
 pub(crate) const REFINED_MOST: usize = 600;
 
-/// More rows are not solved densely.
+/// More rows that leave more than [`FREE_MOST`] motions free are not solved in their null space.
 /// Unit: rows. Less: refuses what could be solved. More: matrices of more than a gigabyte. Test:
 /// `the_motion_is_the_same_by_every_way_through_it`.
-pub(crate) const DENSE_MOST: usize = 5000;
-
-/// Matrices of its order that a dense solver holds.
-/// Unit: matrices. Less: the estimate of memory is too small. More: runs are refused that fit.
-/// Test: none, work only.
-pub(crate) const DENSE_MATRICES: usize = 3;
+pub(crate) const NULL_SPACE_MOST: usize = 5000;
 
 /// Vectors of all coordinates, velocities and rows that a run holds.
 /// Unit: vectors. Less: the estimate of memory is too small. More: runs are refused that fit. Test:

@@ -59,10 +59,10 @@ impl Prepared {
         solve::memory(&self.mechanism, self.assembly.size, levels)
     }
 
-    /// Whether the kept rows are solved sparsely.
-    pub(crate) fn is_sparse(&self) -> bool {
+    /// Whether the kept rows are solved through the Schur complement of the masses.
+    pub(crate) fn is_schur(&self) -> bool {
         let rows = self.decision.kept.len();
-        solve::is_sparse(&self.mechanism, self.assembly.size, rows)
+        solve::is_schur(&self.mechanism, self.assembly.size, rows)
     }
 
     /// Whether the size is far from a metre, see [`solve::is_far`].
@@ -117,7 +117,7 @@ impl Prepared {
         }
         let found = self.decided.as_ref()?;
         let is_own = kept == self.decision.kept || self.choice == RowChoice::Automatic;
-        if !is_own || self.may_miss || self.is_sparse() {
+        if !is_own || self.may_miss || self.is_schur() {
             return None;
         }
         let layout = self.mechanism.layout();

@@ -1,15 +1,14 @@
-//! Accelerations and multipliers at one state: on kept rows, dense or sparse, plain or refined, or
-//! by generated code. Moving states onto the constraints is in [`crate::manifold`], the acceptance
-//! of steps in [`crate::watch`].
+//! Accelerations and multipliers at one state: on kept rows, in their null space or through the
+//! Schur complement, plain or refined, or by generated code. Moving states onto the constraints is
+//! in [`crate::manifold`], the acceptance of steps in [`crate::watch`].
 
-mod dense;
 mod equations;
 mod evaluation;
 mod generated;
+mod matrix;
 mod misfits;
 mod rows;
 mod solver;
-mod sparse;
 mod units;
 
 pub(crate) use equations::KeptEquations;
@@ -18,7 +17,7 @@ pub(crate) use generated::{Doubt, GeneratedCode};
 pub use misfits::Misfit;
 pub(crate) use misfits::Misfits;
 pub(crate) use rows::KeptRows;
-pub(crate) use solver::{is_sparse, memory};
+pub(crate) use solver::{is_schur, memory};
 pub(crate) use units::{is_far, mass_spread};
 
 /// A time with coordinates and velocities.

@@ -37,7 +37,7 @@ impl DisjointSets {
     }
 
     /// The first number of the set of `k`, with shorter ways to it from now on.
-    fn first(&mut self, mut k: usize) -> usize {
+    pub(crate) fn first(&mut self, mut k: usize) -> usize {
         while self.leader[k] != k {
             self.leader[k] = self.leader[self.leader[k]];
             k = self.leader[k];

@@ -64,7 +64,7 @@ pub(crate) const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
 /// `norm_survives_the_ends_of_the_range`.
 pub(crate) const SQUARE_MIN: f64 = 1e-140;
 
-// Kept rows, solved densely.
+// Kept rows, solved in their null space.
 
 /// Masses are graded from this spread on, see [`mass_spread`](crate::mass_spread): below it plain
 /// solutions keep about ten digits, and normally twelve.
@@ -95,6 +95,30 @@ pub(crate) const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 /// for. Test: `graded_masses_choose_among_the_large_entries`.
 pub(crate) const CANDIDATE: f64 = 0.1;
 
+/// A row is solved for the same coordinate as in the factorisation before as long as its entry is
+/// above this share of the best one: multipliers of the elimination stay below its inverse.
+/// Unit: share of the largest entry. Less: elimination grows. More: coordinates and the places of
+/// all entries are searched for again and again. Test:
+/// `a_row_is_solved_for_the_same_entry_while_that_is_more_than_half_the_largest`.
+pub(crate) const PIVOT_REPEATED: f64 = 0.5;
+
+/// Another order of rows than the given one is taken if its factors need less than this share of
+/// the entries.
+/// Unit: share of entries. Less: time where loops are closed by late rows. More: orders change for
+/// nothing. Test: none, work only.
+pub(crate) const FEWER: f64 = 0.75;
+
+/// Entries of L and of U for which storage is reserved at once; larger factors ask for it when
+/// they find them.
+/// Unit: entries. Less: allocations in the first factorisations. More: memory. Test: none, work
+/// only.
+pub(crate) const RESERVED: usize = 1 << 14;
+
+/// Vectors of all coordinates that a solver in the null space holds.
+/// Unit: vectors. Less: the estimate of memory is too small. More: runs are refused that fit. Test:
+/// none, work only.
+pub(crate) const VECTORS: usize = 20;
+
 /// Rounds of refinement at most; more than these only happen if the equations are singular.
 /// Unit: rounds. Less: solutions that converge slowly are refused. More: time before the refusal.
 /// Test: `rounds_that_do_not_converge_are_named`.
@@ -112,7 +136,7 @@ pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
 /// small unknowns are not refined. Test: none.
 pub(crate) const REFINEMENT_NOISE: f64 = 1.262_177_448_353_619e-29;
 
-// Kept rows, solved sparsely.
+// Kept rows, solved through the Schur complement of the masses.
 
 /// A row of which less than this share is left, in the metric of the inverse masses, is rounding
 /// noise: the Schur complement has the square of it.

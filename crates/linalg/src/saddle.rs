@@ -5,12 +5,13 @@
 //! | C  0  | | λ | = | γ |     M = diag(m) ≥ 0 (n), C of full row rank (r×n)
 //! ```
 //!
-//! LU with partial pivoting of the tall Cᵀ gives a null space basis N of C, the reduced mass
+//! Sparse LU with partial pivoting of the tall Cᵀ gives a null space basis N of C, the reduced mass
 //! `Nᵀ·M·N` (order k = n − r) is factored by Cholesky (as L·D·Lᵀ), and λ is computed with the same
-//! LU. M is never inverted, so masses may be zero as long as M is positive definite on ker C.
+//! LU. M is never inverted, so masses may be zero as long as M is positive definite on ker C. Work
+//! and storage grow with the entries of C and of its factors, times k.
 //!
-//! This runs for every evaluation of a right-hand side: all storage is allocated in
-//! [`KeptRowSaddle::new`]; `factor` and `solve` do not allocate. The rows must not be redundant:
+//! This runs for every evaluation of a right-hand side: `factor` and `solve` do not allocate once
+//! storage for the entries of the factors is there. The rows must not be redundant:
 //! choose the kept ones with `decide` first (crate `rank`); no rank is decided here.
 //!
 //! Masses that differ by many powers of ten are called graded. For graded masses the pivot is the
@@ -24,12 +25,12 @@
 //! `L·U·λ = P·(f − M·a)`. Source: null space method, M. Benzi, G. H. Golub, J. Liesen, Numerical
 //! solution of saddle point problems, Acta Numerica 14 (2005) 1–137, section 6.
 
+mod bound;
 mod error;
 mod factor;
-mod fill;
 mod free;
+mod lists;
 mod lu;
-mod order;
 mod orientation;
 mod partition;
 mod refine;
@@ -37,11 +38,10 @@ mod solve;
 #[cfg(test)]
 mod tests;
 
-use crate::Lu;
-use crate::limits::{CANCELLED, GRADED_MASSES};
+use crate::limits::{CANCELLED, GRADED_MASSES, VECTORS};
+use crate::{Lu, SparseMatrix};
 use free::FreeMotions;
 use lu::TallLu;
-use order::Order;
 
 pub use error::SaddleError;
 pub use refine::Refinement;
@@ -61,18 +61,17 @@ pub use refine::Refinement;
 /// ```
 #[derive(Debug, Clone)]
 pub struct KeptRowSaddle {
-    rows: usize,
-    /// Order of elimination.
-    order: Order,
     lu: TallLu,
     free: FreeMotions,
+    /// The spread of the masses if the caller knows it.
+    known_spread: Option<f64>,
     mass_spread: f64,
     is_graded: bool,
     is_factored: bool,
-    /// Scratch of `bordered`: Nᵀ·B, k×k.
+    /// Scratch of `bordered`: Nᵀ·B, k×k, and its factors.
+    product: Vec<f64>,
     border: Lu,
-    /// Scratch of `solve`: P·a and P·(f − M·a), both n.
-    y: Vec<f64>,
+    /// Scratch of `solve`: f − M·a, n.
     g: Vec<f64>,
 }
 
@@ -88,15 +87,14 @@ impl KeptRowSaddle {
         Self::with_columns(n, &vec![Vec::from_iter(0..n); r])
     }
 
-    /// Storage for n coordinates and rows of which each is zero outside its columns: entries there
-    /// are not looked at. The same solutions as with [`KeptRowSaddle::new`], bit for bit, for less
-    /// work where rows have few entries.
+    /// Storage for n coordinates and rows that have entries in these columns only, each once. The
+    /// values of a row are those in its columns.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;
     /// let mut saddle = KeptRowSaddle::with_columns(3, &[vec![0, 1], vec![2]])?;
-    /// let rows = [[1.0, -1.0, 0.0], [0.0, 0.0, 5.0]];
-    /// saddle.factor(|k| &rows[k], &[1.0; 3])?;
+    /// let rows: [&[f64]; 2] = [&[1.0, -1.0], &[5.0]];
+    /// saddle.factor(|k| rows[k], &[1.0; 3])?;
     /// let (mut a, mut lambda) = ([0.0; 3], [0.0; 2]);
     /// saddle.solve(&[1.0, 0.0, 7.0], &[0.0, 10.0], &mut a, &mut lambda)?;
     /// assert_eq!((a, lambda), ([0.5, 0.5, 2.0], [0.5, 1.0]));
@@ -117,17 +115,37 @@ impl KeptRowSaddle {
             }
         }
         Ok(Self {
-            rows: r,
-            order: Order::new(n, columns),
-            lu: TallLu::new(n, r),
-            free: FreeMotions::new(n, r),
+            lu: TallLu::new(n, columns),
+            free: FreeMotions::new(n, n - r),
+            known_spread: None,
             mass_spread: 1.0,
             is_graded: false,
             is_factored: false,
-            border: Lu::new(n),
-            y: vec![0.0; n],
+            product: Vec::with_capacity((n - r).pow(2)),
+            border: Lu::new(n - r),
             g: vec![0.0; n],
         })
+    }
+
+    /// The same for masses of this spread, instead of that of the numbers given, of which units are
+    /// a part.
+    #[must_use]
+    pub fn graded_by(self, mass_spread: f64) -> Self {
+        Self {
+            known_spread: Some(mass_spread),
+            ..self
+        }
+    }
+
+    /// Memory of a solver for rows with this pattern (bytes), at most: which entries it needs is
+    /// known when coordinates are chosen.
+    #[must_use]
+    pub fn bytes(c: &SparseMatrix) -> usize {
+        let k = c.ncols().saturating_sub(c.nrows());
+        let columns: Vec<&[usize]> = (0..c.nrows()).map(|k| c.row(k).0).collect();
+        let entries = bound::bound(c.ncols(), &columns).iter().sum::<usize>();
+        let numbers = (c.ncols() + 2 * k) * (k + VECTORS);
+        entries * (size_of::<f64>() + size_of::<u32>()) + numbers * size_of::<f64>()
     }
 
     /// Number of coordinates n.
@@ -137,17 +155,17 @@ impl KeptRowSaddle {
 
     /// Number of constraint rows r.
     pub fn n_rows(&self) -> usize {
-        self.rows
+        self.lu.n_rows()
     }
 
     /// Number of rows skipped by the last factorisation, see [`KeptRowSaddle::factor_above`].
     pub fn n_left_out(&self) -> usize {
-        self.rows - self.lu.r
+        self.lu.n_rows() - self.lu.r
     }
 
     /// Whether the last factorisation uses row `k`.
     pub fn uses(&self, k: usize) -> bool {
-        self.lu.used().binary_search(&k).is_ok()
+        self.lu.uses(k)
     }
 
     /// Whether the masses of the last factorisation are graded, so that light coordinates are
@@ -164,8 +182,9 @@ impl KeptRowSaddle {
         self.mass_spread >= GRADED_MASSES || self.free.mass_ratio < CANCELLED
     }
 
-    /// Smallest `|pivot| / largest entry of its row` of the last factorisation, including skipped
-    /// rows; infinite for r = 0. It indicates near-singular configurations: it changes smoothly
+    /// Smallest share of a row that the rows before it leave in the last factorisation, the
+    /// largest entry left by the largest entry at first, including skipped rows; infinite for
+    /// r = 0. It indicates near-singular configurations: it changes smoothly
     /// along a motion except when the pivot order changes, and tends to zero as the kept rows
     /// become dependent.
     pub fn pivot_ratio(&self) -> f64 {

@@ -109,11 +109,11 @@ fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
 
 fn elimination_of(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[usize; 2]> {
     let (rows, n, entries) = (sizes.rank, sizes.velocities, work.entries);
-    if prepared.is_sparse() {
+    if prepared.is_schur() {
         let reason = format!(
-            "{FORMULATION}, {entries} entries of C; Schur complement of the masses, in an order chosen once"
+            "{FORMULATION}, {entries} entries of C; many motions are free, and the order of elimination is chosen once"
         );
-        return Decided::new([rows, n], format!("sparse, {rows} × {n}"), reason);
+        return Decided::new([rows, n], format!("Schur complement, {rows} × {n}"), reason);
     }
     let all = elimination(&prepared.mechanism, rows);
     // Cost of eliminating the whole saddle matrix by LU.
@@ -122,7 +122,7 @@ fn elimination_of(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[u
     let reason = format!(
         "{FORMULATION}, {entries} entries of C; saved against LU of the whole saddle matrix"
     );
-    Decided::new([rows, n], format!("dense, {rows} × {n}"), reason).saving(
+    Decided::new([rows, n], format!("null space, {rows} × {n}"), reason).saving(
         whole.saturating_sub(all),
         whole,
         Cost::Elimination,
@@ -134,8 +134,9 @@ fn refinement(prepared: &Prepared) -> Result<Decided<bool>, MotionError> {
         let taken = if value { "in double-double" } else { "none" };
         Ok(Decided::new(value, taken, reason))
     };
-    if prepared.is_sparse() {
-        let why = "solved sparsely: each solution is compared with its rows, and corrected";
+    if prepared.is_schur() {
+        let why =
+            "each solution through the Schur complement is compared with its rows, and corrected";
         return decided(false, why.to_owned());
     }
     let spread = prepared.mass_spread();

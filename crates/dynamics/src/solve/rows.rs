@@ -14,7 +14,7 @@ use super::solver::Solver;
 use super::units::{is_far, mass_in_units, mass_of_positions, units};
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
-use crate::limits::PIVOT_SINGULAR;
+use crate::limits::{PIVOT_SINGULAR, SUMMED_FROM};
 
 /// Kept rows and the factored saddle matrix.
 #[derive(Clone)]
@@ -117,7 +117,7 @@ impl KeptRows {
             Some(partition) => partition.0 = pivot,
             None => {
                 self.reference_pivot = pivot;
-                self.solver.keep_order();
+                self.solver.keep_shares();
             }
         }
         Ok(())
@@ -145,18 +145,18 @@ impl KeptRows {
     ) -> Result<Vec<usize>, MotionFault> {
         self.forget_partition();
         self.factor(at)?;
-        let chosen = self.solver.dense().and_then(|it| {
-            let dependent = if it.saddle.is_graded() {
-                it.saddle.solved_for().to_vec()
+        let chosen = self.solver.null_space().and_then(|(c, saddle)| {
+            let dependent = if saddle.is_graded() {
+                saddle.solved_for().to_vec()
             } else {
-                let mut c = it.c.clone();
+                let mut c = c.dense();
                 for k in 0..c.nrows() {
                     let row = c.row_mut(k).iter_mut().enumerate();
                     row.for_each(|(j, c)| *c *= known_to(j));
                 }
                 PivotedQr::of_columns(&c).permutation()[..c.nrows()].to_vec()
             };
-            it.saddle.partition(&dependent)?;
+            saddle.partition(&dependent)?;
             Ok(dependent)
         });
         let dependent = chosen.map_err(|e| self.fault(at, e))?;
@@ -169,8 +169,8 @@ impl KeptRows {
 
     /// Removes the partition: every factorisation chooses again for which coordinates it solves.
     pub(crate) fn forget_partition(&mut self) {
-        if let Ok(it) = self.solver.dense() {
-            it.saddle.forget_partition();
+        if let Ok((_, saddle)) = self.solver.null_space() {
+            saddle.forget_partition();
         }
         self.partition = None;
     }
@@ -211,8 +211,8 @@ impl KeptRows {
         }
         self.take_motion(x);
         let (rhs, motion) = (&self.rhs, &mut self.motion);
-        let dense = self.solver.dense();
-        let completed = dense.and_then(|it| it.saddle.complete(rhs, motion));
+        let completed = self.solver.null_space();
+        let completed = completed.and_then(|(_, saddle)| saddle.complete(rhs, motion));
         self.written(at, completed, x)
     }
 
@@ -282,14 +282,11 @@ impl KeptRows {
         note(Counted::Coefficients);
         // Large mechanisms have thousands of dropped rows, each implied by a few rows: instead of
         // all of them, two sums with random signs are used.
-        let samples = if self.solver.brings_multipliers() {
-            2
-        } else {
-            self.dropped.len()
-        };
+        let are_summed = self.kept.len() >= SUMMED_FROM;
+        let samples = if are_summed { 2 } else { self.dropped.len() };
         let mut largest = 0.0_f64;
         for k in 0..samples {
-            let implied = if self.solver.brings_multipliers() {
+            let implied = if are_summed {
                 self.imply_sum(at, 1 + k as u64)
             } else {
                 self.imply(at, self.dropped[k])

@@ -14,7 +14,7 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
 /// The unit of each column of C by the bodies: a translation in metres, a rotation by the metres
 /// that it moves the joints of its body. The links of a row of a thousand metres have masses of one
 /// kind, although their moments of inertia are nothing beside the square of its size.
-pub(super) fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let (layout, space) = (mechanism.layout(), mechanism.space());
     let mut units = vec![1.0; layout.n_v];
     let bodies = units.chunks_exact_mut(space.n_v());
@@ -79,8 +79,9 @@ pub(crate) fn is_far(size: f64) -> bool {
     !(1.0 / FAR_FROM_A_METRE..=FAR_FROM_A_METRE).contains(&size)
 }
 
-/// The largest mass divided by the smallest non-zero one, with moments of inertia divided by the
-/// square of the size of the mechanism (m). It decides whether solutions are refined.
+/// The largest mass divided by the smallest non-zero one, by the lengths of the bodies. It decides
+/// whether solutions are refined.
 pub(crate) fn mass_spread(mechanism: &Mechanism, size: f64) -> f64 {
-    linalg::mass_spread(&mass_in_units(mechanism, &units(mechanism, size)))
+    let units = units_of_bodies(mechanism, size);
+    linalg::mass_spread(&mass_in_units(mechanism, &units))
 }

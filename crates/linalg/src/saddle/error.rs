@@ -70,9 +70,9 @@ pub enum SaddleError {
         /// Its mass.
         value: f64,
     },
-    /// Only the dense solver supports this.
+    /// Only the solver in the null space supports this.
     #[error(
-        "{rows} rows are solved sparsely, without independent coordinates: take an explicit method on kept rows, with projection"
+        "{rows} rows with many free motions are solved through the Schur complement, without independent coordinates: take an explicit method on kept rows, with projection"
     )]
     Large {
         /// Number of rows.

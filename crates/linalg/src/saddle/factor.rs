@@ -3,7 +3,7 @@
 use super::error::{SaddleError, check_finite, check_length};
 use super::lu::Elimination;
 use super::{KeptRowSaddle, mass_spread};
-use crate::kernels::extremes;
+use crate::kernels::{extremes, max_abs};
 use crate::limits::{GRADED_BESIDE_MASSLESS, GRADED_MASSES, PIVOT_FLOOR};
 
 impl KeptRowSaddle {
@@ -11,11 +11,12 @@ impl KeptRowSaddle {
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
-    /// | `row` | r calls, each n | `row(k)` is the k-th kept row of C |
+    /// | `row` | r calls | `row(k)`: values of the k-th kept row of C in its columns |
     /// | `mass` | n | diagonal of M, entries ≥ 0 |
     ///
-    /// Costs about n·r² + k·r²/2 + k²·r/2 multiplications; does not allocate unless it fails. After
-    /// an error the solver has no factorisation.
+    /// Costs about n·r² + k·r²/2 + k²·r/2 multiplications for rows without zeros; does not allocate
+    /// unless it fails, or finds more entries of large factors than before. After an error the
+    /// solver has no factorisation.
     ///
     /// # Errors
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
@@ -29,13 +30,14 @@ impl KeptRowSaddle {
     ) -> Result<(), SaddleError> {
         self.prepare(mass)?;
         let graded = self.is_graded.then_some(mass);
-        for j in 0..self.rows {
-            let row = (j, row(j));
+        for j in 0..self.lu.n_rows() {
+            let k = self.lu.order[j];
+            let row = (k, row(k));
             if let Elimination::Dependent { pivot, scale } =
-                self.lu.eliminate(&self.order, row, graded, PIVOT_FLOOR)?
+                self.lu.eliminate(row, graded, PIVOT_FLOOR)?
             {
                 return Err(SaddleError::RankLost {
-                    row: j,
+                    row: k,
                     pivot,
                     scale,
                 });
@@ -70,8 +72,9 @@ impl KeptRowSaddle {
         self.prepare(mass)?;
         let graded = self.is_graded.then_some(mass);
         let floor = floor.max(PIVOT_FLOOR);
-        for j in 0..self.rows {
-            self.lu.eliminate(&self.order, (j, row(j)), graded, floor)?;
+        for j in 0..self.lu.n_rows() {
+            let k = self.lu.order[j];
+            self.lu.eliminate((k, row(k)), graded, floor)?;
         }
         self.finish(row, mass)
     }
@@ -93,8 +96,9 @@ impl KeptRowSaddle {
         } else {
             (mass_spread(mass), GRADED_BESIDE_MASSLESS)
         };
+        self.mass_spread = self.known_spread.unwrap_or(self.mass_spread);
         self.is_graded = self.mass_spread >= from;
-        self.lu.begin(&self.order);
+        self.lu.begin();
         Ok(())
     }
 
@@ -103,7 +107,16 @@ impl KeptRowSaddle {
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
-        self.free.factor(&self.lu, row, mass)?;
+        if self.lu.finish() {
+            self.free.follow(&mut self.lu);
+        }
+        let lu = &self.lu;
+        let entry = |k: usize, coordinate: usize| {
+            let (columns, values) = (lu.columns.of(k), row(k));
+            let at = columns.iter().position(|&i| i as usize == coordinate);
+            at.map_or(0.0, |at| values[at].abs() / max_abs(values))
+        };
+        self.free.factor(lu, entry, mass)?;
         self.is_factored = true;
         Ok(())
     }

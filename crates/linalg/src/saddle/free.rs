@@ -1,124 +1,282 @@
 //! The motions that the rows leave free: a basis N of their null space and the reduced mass
 //! `Nᵀ·M·N`, with a Cholesky factorisation without square roots.
+//!
+//! A null vector is one in its free coordinate, zero in the others, and has entries where rows tie
+//! coordinates to it. Where these are few, such as where rows of a long mechanism are skipped for
+//! an instant, most entries of the reduced mass are zero: vectors with few entries come first, and
+//! each row of the factor begins with its first entry.
 
 use super::error::SaddleError;
+use super::lists::Entry;
 use super::lu::TallLu;
 use crate::kernels::{axpy, dot, max_abs};
+use crate::limits::RESERVED;
 
 /// Null space basis, masses, and factors of the reduced mass of k = n − r free motions.
 #[derive(Debug, Clone)]
 pub(super) struct FreeMotions {
-    /// Row c: `−L₁⁻ᵀ·L₂ᵀ·e_c`, the dependent part of the null vector c. k×r, row-major.
-    basis: Vec<f64>,
-    /// diag(M) in the order of P.
+    pub(super) basis: Basis,
+    pub(super) k: usize,
+    /// diag(M).
     pub(super) mass: Vec<f64>,
-    /// Scratch: a row of the basis times its masses, r values.
-    weighted: Vec<f64>,
-    /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
+    /// Squared norms of the null vectors without their free coordinates.
+    squared: Vec<f64>,
+    /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major; row i is zero before
+    /// `begin[i]`.
     reduced_mass: Vec<f64>,
+    begin: Vec<usize>,
+    /// Scratch: Nᵀ·g and the free motions that belong to it.
+    z: Vec<f64>,
     /// Smallest fraction of a diagonal entry of NᵀMN that remained after elimination, infinite for
     /// k = 0.
     pub(super) mass_ratio: f64,
 }
 
+/// The n×k matrix N by its rows, with the entries only that can be other than zero.
+#[derive(Debug, Clone)]
+pub(super) struct Basis {
+    /// Rows of the free coordinates, and behind them those of the others, last row of C first. If
+    /// one motion is free, as in most mechanisms: an entry for each coordinate, in their order.
+    entries: Vec<Entry>,
+    /// Beginning and end of the row of each coordinate.
+    rows: Vec<[u32; 2]>,
+    /// Scratch: a row, k values.
+    row: Vec<f64>,
+    /// Scratch: numbers of entries of the null vectors, and their places in the order of these.
+    count: Vec<usize>,
+    place: Vec<u32>,
+}
+
+impl Basis {
+    #[inline(always)]
+    pub(super) fn of(&self, coordinate: usize) -> &[Entry] {
+        let [begin, end] = self.rows[coordinate];
+        &self.entries[begin as usize..end as usize]
+    }
+
+    /// Finds the places of the entries, and sorts the free coordinates by the number of entries of
+    /// their null vectors.
+    fn follow(&mut self, lu: &mut TallLu) {
+        let k = lu.free.len();
+        let Self {
+            entries,
+            rows,
+            row,
+            count,
+            place,
+        } = self;
+        entries.clear();
+        if let [free] = lu.free[..] {
+            for (i, row) in rows.iter_mut().enumerate() {
+                *row = [i as u32, i as u32 + 1];
+                entries.push(Entry::new(0, f64::from(u8::from(i == free))));
+            }
+            return;
+        }
+        row.clear();
+        row.resize(k, 0.0);
+        for (c, &i) in lu.free.iter().enumerate() {
+            rows[i] = [c as u32, c as u32 + 1];
+            entries.push(Entry::new(c, 1.0));
+        }
+        count.clear();
+        count.resize(k, 0);
+        place.clear();
+        place.resize(k, 0);
+        for (at, below) in lu.backward() {
+            let begin = entries.len();
+            for l in below {
+                let [from, to] = rows[l.index()];
+                for e in from as usize..to as usize {
+                    let c = entries[e].index();
+                    if std::mem::replace(&mut row[c], 1.0) == 0.0 {
+                        entries.push(Entry::new(c, 0.0));
+                    }
+                }
+            }
+            entries[begin..].sort_unstable_by_key(|entry| entry.index);
+            for entry in &entries[begin..] {
+                row[entry.index()] = 0.0;
+                count[entry.index()] += 1;
+            }
+            rows[at] = [begin as u32, entries.len() as u32];
+        }
+        lu.free
+            .sort_unstable_by_key(|&i| (count[rows[i][0] as usize], i));
+        for (new, &i) in lu.free.iter().enumerate() {
+            place[rows[i][0] as usize] = new as u32;
+        }
+        for entry in entries.iter_mut() {
+            entry.index = place[entry.index()];
+        }
+    }
+
+    /// Solves `L₁ᵀ·N₁ = −L₂ᵀ`.
+    fn solve(&mut self, lu: &TallLu) {
+        let Self {
+            entries, rows, row, ..
+        } = self;
+        if lu.free.len() == 1 {
+            for (at, below) in lu.backward() {
+                let terms = below.iter().map(|l| l.value * entries[l.index()].value);
+                entries[at].value = -terms.sum::<f64>();
+            }
+            return;
+        }
+        for (at, below) in lu.backward() {
+            let [begin, end] = rows[at];
+            let (known, rest) = entries.split_at_mut(begin as usize);
+            for l in below {
+                let [from, to] = rows[l.index()];
+                for entry in &known[from as usize..to as usize] {
+                    row[entry.index()] -= l.value * entry.value;
+                }
+            }
+            for entry in &mut rest[..(end - begin) as usize] {
+                entry.value = std::mem::take(&mut row[entry.index()]);
+            }
+        }
+    }
+}
+
 impl FreeMotions {
-    /// Allocates storage for n coordinates and at most this number of rows.
-    pub(super) fn new(n: usize, rows: usize) -> Self {
-        // Skipped rows become free motions; this is the largest k·r.
-        let most = (0..=rows).map(|r| (n - r) * r).max().unwrap_or(0);
+    /// Allocates storage for n coordinates and k free motions. More of them, where rows are
+    /// skipped, allocate once.
+    pub(super) fn new(n: usize, k: usize) -> Self {
         Self {
-            basis: vec![0.0; most],
+            basis: Basis {
+                entries: Vec::with_capacity((n * k).min(RESERVED)),
+                rows: vec![[0; 2]; n],
+                row: Vec::with_capacity(k),
+                count: Vec::with_capacity(k),
+                place: Vec::with_capacity(k),
+            },
+            k,
             mass: vec![0.0; n],
-            weighted: vec![0.0; rows],
-            reduced_mass: vec![0.0; n * n],
+            squared: vec![0.0; k],
+            reduced_mass: vec![0.0; k * k],
+            begin: vec![0; k],
+            z: vec![0.0; k],
             mass_ratio: f64::INFINITY,
         }
     }
 
-    /// The dependent part of the null vector c.
-    pub(super) fn dependent(&self, r: usize, c: usize) -> &[f64] {
-        &self.basis[c * r..(c + 1) * r]
+    /// Adapts to other coordinates that are solved for, and sorts the free ones.
+    pub(super) fn follow(&mut self, lu: &mut TallLu) {
+        self.basis.follow(lu);
+        self.k = lu.free.len();
+        let k = self.k;
+        self.squared.resize(k, 0.0);
+        self.reduced_mass.resize(k * k, 0.0);
+        self.z.resize(k, 0.0);
+        self.begin.clear();
+        self.begin.extend(0..k);
+        for &i in lu.pivots() {
+            let row = self.basis.of(i);
+            if let Some(first) = row.iter().map(Entry::index).min() {
+                for entry in row {
+                    let begin = &mut self.begin[entry.index()];
+                    *begin = first.min(*begin);
+                }
+            }
+        }
     }
 
-    /// Basis and factors for these rows and masses.
-    pub(super) fn factor<'c>(
+    /// Basis and factors for these rows and masses; `entry(row, coordinate)` is an entry of C
+    /// relative to the largest one of its row.
+    pub(super) fn factor(
         &mut self,
         lu: &TallLu,
-        row: impl Fn(usize) -> &'c [f64],
+        entry: impl Fn(usize, usize) -> f64,
         mass: &[f64],
     ) -> Result<(), SaddleError> {
-        for (m, &coordinate) in self.mass.iter_mut().zip(&lu.permutation) {
-            *m = mass[coordinate];
-        }
-        self.fill_basis(lu);
-        self.factor_reduced_mass(lu, row)
+        self.mass.copy_from_slice(mass);
+        self.basis.solve(lu);
+        self.reduce_mass(lu);
+        self.factor_reduced_mass(lu, entry)
     }
 
-    /// Solves `L₁ᵀ·Y = −L₂ᵀ` column by column.
-    fn fill_basis(&mut self, lu: &TallLu) {
-        let (n, r) = (lu.n, lu.r);
-        if r == 0 {
+    /// Lower triangle of NᵀMN, and squares of the null vectors.
+    fn reduce_mass(&mut self, lu: &TallLu) {
+        let k = self.k;
+        self.squared.fill(0.0);
+        self.reduced_mass.fill(0.0);
+        if k == 1 {
+            let [mut squared, mut reduced] = [-1.0, 0.0];
+            for (entry, m) in self.basis.entries.iter().zip(&self.mass) {
+                squared += entry.value * entry.value;
+                reduced += m * (entry.value * entry.value);
+            }
+            (self.squared[0], self.reduced_mass[0]) = (squared, reduced);
             return;
         }
-        for (c, y) in self.basis[..(n - r) * r].chunks_exact_mut(r).enumerate() {
-            for t in (0..r).rev() {
-                let l_t = lu.row(t);
-                y[t] = -l_t[r + c] - dot(&l_t[t + 1..r], &y[t + 1..r]);
+        for &i in lu.pivots() {
+            let row = self.basis.of(i);
+            for a in row {
+                self.squared[a.index()] += a.value * a.value;
+                let weighted = self.mass[i] * a.value;
+                let of_a = &mut self.reduced_mass[a.index() * k..][..=a.index()];
+                for b in row.iter().filter(|b| b.index() <= a.index()) {
+                    of_a[b.index()] += weighted * b.value;
+                }
             }
+        }
+        for (c, &i) in lu.free.iter().enumerate() {
+            self.reduced_mass[c * k + c] += self.mass[i];
         }
     }
 
     /// Cholesky factorisation of `NᵀMN` without roots, L·D·Lᵀ.
-    fn factor_reduced_mass<'c>(
+    fn factor_reduced_mass(
         &mut self,
         lu: &TallLu,
-        row: impl Fn(usize) -> &'c [f64],
+        entry: impl Fn(usize, usize) -> f64,
     ) -> Result<(), SaddleError> {
-        let (n, r) = (lu.n, lu.r);
-        let k = n - r;
-        let heaviest = max_abs(&self.mass);
+        let (n, k) = (lu.n, self.k);
+        self.mass_ratio = f64::INFINITY;
+        if k == 0 {
+            return Ok(());
+        }
         // Relative rounding due to cancellation in NᵀMN, and to rounding of N, which is exact in
         // the free coordinates and may change a zero into a mass.
         let cancelled = k as f64 * f64::EPSILON;
-        let spurious = (n as f64 * f64::EPSILON).powi(2) * max_abs(&self.mass[..r]);
-        self.mass_ratio = f64::INFINITY;
+        let relative = (n as f64 * f64::EPSILON).powi(2);
+        let heaviest = max_abs(&self.mass);
         for i in 0..k {
-            let y_i = &self.basis[i * r..(i + 1) * r];
-            for ((w, y), m) in self.weighted.iter_mut().zip(y_i).zip(&self.mass) {
-                *w = y * m;
-            }
             let (above, rest) = self.reduced_mass.split_at_mut(i * k);
             let l_i = &mut rest[..k];
-            for j in 0..=i {
-                let y_j = &self.basis[j * r..(j + 1) * r];
-                l_i[j] = self.weighted.iter().zip(y_j).map(|(a, b)| a * b).sum();
-            }
-            l_i[i] += self.mass[r + i];
             let size = l_i[i];
+            let begin = self.begin[i];
             // First v_j = l_ij·d_j, then l_ij: L has a unit diagonal, and d is stored in its place.
-            for j in 0..i {
-                l_i[j] -= dot(&l_i[..j], &above[j * k..j * k + j]);
+            for j in begin..i {
+                let from = begin.max(self.begin[j]);
+                let of_j = &above[j * k..j * k + j];
+                if from < j {
+                    l_i[j] -= dot(&l_i[from..j], &of_j[from..]);
+                }
             }
             let mut reduced = size;
-            for j in 0..i {
+            for j in begin..i {
                 let v_j = l_i[j];
                 l_i[j] /= above[j * k + j];
                 reduced -= v_j * l_i[j];
             }
-            let floor =
-                |share: f64| (cancelled * size).max(spurious * (share * share + dot(y_i, y_i)));
-            let is_lost = reduced <= floor(1.0) && {
+            let squared = self.squared[i];
+            let floor = |mass: f64, share: f64| {
+                (cancelled * size).max(relative * mass * (share * share + squared))
+            };
+            let is_lost = reduced <= floor(heaviest, 1.0) && {
+                let dependent = lu.pivots().iter().map(|&i| self.mass[i]);
                 // Rounding of a null vector is relative to the entries of its coordinate in the
                 // rows.
-                let rows = lu.used().iter().map(|&j| row(j));
-                let share = |c: &[f64]| c[lu.permutation[r + i]].abs() / max_abs(c);
-                reduced <= floor(rows.map(share).fold(0.0, f64::max))
+                let shares = lu.used().iter().map(|&row| entry(row, lu.free[i]));
+                reduced <= floor(dependent.fold(0.0, f64::max), shares.fold(0.0, f64::max))
             };
             if reduced.is_nan() || is_lost {
                 return Err(SaddleError::MasslessMotion {
                     reduced,
                     size: size.max(heaviest),
-                    motion: self.massless_motion(lu, i),
+                    motion: self.massless_motion(n, i),
                 });
             }
             self.mass_ratio = self.mass_ratio.min(reduced / size);
@@ -128,9 +286,8 @@ impl FreeMotions {
     }
 
     /// The motion `N·z` with `z = [−L₁₁⁻ᵀ·l_i; 1; 0]` that belongs to the failed pivot i.
-    fn massless_motion(&self, lu: &TallLu, i: usize) -> Vec<f64> {
-        let (n, r) = (lu.n, lu.r);
-        let k = n - r;
+    fn massless_motion(&self, n: usize, i: usize) -> Vec<f64> {
+        let k = self.k;
         let mut z = vec![0.0; k];
         z[i] = 1.0;
         for j in 0..i {
@@ -140,35 +297,63 @@ impl FreeMotions {
             let z_j = z[j];
             axpy(-z_j, &self.reduced_mass[j * k..j * k + j], &mut z[..j]);
         }
-        let mut y = vec![0.0; n];
-        for (c, &z_c) in z.iter().enumerate() {
-            axpy(z_c, self.dependent(r, c), &mut y[..r]);
-            y[r + c] = z_c;
-        }
-        let largest = max_abs(&y);
-        let mut motion = vec![0.0; n];
-        for (&coordinate, y_i) in lu.permutation.iter().zip(&y) {
-            motion[coordinate] = y_i / largest;
-        }
+        let entry = |i: usize| {
+            self.basis
+                .of(i)
+                .iter()
+                .map(|e| e.value * z[e.index()])
+                .sum()
+        };
+        let mut motion: Vec<f64> = (0..n).map(entry).collect();
+        let largest = max_abs(&motion);
+        motion.iter_mut().for_each(|x| *x /= largest);
         motion
     }
 
-    /// y ← y + P·N·z with `(NᵀMN)·z = Nᵀ·g`; r is the number of rows.
-    pub(super) fn add(&self, r: usize, g: &[f64], y: &mut [f64]) {
-        let k = y.len() - r;
-        let (y, z) = y.split_at_mut(r);
-        for c in 0..k {
-            let l_c = &self.reduced_mass[c * k..(c + 1) * k];
-            let n_c_g = dot(self.dependent(r, c), &g[..r]) + g[r + c];
-            z[c] = n_c_g - dot(&l_c[..c], &z[..c]);
+    /// y ← y + N·z with `(NᵀMN)·z = Nᵀ·g`.
+    pub(super) fn add(&mut self, g: &[f64], y: &mut [f64]) {
+        let Self {
+            basis,
+            k,
+            reduced_mass,
+            begin,
+            z,
+            ..
+        } = self;
+        let k = *k;
+        if k == 1 {
+            let terms = basis.entries.iter().zip(g);
+            let of_g: f64 = terms.map(|(entry, g)| entry.value * g).sum();
+            let z = of_g / reduced_mass[0];
+            for (y, entry) in y.iter_mut().zip(&basis.entries) {
+                *y += z * entry.value;
+            }
+            return;
+        }
+        z.fill(0.0);
+        for (i, g_i) in g.iter().enumerate() {
+            for entry in basis.of(i) {
+                z[entry.index()] += entry.value * g_i;
+            }
         }
         for c in 0..k {
-            z[c] /= self.reduced_mass[c * k + c];
+            let from = begin[c];
+            z[c] -= dot(&reduced_mass[c * k + from..c * k + c], &z[from..c]);
+        }
+        for c in 0..k {
+            z[c] /= reduced_mass[c * k + c];
         }
         for c in (0..k).rev() {
-            let z_c = z[c];
-            axpy(-z_c, &self.reduced_mass[c * k..c * k + c], &mut z[..c]);
-            axpy(z_c, self.dependent(r, c), y);
+            let (z_c, from) = (z[c], begin[c]);
+            let row = &reduced_mass[c * k + from..c * k + c];
+            axpy(-z_c, row, &mut z[from..c]);
+        }
+        for (i, y_i) in y.iter_mut().enumerate() {
+            *y_i += basis
+                .of(i)
+                .iter()
+                .map(|entry| entry.value * z[entry.index()])
+                .sum::<f64>();
         }
     }
 }

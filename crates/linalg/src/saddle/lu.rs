@@ -1,32 +1,66 @@
-//! LU with partial pivoting of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`,
-//! `L = [L₁; L₂]` unit lower trapezoidal.
+//! LU of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower
+//! trapezoidal, with the entries only that can be other than zero.
+//!
+//! A row is solved for its largest remaining entry. Which entries can be other than zero depends
+//! on these choices, so the first factorisation finds both ([`TallLu::search`]). Later ones
+//! repeat them ([`TallLu::repeat`]) up to the first row in which the entry that was the largest
+//! has fallen below a share of the present largest, and search from there on. Sources: J. R.
+//! Gilbert, T. Peierls, Sparse partial pivoting in time proportional to arithmetic operations,
+//! SIAM J. Sci. Stat. Comput. 9 (1988) 862–874; T. A. Davis, E. Palamadai Natarajan, Algorithm
+//! 907: KLU, ACM Trans. Math. Softw. 37 (2010) 36, for the repetition.
 
-use super::error::{SaddleError, check_finite, check_length};
-use super::order::Order;
-use crate::kernels::{axpy, dot, max_abs};
-use crate::limits::CANDIDATE;
+use super::bound::bound;
+use super::error::{SaddleError, check_length};
+use super::lists::{Entries, Entry, Lists};
+use crate::limits::{CANDIDATE, FEWER, PIVOT_REPEATED, RESERVED};
+use crate::minimum_degree;
 
 /// Factors of the rows that are used.
 #[derive(Debug, Clone)]
 pub(super) struct TallLu {
     pub(super) n: usize,
+    /// Columns outside which each row of C is zero.
+    pub(super) columns: Lists,
+    /// Coordinates that may be solved for; all if `None`.
+    solvable: Option<Vec<bool>>,
+    /// Rows of C in the order of their elimination.
+    pub(super) order: Vec<usize>,
     /// Number of rows in use: all rows without the skipped ones.
     pub(super) r: usize,
-    /// The row of C for each row in use, ascending.
+    /// The row of C for each row in use, and the coordinate that it is solved for. Of
+    /// the last factorisation while the next one repeats it.
     used: Vec<usize>,
-    /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
-    factors: Vec<f64>,
-    /// 1/U_jj of each row in use: a product is cheaper than a quotient.
+    is_used: Vec<bool>,
+    pivot: Vec<usize>,
+    /// The row in use that is solved for each coordinate, `u32::MAX` for none.
+    row_of: Vec<u32>,
+    /// Row j: `U_kj` of the rows k < j that it is eliminated with, ascending.
+    upper: Entries,
+    /// Row j: column j of L below its unit diagonal, by coordinates.
+    lower: Entries,
+    /// U_jj of each row in use, and 1/U_jj: a product is cheaper than a quotient.
+    diagonal: Vec<f64>,
     inverse: Vec<f64>,
-    /// Position i of P·x is coordinate `permutation[i]`, coordinate j is at `place[j]`.
-    pub(super) permutation: Vec<usize>,
-    place: Vec<usize>,
-    /// Sign of P.
-    parity: f64,
-    /// Whether each row was solved for the coordinate that the order has for it.
-    is_in_order: bool,
-    /// Smallest `|pivot| / largest entry of its row`, rows left out included.
+    /// Coordinates that no row is solved for.
+    pub(super) free: Vec<usize>,
+    is_changed: bool,
+    /// Smallest `largest entry left / largest entry` of a row, rows left out included.
     pub(super) pivot_ratio: f64,
+    work: Work,
+}
+
+/// The row that is being eliminated.
+#[derive(Debug, Clone)]
+struct Work {
+    /// Its entries by coordinates; zero between rows.
+    x: Vec<f64>,
+    /// Coordinates in which it can have entries, in any order, and whether each is among them.
+    touched: Vec<usize>,
+    is_touched: Vec<bool>,
+    /// Set of rows that are still to be eliminated with.
+    rows: Vec<u64>,
+    /// Its entries of U.
+    upper: Vec<Entry>,
 }
 
 /// Result of the elimination of a row.
@@ -39,187 +73,440 @@ pub(super) enum Elimination {
     },
 }
 
+/// What decides which entry a row is solved for: its size, and masses if they are graded.
+#[derive(Clone, Copy)]
+struct Choice<'a> {
+    solvable: Option<&'a [bool]>,
+    graded: Option<&'a [f64]>,
+}
+
+impl Choice<'_> {
+    /// The coordinate to be solved for, `None` if no entry can be.
+    fn best(self, x: &[f64], among: impl Iterator<Item = usize> + Clone) -> Option<usize> {
+        let among = among.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
+        let larger = |a: usize, b: usize| {
+            let is_larger = x[b].abs() > x[a].abs() || x[b].abs() == x[a].abs() && b < a;
+            if is_larger || x[a].is_nan() { b } else { a }
+        };
+        let largest = among.clone().reduce(larger)?;
+        let Some(mass) = self.graded else {
+            return Some(largest);
+        };
+        let least = CANDIDATE * x[largest].abs();
+        let candidates = among.filter(|&i| x[i].abs() >= least);
+        // Compares c²/m without quotients: masses may be zero.
+        let lighter = |a: usize, b: usize| {
+            let [of_a, of_b] = [x[a] * x[a] * mass[b], x[b] * x[b] * mass[a]];
+            if of_b > of_a || of_b == of_a && b < a {
+                b
+            } else {
+                a
+            }
+        };
+        candidates.reduce(lighter)
+    }
+
+    /// Size of the largest entry that can be solved for, if the one of this coordinate is still as
+    /// good as the best one, except for the share [`PIVOT_REPEATED`].
+    fn largest(
+        self,
+        x: &[f64],
+        at: usize,
+        others: impl Iterator<Item = usize> + Clone,
+    ) -> Option<f64> {
+        let pivot = x[at].abs();
+        let larger = |m: f64, i: usize| if x[i].abs() > m { x[i].abs() } else { m };
+        let Some(mass) = self.graded else {
+            let others = others.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
+            let largest = others.fold(pivot, larger);
+            // False for NaN, too.
+            return (pivot >= PIVOT_REPEATED * largest).then_some(largest);
+        };
+        let all = others.chain([at]);
+        let best = self.best(x, all.clone())?;
+        let largest = all.fold(0.0, larger);
+        let share = PIVOT_REPEATED * x[best];
+        let is_light = x[at] * x[at] * mass[best] >= share * share * mass[at];
+        // Compared with others, a row solved for a light coordinate has its own pivot.
+        (pivot >= CANDIDATE * largest && is_light).then_some(pivot)
+    }
+}
+
+/// Rows in the given order of elimination, or in one of approximately minimum degree if its factors
+/// need many fewer entries.
+fn order(n: usize, columns: &[Vec<usize>]) -> Vec<usize> {
+    let mut touching = vec![Vec::new(); n];
+    for (row, columns) in columns.iter().enumerate() {
+        columns
+            .iter()
+            .for_each(|&column| touching[column].push(row));
+    }
+    let given = Vec::from_iter(0..columns.len());
+    let other = minimum_degree(columns.len(), &touching);
+    let [of_given, of_other] = [&given, &other].map(|order| {
+        let columns: Vec<&[usize]> = order.iter().map(|&row| &columns[row][..]).collect();
+        bound(n, &columns).iter().sum::<usize>()
+    });
+    if (of_other as f64) < FEWER * of_given as f64 {
+        other
+    } else {
+        given
+    }
+}
+
+/// Sum of entries times the values at their places.
+#[inline(always)]
+fn product(entries: &[Entry], x: &[f64]) -> f64 {
+    entries.iter().map(|l| l.value * x[l.index()]).sum()
+}
+
 impl TallLu {
-    pub(super) fn new(n: usize, rows: usize) -> Self {
+    /// For n coordinates and rows with entries in these columns, all below n.
+    pub(super) fn new(n: usize, columns: &[Vec<usize>]) -> Self {
+        let rows = columns.len();
+        let entries = columns.iter().map(Vec::len).sum();
+        let mut lists = Lists::with_capacity(rows, entries);
+        for list in columns {
+            lists.push(list.iter().map(|&column| column as u32));
+        }
+        let reserved = (rows * n).min(RESERVED);
         Self {
             n,
-            r: rows,
-            used: (0..rows).collect(),
-            factors: vec![0.0; rows * n],
+            columns: lists,
+            order: order(n, columns),
+            solvable: None,
+            r: 0,
+            used: Vec::with_capacity(rows),
+            is_used: vec![false; rows],
+            pivot: Vec::with_capacity(rows),
+            row_of: vec![u32::MAX; n],
+            upper: Entries::with_capacity(rows, reserved),
+            lower: Entries::with_capacity(rows, reserved),
+            diagonal: vec![0.0; rows],
             inverse: vec![0.0; rows],
-            permutation: (0..n).collect(),
-            place: (0..n).collect(),
-            parity: 1.0,
-            is_in_order: true,
+            free: (0..n).collect(),
+            is_changed: true,
             pivot_ratio: f64::INFINITY,
+            work: Work {
+                x: vec![0.0; n],
+                touched: Vec::with_capacity(n),
+                is_touched: vec![false; n],
+                rows: vec![0; rows.div_ceil(64)],
+                upper: Vec::with_capacity(rows),
+            },
         }
     }
 
-    /// Removes all rows; coordinates are used in this order.
-    pub(super) fn begin(&mut self, order: &Order) {
-        self.permutation.copy_from_slice(&order.coordinates);
-        for (i, &coordinate) in order.coordinates.iter().enumerate() {
-            self.place[coordinate] = i;
-        }
-        self.is_in_order = true;
-        self.parity = order.parity;
+    pub(super) fn n_rows(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Numbers of entries of U and of L below their diagonals.
+    #[cfg(test)]
+    pub(super) fn n_entries(&self) -> [usize; 2] {
+        [&self.upper, &self.lower].map(Entries::n_entries)
+    }
+
+    /// From now on rows are solved for these coordinates only; for any if `None`.
+    pub(super) fn solve_for(&mut self, solvable: Option<Vec<bool>>) {
+        self.solvable = solvable;
+        self.keep(0);
+    }
+
+    /// Removes all rows.
+    pub(super) fn begin(&mut self) {
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
     }
 
-    /// The rows of C in use, ascending.
+    /// The rows of C in use.
     pub(super) fn used(&self) -> &[usize] {
         &self.used[..self.r]
     }
 
-    /// Row j of the factors, see [`TallLu::factors`].
-    pub(super) fn row(&self, j: usize) -> &[f64] {
-        &self.factors[j * self.n..(j + 1) * self.n]
+    /// Whether row k of C is in use.
+    pub(super) fn uses(&self, k: usize) -> bool {
+        self.is_used[k]
     }
 
-    /// Computes the next column of U and of L from a row of C: gather, eliminate with the rows
-    /// before, pivot. `graded` contains the masses if they affect which coordinate is solved for.
+    /// The coordinate that each row in use is solved for.
+    pub(super) fn pivots(&self) -> &[usize] {
+        &self.pivot[..self.r]
+    }
+
+    /// Computes the next column of U and of L from the values of a row of C in its columns:
+    /// scatter, eliminate with the rows before, pivot. `graded` contains the masses if they affect
+    /// which coordinate is solved for.
     pub(super) fn eliminate(
         &mut self,
-        order: &Order,
         (row, c_j): (usize, &[f64]),
         graded: Option<&[f64]>,
         floor: f64,
     ) -> Result<Elimination, SaddleError> {
-        let (n, j) = (self.n, self.r);
-        check_length("row of C", c_j, n)?;
-        let (before, rest) = self.factors.split_at_mut(j * n);
-        let x = &mut rest[..n];
-        x.fill(0.0);
+        check_length("row of C", c_j, self.columns.of(row).len())?;
         // x·0 is NaN exactly for NaN and infinities.
         let (mut scale, mut zero) = (0.0_f64, 0.0);
-        for &column in order.columns.of(row) {
-            let c = c_j[column];
-            x[self.place[column]] = c;
+        for c in c_j {
             zero += c * 0.0;
             scale = if c.abs() > scale { c.abs() } else { scale };
         }
         if zero != 0.0 {
-            check_finite("C", c_j, row * n)?;
-        }
-        // As long as rows are solved for the coordinates of the order, their entries are those of
-        // the lists.
-        let below = if row == j && self.is_in_order {
-            for &k in order.fill.upper.of(j) {
-                let (u_kj, l_k) = (x[k], &before[k * n..(k + 1) * n]);
-                // Entries of a joint along the axes of the ground are often zero.
-                if u_kj != 0.0 {
-                    for &i in order.fill.lower.of(k) {
-                        x[i] -= u_kj * l_k[i];
-                    }
-                }
-            }
-            Some(order.fill.lower.of(j))
-        } else {
-            for (k, l_k) in before.chunks_exact(n).enumerate() {
-                let u_kj = x[k];
-                if u_kj != 0.0 {
-                    axpy(-u_kj, &l_k[k + 1..], &mut x[k + 1..]);
-                }
-            }
-            None
-        };
-
-        let solvable = order.solvable;
-        let at = match (graded, below) {
-            (None, Some(below)) => {
-                let (mut at, mut largest) = (j, max_abs(&x[j..=j]));
-                for &i in below {
-                    if i < solvable && x[i].abs() > largest {
-                        (at, largest) = (i, x[i].abs());
-                    }
-                }
-                Some(at)
-            }
-            (None, None) => {
-                // No entry is the largest one if all are NaN.
-                let largest = max_abs(&x[j..solvable]);
-                (j..solvable).find(|&i| x[i].abs() == largest)
-            }
-            (Some(mass), _) => {
-                let largest = max_abs(&x[j..solvable]);
-                let candidates = (j..solvable).filter(|&i| x[i].abs() >= CANDIDATE * largest);
-                let mass = |i: usize| mass[self.permutation[i]];
-                // Compares c²/m without quotients: masses may be zero.
-                candidates.reduce(|a, b| {
-                    if x[b] * x[b] * mass(a) > x[a] * x[a] * mass(b) {
-                        b
-                    } else {
-                        a
-                    }
-                })
-            }
-        };
-        let at = at.unwrap_or(j);
-        let pivot = x[at];
-        if scale > 0.0 {
-            self.pivot_ratio = self.pivot_ratio.min(pivot.abs() / scale);
-        }
-        if pivot.is_nan() || pivot.abs() <= floor * scale {
-            return Ok(Elimination::Dependent {
-                pivot: pivot.abs(),
-                scale,
+            let at = c_j.iter().position(|c| !c.is_finite()).unwrap_or(0);
+            return Err(SaddleError::NonFinite {
+                argument: "C",
+                index: row * self.n + self.columns.of(row)[at] as usize,
+                value: c_j[at],
             });
         }
-        self.used[j] = row;
-        self.r += 1;
-        if at != j {
-            self.permutation.swap(at, j);
-            self.place[self.permutation[at]] = at;
-            self.place[self.permutation[j]] = j;
-            x.swap(at, j);
-            for l_k in before.chunks_exact_mut(n) {
-                l_k.swap(at, j);
+        let least = floor * scale;
+        let j = self.r;
+        if self.used.get(j) == Some(&row) {
+            if let Some([pivot, largest]) = self.repeat((row, c_j), graded, least) {
+                self.note(largest, scale);
+                self.accept(pivot);
+                return Ok(Elimination::Used);
             }
-            self.is_in_order = false;
-            self.parity = -self.parity;
+            self.keep(j);
         }
+        let found = self.search((row, c_j), graded);
+        let pivot = found.map_or(0.0, |at| self.work.x[at]);
+        match found {
+            Some(at) if pivot.abs() > least => {
+                self.keep(j);
+                self.is_changed = true;
+                self.used.push(row);
+                self.pivot.push(at);
+                self.row_of[at] = j as u32;
+                self.upper.push(self.work.upper.iter().copied());
+                let Work { x, touched, .. } = &self.work;
+                let row_of = &self.row_of;
+                let below = touched.iter().filter(|&&i| row_of[i] == u32::MAX);
+                let inverse = 1.0 / pivot;
+                let entry = |&i: &usize| Entry::new(i, x[i] * inverse);
+                self.lower.push(below.map(entry));
+                self.clear();
+                self.note(pivot, scale);
+                self.accept(pivot);
+                Ok(Elimination::Used)
+            }
+            _ => {
+                self.clear();
+                self.note(pivot, scale);
+                Ok(Elimination::Dependent {
+                    pivot: pivot.abs(),
+                    scale,
+                })
+            }
+        }
+    }
+
+    /// Eliminates a row with the rows and entries of the last factorisation. Returns its pivot and
+    /// the size of the largest entry, or nothing if another coordinate should be solved for.
+    fn repeat(
+        &mut self,
+        (row, c_j): (usize, &[f64]),
+        graded: Option<&[f64]>,
+        least: f64,
+    ) -> Option<[f64; 2]> {
+        let j = self.r;
+        let x = &mut self.work.x[..];
+        for (&i, &c) in self.columns.of(row).iter().zip(c_j) {
+            x[i as usize] = c;
+        }
+        for entry in self.upper.of_mut(j) {
+            let k = entry.index();
+            let u_kj = std::mem::take(&mut x[self.pivot[k]]);
+            entry.value = u_kj;
+            // Entries of a joint along the axes of the ground are often zero.
+            if u_kj != 0.0 {
+                for l in self.lower.of(k) {
+                    x[l.index()] -= u_kj * l.value;
+                }
+            }
+        }
+        let at = self.pivot[j];
+        let choice = Choice {
+            solvable: self.solvable.as_deref(),
+            graded,
+        };
+        let below = self.lower.of_mut(j);
+        let pivot = x[at];
+        let largest = choice.largest(x, at, below.iter().map(Entry::index));
+        let largest = largest.filter(|_| pivot.abs() > least);
+        x[at] = 0.0;
         let inverse = 1.0 / pivot;
-        self.inverse[j] = inverse;
-        for l in &mut x[j + 1..] {
-            *l *= inverse;
+        for entry in below {
+            entry.value = std::mem::take(&mut x[entry.index()]) * inverse;
         }
-        Ok(Elimination::Used)
+        Some([pivot, largest?])
     }
 
-    /// y₁ such that `C·a = γ` with the y₂ that is there: `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
+    /// Eliminates a row with the rows before it, wherever it can have entries, and leaves the
+    /// result in the scratch. Returns the coordinate that it is best solved for.
+    fn search(&mut self, (row, c_j): (usize, &[f64]), graded: Option<&[f64]>) -> Option<usize> {
+        let j = self.r as u32;
+        let Work {
+            x,
+            touched,
+            is_touched,
+            rows,
+            upper,
+        } = &mut self.work;
+        let row_of = &self.row_of;
+        let mut touch = |i: usize, rows: &mut [u64]| {
+            if !std::mem::replace(&mut is_touched[i], true) {
+                touched.push(i);
+                let k = row_of[i];
+                if k < j {
+                    rows[k as usize / 64] |= 1 << (k % 64);
+                }
+            }
+        };
+        for (&i, &c) in self.columns.of(row).iter().zip(c_j) {
+            x[i as usize] = c;
+            touch(i as usize, rows);
+        }
+        for word in 0..rows.len() {
+            // Elimination with a row adds later rows only.
+            while rows[word] != 0 {
+                let bit = rows[word].trailing_zeros();
+                rows[word] &= rows[word] - 1;
+                let k = 64 * word + bit as usize;
+                let u_kj = x[self.pivot[k]];
+                upper.push(Entry::new(k, u_kj));
+                for l in self.lower.of(k) {
+                    x[l.index()] -= u_kj * l.value;
+                    touch(l.index(), rows);
+                }
+            }
+        }
+        touched.sort_unstable();
+        let choice = Choice {
+            solvable: self.solvable.as_deref(),
+            graded,
+        };
+        let left = touched.iter().copied().filter(|&i| row_of[i] >= j);
+        choice.best(x, left)
+    }
+
+    /// Clears the scratch of a row.
+    fn clear(&mut self) {
+        let Work {
+            x,
+            touched,
+            is_touched,
+            upper,
+            ..
+        } = &mut self.work;
+        for i in touched.drain(..) {
+            x[i] = 0.0;
+            is_touched[i] = false;
+        }
+        upper.clear();
+    }
+
+    /// Forgets what the last factorisation did with all but its first rows.
+    fn keep(&mut self, rows: usize) {
+        if rows >= self.used.len() {
+            return;
+        }
+        self.is_changed = true;
+        for &coordinate in &self.pivot[rows..] {
+            self.row_of[coordinate] = u32::MAX;
+        }
+        self.used.truncate(rows);
+        self.pivot.truncate(rows);
+        self.upper.truncate(rows);
+        self.lower.truncate(rows);
+    }
+
+    fn accept(&mut self, pivot: f64) {
+        self.diagonal[self.r] = pivot;
+        self.inverse[self.r] = 1.0 / pivot;
+        self.r += 1;
+    }
+
+    fn note(&mut self, left: f64, scale: f64) {
+        if scale > 0.0 {
+            self.pivot_ratio = self.pivot_ratio.min(left.abs() / scale);
+        }
+    }
+
+    /// Ends a factorisation; returns whether other coordinates are solved for than before.
+    pub(super) fn finish(&mut self) -> bool {
+        self.keep(self.r);
+        let is_changed = std::mem::take(&mut self.is_changed);
+        if is_changed {
+            let row_of = &self.row_of;
+            self.free.clear();
+            self.free
+                .extend((0..self.n).filter(|&i| row_of[i] == u32::MAX));
+            self.is_used.fill(false);
+            self.used.iter().for_each(|&row| self.is_used[row] = true);
+        }
+        is_changed
+    }
+
+    /// For each row in use, the last one first, the coordinate that it is solved for, and the
+    /// column of L below its diagonal.
+    #[inline(always)]
+    pub(super) fn backward(&self) -> impl Iterator<Item = (usize, &[Entry])> {
+        let pivots = self.pivot[..self.r].iter().enumerate().rev();
+        pivots.map(|(j, &at)| (at, self.lower.of(j)))
+    }
+
+    /// The entries of y that are solved for, such that `C·y = γ` with the others that are there:
+    /// `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
     pub(super) fn determine(&self, gamma: &[f64], y: &mut [f64]) {
-        let rows = self.factors[..self.r * self.n].chunks_exact(self.n.max(1));
-        let rows = rows.enumerate();
-        for (j, row) in rows.clone() {
-            y[j] = (gamma[self.used[j]] - dot(&row[..j], &y[..j])) * self.inverse[j];
+        for (j, (&row, &at)) in self.used.iter().zip(&self.pivot).enumerate() {
+            let upper = self.upper.of(j).iter();
+            let sum: f64 = upper.map(|u| u.value * y[self.pivot[u.index()]]).sum();
+            y[at] = (gamma[row] - sum) * self.inverse[j];
         }
-        for (j, row) in rows.rev() {
-            y[j] -= dot(&row[j + 1..], &y[j + 1..]);
-        }
-    }
-
-    /// g[..r] ← λ with `L₁·U·λ = g₁`; the other rows of `L·U·λ = g` then hold as well.
-    pub(super) fn solve_for_multipliers(&self, g: &mut [f64]) {
-        let r = self.r;
-        for j in 0..r {
-            let g_j = g[j];
-            axpy(-g_j, &self.row(j)[j + 1..r], &mut g[j + 1..r]);
-        }
-        for j in (0..r).rev() {
-            let row = self.row(j);
-            g[j] *= self.inverse[j];
-            let g_j = g[j];
-            axpy(-g_j, &row[..j], &mut g[..j]);
+        for (j, &at) in self.pivot.iter().enumerate().rev() {
+            y[at] -= product(self.lower.of(j), y);
         }
     }
 
-    /// Sign and logarithm of `sign(P)·Π u_jj`.
-    pub(super) fn pivots(&self) -> (f64, f64) {
-        let pivots = || (0..self.r).map(|j| self.factors[j * self.n + j]);
+    /// λ of the rows in use with `L·U·λ = g`, whose rows all hold if those of L₁ do; uses up g,
+    /// which is by coordinates.
+    pub(super) fn solve_for_multipliers(&self, g: &mut [f64], lambda: &mut [f64]) {
+        for (j, &at) in self.pivot.iter().enumerate() {
+            let g_j = g[at];
+            for l in self.lower.of(j) {
+                g[l.index()] -= g_j * l.value;
+            }
+        }
+        for (j, &at) in self.pivot.iter().enumerate().rev() {
+            let lambda_j = g[at] * self.inverse[j];
+            lambda[self.used[j]] = lambda_j;
+            for u in self.upper.of(j) {
+                g[self.pivot[u.index()]] -= lambda_j * u.value;
+            }
+        }
+    }
+
+    /// Sign and logarithm of `sign(P)·Π u_jj`, where P takes the coordinates that are solved for
+    /// first, and then the free ones.
+    pub(super) fn determinant(&self) -> (f64, f64) {
+        let order: Vec<usize> = self.pivot.iter().chain(&self.free).copied().collect();
+        let mut is_seen = vec![false; self.n];
+        let mut sign = 1.0;
+        for first in 0..self.n {
+            let (mut i, mut length) = (first, 0);
+            while !std::mem::replace(&mut is_seen[i], true) {
+                i = order[i];
+                length += 1;
+            }
+            // A cycle of even length is an odd permutation.
+            if length > 0 && length % 2 == 0 {
+                sign = -sign;
+            }
+        }
+        let diagonal = &self.diagonal[..self.r];
         (
-            self.parity * pivots().map(f64::signum).product::<f64>(),
-            pivots().map(|u| u.abs().ln()).sum(),
+            sign * diagonal.iter().map(|u| u.signum()).product::<f64>(),
+            diagonal.iter().map(|u| u.abs().ln()).sum(),
         )
     }
 }

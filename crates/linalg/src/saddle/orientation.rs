@@ -12,20 +12,13 @@ impl KeptRowSaddle {
     /// # Panics
     /// If the length of `frame` is not k·n.
     pub fn null_frame(&self, frame: &mut [f64]) {
-        let (n, r) = (self.lu.n, self.lu.r);
-        assert_eq!(
-            frame.len(),
-            (n - r) * n,
-            "a frame of {} vectors of {n}",
-            n - r
-        );
+        let (n, k) = (self.lu.n, self.lu.n - self.lu.r);
+        assert_eq!(frame.len(), k * n, "a frame of {k} vectors of {n}");
         frame.fill(0.0);
-        let permutation = &self.lu.permutation;
-        for (c, vector) in frame.chunks_exact_mut(n.max(1)).enumerate() {
-            for (&coordinate, &x) in permutation.iter().zip(self.free.dependent(r, c)) {
-                vector[coordinate] = x;
+        for i in 0..n {
+            for entry in self.free.basis.of(i) {
+                frame[entry.index() * n + i] = entry.value;
             }
-            vector[permutation[r + c]] = 1.0;
         }
     }
 
@@ -53,18 +46,22 @@ impl KeptRowSaddle {
         let (n, r) = (self.lu.n, self.lu.r);
         let k = n - r;
         assert_eq!(frame.len(), k * n, "a frame of {k} vectors of {n}");
-        let permutation = &self.lu.permutation;
-        let free = &self.free;
         self.border.resize(k);
-        let entry = |c: usize, l: usize| {
-            let b = &frame[l * n..(l + 1) * n];
-            let null = free.dependent(r, c).iter().zip(permutation);
-            b[permutation[r + c]] + null.map(|(x, &i)| x * b[i]).sum::<f64>()
-        };
+        self.product.clear();
+        self.product.resize(k * k, 0.0);
+        for i in 0..n {
+            for entry in self.free.basis.of(i) {
+                for l in 0..k {
+                    self.product[entry.index() * k + l] += entry.value * frame[l * n + i];
+                }
+            }
+        }
+        let product = &self.product;
+        let entry = |c: usize, l: usize| product[c * k + l];
         if self.border.factor(entry).is_err() {
             return Determinant::ZERO;
         }
-        let (sign, log) = self.lu.pivots();
+        let (sign, log) = self.lu.determinant();
         let border = self.border.determinant();
         Determinant {
             sign: sign * border.sign,

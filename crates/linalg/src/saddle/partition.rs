@@ -16,7 +16,7 @@ impl KeptRowSaddle {
     /// [`SaddleError::Length`], [`SaddleError::Partition`]: the argument does not contain r
     /// different coordinates; nothing is changed.
     pub fn partition(&mut self, dependent: &[usize]) -> Result<(), SaddleError> {
-        check_length("dependent", dependent, self.rows)?;
+        check_length("dependent", dependent, self.lu.n_rows())?;
         let mut is_dependent = vec![false; self.lu.n];
         for &coordinate in dependent {
             match is_dependent.get_mut(coordinate) {
@@ -29,30 +29,20 @@ impl KeptRowSaddle {
                 }
             }
         }
-        let free = (0..self.lu.n).filter(|&i| !is_dependent[i]);
-        let order = dependent.iter().copied().chain(free);
-        self.order.change(order, self.rows);
+        self.lu.solve_for(Some(is_dependent));
         Ok(())
     }
 
     /// The coordinates for which the last factorisation solved, one for each row in use; with
     /// graded masses the light ones.
     pub fn solved_for(&self) -> &[usize] {
-        &self.lu.permutation[..self.lu.r]
+        self.lu.pivots()
     }
 
-    /// From the next factorisation on, uses coordinates in the order of the last one. Each
-    /// factorisation still solves for the largest entries, but if these are the same, nothing has
-    /// to be exchanged.
-    pub fn keep_order(&mut self) {
-        let solvable = self.order.solvable;
-        let order = self.lu.permutation.iter().copied();
-        self.order.change(order, solvable);
-    }
-
-    /// From the next factorisation on, each one chooses its own coordinates.
+    /// From the next factorisation on, rows are solved for any coordinates, those with the largest
+    /// entries in it.
     pub fn forget_partition(&mut self) {
-        self.order.change(0..self.lu.n, self.lu.n);
+        self.lu.solve_for(None);
     }
 
     /// Overwrites the dependent entries of `x` so that `C·x = γ`, and does not change the free
@@ -77,17 +67,11 @@ impl KeptRowSaddle {
         if !self.is_factored {
             return Err(SaddleError::NotFactored);
         }
-        check_length("gamma", gamma, self.rows)?;
+        check_length("gamma", gamma, self.lu.n_rows())?;
         check_length("x", x, self.lu.n)?;
         check_finite("gamma", gamma, 0)?;
         check_finite("x", x, 0)?;
-        for (y, &coordinate) in self.y.iter_mut().zip(&self.lu.permutation) {
-            *y = x[coordinate];
-        }
-        self.lu.determine(gamma, &mut self.y);
-        for (y, &coordinate) in self.y.iter().zip(&self.lu.permutation) {
-            x[coordinate] = *y;
-        }
+        self.lu.determine(gamma, x);
         Ok(())
     }
 }
@@ -126,22 +110,32 @@ mod tests {
     }
 
     #[test]
-    fn a_kept_order_is_taken_up_first() {
+    fn a_row_is_solved_for_the_same_entry_while_that_is_more_than_half_the_largest() {
         let mut saddle = KeptRowSaddle::new(4, 2).unwrap();
-        saddle.factor(|k| &ROWS[k], &MASS).unwrap();
-        let permutation = saddle.lu.permutation.clone();
-        let (ratio, side) = (saddle.pivot_ratio(), saddle.orientation(&[1.0; 8]));
-        saddle.keep_order();
-        saddle.factor(|k| &ROWS[k], &MASS).unwrap();
-        assert_eq!(saddle.lu.permutation, permutation);
-        assert_eq!(
-            (saddle.pivot_ratio(), saddle.orientation(&[1.0; 8])),
-            (ratio, side)
-        );
-        // Entries that have become the largest are still solved for.
-        let turned = [[1.0, 2.0, -1.0, 9.0], [0.0, 3.0, 1.0, -2.0]];
-        saddle.factor(|k| &turned[k], &MASS).unwrap();
-        assert_eq!(saddle.lu.permutation[0], 3);
+        let mut solved_for = |first: [f64; 4]| {
+            let rows = [first, ROWS[1]];
+            saddle.factor(|k| &rows[k], &MASS).unwrap();
+            let (mut a, mut lambda) = ([0.0; 4], [0.0; 2]);
+            saddle
+                .solve(&MASS, &[0.7, -0.3], &mut a, &mut lambda)
+                .unwrap();
+            let mut fresh = KeptRowSaddle::new(4, 2).unwrap();
+            fresh.factor(|k| &rows[k], &MASS).unwrap();
+            let (mut b, mut mu) = ([0.0; 4], [0.0; 2]);
+            fresh.solve(&MASS, &[0.7, -0.3], &mut b, &mut mu).unwrap();
+            let found = a.iter().chain(&lambda);
+            assert!(
+                found
+                    .zip(b.iter().chain(&mu))
+                    .all(|(a, b)| (a - b).abs() < 1e-14)
+            );
+            saddle.solved_for()[0]
+        };
+        assert_eq!(solved_for(ROWS[0]), 1);
+        assert_eq!(solved_for([1.0, 2.0, -1.0, 3.9]), 1);
+        assert_eq!(solved_for([1.0, 2.0, -1.0, 4.1]), 3);
+        assert_eq!(solved_for([1.0, 2.0, -1.0, 1.1]), 3);
+        assert_eq!(solved_for(ROWS[0]), 1);
     }
 
     #[test]

@@ -104,7 +104,7 @@ impl KeptRowSaddle {
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
-    /// | `row` | r calls, each n | the rows of C of the last factorisation |
+    /// | `row` | r calls | the rows of C of the last factorisation, as there |
     /// | others | | as for [`KeptRowSaddle::solve`] |
     ///
     /// ```
@@ -134,9 +134,9 @@ impl KeptRowSaddle {
         lambda: &mut [f64],
     ) -> Result<(), SaddleError> {
         check_length("refinement of a", &refinement.force, self.lu.n)?;
-        check_length("refinement of lambda", &refinement.gamma, self.rows)?;
+        check_length("refinement of lambda", &refinement.gamma, self.lu.n_rows())?;
         check_length("a", a, self.lu.n)?;
-        check_length("lambda", lambda, self.rows)?;
+        check_length("lambda", lambda, self.lu.n_rows())?;
         let Refinement {
             a: to_a,
             lambda: to_lambda,
@@ -185,15 +185,17 @@ impl KeptRowSaddle {
         let Refinement {
             a, lambda, force, ..
         } = refinement;
-        for (&coordinate, &m) in self.lu.permutation.iter().zip(&self.free.mass) {
+        for (coordinate, &m) in self.free.mass.iter().enumerate() {
             force[coordinate] = Dd::from(f[coordinate]) - a.x[coordinate] * m;
         }
         refinement.gamma.fill(0.0);
         for &k in self.lu.used() {
             let c_k = row(k);
-            check_length("row of C", c_k, self.lu.n)?;
+            let columns = self.lu.columns.of(k);
+            check_length("row of C", c_k, columns.len())?;
             let mut left = Dd::from(gamma[k]);
-            for (i, &c) in c_k.iter().enumerate().filter(|(_, c)| **c != 0.0) {
+            for (&i, &c) in columns.iter().zip(c_k).filter(|(_, c)| **c != 0.0) {
+                let i = i as usize;
                 left -= a.x[i] * c;
                 force[i] -= lambda.x[k] * c;
             }

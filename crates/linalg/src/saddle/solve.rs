@@ -25,7 +25,7 @@ impl KeptRowSaddle {
         a: &mut [f64],
         lambda: &mut [f64],
     ) -> Result<(), SaddleError> {
-        check_length("lambda", lambda, self.rows)?;
+        check_length("lambda", lambda, self.lu.n_rows())?;
         self.motion(f, gamma, a)?;
         self.multipliers(f, a, lambda)
     }
@@ -40,19 +40,16 @@ impl KeptRowSaddle {
             return Err(SaddleError::NotFactored);
         }
         check_length("f", f, n)?;
-        check_length("gamma", gamma, self.rows)?;
+        check_length("gamma", gamma, self.lu.n_rows())?;
         check_length("a", a, n)?;
         check_finite("f", f, 0)?;
         check_finite("gamma", gamma, 0)?;
 
         // A particular solution, with zeros in the free coordinates.
-        self.y[self.lu.r..].fill(0.0);
-        self.lu.determine(gamma, &mut self.y);
-        self.force_left(f);
-        self.free.add(self.lu.r, &self.g, &mut self.y);
-        for (&coordinate, &y_i) in self.lu.permutation.iter().zip(&self.y) {
-            a[coordinate] = y_i;
-        }
+        self.lu.free.iter().for_each(|&i| a[i] = 0.0);
+        self.lu.determine(gamma, a);
+        self.force_left(f, a);
+        self.free.add(&self.g, a);
         Ok(())
     }
 
@@ -78,27 +75,21 @@ impl KeptRowSaddle {
         }
         check_length("f", f, self.lu.n)?;
         check_length("a", a, self.lu.n)?;
-        check_length("lambda", lambda, self.rows)?;
+        check_length("lambda", lambda, self.lu.n_rows())?;
         check_finite("f", f, 0)?;
         check_finite("a", a, 0)?;
 
-        for (y, &coordinate) in self.y.iter_mut().zip(&self.lu.permutation) {
-            *y = a[coordinate];
-        }
-        self.force_left(f);
-        self.lu.solve_for_multipliers(&mut self.g);
+        self.force_left(f, a);
         lambda.fill(0.0);
-        for (&row, &l) in self.lu.used().iter().zip(&self.g) {
-            lambda[row] = l;
-        }
+        self.lu.solve_for_multipliers(&mut self.g, lambda);
         Ok(())
     }
 
-    /// Computes g = P·(f − M·a).
-    fn force_left(&mut self, f: &[f64]) {
-        let (permutation, mass) = (&self.lu.permutation, &self.free.mass);
-        for (i, g) in self.g.iter_mut().enumerate() {
-            *g = f[permutation[i]] - mass[i] * self.y[i];
+    /// Computes g = f − M·a.
+    fn force_left(&mut self, f: &[f64], a: &[f64]) {
+        let mass = &self.free.mass;
+        for (((g, f), m), a) in self.g.iter_mut().zip(f).zip(mass).zip(a) {
+            *g = f - m * a;
         }
     }
 }

@@ -1,24 +1,23 @@
-//! The sparse solver of kept rows, for large mechanisms.
+//! Kept rows of C as a sparse matrix, in units of the mechanism.
 
-use linalg::{SaddleError, SchurSaddle, SchurStructure, SparseMatrix};
+use linalg::SparseMatrix;
 use model::{Mechanism, System};
 
-/// Kept rows in units of the mechanism, and the factors of their Schur complement.
+/// Kept rows, and the places of their entries among the entries of C.
 #[derive(Clone)]
-pub(super) struct Sparse {
+pub(super) struct KeptMatrix {
     pub(super) c: SparseMatrix,
     /// For each value: its index among the entries of C, and its unit.
     first: Vec<(u32, f64)>,
     /// Entries that are added to a value, with its index: a joint may contribute twice to a
     /// coordinate.
     more: Vec<(u32, (u32, f64))>,
-    pub(super) saddle: SchurSaddle,
 }
 
-impl Sparse {
+impl KeptMatrix {
     pub(super) fn new(mechanism: &Mechanism, kept: &[usize], units: &[f64]) -> Self {
         let pattern = &mechanism.layout().pattern;
-        let c = rows_of(mechanism, kept);
+        let c = pattern_of(mechanism, kept);
         let mut first = vec![(u32::MAX, 0.0); c.nnz()];
         let mut more = Vec::new();
         for (k, &i) in kept.iter().enumerate() {
@@ -34,22 +33,11 @@ impl Sparse {
                 }
             }
         }
-        Self {
-            saddle: SchurSaddle::new(structure(mechanism, &c)),
-            c,
-            first,
-            more,
-        }
+        Self { c, first, more }
     }
 
-    /// Factors the rows with these entries of C; rows whose relative pivots are at most `floor` are
-    /// skipped.
-    pub(super) fn factor_above(
-        &mut self,
-        floor: f64,
-        entries: &[f64],
-        mass: &[f64],
-    ) -> Result<(), SaddleError> {
+    /// Takes the values from these entries of C.
+    pub(super) fn take(&mut self, entries: &[f64]) {
         let values = self.c.values_mut();
         for (value, &(entry, unit)) in values.iter_mut().zip(&self.first) {
             *value = entries[entry as usize] * unit;
@@ -57,12 +45,16 @@ impl Sparse {
         for &(place, (entry, unit)) in &self.more {
             values[place as usize] += entries[entry as usize] * unit;
         }
-        self.saddle.factor_above(floor, &self.c, mass)
+    }
+
+    /// Memory of so many entries (bytes).
+    pub(super) fn bytes(entries: usize) -> usize {
+        entries * (size_of::<(usize, f64)>() + size_of::<(u32, f64)>())
     }
 }
 
 /// The sparsity pattern of the kept rows, with zeros as entries.
-fn rows_of(mechanism: &Mechanism, kept: &[usize]) -> SparseMatrix {
+pub(super) fn pattern_of(mechanism: &Mechanism, kept: &[usize]) -> SparseMatrix {
     let layout = mechanism.layout();
     let pattern = &layout.pattern;
     let row =
@@ -70,17 +62,4 @@ fn rows_of(mechanism: &Mechanism, kept: &[usize]) -> SparseMatrix {
     // The columns of a pattern are always below n_v; without entries there is nothing to solve.
     SparseMatrix::from_rows(layout.n_v, kept.iter().map(row))
         .unwrap_or_else(|_| unreachable!("columns of a pattern are below {}", layout.n_v))
-}
-
-fn structure(mechanism: &Mechanism, c: &SparseMatrix) -> SchurStructure {
-    let bodies = 0..mechanism.bodies().len();
-    let blocks: Vec<_> = bodies.map(|b| mechanism.layout().columns(b)).collect();
-    SchurStructure::new(c, &blocks)
-}
-
-/// Memory of the solver of these rows (bytes).
-pub(super) fn memory(mechanism: &Mechanism, kept: &[usize]) -> usize {
-    let c = rows_of(mechanism, kept);
-    let entries = c.nnz() * (size_of::<(usize, f64)>() + size_of::<(u32, f64)>());
-    structure(mechanism, &c).bytes() + entries
 }
