@@ -7,13 +7,13 @@
 
 mod point;
 
-use model::space::{difference, norm};
+use model::space::{cross, difference, norm};
 use model::{Bodies, BodyRef, ConstraintId, Mechanism, Scratch, SpaceKind, System};
 use serde::Serialize;
 
-use super::geometry::{Site, site, sites};
+use super::geometry::{Pitch, Site, site, sites, turned_back};
 use super::outline::{double_area, hull};
-use super::projection::Projection;
+use super::projection::{Projection, unit};
 use super::symbol::{SPRING, Shapes, Symbol};
 use crate::channel::{Channel, Rounded};
 use crate::recording::Frame;
@@ -26,8 +26,15 @@ const PROBES: usize = 9;
 /// the size of the picture.
 const FIXED: f64 = 1e-9;
 
+/// A circle rolls with a body if its radius, its centre and its axis in the body change by no more
+/// than this, relative to the size of the picture: contacts hold to the tolerance of a run.
+const ROUND: f64 = 1e-6;
+
 /// Index of the ground in lists of bodies.
 const GROUND: isize = -1;
+
+/// Corners of a circle that is drawn as a polygon.
+const CORNERS: usize = 72;
 
 /// A point in the frame of a body.
 type Held = (isize, Point);
@@ -82,8 +89,21 @@ pub(crate) struct DrawnSite {
     pub(crate) end: Option<Place>,
     pub(crate) grounded: bool,
     pub(crate) bodies: Vec<isize>,
-    /// Bodies with the radii of the pitch circles around their centres (m).
-    pub(crate) wheels: Vec<(isize, Rounded)>,
+    /// Circles that roll.
+    pub(crate) wheels: Vec<DrawnWheel>,
+}
+
+/// A circle of a body that rolls.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct DrawnWheel {
+    pub(crate) b: isize,
+    /// Its centre in the frame of the body (m).
+    pub(crate) p: Point,
+    /// In space the direction across it, in the axes of the body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    axis: Option<Point>,
+    /// Its radius (m).
+    r: Rounded,
 }
 
 /// An applied force.
@@ -165,6 +185,26 @@ impl DrawingModel {
         }
     }
 
+    /// A circle as a polygon.
+    pub(crate) fn wheel(&self, wheel: &DrawnWheel) -> Vec<[f64; 2]> {
+        let axis = wheel.axis.map_or([0.0, 0.0, 1.0], Point::at);
+        let other = match axis[0].abs() < 0.9 {
+            true => [1.0, 0.0, 0.0],
+            false => [0.0, 1.0, 0.0],
+        };
+        let first = unit(cross(axis, other)).unwrap_or(other);
+        let (second, centre, r) = (cross(axis, first), wheel.p.at(), wheel.r.0);
+        let corner = |k: usize| {
+            let (sin, cos) = (k as f64 * std::f64::consts::TAU / CORNERS as f64).sin_cos();
+            let at = [0, 1, 2].map(|k| centre[k] + r * (cos * first[k] + sin * second[k]));
+            self.view.flat(match usize::try_from(wheel.b) {
+                Ok(k) => self.poses.to_global(k, at),
+                Err(_) => at,
+            })
+        };
+        (0..CORNERS).map(corner).collect()
+    }
+
     /// The corners of the outline of a body relative to its centre, before they are turned by the
     /// angle that is returned.
     pub(crate) fn silhouette(&self, body: usize) -> (Vec<[f64; 2]>, f64) {
@@ -211,6 +251,8 @@ pub(crate) struct Stage<'a> {
     pub(crate) mechanism: &'a Mechanism,
     /// Indices of its bodies among all bodies.
     pub(crate) bodies: &'a [usize],
+    /// Indices of its coordinates among all coordinates.
+    pub(crate) coordinates: &'a [usize],
     pub(crate) frames: &'a [Frame],
 }
 
@@ -279,11 +321,9 @@ impl Stage<'_> {
             .collect()
     }
 
-    /// Coordinates of its bodies in a frame.
+    /// Its coordinates in a frame, with the counted angles of its joints.
     fn q(&self, frame: &Frame) -> Vec<f64> {
-        let (own, space) = (self.bodies.iter(), self.mechanism.space());
-        own.flat_map(|&k| frame.q[space.coordinates(k)].iter().copied())
-            .collect()
+        self.coordinates.iter().map(|&k| frame.q[k]).collect()
     }
 
     /// Velocities of its bodies in a frame.
@@ -398,11 +438,34 @@ impl Stage<'_> {
             end,
             grounded: probes.first().is_some_and(|p| p.sites[id.0].grounded),
             bodies: group.bodies.iter().map(|&b| index(b)).collect(),
-            wheels: probes.first().map_or_else(Vec::new, |p| {
-                let wheels = p.sites[id.0].pitch.iter().flatten();
-                wheels.map(|w| (index(w.body), Rounded(w.radius))).collect()
-            }),
+            wheels: self.wheels(id, probes, size),
         }
+    }
+
+    /// Circles of a joint that are the same at all probes.
+    fn wheels(&self, id: ConstraintId, probes: &[Probe], size: f64) -> Vec<DrawnWheel> {
+        let space = self.mechanism.space();
+        let Some(first) = probes.first() else {
+            return Vec::new();
+        };
+        let is_same = |wheel: &Pitch, k: usize| {
+            probes.iter().all(|probe| {
+                probe.sites[id.0].pitch.get(k).is_some_and(|other| {
+                    (other.radius - wheel.radius).abs() <= ROUND * size
+                        && norm(&difference(other.centre, wheel.centre)) <= ROUND * size
+                        && norm(&cross(other.axis, wheel.axis)) <= ROUND
+                })
+            })
+        };
+        let wheels = first.sites[id.0].pitch.iter().enumerate();
+        let same = wheels.filter(|(k, wheel)| is_same(wheel, *k));
+        same.map(|(_, wheel)| DrawnWheel {
+            b: index(wheel.body),
+            p: Point::new(space, wheel.centre),
+            axis: (space == SpaceKind::Space3).then(|| Point::new(space, wheel.axis)),
+            r: Rounded(wheel.radius),
+        })
+        .collect()
     }
 
     /// A point or a direction of a joint: in the axes of the first carrier in which it is fixed, to
@@ -536,12 +599,6 @@ type Local = dyn Fn(BodyRef, [f64; 3], &Scratch) -> [f64; 3];
 /// A global point in the frame of a body.
 fn local(body: BodyRef, point: [f64; 3], s: &Scratch) -> [f64; 3] {
     body.moving().map_or(point, |k| s.bodies.to_local(k, point))
-}
-
-/// A direction of the ground in the axes of a body.
-fn turned_back(body: BodyRef, d: [f64; 3], s: &Scratch) -> [f64; 3] {
-    let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * d[k]).sum();
-    body.moving().map_or(d, |k| s.bodies.axes(k).map(along))
 }
 
 fn turn(body: BodyRef, s: &Scratch) -> f64 {

@@ -5,7 +5,7 @@ use model::SpaceKind;
 
 use super::data::{Cast, Data};
 use super::run_page::{RunPage, Shows};
-use super::{inputs, verdicts};
+use super::{inputs, peaks, verdicts};
 use crate::documents::{FreedomsDocument, RunDocument};
 use crate::figures::LOOKS;
 use crate::page::{add, safe, short};
@@ -13,11 +13,20 @@ use crate::page::{add, safe, short};
 const STYLE: &str = include_str!("report.css");
 
 /// Scripts in the order of their use; together they are one module.
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("script/data.js"),
+    include_str!("script/poses.js"),
     include_str!("script/clock.js"),
     include_str!("script/shapes.js"),
+    include_str!("script/solid.js"),
+    include_str!("script/camera.js"),
+    include_str!("script/looks.js"),
+    include_str!("script/painters.js"),
+    include_str!("script/loads.js"),
+    include_str!("script/names.js"),
+    include_str!("script/pointer.js"),
     include_str!("script/picture.js"),
+    include_str!("script/first_order.js"),
     include_str!("script/chart.js"),
     include_str!("script/main.js"),
 ];
@@ -32,10 +41,11 @@ const LISTED: usize = 12;
 
 pub(super) fn document(page: &RunPage<'_>) -> String {
     let cast = Cast::of(page.mechanism);
+    let data = Data::new(page, &cast);
     let mut out = String::new();
     open(&mut out, page);
     head(&mut out, page);
-    motion(&mut out, page);
+    motion(&mut out, page, &data);
     if !matches!(page.shows, Shows::Mode(_)) {
         verdicts::section(&mut out, page);
     }
@@ -47,7 +57,7 @@ pub(super) fn document(page: &RunPage<'_>) -> String {
     if page.moves() {
         transport(&mut out);
     }
-    close(&mut out, page, &cast);
+    close(&mut out, &data);
     out
 }
 
@@ -305,13 +315,25 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</ul>\n");
 }
 
+/// Standard views of space.
+const VIEWS: &str = "<div class=\"views\" role=\"group\" aria-label=\"View\">\
+<button id=\"view-x\" type=\"button\" aria-label=\"View along x\">x</button>\
+<button id=\"view-y\" type=\"button\" aria-label=\"View along y\">y</button>\
+<button id=\"view-z\" type=\"button\" aria-label=\"View along z\">z</button>\
+<button id=\"view-home\" type=\"button\" aria-label=\"View from the right and above\" title=\"From the right and above\">◳</button>\
+<button id=\"perspective\" type=\"button\" aria-label=\"Perspective\" aria-pressed=\"false\" title=\"Perspective\">⬡</button></div>\n\
+<p id=\"view\" class=\"unseen\" aria-live=\"polite\"></p>\n";
+
+/// Keys of the picture of space, for those who do not see it.
+const SPATIAL_KEYS: &str = ". Arrow keys turn it, with Shift they move it, plus and minus zoom, x, y, z and i are standard views, p is perspective";
+
 /// Controls that only the page of a run has.
 const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
 step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
 <fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
 
 /// The animation with its controls.
-fn motion(out: &mut String, page: &RunPage<'_>) {
+fn motion(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     let title = picture_title(page);
     add(
         out,
@@ -321,21 +343,32 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
     );
     out.push_str(
         "<noscript><p class=\"warning\">Picture and curves need scripts; verdicts and inputs below do not.</p></noscript>\n\
-         <div class=\"stage\">\n<div class=\"picture\">\n",
+         <div class=\"stage\">\n",
     );
+    let is_spatial = page.mechanism.space() == SpaceKind::Space3;
+    out.push_str(match is_spatial {
+        true => "<div class=\"picture spatial\">\n",
+        false => "<div class=\"picture\">\n",
+    });
     add(
         out,
         format_args!(
-            "<svg id=\"picture\" role=\"img\" aria-label=\"{} to scale, moving; joints are marked by the verdict of their reactions, \
-             which the table below tells in words\"></svg>\n",
-            safe(page.mechanism.name())
+            "<canvas id=\"picture\" role=\"img\" tabindex=\"0\" aria-label=\"{} to scale, moving; joints are marked by the verdict of their \
+             reactions, which the table below tells in words{}\"></canvas>\n",
+            safe(page.mechanism.name()),
+            if is_spatial { SPATIAL_KEYS } else { "" }
         ),
     );
     out.push_str(
-        "<div class=\"now\" id=\"now\"></div>\n<div class=\"zoom\"><button id=\"zoom-in\" type=\"button\" aria-label=\"Zoom in\">+</button>\
+        "<div class=\"now\" id=\"now\"></div>\n<div class=\"now\" id=\"rate\" hidden></div>\n<div class=\"zoom\"><button id=\"zoom-in\" type=\"button\" aria-label=\"Zoom in\">+</button>\
          <button id=\"zoom-out\" type=\"button\" aria-label=\"Zoom out\">−</button>\
-         <button id=\"zoom-reset\" type=\"button\" aria-label=\"Show all\">⤢</button></div>\n\
-         <div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
+         <button id=\"zoom-reset\" type=\"button\" aria-label=\"Show all\">⤢</button></div>\n",
+    );
+    if is_spatial {
+        out.push_str(VIEWS);
+    }
+    out.push_str(
+        "<div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
          aria-label=\"What the picture shows\">\n",
     );
     if !page.verdicts().is_empty() {
@@ -349,15 +382,37 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
     if page.run().is_some() {
         out.push_str(OF_RUN);
     }
+    first_order(out, data);
     out.push_str(
         "</aside>\n</div>\n\
          <p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
-         are unknown. Drag to move, Ctrl and wheel to zoom",
+         are unknown. ",
     );
+    out.push_str(match is_spatial {
+        true => {
+            "Drag to turn, with Shift, the right button or two fingers to move; Ctrl and wheel, or the wheel after a click, to zoom"
+        }
+        false => "Drag to move, Ctrl and wheel, or the wheel after a click, to zoom",
+    });
     if page.run().is_some() {
         out.push_str(", click a joint for its reaction, a body for its trace");
     }
     out.push_str(".</p>\n</section>\n");
+}
+
+/// Choices of free motions and self-stresses, if there are any.
+fn first_order(out: &mut String, data: &Data<'_>) {
+    if data.has_motions() {
+        out.push_str(
+            "<fieldset class=\"option\"><legend>Free motions at the start</legend><div id=\"motions\"></div></fieldset>\n",
+        );
+    }
+    if data.has_stresses() {
+        out.push_str(
+            "<fieldset class=\"option\"><legend>Loads that cancel</legend><select id=\"stress\" aria-label=\"Self-stress\">\
+             <option value=\"\">none</option></select><div id=\"stress-loads\"></div></fieldset>\n",
+        );
+    }
 }
 
 /// The meaning of marks and arrows, as far as they occur.
@@ -399,7 +454,12 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
          <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select> \
          <label for=\"frame\">Components</label> <select id=\"frame\"><option value=\"global\">global</option>\
          <option value=\"body\">along the first body</option></select></div>\n\
-         <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n</section>\n\
+         <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n",
+    );
+    peaks::table(out, page);
+    out.push_str(
+        "<details class=\"on-request\" id=\"all-reactions\"><summary>Curves of all reactions</summary>\n\
+         <p class=\"grey\">They are drawn when this is opened, and printed if it is open.</p>\n<div id=\"all-curves\"></div>\n</details>\n</section>\n\
          <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n",
     );
     let units: Vec<&str> = page.scene.units.iter().flatten().map(|u| u.0).collect();
@@ -480,9 +540,9 @@ fn transport(out: &mut String) {
     );
 }
 
-fn close(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
+fn close(out: &mut String, data: &Data<'_>) {
     // Only numbers and names, so this cannot fail.
-    let json = serde_json::to_string(&Data::new(page, cast)).unwrap_or_else(|_| "null".to_owned());
+    let json = serde_json::to_string(data).unwrap_or_else(|_| "null".to_owned());
     add(
         out,
         format_args!(
