@@ -382,10 +382,10 @@ fn motion(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     if page.run().is_some() {
         out.push_str(OF_RUN);
     }
+    out.push_str("</aside>\n</div>\n");
     first_order(out, data);
     out.push_str(
-        "</aside>\n</div>\n\
-         <p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
+        "<p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
          are unknown. ",
     );
     out.push_str(match is_spatial {
@@ -402,6 +402,10 @@ fn motion(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
 
 /// Choices of free motions and self-stresses, if there are any.
 fn first_order(out: &mut String, data: &Data<'_>) {
+    if !data.has_motions() && !data.has_stresses() {
+        return;
+    }
+    out.push_str("<div class=\"first-order\">\n");
     if data.has_motions() {
         out.push_str(
             "<fieldset class=\"option\"><legend>Free motions at the start</legend><div id=\"motions\"></div></fieldset>\n",
@@ -409,10 +413,11 @@ fn first_order(out: &mut String, data: &Data<'_>) {
     }
     if data.has_stresses() {
         out.push_str(
-            "<fieldset class=\"option\"><legend>Loads that cancel</legend><select id=\"stress\" aria-label=\"Self-stress\">\
+            "<fieldset class=\"option\"><legend>Loads that cancel (self-stresses)</legend><select id=\"stress\" aria-label=\"Self-stress\">\
              <option value=\"\">none</option></select><div id=\"stress-loads\"></div></fieldset>\n",
         );
     }
+    out.push_str("</div>\n");
 }
 
 /// The meaning of marks and arrows, as far as they occur.

@@ -27,19 +27,17 @@ function decode(channel) {
   return out;
 }
 
-/** A function that computes its value when it is asked first. */
-function lazily(compute) {
-  let value;
-  let known = false;
-  return () => {
-    if (!known) [value, known] = [compute(), true];
-    return value;
-  };
-}
-
 /** A property that is computed when somebody asks for it. */
 function defineLazily(object, name, compute) {
-  Object.defineProperty(object, name, { get: lazily(compute), enumerable: true });
+  Object.defineProperty(object, name, {
+    configurable: true,
+    enumerable: true,
+    get() {
+      const value = compute();
+      Object.defineProperty(object, name, { value, enumerable: true });
+      return value;
+    },
+  });
 }
 
 /**

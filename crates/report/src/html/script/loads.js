@@ -9,6 +9,11 @@ function addArrow(picture, layer, place, vector, size, look, isMoment = false) {
   const length = Math.hypot(dx, dy);
   if (size < 1.5) return;
   picture.add(layer, picture.before((from[2] + tip[2]) / 2, FRONT + 6), () => {
+    if (picture.isCrowd) {
+      const [neck, head] = [Math.max(length - 8, 0), isMoment ? 4 : 3];
+      brush.polygon(from, [dx, dy], [[0, -1], [neck, -1], [neck, -head], [length, 0], [neck, head], [neck, 1], [0, 1]], look.fill);
+      return;
+    }
     if (length < 6 && length < 0.4 * size) {
       // Seen from its end.
       const path = new Path2D();
@@ -17,7 +22,7 @@ function addArrow(picture, layer, place, vector, size, look, isMoment = false) {
       return;
     }
     const head = Math.min(10, length);
-    brush.from(from, [dx, dy], isMoment ? momentArrow(length, 2.6, Math.min(9, 0.55 * length)) : arrow(length, 3.2, head), look, { halo: view ? 1 : 0 });
+    brush.from(from, [dx, dy], isMoment ? momentArrow(length, 2.6, Math.min(9, 0.55 * length)) : arrow(length, 3.2, head), look, view ? { width: 2 * look.width + 1 } : {});
   });
 }
 

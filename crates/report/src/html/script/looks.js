@@ -3,9 +3,12 @@
 /** Hatches of one line style for each verdict. */
 const HATCHES = { hatch: 4, "hatch-wide": 6 };
 
+/** Steps by which symbols among many are turned (rad). */
+const STAMP_TURN = Math.PI / 36;
+
 class Looks {
-  constructor(canvas) {
-    this.context = canvas.getContext("2d");
+  constructor(context) {
+    this.context = context;
     this.hidden = draw(document.body, "svg", { class: "unseen", "aria-hidden": "true", width: 0, height: 0 });
     const defs = draw(this.hidden, "defs");
     for (const [id, pitch] of Object.entries(HATCHES)) {
@@ -20,6 +23,7 @@ class Looks {
   refresh() {
     this.known = new Map();
     this.symbols = new Map();
+    this.stamps = new Map();
     this.page = this.named("--page");
     this.ink = this.named("--ink");
   }
@@ -90,20 +94,24 @@ class Looks {
 
 /** Paints on a canvas whose unit is a pixel of the page, whatever the pixels of the screen are. */
 class Brush {
-  constructor(canvas) {
+  /** The picture itself has no transparency; stamps have. */
+  constructor(canvas, looks = null) {
     this.canvas = canvas;
-    this.context = canvas.getContext("2d");
-    this.looks = new Looks(canvas);
+    this.context = canvas.getContext("2d", { alpha: looks !== null });
+    this.looks = looks ?? new Looks(this.context);
     this.ratio = 1;
   }
 
-  /** An empty page. */
-  clear(width, height, ratio) {
+  /** An empty page of a colour, or a transparent new one. */
+  clear(width, height, ratio, ground = null) {
     const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
     if (this.canvas.width !== w || this.canvas.height !== h) Object.assign(this.canvas, { width: w, height: h });
     this.ratio = ratio;
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    this.context.clearRect(0, 0, width, height);
+    if (ground) {
+      this.context.fillStyle = ground;
+      this.context.fillRect(0, 0, width, height);
+    }
   }
 
   /** Paints at a place: turned by an angle (rad, clockwise on the page) and scaled. */
@@ -152,6 +160,49 @@ class Brush {
         this.path(path, look, { halo, width: selected ? 2 * look.width : look.width });
       }
     });
+  }
+
+  /** The same from a picture of it that is kept, at whole pixels: for many symbols, turned by whole steps. */
+  stamp(name, classes, [x, y], angle = 0, size = 1, selected = false) {
+    const turn = Math.round(angle / STAMP_TURN);
+    const key = `${name}|${classes}|${turn}|${size.toFixed(2)}|${selected}|${this.ratio}`;
+    let stamp = this.looks.stamps.get(key);
+    if (!stamp) {
+      const [[w, h], middle] = data.drawing.shapes[name];
+      const half = Math.ceil((Math.max(w, h + Math.abs(middle)) + 3) * size * (turn ? Math.SQRT2 : 1));
+      const canvas = document.createElement("canvas");
+      const own = new Brush(canvas, this.looks);
+      own.clear(2 * half, 2 * half, this.ratio);
+      own.symbol(name, classes, [half, half], turn * STAMP_TURN, size, { selected });
+      stamp = { canvas, half };
+      this.looks.stamps.set(key, stamp);
+    }
+    const { ratio } = this;
+    const left = Math.round((x - stamp.half) * ratio) / ratio;
+    const top = Math.round((y - stamp.half) * ratio) / ratio;
+    this.context.drawImage(stamp.canvas, left, top, 2 * stamp.half, 2 * stamp.half);
+  }
+
+  /** A filled polygon whose corners lie along a direction from a place. */
+  polygon([x, y], [dx, dy], corners, fill) {
+    const { context } = this;
+    const length = Math.hypot(dx, dy);
+    const [c, s] = [dx / length, dy / length];
+    context.beginPath();
+    for (const [u, v] of corners) context.lineTo(x + c * u - s * v, y + s * u + c * v);
+    context.fillStyle = fill;
+    context.fill();
+  }
+
+  /** A plain line, for many. */
+  stroke(a, b, colour, width) {
+    const { context } = this;
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.beginPath();
+    context.moveTo(a[0], a[1]);
+    context.lineTo(b[0], b[1]);
+    context.stroke();
   }
 
   /** A line between places of the page. */

@@ -15,8 +15,6 @@ const PIECE = 36;
 const FRONT = 26;
 /** How opaque the faces of a body in space are. */
 const VEIL = 0.55;
-/** With more bodies than this lines are not divided: there are many of them anyway. */
-const MANY = 250;
 
 /** A straight line in space in pieces, each at its own distance; `paint` gets the ends on the page and whether they are ends of the line. */
 function addLine(picture, layer, a, b, paint, pixels = 0) {
@@ -26,7 +24,7 @@ function addLine(picture, layer, a, b, paint, pixels = 0) {
   }
   const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
   const deep = Math.abs(b[2] - a[2]) * picture.camera.scale;
-  const most = bodies.length > MANY ? 1 : 16;
+  const most = picture.isCrowd ? 1 : 16;
   const count = Math.max(1, Math.min(most, Math.ceil(Math.min(length, 2 * deep) / PIECE)));
   const at = (s) => [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])];
   for (let k = 0; k < count; k += 1) {
@@ -50,6 +48,7 @@ function addThin(picture, layer, a, b, look, { width = look.width, halo = HALO, 
 }
 
 function paintBodies(picture) {
+  if (view) picture.light = unit(plus(plus(picture.camera.towards, picture.camera.up, 0.8), picture.camera.right, -0.4));
   const { camera, poses, brush, symbolScale } = picture;
   const order = view ? bodies.map((b) => b.index) : data.drawing.order;
   for (const k of order) {
@@ -61,7 +60,12 @@ function paintBodies(picture) {
     const looks = { flesh: flesh.fill, rim: k === picture.hovered ? brush.looks.ink : rim.stroke };
     if (view) paintSolid(picture, body, pose, looks);
     else {
-      const corners = hull(body.outline.map((p) => camera.project(pointOn(pose, p))));
+      const points = body.outline.map((p) => camera.project(pointOn(pose, p)));
+      if (picture.isCrowd) {
+        paintPlainly(picture, k, points, looks);
+        continue;
+      }
+      const corners = hull(points);
       const path = roundedHull(corners, (FLESH / 2 + RIM / 2) * symbolScale);
       picture.targets.push({ body: k, path });
       picture.add("bodies", 0, () => {
@@ -73,6 +77,31 @@ function paintBodies(picture) {
       picture.add("bodies", picture.before(near, BAR), () => brush.symbol("centre", group, [x, y], 0, symbolScale));
     }
   }
+}
+
+/** A body among many in the plane: its outline in two strokes. */
+function paintPlainly(picture, k, points, looks) {
+  const { brush, symbolScale } = picture;
+  const { context } = brush;
+  picture.targets.push({ body: k, corners: points });
+  const width = Math.max(FLESH * symbolScale, 1);
+  picture.add("bodies", 0, () => {
+    context.lineJoin = "round";
+    context.lineCap = "round";
+    context.beginPath();
+    points.forEach((p) => context.lineTo(p[0], p[1]));
+    if (points.length > 2) context.closePath();
+    context.strokeStyle = looks.rim;
+    context.lineWidth = width + 2 * RIM;
+    context.stroke();
+    context.strokeStyle = looks.flesh;
+    context.lineWidth = width;
+    context.stroke();
+    if (points.length > 2) {
+      context.fillStyle = looks.flesh;
+      context.fill();
+    }
+  });
 }
 
 /** A body in space: bars along the edges of its hull that are seen, and its faces. */
@@ -92,8 +121,7 @@ function paintSolid(picture, { index, solid }, pose, looks) {
     // Behind all that is nearer than its farthest corner: what is painted over it by mistake is seen through it anyway.
     const near = Math.min(...ring.map((k) => corners[k][2]));
     // Light comes from above the left shoulder.
-    const light = unit(plus(plus(camera.towards, camera.up, 0.8), camera.right, -0.4));
-    const shade = 0.12 * (1 - Math.abs(dot3(n, light)));
+    const shade = 0.12 * (1 - Math.abs(dot3(n, picture.light)));
     picture.add("bodies", near, () => {
       const path = new Path2D();
       ring.forEach((k) => path.lineTo(corners[k][0], corners[k][1]));
@@ -113,11 +141,20 @@ function paintSolid(picture, { index, solid }, pose, looks) {
     const [a, b] = ends.map((k) => corners[k]);
     ends.forEach((k) => round.add(k));
     const wide = bar((a[3] + b[3]) / 2);
+    if (picture.isCrowd) {
+      picture.add("bodies", (a[2] + b[2]) / 2, () => {
+        const width = Math.max(wide, 1.5);
+        brush.stroke(a, b, brush.looks.page, width + 2);
+        brush.stroke(a, b, looks.rim, width);
+      });
+      continue;
+    }
     addLine(picture, "bodies", a, b, (from, to, [starts, stops]) => {
       const inset = wide / 2 + HALO + 1;
       paintBar(brush, from, to, wide, looks, [starts ? inset : 0, stops ? inset : 0]);
     });
   }
+  if (picture.isCrowd && solid.edges.length) return;
   if (!solid.edges.length) round.add(0);
   for (const k of round) {
     const [x, y, near, larger] = corners[k];
@@ -170,25 +207,35 @@ function paintSite(picture, site) {
   const angle = Math.atan2(dy, dx);
   const size = picture.symbolScale * at[3];
   const classes = `site ${joint.verdict}`;
-  const rail = brush.looks.of("rails", "rail");
+  const put = (name, group, spot, turn, before, options) => {
+    if (picture.isCrowd) picture.add(name === "foot" ? "feet" : "symbols", before, () => brush.stamp(name, group, spot, turn, size, options.selected));
+    else picture.add(name === "foot" ? "feet" : "symbols", before, () => brush.symbol(name, group, spot, turn, size, options));
+  };
   site.shown = at;
   picture.targets.push({ joint: joint.index, at });
   for (const wheel of site.wheels) paintWheel(picture, wheel);
   if (site.isGuided) paintRail(picture, site, place, axis, from);
-  else if (grounded) picture.add("feet", picture.before(at[2], 4), () => brush.symbol("foot", "", at, 0, size));
+  else if (grounded) put("foot", "", at, 0, picture.before(at[2], 4), {});
   if (symbol === "rod") addThin(picture, "symbols", from, to, brush.looks.of(`rod ${joint.verdict}`), { pixels: 3 });
   if (axis && !site.isGuided && view) {
+    const rail = brush.looks.of("rails", "rail");
     const arm = axis.map((x) => (x * AXIS * size) / camera.scale);
     const middle = symbol === "rod" ? place : end;
-    for (const sign of [-1, 1]) addThin(picture, "rails", at, camera.project(plus(middle, arm, sign)), rail, { pixels: 2 });
+    if (picture.isCrowd) {
+      const ends = [-1, 1].map((sign) => camera.project(plus(middle, arm, sign)));
+      picture.add("rails", at[2], () => brush.stroke(...ends, rail.stroke, 1));
+    } else for (const sign of [-1, 1]) addThin(picture, "rails", at, camera.project(plus(middle, arm, sign)), rail, { pixels: 2 });
   }
   const selected = joint.index === picture.selected;
   for (const spot of symbol === "rod" ? [from, to] : [at]) {
-    picture.add("symbols", picture.before(spot[2], FRONT), () => {
-      brush.symbol(symbol, classes, spot, angle, size, { halo: view ? 1.5 : 0, selected });
-    });
+    put(symbol, classes, spot, isRound(symbol) ? 0 : angle, picture.before(spot[2], FRONT), { halo: view ? 1.5 : 0, selected });
   }
   paintLoads(picture, site, { place, from, to: end });
+}
+
+/** Whether a symbol looks the same however it is turned. */
+function isRound(symbol) {
+  return symbol === "pin" || symbol === "rod";
 }
 
 /** A circle that rolls, or of a wheel. */
@@ -205,7 +252,7 @@ function paintWheel(picture, wheel) {
     });
     return;
   }
-  const parts = bodies.length > MANY ? 16 : 48;
+  const parts = picture.isCrowd ? 16 : 48;
   const at = (k) => {
     const angle = (2 * Math.PI * k) / parts;
     return camera.project(plus(plus(centre, a, Math.cos(angle)), b, Math.sin(angle)));

@@ -5,6 +5,8 @@ const MOVED_FAR = 2.2;
 const SMALLEST = 2e-3;
 /** Names of a larger mechanism are shown when somebody asks. */
 const NAMES_MOST = 60;
+/** Bodies and joints that are many. */
+const CROWD = 400;
 /** Points and instants that are looked at to find what a run needs of the page. */
 const PROBES = 48;
 const POINTS_MOST = 60_000;
@@ -16,9 +18,11 @@ class Picture {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas, handlers) {
     this.canvas = canvas;
+    // Among many, symbols are stamped and lines are plain, and arrows are shown when somebody asks.
+    this.isCrowd = bodies.length + joints.length > CROWD;
     this.show = {
       names: joints.length + bodies.length + data.drawing.markers.length <= NAMES_MOST,
-      forces: true, freedom: true, grid: true, centres: true, follow: true,
+      forces: !this.isCrowd, freedom: true, grid: true, centres: !this.isCrowd, follow: true,
     };
     this.arrowScale = 1;
     this.traced = new Set();
@@ -123,7 +127,7 @@ class Picture {
   }
 
   get follows() {
-    return this.travels && this.show.follow && !this.firstOrder;
+    return this.travels && this.show.follow;
   }
 
   /** Page and scale from the size of the window and what is to be seen. */
@@ -201,7 +205,7 @@ class Picture {
     this.instant = instantAt(this.firstOrder ? tFirst : this.t);
     this.poses = posesAt(this.instant, this.firstOrder?.swing ?? null);
     camera.aim(this.focusAt(this.instant));
-    brush.clear(...camera.page, ratio);
+    brush.clear(...camera.page, ratio, brush.looks.page);
     this.items = [];
     this.targets = [];
     paintGrid(this);

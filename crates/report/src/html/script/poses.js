@@ -108,16 +108,21 @@ function poseOf(index, instant) {
 }
 
 /** The orientation of a body between frames: ė = ½·(0, ω)∘e, with ω in ground axes. */
-function quaternionAt({ qw, qx, qy, qz, wx, wy, wz }, { k, s, h, t }) {
-  const ends = s > 0 ? [k, k + 1] : [k];
-  const e = ends.map((f) => [qw[f], qx[f], qy[f], qz[f]]);
-  if (!(s > 0)) return e[0];
-  const rates = ends.map((f, end) => {
-    const [w, x, y, z] = e[end];
-    const [a, b, c] = [wx[f], wy[f], wz[f]];
-    return [-a * x - b * y - c * z, a * w + b * z - c * y, b * w + c * x - a * z, c * w + a * y - b * x].map((rate) => rate / 2);
-  });
-  return [0, 1, 2, 3].map((part) => cubic(e.map((x) => x[part]), rates.map((x) => x[part]), { k: 0, s, h, t }));
+function quaternionAt({ qw, qx, qy, qz, wx, wy, wz }, { k, s, h }) {
+  if (!(s > 0)) return [qw[k], qx[k], qy[k], qz[k]];
+  const r = 1 - s;
+  const e = [0, 0, 0, 0];
+  for (let end = 0; end < 2; end += 1) {
+    const f = k + end;
+    const [w, x, y, z, a, b, c] = [qw[f], qx[f], qy[f], qz[f], wx[f], wy[f], wz[f]];
+    const value = end ? s * s * (3 - 2 * s) : (1 + 2 * s) * r * r;
+    const rate = (h / 2) * (end ? -s * s * r : s * r * r);
+    e[0] += value * w + rate * (-a * x - b * y - c * z);
+    e[1] += value * x + rate * (a * w + b * z - c * y);
+    e[2] += value * y + rate * (b * w + c * x - a * z);
+    e[3] += value * z + rate * (c * w + a * y - b * x);
+  }
+  return e;
 }
 
 /** A point of a body. */
