@@ -1,6 +1,7 @@
-// Opens reports in headless Chromium and looks whether they live: no errors, a picture that moves, curves with content, a dark page,
-// a phone, and paper. Run by `cargo xtask browser`, or as
+// Opens reports in headless Chromium and looks whether they live: no errors, a picture that moves and, in space, turns and hides what is
+// behind, curves with content, a dark page, a phone, and paper. Run by `cargo xtask browser`, or as
 //   node tests/browser/report.mjs CHROMIUM PICTURES NAME=report.html ...
+// The pages named `crossing` and `crowd` are those of xtask/src/browser.rs: two bars that cross, and a thousand bodies.
 
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
@@ -14,6 +15,12 @@ const [program, pictures, ...reports] = process.argv.slice(2);
 
 /** Time for scripts and layout (ms). */
 const SETTLED = 400;
+
+/** A crowd may take this long to be shown (ms); it blocked for 20 s once. */
+const CROWD_LOAD = 5000;
+
+/** Least rate of a crowd (1/s). Thirty are the aim, and are reached where nothing else runs; this is what a machine at work leaves of it. */
+const CROWD_RATE = 12;
 
 const wait = (ms) => new Promise((done) => {
   setTimeout(done, ms);
@@ -132,6 +139,183 @@ async function tipsTellValues(page) {
   await page.value("scrollTo(0, 0)");
 }
 
+/** What the picture shows, as one string. */
+const drawn = (page) => page.value(`document.getElementById("picture").toDataURL()`);
+
+/** Presses on the picture and moves to another place of it. */
+async function drag(page, from, to, modifiers = 0) {
+  const [left, top] = await page.value(`(() => {
+    const box = document.getElementById("picture").getBoundingClientRect();
+    return [box.x, box.y];
+  })()`);
+  const at = ([x, y]) => ({ x: left + x, y: top + y, button: "left", modifiers });
+  await page.send("Input.dispatchMouseEvent", { type: "mousePressed", ...at(from), clickCount: 1 });
+  for (const share of [0.25, 0.5, 1]) {
+    const on = from.map((x, k) => x + share * (to[k] - x));
+    await page.send("Input.dispatchMouseEvent", { type: "mouseMoved", ...at(on), buttons: 1 });
+  }
+  await page.send("Input.dispatchMouseEvent", { type: "mouseReleased", ...at(to), clickCount: 1 });
+  await wait(SETTLED);
+}
+
+/** Space turns by mouse and keys, the plane does not; both move and zoom. */
+async function turnsAndZooms(page) {
+  const isSpatial = await page.value(`document.querySelector(".spatial") !== null`);
+  const rows = () => page.value("[pfaffReport.picture.camera.right, pfaffReport.picture.camera.up]");
+  const shift = () => page.value("pfaffReport.picture.camera.shift");
+  await page.value(`document.getElementById("picture").scrollIntoView({ block: "center" })`);
+  const before = [await rows(), await shift(), await drawn(page)];
+  await drag(page, [300, 300], [360, 330]);
+  if (isSpatial) {
+    assert.notDeepEqual(await rows(), before[0], "a drag turns space");
+    assert.deepEqual(await shift(), before[1], "and does not move it");
+    await drag(page, [300, 300], [360, 330], 8);
+    assert.notDeepEqual(await shift(), before[1], "with Shift it moves");
+  } else {
+    assert.deepEqual(await rows(), before[0], "the plane does not turn");
+    assert.notDeepEqual(await shift(), before[1], "a drag moves the plane");
+  }
+  assert.notEqual(await drawn(page), before[2], "that is seen");
+  await page.value(`document.getElementById("picture").focus()`);
+  const zoom = await page.value("pfaffReport.picture.camera.zoom");
+  await page.press("+");
+  assert.ok((await page.value("pfaffReport.picture.camera.zoom")) > zoom, "plus zooms");
+  await page.press("0");
+  await wait(SETTLED);
+  assert.deepEqual([await rows(), await shift()], before.slice(0, 2), "0 goes back");
+  if (!isSpatial) return;
+  const t = await at(page);
+  await page.press("ArrowLeft");
+  assert.notDeepEqual(await rows(), before[0], "arrow keys turn space");
+  assert.equal(await at(page), t, "and leave the time alone");
+  for (const [key, towards] of [["x", 0], ["y", 1], ["z", 2]]) {
+    await page.press(key);
+    const sight = await page.value("pfaffReport.picture.camera.towards.map(Math.abs)");
+    assert.ok(sight[towards] > 1 - 1e-12, `${key} looks along ${key}`);
+    const words = await page.value(`document.getElementById("view").textContent`);
+    assert.match(words, new RegExp(`along −?${key}`), "and says so");
+  }
+  const parallel = await drawn(page);
+  await page.press("p");
+  await wait(SETTLED);
+  assert.equal(await page.value(`document.getElementById("perspective").getAttribute("aria-pressed")`), "true");
+  assert.notEqual(await drawn(page), parallel, "perspective looks different");
+  await page.press("p");
+  await page.press("i");
+}
+
+/** Names that are shown stand apart at any time, also while the picture turns. */
+async function namesStandApart(page) {
+  for (const share of [0, 0.3, 0.7]) {
+    await seek(page, share);
+    const covered = await page.value(`(() => {
+      const boxes = pfaffReport.picture.names.shown ?? [];
+      const apart = (a, b) => a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
+      return boxes.flatMap((a, k) => boxes.slice(0, k).filter((b) => !apart(a, b))).length;
+    })()`);
+    assert.equal(covered, 0, "names over names");
+  }
+}
+
+/** A free motion swings until it is stopped; the loads of a self-stress cancel on every body. */
+async function showsFirstOrder(page) {
+  const motions = await page.value(`document.querySelectorAll("#motions button").length`);
+  if (motions > 0) {
+    await page.value(`document.querySelector("#motions button").click()`);
+    const seen = new Set();
+    for (let k = 0; k < 4; k += 1) {
+      await wait(150);
+      // Poses, since a bar that turns about itself looks the same.
+      seen.add(await page.value("JSON.stringify(pfaffReport.data.drawing.bodies.map((_, k) => pfaffReport.picture.poses.of(k)))"));
+    }
+    assert.ok(seen.size > 1, "a free motion moves");
+    await page.value(`document.querySelector("#motions button").click()`);
+    assert.equal(await page.value("pfaffReport.picture.firstOrder"), null, "a second click stops it");
+  }
+  // Sums over bodies of force and moment about the origin, relative to the largest load.
+  const sums = await page.value(`pfaffReport.data.stresses.map((stress) => {
+    const picture = pfaffReport.picture;
+    const n = pfaffReport.data.components.length;
+    const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    pfaffReport.clock.set(pfaffReport.data.t[0]);
+    const bodies = new Map();
+    let largest = 0;
+    stress.joints.forEach((j, k) => {
+      const wrench = stress.wrenches[k];
+      const site = picture.sites[j];
+      const force = n === 3 ? [wrench[0], wrench[1], 0] : wrench.slice(0, 3);
+      const own = n === 3 ? [0, 0, wrench[2]] : wrench.slice(3);
+      const moment = cross(site.place(picture.poses, picture.instant), force).map((x, i) => x + own[i]);
+      const [first, second] = site.joint.site.bodies;
+      [[first, 1], [second ?? -1, -1]].forEach(([b, sign]) => {
+        const sum = bodies.get(b) ?? [0, 0, 0, 0, 0, 0];
+        bodies.set(b, sum.map((x, i) => x + sign * [...force, ...moment][i]));
+      });
+      largest = Math.max(largest, ...[...force, ...moment].map(Math.abs));
+    });
+    bodies.delete(-1);
+    return Math.max(0, ...[...bodies.values()].flat().map(Math.abs)) / largest;
+  })`);
+  // Places that no body carries are rounded to 1e-5 of their way, and arms are some tenths of it.
+  assert.ok(sums.every((sum) => sum < 1e-3), `loads that do not cancel: ${sums}`);
+  if (sums.length === 0) return;
+  const before = await drawn(page);
+  await page.value(`(() => {
+    const select = document.getElementById("stress");
+    select.value = "0";
+    select.dispatchEvent(new Event("change"));
+  })()`);
+  await wait(SETTLED);
+  assert.notEqual(await drawn(page), before, "a self-stress is seen");
+  assert.ok((await page.value(`document.querySelectorAll("#stress-loads li").length`)) > 0, "and told");
+  await seek(page, 0.1);
+  assert.equal(await page.value("pfaffReport.picture.firstOrder"), null, "time goes on with the run");
+}
+
+/** Of two bars that cross, the nearer one is seen where they do: from both sides. */
+async function nearerHides(page) {
+  const colour = () => page.value(`(() => {
+    const { picture } = pfaffReport;
+    Object.assign(picture.show, { names: false, forces: false, freedom: false, centres: false, grid: false });
+    picture.sites = [];
+    picture.paint(1);
+    const [x, y] = picture.camera.project([0, 0, 0]).map(Math.round);
+    return [...picture.brush.context.getImageData(x, y, 1, 1).data].join();
+  })()`);
+  const fleshOf = (k) => page.value(`((k) => {
+    const { brush } = pfaffReport.picture;
+    brush.context.fillStyle = brush.looks.of("body b" + k, "hull", "flesh").fill;
+    brush.context.fillRect(0, 0, 1, 1);
+    return [...brush.context.getImageData(0, 0, 1, 1).data].join();
+  })(${k})`);
+  const [upper, lower] = [await fleshOf(0), await fleshOf(1)];
+  assert.notEqual(upper, lower, "bodies have colours");
+  for (const perspective of [false, true]) {
+    await page.value(`pfaffReport.picture.camera.isPerspective = ${perspective}`);
+    await page.value(`pfaffReport.picture.camera.standsAt = null; pfaffReport.picture.stand("z")`);
+    assert.equal(await colour(), upper, "seen from above");
+    await page.value(`pfaffReport.picture.stand("z")`);
+    assert.equal(await colour(), lower, "seen from below");
+  }
+}
+
+/** A thousand bodies: the page opens at once and shows this many pictures a second by its own counter. */
+async function crowdMoves(browser, file) {
+  const began = Date.now();
+  const page = await opened(browser, file);
+  const loaded = Date.now() - began - SETTLED;
+  const count = await page.value("pfaffReport.data.drawing.bodies.length");
+  assert.ok(count >= 1000, `${count} bodies`);
+  await page.value("pfaffReport.clock.play()");
+  await wait(4000);
+  const rate = await page.value("pfaffReport.clock.picturesPerSecond");
+  assert.ok(loaded < CROWD_LOAD, `${loaded} ms until it is shown`);
+  assert.ok(rate >= CROWD_RATE, `${rate.toFixed(1)} pictures a second`);
+  assertQuiet(page);
+  await browser.send("Target.closeTarget", { targetId: page.target });
+  return `${count} bodies, shown after ${loaded} ms, ${rate.toFixed(1)} pictures a second`;
+}
+
 /** Whether parts of the page stand over its edge. */
 const isTooWide = (page) => page.value("document.documentElement.scrollWidth > document.documentElement.clientWidth");
 
@@ -142,6 +326,9 @@ async function check(browser, name, file) {
   await movesAndScrubs(light);
   await curvesHaveContent(light);
   await noBareLines(light);
+  await turnsAndZooms(light);
+  await namesStandApart(light);
+  await showsFirstOrder(light);
   await tipsTellValues(light);
   await seek(light, 0.35);
   assert.equal(await isTooWide(light), false, "the page fits its window");
@@ -165,6 +352,8 @@ async function check(browser, name, file) {
   await phone.value(`document.getElementById("motion").scrollIntoView()`);
   await seek(phone, 0.35);
   assert.equal(await isTooWide(phone), false, "the page fits a phone");
+  const cut = await phone.value(`[...document.querySelectorAll(".wide")].filter((e) => e.scrollWidth > e.clientWidth + 1).length`);
+  assert.equal(cut, 0, "no column is cut off");
   save("phone.png", await phone.picture());
   assertQuiet(phone);
 
@@ -184,7 +373,16 @@ let failed = false;
 for (const report of reports) {
   const [name, file] = report.split("=");
   try {
+    if (name === "crowd") {
+      console.log(`${name}: ${await crowdMoves(browser, file)}`);
+      continue;
+    }
     await check(browser, name, file);
+    if (name === "crossing") {
+      const page = await opened(browser, file);
+      await nearerHides(page);
+      assertQuiet(page);
+    }
     console.log(`${name}: right`);
   } catch (error) {
     failed = true;

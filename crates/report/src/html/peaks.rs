@@ -99,14 +99,12 @@ fn line(
     holds: &str,
 ) {
     let value = |label: &str, peak: Option<Peak>, prefix: &str| {
-        let told = peak.map_or_else(
-            || "–".to_owned(),
-            |p| format!("{prefix}{}", digits(p.value)),
-        );
-        let time = peak.map_or_else(|| "–".to_owned(), |p| digits(p.t));
-        format!(
-            "<td class=\"number\" data-label=\"{label}\">{told}</td><td class=\"number\" data-label=\"at (s)\">{time}</td>"
-        )
+        let cell = |label: &str, told: Option<String>| match told {
+            Some(told) => format!("<td class=\"number\" data-label=\"{label}\">{told}</td>"),
+            None => format!("<td class=\"number none\" data-label=\"{label}\">–</td>"),
+        };
+        let told = peak.map(|p| format!("{prefix}{}", digits(p.value)));
+        cell(label, told) + &cell("at (s)", peak.map(|p| digits(p.t)))
     };
     let prefix = named.map(|n| format!("{} = ", safe(n))).unwrap_or_default();
     add(

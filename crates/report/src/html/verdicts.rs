@@ -8,6 +8,9 @@ use crate::page::{add, safe, short};
 /// Largest number of lines of a list.
 pub(super) const MOST: usize = 40;
 
+/// Largest number of ways to make a reaction unique that a sentence lists.
+const WAYS: usize = 5;
+
 /// Largest number of lines of the table.
 const LINES: usize = 300;
 
@@ -160,6 +163,11 @@ fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
             }
             _ => reactions.concat(),
         };
+        if ways.len() > WAYS {
+            let more = ways.len() - WAYS;
+            let few = ways[..WAYS].join("; ");
+            return format!("{reactions}: {few}; or {more} others, which `--make-unique` lists");
+        }
         match ways.split_last() {
             None => format!("{reactions}: no small set of deletions was found"),
             Some((last, [])) => format!("{reactions}: {last}"),

@@ -116,6 +116,7 @@ function setUpFirstOrder(picture) {
 function showStress(stress) {
   const place = byId("stress-loads");
   make(place, "p", {}, ...withNames(stress.text));
+  make(place, "p", { className: "grey", textContent: "Full arrows act on the first body of a joint, hollow ones on the other. Together they load no body." });
   const list = make(place, "ul");
   stress.joints.forEach((j, n) => {
     const loads = stress.wrenches[n].flatMap((x, k) => (Math.abs(x) > 1e-9 ? [`${COMPONENTS[k]} ${spoken(x, 3)}`] : []));

@@ -363,30 +363,28 @@ function setUpChecks() {
   }
 }
 
-/** Pixels of a picture on paper for one of the page. */
-const PAPER = 3;
+/** Size of the picture on paper in pixels of the page, that of A4 without its margins, and pixels of paper for one of these. */
+const PAPER = [688, 359, 3];
 
 /** Paper has no folded parts and no second frame, and is light. */
 function setUpPrint() {
   let folded = [];
   let theme;
-  const repaint = (ratio) => {
-    globalThis.pfaffReport?.picture.brush.looks.refresh();
-    globalThis.pfaffReport?.picture.paint(ratio);
-  };
+  const picture = () => globalThis.pfaffReport?.picture;
   addEventListener("beforeprint", () => {
     clock.pause();
     folded = [...document.querySelectorAll("details:not([open]):not(.on-request)")];
     folded.forEach((d) => { d.open = true; });
     theme = document.documentElement.dataset.theme;
     document.documentElement.dataset.theme = "light";
-    repaint(PAPER);
+    picture()?.printTo(...PAPER);
   });
   addEventListener("afterprint", () => {
     folded.forEach((d) => { d.open = false; });
     if (theme === undefined) delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = theme;
-    repaint();
+    picture()?.brush.looks.refresh();
+    picture()?.resize();
   });
 }
 

@@ -139,6 +139,16 @@ class Picture {
     this.paint();
   }
 
+  /** Paints for a page of paper of this size (px), finer than for the screen; `resize` goes back. */
+  printTo(width, height, ratio) {
+    const { camera } = this;
+    this.brush.looks.refresh();
+    camera.page = [width, height];
+    this.fit();
+    this.names.place();
+    this.paint(ratio);
+  }
+
   /** The largest scale at which all is seen from where the camera stands. */
   fit() {
     const { camera } = this;
