@@ -272,6 +272,13 @@ async function showsFirstOrder(page) {
   assert.equal(await page.value("pfaffReport.picture.firstOrder"), null, "time goes on with the run");
 }
 
+/** In a page: the colour of a pixel of a canvas, read from a copy. */
+const PIXEL = `(canvas, x, y) => {
+  const copy = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+  copy.drawImage(canvas, x, y, 1, 1, 0, 0, 1, 1);
+  return [...copy.getImageData(0, 0, 1, 1).data].join();
+}`;
+
 /** Of two bars that cross, the nearer one is seen where they do: from both sides. */
 async function nearerHides(page) {
   const colour = () => page.value(`(() => {
@@ -280,13 +287,13 @@ async function nearerHides(page) {
     picture.sites = [];
     picture.paint(1);
     const [x, y] = picture.camera.project([0, 0, 0]).map(Math.round);
-    return [...picture.brush.context.getImageData(x, y, 1, 1).data].join();
+    return (${PIXEL})(picture.canvas, x, y);
   })()`);
   const fleshOf = (k) => page.value(`((k) => {
     const { brush } = pfaffReport.picture;
     brush.context.fillStyle = brush.looks.of("body b" + k, "hull", "flesh").fill;
     brush.context.fillRect(0, 0, 1, 1);
-    return [...brush.context.getImageData(0, 0, 1, 1).data].join();
+    return (${PIXEL})(brush.canvas, 0, 0);
   })(${k})`);
   const [upper, lower] = [await fleshOf(0), await fleshOf(1)];
   assert.notEqual(upper, lower, "bodies have colours");

@@ -10,7 +10,7 @@
 //! | `comparison` | the same reaction under several choices |
 //! | `first_order` | free motions and self-stresses of the start |
 //! | `data` | bodies, joints and curves as one JSON document, rounded |
-//! | `document`, `verdicts`, `peaks`, `inputs` | the page around them |
+//! | `document`, `motion`, `verdicts`, `peaks`, `inputs` | the page around them |
 //! | `report.css`, `script/` | its looks, and what moves |
 
 mod comparison;
@@ -18,6 +18,7 @@ mod data;
 mod document;
 mod first_order;
 mod inputs;
+mod motion;
 mod peaks;
 mod run_page;
 mod verdicts;

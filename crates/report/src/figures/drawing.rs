@@ -6,18 +6,20 @@
 //! [`Projection`] makes them points of the picture.
 
 mod point;
+mod wheel;
 
-use model::space::{cross, difference, norm};
+use model::space::{difference, norm};
 use model::{Bodies, BodyRef, ConstraintId, Mechanism, Scratch, SpaceKind, System};
 use serde::Serialize;
 
-use super::geometry::{Pitch, Site, site, sites, turned_back};
+use super::geometry::{Site, site, sites, turned_back};
 use super::outline::{double_area, hull};
-use super::projection::{Projection, unit};
+use super::projection::Projection;
 use super::symbol::{SPRING, Shapes, Symbol};
 use crate::channel::{Channel, Rounded};
 use crate::recording::Frame;
 pub(crate) use point::{Curves, Point};
+pub(crate) use wheel::DrawnWheel;
 
 /// Number of frames at which it is tested whether a place moves with a body.
 const PROBES: usize = 9;
@@ -26,15 +28,8 @@ const PROBES: usize = 9;
 /// the size of the picture.
 const FIXED: f64 = 1e-9;
 
-/// A circle rolls with a body if its radius, its centre and its axis in the body change by no more
-/// than this, relative to the size of the picture: contacts hold to the tolerance of a run.
-const ROUND: f64 = 1e-6;
-
 /// Index of the ground in lists of bodies.
 const GROUND: isize = -1;
-
-/// Corners of a circle that is drawn as a polygon.
-const CORNERS: usize = 72;
 
 /// A point in the frame of a body.
 type Held = (isize, Point);
@@ -91,19 +86,6 @@ pub(crate) struct DrawnSite {
     pub(crate) bodies: Vec<isize>,
     /// Circles that roll.
     pub(crate) wheels: Vec<DrawnWheel>,
-}
-
-/// A circle of a body that rolls.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct DrawnWheel {
-    pub(crate) b: isize,
-    /// Its centre in the frame of the body (m).
-    pub(crate) p: Point,
-    /// In space the direction across it, in the axes of the body.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    axis: Option<Point>,
-    /// Its radius (m).
-    r: Rounded,
 }
 
 /// An applied force.
@@ -183,26 +165,6 @@ impl DrawingModel {
             Place::Of { b, p } => self.held(*b, *p),
             Place::Free(curves) => self.view.flat(curves.first()),
         }
-    }
-
-    /// A circle as a polygon.
-    pub(crate) fn wheel(&self, wheel: &DrawnWheel) -> Vec<[f64; 2]> {
-        let axis = wheel.axis.map_or([0.0, 0.0, 1.0], Point::at);
-        let other = match axis[0].abs() < 0.9 {
-            true => [1.0, 0.0, 0.0],
-            false => [0.0, 1.0, 0.0],
-        };
-        let first = unit(cross(axis, other)).unwrap_or(other);
-        let (second, centre, r) = (cross(axis, first), wheel.p.at(), wheel.r.0);
-        let corner = |k: usize| {
-            let (sin, cos) = (k as f64 * std::f64::consts::TAU / CORNERS as f64).sin_cos();
-            let at = [0, 1, 2].map(|k| centre[k] + r * (cos * first[k] + sin * second[k]));
-            self.view.flat(match usize::try_from(wheel.b) {
-                Ok(k) => self.poses.to_global(k, at),
-                Err(_) => at,
-            })
-        };
-        (0..CORNERS).map(corner).collect()
     }
 
     /// The corners of the outline of a body relative to its centre, before they are turned by the
@@ -440,32 +402,6 @@ impl Stage<'_> {
             bodies: group.bodies.iter().map(|&b| index(b)).collect(),
             wheels: self.wheels(id, probes, size),
         }
-    }
-
-    /// Circles of a joint that are the same at all probes.
-    fn wheels(&self, id: ConstraintId, probes: &[Probe], size: f64) -> Vec<DrawnWheel> {
-        let space = self.mechanism.space();
-        let Some(first) = probes.first() else {
-            return Vec::new();
-        };
-        let is_same = |wheel: &Pitch, k: usize| {
-            probes.iter().all(|probe| {
-                probe.sites[id.0].pitch.get(k).is_some_and(|other| {
-                    (other.radius - wheel.radius).abs() <= ROUND * size
-                        && norm(&difference(other.centre, wheel.centre)) <= ROUND * size
-                        && norm(&cross(other.axis, wheel.axis)) <= ROUND
-                })
-            })
-        };
-        let wheels = first.sites[id.0].pitch.iter().enumerate();
-        let same = wheels.filter(|(k, wheel)| is_same(wheel, *k));
-        same.map(|(_, wheel)| DrawnWheel {
-            b: index(wheel.body),
-            p: Point::new(space, wheel.centre),
-            axis: (space == SpaceKind::Space3).then(|| Point::new(space, wheel.axis)),
-            r: Rounded(wheel.radius),
-        })
-        .collect()
     }
 
     /// A point or a direction of a joint: in the axes of the first carrier in which it is fixed, to

@@ -213,7 +213,7 @@ impl<'a> Data<'a> {
     pub(super) fn new(page: &'a RunPage<'a>, cast: &Cast) -> Self {
         let frames = &page.recording.frames;
         let stage = cast.stage(page.mechanism, frames);
-        let noise = NOISE * largest_force(frames);
+        let noise = noise(frames);
         let measured = Measured::of(page.mechanism, frames);
         Self {
             name: page.mechanism.name(),
@@ -494,6 +494,11 @@ fn logarithmic(values: impl Iterator<Item = f64> + Clone) -> Channel {
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a, x| if x.abs() > a { x.abs() } else { a })
+}
+
+/// Size of a force that is rounding (N); torques about places are compared with it, too.
+pub(super) fn noise(frames: &[Frame]) -> f64 {
+    NOISE * largest_force(frames)
 }
 
 fn largest_force(frames: &[Frame]) -> f64 {

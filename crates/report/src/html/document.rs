@@ -5,7 +5,7 @@ use model::SpaceKind;
 
 use super::data::{Cast, Data};
 use super::run_page::{RunPage, Shows};
-use super::{inputs, peaks, verdicts};
+use super::{inputs, motion, peaks, verdicts};
 use crate::documents::{FreedomsDocument, RunDocument};
 use crate::figures::LOOKS;
 use crate::page::{add, safe, short};
@@ -45,7 +45,7 @@ pub(super) fn document(page: &RunPage<'_>) -> String {
     let mut out = String::new();
     open(&mut out, page);
     head(&mut out, page);
-    motion(&mut out, page, &data);
+    motion::section(&mut out, page, &data);
     if !matches!(page.shows, Shows::Mode(_)) {
         verdicts::section(&mut out, page);
     }
@@ -55,7 +55,7 @@ pub(super) fn document(page: &RunPage<'_>) -> String {
     inputs::section(&mut out, page, &cast);
     out.push_str("</main>\n");
     if page.moves() {
-        transport(&mut out);
+        motion::transport(&mut out);
     }
     close(&mut out, &data);
     out
@@ -144,13 +144,9 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         format_args!(
             "<nav aria-label=\"Sections\"><a href=\"#motion\">{}</a> {verdicts}{of_run}\
              <a href=\"#inputs\">Inputs and versions</a></nav>\n</header>\n<main>\n",
-            picture_title(page)
+            motion::title(page)
         ),
     );
-}
-
-fn picture_title(page: &RunPage<'_>) -> &'static str {
-    if page.moves() { "Motion" } else { "Picture" }
 }
 
 /// One or two sentences with the main result.
@@ -315,143 +311,6 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</ul>\n");
 }
 
-/// Standard views of space.
-const VIEWS: &str = "<div class=\"views\" role=\"group\" aria-label=\"View\">\
-<button id=\"view-x\" type=\"button\" aria-label=\"View along x\">x</button>\
-<button id=\"view-y\" type=\"button\" aria-label=\"View along y\">y</button>\
-<button id=\"view-z\" type=\"button\" aria-label=\"View along z\">z</button>\
-<button id=\"view-home\" type=\"button\" aria-label=\"View from the right and above\" title=\"From the right and above\">◳</button>\
-<button id=\"perspective\" type=\"button\" aria-label=\"Perspective\" aria-pressed=\"false\" title=\"Perspective\">⬡</button></div>\n\
-<p id=\"view\" class=\"unseen\" aria-live=\"polite\"></p>\n";
-
-/// Keys of the picture of space, for those who do not see it.
-const SPATIAL_KEYS: &str = ". Arrow keys turn it, with Shift they move it, plus and minus zoom, x, y, z and i are standard views, p is perspective";
-
-/// Controls that only the page of a run has.
-const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
-step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
-<fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
-
-/// The animation with its controls.
-fn motion(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
-    let title = picture_title(page);
-    add(
-        out,
-        format_args!(
-            "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">{title}</h2>\n"
-        ),
-    );
-    out.push_str(
-        "<noscript><p class=\"warning\">Picture and curves need scripts; verdicts and inputs below do not.</p></noscript>\n\
-         <div class=\"stage\">\n",
-    );
-    let is_spatial = page.mechanism.space() == SpaceKind::Space3;
-    out.push_str(match is_spatial {
-        true => "<div class=\"picture spatial\">\n",
-        false => "<div class=\"picture\">\n",
-    });
-    add(
-        out,
-        format_args!(
-            "<canvas id=\"picture\" role=\"img\" tabindex=\"0\" aria-label=\"{} to scale, moving; joints are marked by the verdict of their \
-             reactions, which the table below tells in words{}\"></canvas>\n",
-            safe(page.mechanism.name()),
-            if is_spatial { SPATIAL_KEYS } else { "" }
-        ),
-    );
-    out.push_str(
-        "<div class=\"now\" id=\"now\"></div>\n<div class=\"now\" id=\"rate\" hidden></div>\n<div class=\"zoom\"><button id=\"zoom-in\" type=\"button\" aria-label=\"Zoom in\">+</button>\
-         <button id=\"zoom-out\" type=\"button\" aria-label=\"Zoom out\">−</button>\
-         <button id=\"zoom-reset\" type=\"button\" aria-label=\"Show all\">⤢</button></div>\n",
-    );
-    if is_spatial {
-        out.push_str(VIEWS);
-    }
-    out.push_str(
-        "<div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
-         aria-label=\"What the picture shows\">\n",
-    );
-    if !page.verdicts().is_empty() {
-        out.push_str("<fieldset><legend>Reactions</legend>\n");
-        legend(out, page);
-        out.push_str("</fieldset>\n");
-    }
-    out.push_str(
-        "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div></fieldset>\n",
-    );
-    if page.run().is_some() {
-        out.push_str(OF_RUN);
-    }
-    out.push_str("</aside>\n</div>\n");
-    first_order(out, data);
-    out.push_str(
-        "<p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
-         are unknown. ",
-    );
-    out.push_str(match is_spatial {
-        true => {
-            "Drag to turn, with Shift, the right button or two fingers to move; Ctrl and wheel, or the wheel after a click, to zoom"
-        }
-        false => "Drag to move, Ctrl and wheel, or the wheel after a click, to zoom",
-    });
-    if page.run().is_some() {
-        out.push_str(", click a joint for its reaction, a body for its trace");
-    }
-    out.push_str(".</p>\n</section>\n");
-}
-
-/// Choices of free motions and self-stresses, if there are any.
-fn first_order(out: &mut String, data: &Data<'_>) {
-    if !data.has_motions() && !data.has_stresses() {
-        return;
-    }
-    out.push_str("<div class=\"first-order\">\n");
-    if data.has_motions() {
-        out.push_str(
-            "<fieldset class=\"option\"><legend>Free motions at the start</legend><div id=\"motions\"></div></fieldset>\n",
-        );
-    }
-    if data.has_stresses() {
-        out.push_str(
-            "<fieldset class=\"option\"><legend>Loads that cancel (self-stresses)</legend><select id=\"stress\" aria-label=\"Self-stress\">\
-             <option value=\"\">none</option></select><div id=\"stress-loads\"></div></fieldset>\n",
-        );
-    }
-    out.push_str("</div>\n");
-}
-
-/// The meaning of marks and arrows, as far as they occur.
-fn legend(out: &mut String, page: &RunPage<'_>) {
-    const MARK: &str = "<g transform=\"translate(17 11)\" class=\"site VERDICT\"><circle class=\"mark\" r=\"6.5\"/></g>";
-    const ARROW: &str = "<path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/>";
-    const FREE: &str = "<path class=\"free\" d=\"M1 11L10 4V8H24V4L33 11L24 18V14H10V18Z\"/>";
-    let all = page.verdicts();
-    let occurs = |word: &str| all.iter().any(|(_, verdict, _)| *verdict == word);
-    let mut row = |picture: &str, words: &str| {
-        add(
-            out,
-            format_args!(
-                "<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\">{picture}</svg>{words}</div>\n"
-            ),
-        );
-    };
-    for (verdict, words) in [
-        ("unique", "unique"),
-        ("not_unique", "not unique"),
-        ("undecided", "undecided"),
-    ] {
-        if occurs(verdict) {
-            row(&MARK.replace("VERDICT", verdict), words);
-        }
-    }
-    if page.run().is_some() {
-        row(ARROW, "determined part, on the first body");
-    }
-    if !page.comparisons.is_empty() {
-        row(FREE, "direction in which the model leaves it open");
-    }
-}
-
 /// Empty elements for the curves; scripts fill them.
 fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
     out.push_str(
@@ -533,16 +392,6 @@ fn events(out: &mut String, run: &RunDocument) {
         );
     }
     out.push_str("</ul>\n");
-}
-
-fn transport(out: &mut String) {
-    out.push_str(
-        "<div class=\"transport\" role=\"group\" aria-label=\"Time\">\n\
-         <button id=\"play\" type=\"button\" aria-label=\"Play\">▶</button>\n\
-         <div class=\"track\"><div id=\"marks\"></div><input id=\"scrub\" type=\"range\" aria-label=\"Time (s)\"></div>\n\
-         <span id=\"time\"></span>\n<label>Speed <select id=\"speed\"></select></label>\n\
-         <span class=\"keys\">space: play · ← →: frame</span>\n</div>\n",
-    );
 }
 
 fn close(out: &mut String, data: &Data<'_>) {

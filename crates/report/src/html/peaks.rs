@@ -5,7 +5,7 @@
 use model::{ConstraintId, Mechanism, Reaction, System};
 
 use super::run_page::RunPage;
-use super::verdicts;
+use super::{data, verdicts};
 use crate::page::{add, safe};
 use crate::recording::Frame;
 
@@ -24,15 +24,16 @@ struct Peak {
 struct Peaks {
     force: Option<Peak>,
     moment: Option<Peak>,
-    /// The named component, with its sign.
+    /// The named component, with its sign. What is `noise` or smaller is zero.
     named: Option<Peak>,
 }
 
 impl Peaks {
-    fn of(frames: &[Frame], id: ConstraintId) -> Self {
+    fn of(frames: &[Frame], id: ConstraintId, noise: f64) -> Self {
         let of = |value: &dyn Fn(&Reaction) -> Option<f64>| {
             let known = frames.iter().filter_map(|frame| {
                 let value = value(frame.reactions.get(id.0)?)?;
+                let value = if value.abs() <= noise { 0.0 } else { value };
                 value.is_finite().then_some(Peak { value, t: frame.t })
             });
             // The first of equals.
@@ -65,6 +66,7 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
          <th>Largest force (N)</th><th>at (s)</th><th>Largest moment (N·m)</th><th>at (s)</th>\
          <th>Component</th><th>at (s)</th><th>Holds for</th></tr></thead>\n<tbody>\n",
     );
+    let noise = data::noise(frames);
     let told = layout.constraint_ids().take(LINES);
     for id in told {
         let (name, document) = &run.reactions.0[id.0];
@@ -76,7 +78,7 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
             (false, Some(choice)) => choice.clone(),
             (false, None) => "not determined by the model".to_owned(),
         };
-        let peaks = Peaks::of(frames, id);
+        let peaks = Peaks::of(frames, id, noise);
         let shown = |peak: Option<Peak>| peak.filter(|_| is_unique || choice.is_some());
         let named = layout.groups[id.0].spec.component;
         line(
@@ -184,11 +186,15 @@ mod tests {
             frame(1.0, [5.0, 12.0, 0.0], 7.0),
             frame(1.5, [f64::NAN, 100.0, 0.0], 2.0),
         ];
-        let peaks = Peaks::of(&frames, ConstraintId(0));
+        let peaks = Peaks::of(&frames, ConstraintId(0), 1e-9);
         let at = |value, t| Some(Peak { value, t });
         assert_eq!(peaks.force, at(13.0, 0.5));
         assert_eq!(peaks.named, at(-7.0, 0.5));
         assert_eq!(peaks.moment, None);
+        assert_eq!(
+            Peaks::of(&frames[..1], ConstraintId(0), 2.0).named,
+            at(0.0, 0.0)
+        );
     }
 
     #[test]
