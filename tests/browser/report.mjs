@@ -31,7 +31,10 @@ const hash = (bytes) => createHash("sha256").update(bytes).digest("hex");
 /** Opens a report as a reader with these preferences and this window sees it. */
 async function opened(browser, file, { width = 1400, height = 1050, mobile = false, prefers = {} } = {}) {
   const page = await browser.page(width, height);
-  if (mobile) await page.resize(width, height, true);
+  if (mobile) {
+    await page.resize(width, height, true);
+    await page.send("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+  }
   await page.prefer({ "prefers-color-scheme": "light", "prefers-reduced-motion": "reduce", ...prefers });
   await page.open(pathToFileURL(resolve(file)).href);
   await wait(SETTLED);
@@ -204,6 +207,34 @@ async function turnsAndZooms(page) {
   await page.press("i");
 }
 
+/** One finger turns space, two move and zoom it; in the plane one finger leaves the page to scroll. */
+async function fingersTurnAndZoom(page) {
+  const [left, top] = await page.value(`(() => {
+    document.getElementById("picture").scrollIntoView({ block: "start" });
+    const box = document.getElementById("picture").getBoundingClientRect();
+    return [box.x, box.y];
+  })()`);
+  const touch = (type, ...points) => page.send("Input.dispatchTouchEvent", {
+    type, touchPoints: points.map(([x, y], id) => ({ x: left + x, y: top + y, id })),
+  });
+  const state = () => page.value("({ right: pfaffReport.picture.camera.right, zoom: pfaffReport.picture.camera.zoom })");
+  const isSpatial = await page.value(`document.querySelector(".spatial") !== null`);
+  const before = await state();
+  if (isSpatial) {
+    await touch("touchStart", [120, 150]);
+    await touch("touchMove", [150, 170]);
+    await touch("touchMove", [180, 190]);
+    await touch("touchEnd");
+    assert.notDeepEqual((await state()).right, before.right, "a finger turns space");
+  }
+  await touch("touchStart", [120, 150], [180, 150]);
+  await touch("touchMove", [105, 150], [195, 150]);
+  await touch("touchMove", [90, 150], [210, 150]);
+  await touch("touchEnd");
+  assert.ok((await state()).zoom > 1.3 * before.zoom, "two fingers zoom");
+  await page.value("pfaffReport.picture.zoomBy(0)");
+}
+
 /** Names that are shown stand apart at any time, also while the picture turns. */
 async function namesStandApart(page) {
   for (const share of [0, 0.3, 0.7]) {
@@ -361,6 +392,8 @@ async function check(browser, name, file) {
   assert.equal(await isTooWide(phone), false, "the page fits a phone");
   const cut = await phone.value(`[...document.querySelectorAll(".wide")].filter((e) => e.scrollWidth > e.clientWidth + 1).length`);
   assert.equal(cut, 0, "no column is cut off");
+  await fingersTurnAndZoom(phone);
+  await phone.value(`document.getElementById("motion").scrollIntoView()`);
   save("phone.png", await phone.picture());
   assertQuiet(phone);
 

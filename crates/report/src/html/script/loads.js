@@ -1,5 +1,9 @@
 // Arrows: the determined parts of reactions, directions in which the model leaves them open, and the loads of a self-stress.
 
+/** Arrows of what is free in the plane. */
+const FREE_ARROW = new Path2D(doubleArrow(46));
+const FREE_TURN = new Path2D(turning(25, 4.9, 6, 12));
+
 /** A force in space as an arrow from a place, or a moment as an arrow with two heads; `size` in pixels is its length seen from the side. */
 function addArrow(picture, layer, place, vector, size, look, isMoment = false) {
   const { camera, brush } = picture;
@@ -88,15 +92,15 @@ function paintFreedom(picture, joint, place, from) {
   const { freedom } = joint;
   const look = brush.looks.of("free");
   const put = (d, angle) => picture.add("freedom", picture.before(from[2], FRONT + 4), () => {
-    brush.at(from[0], from[1], angle, symbolScale, () => brush.path(new Path2D(d), look));
+    brush.at(from[0], from[1], angle, symbolScale, () => brush.path(typeof d === "string" ? new Path2D(d) : d, look));
   });
   if (!view) {
     const angle = linear(freedom.angle, instant);
     if (Number.isFinite(angle)) {
-      put(doubleArrow(46), -angle);
-      if (freedom.plane) put(doubleArrow(46), -angle + Math.PI / 2);
+      put(FREE_ARROW, -angle);
+      if (freedom.plane) put(FREE_ARROW, -angle + Math.PI / 2);
     }
-    if (freedom.components[2]) put(turning(25, 4.9, 6, 12), 0);
+    if (freedom.components[2]) put(FREE_TURN, 0);
     return;
   }
   if (joint.index !== picture.selected) return;

@@ -22,7 +22,7 @@ class Picture {
     this.isCrowd = bodies.length + joints.length > CROWD;
     this.show = {
       names: joints.length + bodies.length + data.drawing.markers.length <= NAMES_MOST,
-      forces: !this.isCrowd, freedom: true, grid: true, centres: !this.isCrowd, follow: true,
+      forces: !this.isCrowd, freedom: !this.isCrowd, grid: true, centres: !this.isCrowd, follow: true,
     };
     this.arrowScale = 1;
     this.traced = new Set();
@@ -52,8 +52,7 @@ class Picture {
   }
 
   /** All points at an instant. */
-  pointsAt(instant) {
-    const poses = posesAt(instant);
+  pointsAt(instant, poses = posesAt(instant)) {
     const points = [];
     for (const body of bodies) {
       const pose = poses.of(body.index);
@@ -181,10 +180,11 @@ class Picture {
   }
 
   /** The point of space in the middle of the page. */
-  focusAt(instant) {
+  focusAt(instant, poses = posesAt(instant)) {
     if (!this.follows) return this.middle;
     const empty = [[Infinity, -Infinity], [Infinity, -Infinity], [Infinity, -Infinity]];
-    return boxOf(this.pointsAt(instant), empty).map(([a, b]) => (a + b) / 2);
+    const points = this.isCrowd ? bodies.map((_, k) => poses.of(k).r) : this.pointsAt(instant, poses);
+    return boxOf(points, empty).map(([a, b]) => (a + b) / 2);
   }
 
   /** Shows an instant. */
@@ -214,7 +214,7 @@ class Picture {
     const { camera, brush } = this;
     this.instant = instantAt(this.firstOrder ? tFirst : this.t);
     this.poses = posesAt(this.instant, this.firstOrder?.swing ?? null);
-    camera.aim(this.focusAt(this.instant));
+    camera.aim(this.focusAt(this.instant, this.poses));
     brush.clear(...camera.page, ratio, brush.looks.page);
     this.items = [];
     this.targets = [];
