@@ -14,7 +14,7 @@ use crate::figures::drawing::{DrawingModel, Stage};
 use crate::recording::Frame;
 
 /// Largest number of joints and drives, and of bodies, that are drawn and plotted.
-pub(super) const DRAWN_MAX: usize = 1500;
+pub(super) const DRAWN_MAX: usize = 1200;
 
 /// Largest number of measures that are plotted.
 pub(super) const MEASURES_MAX: usize = 24;

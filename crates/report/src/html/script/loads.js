@@ -26,7 +26,7 @@ function addArrow(picture, layer, place, vector, size, look, isMoment = false) {
       return;
     }
     const head = Math.min(10, length);
-    brush.from(from, [dx, dy], isMoment ? momentArrow(length, 2.6, Math.min(9, 0.55 * length)) : arrow(length, 3.2, head), look, view ? { width: 2 * look.width + 1 } : {});
+    brush.from(from, [dx, dy], isMoment ? momentArrow(length, 2.6, Math.min(9, 0.55 * length)) : arrow(length, 3.2, head), look, view && look.strokeFirst ? { width: 2 * look.width + 1 } : {});
   });
 }
 

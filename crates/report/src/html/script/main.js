@@ -391,8 +391,11 @@ function setUpPrint() {
 /** Names move with their places; where the picture rests they are placed anew. */
 function placeNamesAtRest(picture) {
   const later = () => !clock.playing && picture.names.later();
+  clock.onRest = () => {
+    picture.soon();
+    later();
+  };
   clock.listeners.push(later);
-  clock.onRest = later;
 }
 
 /** The symbols that occur, with the types of joints that they stand for. */

@@ -142,9 +142,10 @@ function paintSolid(picture, { index, solid }, pose, looks) {
     ends.forEach((k) => round.add(k));
     const wide = bar((a[3] + b[3]) / 2);
     if (picture.isCrowd) {
+      // The halo waits until the picture rests.
       picture.add("bodies", (a[2] + b[2]) / 2, () => {
         const width = Math.max(wide, 1.5);
-        brush.stroke(a, b, brush.looks.page, width + 2);
+        if (!clock.playing) brush.stroke(a, b, brush.looks.page, width + 2);
         brush.stroke(a, b, looks.rim, width);
       });
       continue;
