@@ -108,6 +108,22 @@ async function curvesHaveContent(page) {
   assert.ok(empty.every((chart) => /residuals|balance/.test(chart.title)), `empty: ${empty.map((c) => c.title)}`);
 }
 
+/** What is smaller than rounding stretches no axis: a residual of 1e-312 lies on its lower edge. */
+async function axesEndAtRounding(page) {
+  const least = await page.value(`(() => {
+    const chart = pfaffReport.charts.find((c) => c.options.logarithmic);
+    const { series } = chart;
+    const values = new Float64Array(pfaffReport.data.t.length).fill(-8);
+    values[0] = -312;
+    chart.show([{ label: "tiny", values }]);
+    const labels = [...chart.svg.querySelectorAll(".axes text")].map((t) => t.textContent);
+    chart.show(series);
+    const powers = labels.filter((l) => l.startsWith("1e")).map((l) => Number(l.slice(2).replace("−", "-")));
+    return Math.min(...powers);
+  })()`);
+  assert.ok(least >= -18, `an axis down to 1e${least}`);
+}
+
 /** Each joint in turn: what is not unique has a band or no curve, never a line alone. */
 async function noBareLines(page) {
   const bare = await page.value(`(() => {
@@ -363,6 +379,7 @@ async function check(browser, name, file) {
   const light = await opened(browser, file);
   await movesAndScrubs(light);
   await curvesHaveContent(light);
+  await axesEndAtRounding(light);
   await noBareLines(light);
   await turnsAndZooms(light);
   await namesStandApart(light);

@@ -120,6 +120,8 @@ fn first_order(out: &mut String, data: &Data<'_>) {
 fn legend(out: &mut String, page: &RunPage<'_>) {
     const MARK: &str = "<g transform=\"translate(17 11)\" class=\"site VERDICT\"><circle class=\"mark\" r=\"6.5\"/></g>";
     const ARROW: &str = "<path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/>";
+    const MOMENT: &str =
+        "<path class=\"force\" d=\"M2 9.4H14V6L23 9.4V6L32 11L23 16V12.6L14 16V12.6H2Z\"/>";
     const FREE: &str = "<path class=\"free\" d=\"M1 11L10 4V8H24V4L33 11L24 18V14H10V18Z\"/>";
     let all = page.verdicts();
     let occurs = |word: &str| all.iter().any(|(_, verdict, _)| *verdict == word);
@@ -140,11 +142,21 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
             row(&MARK.replace("VERDICT", verdict), words);
         }
     }
+    let is_spatial = page.mechanism.space() == SpaceKind::Space3;
     if page.run().is_some() {
         row(ARROW, "determined part, on the first body");
+        if is_spatial {
+            row(MOMENT, "the same of the moment");
+        }
     }
     if !page.comparisons.is_empty() {
-        row(FREE, "direction in which the model leaves it open");
+        row(
+            FREE,
+            match is_spatial {
+                true => "directions in which the model leaves the chosen one open",
+                false => "direction in which the model leaves it open",
+            },
+        );
     }
 }
 
