@@ -174,6 +174,7 @@ async function drag(page, from, to, modifiers = 0) {
     await page.send("Input.dispatchMouseEvent", { type: "mouseMoved", ...at(on), buttons: 1 });
   }
   await page.send("Input.dispatchMouseEvent", { type: "mouseReleased", ...at(to), clickCount: 1 });
+  await page.move(left + to[0] + 1, top + to[1]);
   await wait(SETTLED);
 }
 
@@ -221,6 +222,30 @@ async function turnsAndZooms(page) {
   assert.notEqual(await drawn(page), parallel, "perspective looks different");
   await page.press("p");
   await page.press("i");
+}
+
+/** A click on a joint chooses its reaction, and what is under the pointer has a name. */
+async function clicksChoose(page) {
+  await seek(page, 0);
+  await page.value(`document.getElementById("picture").scrollIntoView({ block: "center" })`);
+  const [x, y] = await page.value(`(() => {
+    const { picture } = pfaffReport;
+    const other = picture.sites.findLast((s) => s.joint.reaction && s.joint.index !== picture.selected) ?? picture.sites[0];
+    return other.shown.slice(0, 2);
+  })()`);
+  await drag(page, [x, y], [x, y]);
+  const far = await page.value(`(() => {
+    const { picture } = pfaffReport;
+    const [u, v] = picture.sites[picture.selected].shown;
+    return Math.hypot(u - ${x}, v - ${y});
+  })()`);
+  assert.ok(far < 14, "the joint under the pointer is chosen");
+  assert.equal(
+    await page.value(`document.getElementById("joint").value`),
+    String(await page.value("pfaffReport.picture.selected")),
+    "its curves are shown",
+  );
+  assert.match(await page.value(`document.getElementById("picture").title`), /reaction/, "it has a name");
 }
 
 /** One finger turns space, two move and zoom it; in the plane one finger leaves the page to scroll. */
@@ -382,6 +407,7 @@ async function check(browser, name, file) {
   await axesEndAtRounding(light);
   await noBareLines(light);
   await turnsAndZooms(light);
+  await clicksChoose(light);
   await namesStandApart(light);
   await showsFirstOrder(light);
   await tipsTellValues(light);

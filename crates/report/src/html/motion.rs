@@ -42,9 +42,10 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
          <div class=\"stage\">\n",
     );
     let is_spatial = page.mechanism.space() == SpaceKind::Space3;
-    out.push_str(match is_spatial {
-        true => "<div class=\"picture spatial\">\n",
-        false => "<div class=\"picture\">\n",
+    out.push_str(if is_spatial {
+        "<div class=\"picture spatial\">\n"
+    } else {
+        "<div class=\"picture\">\n"
     });
     add(
         out,
@@ -84,12 +85,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
         "<p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
          are unknown. ",
     );
-    out.push_str(match is_spatial {
-        true => {
-            "Drag to turn, with Shift, the right button or two fingers to move; Ctrl and wheel, or the wheel after a click, to zoom"
-        }
-        false => "Drag to move, Ctrl and wheel, or the wheel after a click, to zoom",
-    });
+    out.push_str(if is_spatial { "Drag to turn, with Shift, the right button or two fingers to move; Ctrl and wheel, or the wheel after a click, to zoom" } else { "Drag to move, Ctrl and wheel, or the wheel after a click, to zoom" });
     if page.run().is_some() {
         out.push_str(", click a joint for its reaction, a body for its trace");
     }
@@ -152,9 +148,10 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
     if !page.comparisons.is_empty() {
         row(
             FREE,
-            match is_spatial {
-                true => "directions in which the model leaves the chosen one open",
-                false => "direction in which the model leaves it open",
+            if is_spatial {
+                "directions in which the model leaves the chosen one open"
+            } else {
+                "direction in which the model leaves it open"
             },
         );
     }

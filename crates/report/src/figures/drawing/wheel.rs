@@ -33,9 +33,10 @@ impl DrawingModel {
     /// A circle as a polygon.
     pub(crate) fn wheel(&self, wheel: &DrawnWheel) -> Vec<[f64; 2]> {
         let axis = wheel.axis.map_or([0.0, 0.0, 1.0], Point::at);
-        let other = match axis[0].abs() < 0.9 {
-            true => [1.0, 0.0, 0.0],
-            false => [0.0, 1.0, 0.0],
+        let other = if axis[0].abs() < 0.9 {
+            [1.0, 0.0, 0.0]
+        } else {
+            [0.0, 1.0, 0.0]
         };
         let first = unit(cross(axis, other)).unwrap_or(other);
         let (second, centre, r) = (cross(axis, first), wheel.p.at(), wheel.r.0);
