@@ -528,7 +528,7 @@ pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
 }
 
 /// A number that is shown has the weight of this many stored numbers.
-const SHOWN: usize = 8;
+const SHOWN: usize = 10;
 
 /// Number of digits of the levels of a curve.
 pub(super) fn levels() -> u64 {
