@@ -1,5 +1,6 @@
-//! `cargo xtask browser`: reports of scenes of the plane and of space in a real browser. Needs Node and Chromium, which
-//! are not dependencies of the project: without them the pages are tested only as text.
+//! `cargo xtask browser`: reports of scenes of the plane and of space in a real browser. Needs Node
+//! and Chromium, which are not dependencies of the project: without them the pages are tested only
+//! as text.
 
 use std::fs;
 use std::path::Path;

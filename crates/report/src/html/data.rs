@@ -35,8 +35,8 @@ pub(super) struct Data<'a> {
     /// Names and units of the components of a reaction.
     components: Vec<(&'static str, &'static str)>,
     joints: Vec<Joint<'a>>,
-    motions: Vec<Motion<'a>>,
-    stresses: Vec<Stress<'a>>,
+    pub(super) motions: Vec<Motion<'a>>,
+    pub(super) stresses: Vec<Stress<'a>>,
     comparisons: Vec<ComparisonData<'a>>,
     measures: Vec<MeasureCurve<'a>>,
     drives: Vec<Drive<'a>>,
@@ -249,18 +249,6 @@ impl<'a> Data<'a> {
                 .collect(),
             events: page.run().map_or(&[], |run| &run.events),
         }
-    }
-}
-
-impl Data<'_> {
-    /// Whether free motions can be shown.
-    pub(super) fn has_motions(&self) -> bool {
-        !self.motions.is_empty()
-    }
-
-    /// Whether self-stresses can be shown.
-    pub(super) fn has_stresses(&self) -> bool {
-        !self.stresses.is_empty()
     }
 }
 

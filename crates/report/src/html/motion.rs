@@ -1,4 +1,5 @@
-//! The picture with its controls: views, what is shown, free motions and self-stresses, and the time.
+//! The picture with its controls: views, what is shown, free motions and self-stresses, and the
+//! time.
 
 use model::SpaceKind;
 
@@ -94,16 +95,16 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
 
 /// Choices of free motions and self-stresses, if there are any.
 fn first_order(out: &mut String, data: &Data<'_>) {
-    if !data.has_motions() && !data.has_stresses() {
+    if data.motions.is_empty() && data.stresses.is_empty() {
         return;
     }
     out.push_str("<div class=\"first-order\">\n");
-    if data.has_motions() {
+    if !data.motions.is_empty() {
         out.push_str(
             "<fieldset class=\"option\"><legend>Free motions at the start</legend><div id=\"motions\"></div></fieldset>\n",
         );
     }
-    if data.has_stresses() {
+    if !data.stresses.is_empty() {
         out.push_str(
             "<fieldset class=\"option\"><legend>Loads that cancel (self-stresses)</legend><select id=\"stress\" aria-label=\"Self-stress\">\
              <option value=\"\">none</option></select><div id=\"stress-loads\"></div></fieldset>\n",
