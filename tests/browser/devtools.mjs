@@ -94,7 +94,12 @@ export class Browser {
       this.process.kill("SIGKILL");
       await gone;
     }
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+    // Its processes may still write; what they leave is no failure.
+    try {
+      rmSync(this.profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+    } catch (error) {
+      if (error.code !== "ENOTEMPTY") throw error;
+    }
   }
 }
 

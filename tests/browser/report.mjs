@@ -1,6 +1,7 @@
-// Opens reports in headless Chromium and looks whether they live: no errors, a picture that moves, curves with content, a dark page,
-// a phone, and paper. Run by `cargo xtask browser`, or as
+// Opens reports in headless Chromium and looks whether they live: no errors, a picture that moves and, in space, turns and hides what is
+// behind, curves with content, a dark page, a phone, and paper. Run by `cargo xtask browser`, or as
 //   node tests/browser/report.mjs CHROMIUM PICTURES NAME=report.html ...
+// The pages named `crossing` and `crowd` are those of xtask/src/browser.rs: two bars that cross, and a thousand bodies.
 
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
@@ -15,6 +16,12 @@ const [program, pictures, ...reports] = process.argv.slice(2);
 /** Time for scripts and layout (ms). */
 const SETTLED = 400;
 
+/** A crowd may take this long to be shown (ms); it blocked for 20 s once. */
+const CROWD_LOAD = 5000;
+
+/** Least rate of a crowd (1/s). Thirty are the aim, and are reached where nothing else runs; this is what a machine at work leaves of it. */
+const CROWD_RATE = 12;
+
 const wait = (ms) => new Promise((done) => {
   setTimeout(done, ms);
 });
@@ -24,7 +31,10 @@ const hash = (bytes) => createHash("sha256").update(bytes).digest("hex");
 /** Opens a report as a reader with these preferences and this window sees it. */
 async function opened(browser, file, { width = 1400, height = 1050, mobile = false, prefers = {} } = {}) {
   const page = await browser.page(width, height);
-  if (mobile) await page.resize(width, height, true);
+  if (mobile) {
+    await page.resize(width, height, true);
+    await page.send("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+  }
   await page.prefer({ "prefers-color-scheme": "light", "prefers-reduced-motion": "reduce", ...prefers });
   await page.open(pathToFileURL(resolve(file)).href);
   await wait(SETTLED);
@@ -98,6 +108,22 @@ async function curvesHaveContent(page) {
   assert.ok(empty.every((chart) => /residuals|balance/.test(chart.title)), `empty: ${empty.map((c) => c.title)}`);
 }
 
+/** What is smaller than rounding stretches no axis: a residual of 1e-312 lies on its lower edge. */
+async function axesEndAtRounding(page) {
+  const least = await page.value(`(() => {
+    const chart = pfaffReport.charts.find((c) => c.options.logarithmic);
+    const { series } = chart;
+    const values = new Float64Array(pfaffReport.data.t.length).fill(-8);
+    values[0] = -312;
+    chart.show([{ label: "tiny", values }]);
+    const labels = [...chart.svg.querySelectorAll(".axes text")].map((t) => t.textContent);
+    chart.show(series);
+    const powers = labels.filter((l) => l.startsWith("1e")).map((l) => Number(l.slice(2).replace("−", "-")));
+    return Math.min(...powers);
+  })()`);
+  assert.ok(least >= -18, `an axis down to 1e${least}`);
+}
+
 /** Each joint in turn: what is not unique has a band or no curve, never a line alone. */
 async function noBareLines(page) {
   const bare = await page.value(`(() => {
@@ -132,6 +158,243 @@ async function tipsTellValues(page) {
   await page.value("scrollTo(0, 0)");
 }
 
+/** What the picture shows, as one string. */
+const drawn = (page) => page.value(`document.getElementById("picture").toDataURL()`);
+
+/** Presses on the picture and moves to another place of it. */
+async function drag(page, from, to, modifiers = 0) {
+  const [left, top] = await page.value(`(() => {
+    const box = document.getElementById("picture").getBoundingClientRect();
+    return [box.x, box.y];
+  })()`);
+  const at = ([x, y]) => ({ x: left + x, y: top + y, button: "left", modifiers });
+  await page.send("Input.dispatchMouseEvent", { type: "mousePressed", ...at(from), clickCount: 1 });
+  for (const share of [0.25, 0.5, 1]) {
+    const on = from.map((x, k) => x + share * (to[k] - x));
+    await page.send("Input.dispatchMouseEvent", { type: "mouseMoved", ...at(on), buttons: 1 });
+  }
+  await page.send("Input.dispatchMouseEvent", { type: "mouseReleased", ...at(to), clickCount: 1 });
+  await page.move(left + to[0] + 1, top + to[1]);
+  await wait(SETTLED);
+}
+
+/** Space turns by mouse and keys, the plane does not; both move and zoom. */
+async function turnsAndZooms(page) {
+  const isSpatial = await page.value(`document.querySelector(".spatial") !== null`);
+  const rows = () => page.value("[pfaffReport.picture.camera.right, pfaffReport.picture.camera.up]");
+  const shift = () => page.value("pfaffReport.picture.camera.shift");
+  await page.value(`document.getElementById("picture").scrollIntoView({ block: "center" })`);
+  const before = [await rows(), await shift(), await drawn(page)];
+  await drag(page, [300, 300], [360, 330]);
+  if (isSpatial) {
+    assert.notDeepEqual(await rows(), before[0], "a drag turns space");
+    assert.deepEqual(await shift(), before[1], "and does not move it");
+    await drag(page, [300, 300], [360, 330], 8);
+    assert.notDeepEqual(await shift(), before[1], "with Shift it moves");
+  } else {
+    assert.deepEqual(await rows(), before[0], "the plane does not turn");
+    assert.notDeepEqual(await shift(), before[1], "a drag moves the plane");
+  }
+  assert.notEqual(await drawn(page), before[2], "that is seen");
+  await page.value(`document.getElementById("picture").focus()`);
+  const zoom = await page.value("pfaffReport.picture.camera.zoom");
+  await page.press("+");
+  assert.ok((await page.value("pfaffReport.picture.camera.zoom")) > zoom, "plus zooms");
+  await page.press("0");
+  await wait(SETTLED);
+  assert.deepEqual([await rows(), await shift()], before.slice(0, 2), "0 goes back");
+  if (!isSpatial) return;
+  const t = await at(page);
+  await page.press("ArrowLeft");
+  assert.notDeepEqual(await rows(), before[0], "arrow keys turn space");
+  assert.equal(await at(page), t, "and leave the time alone");
+  for (const [key, towards] of [["x", 0], ["y", 1], ["z", 2]]) {
+    await page.press(key);
+    const sight = await page.value("pfaffReport.picture.camera.towards.map(Math.abs)");
+    assert.ok(sight[towards] > 1 - 1e-12, `${key} looks along ${key}`);
+    const words = await page.value(`document.getElementById("view").textContent`);
+    assert.match(words, new RegExp(`along −?${key}`), "and says so");
+  }
+  const parallel = await drawn(page);
+  await page.press("p");
+  await wait(SETTLED);
+  assert.equal(await page.value(`document.getElementById("perspective").getAttribute("aria-pressed")`), "true");
+  assert.notEqual(await drawn(page), parallel, "perspective looks different");
+  await page.press("p");
+  await page.press("i");
+}
+
+/** A click on a joint chooses its reaction, and what is under the pointer has a name. */
+async function clicksChoose(page) {
+  await seek(page, 0);
+  await page.value(`document.getElementById("picture").scrollIntoView({ block: "center" })`);
+  const [x, y] = await page.value(`(() => {
+    const { picture } = pfaffReport;
+    const other = picture.sites.findLast((s) => s.joint.reaction && s.joint.index !== picture.selected) ?? picture.sites[0];
+    return other.shown.slice(0, 2);
+  })()`);
+  await drag(page, [x, y], [x, y]);
+  const far = await page.value(`(() => {
+    const { picture } = pfaffReport;
+    const [u, v] = picture.sites[picture.selected].shown;
+    return Math.hypot(u - ${x}, v - ${y});
+  })()`);
+  assert.ok(far < 14, "the joint under the pointer is chosen");
+  assert.equal(
+    await page.value(`document.getElementById("joint").value`),
+    String(await page.value("pfaffReport.picture.selected")),
+    "its curves are shown",
+  );
+  assert.match(await page.value(`document.getElementById("picture").title`), /reaction/, "it has a name");
+}
+
+/** One finger turns space, two move and zoom it; in the plane one finger leaves the page to scroll. */
+async function fingersTurnAndZoom(page) {
+  const [left, top] = await page.value(`(() => {
+    document.getElementById("picture").scrollIntoView({ block: "start" });
+    const box = document.getElementById("picture").getBoundingClientRect();
+    return [box.x, box.y];
+  })()`);
+  const touch = (type, ...points) => page.send("Input.dispatchTouchEvent", {
+    type, touchPoints: points.map(([x, y], id) => ({ x: left + x, y: top + y, id })),
+  });
+  const state = () => page.value("({ right: pfaffReport.picture.camera.right, zoom: pfaffReport.picture.camera.zoom })");
+  const isSpatial = await page.value(`document.querySelector(".spatial") !== null`);
+  const before = await state();
+  if (isSpatial) {
+    await touch("touchStart", [120, 150]);
+    await touch("touchMove", [150, 170]);
+    await touch("touchMove", [180, 190]);
+    await touch("touchEnd");
+    assert.notDeepEqual((await state()).right, before.right, "a finger turns space");
+  }
+  await touch("touchStart", [120, 150], [180, 150]);
+  await touch("touchMove", [105, 150], [195, 150]);
+  await touch("touchMove", [90, 150], [210, 150]);
+  await touch("touchEnd");
+  assert.ok((await state()).zoom > 1.3 * before.zoom, "two fingers zoom");
+  await page.value("pfaffReport.picture.zoomBy(0)");
+}
+
+/** Names that are shown stand apart at any time, also while the picture turns. */
+async function namesStandApart(page) {
+  for (const share of [0, 0.3, 0.7]) {
+    await seek(page, share);
+    const covered = await page.value(`(() => {
+      const boxes = pfaffReport.picture.names.shown ?? [];
+      const apart = (a, b) => a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
+      return boxes.flatMap((a, k) => boxes.slice(0, k).filter((b) => !apart(a, b))).length;
+    })()`);
+    assert.equal(covered, 0, "names over names");
+  }
+}
+
+/** A free motion swings until it is stopped; the loads of a self-stress cancel on every body. */
+async function showsFirstOrder(page) {
+  const motions = await page.value(`document.querySelectorAll("#motions button").length`);
+  if (motions > 0) {
+    await page.value(`document.querySelector("#motions button").click()`);
+    const seen = new Set();
+    for (let k = 0; k < 4; k += 1) {
+      await wait(150);
+      // Poses, since a bar that turns about itself looks the same.
+      seen.add(await page.value("JSON.stringify(pfaffReport.data.drawing.bodies.map((_, k) => pfaffReport.picture.poses.of(k)))"));
+    }
+    assert.ok(seen.size > 1, "a free motion moves");
+    await page.value(`document.querySelector("#motions button").click()`);
+    assert.equal(await page.value("pfaffReport.picture.firstOrder"), null, "a second click stops it");
+  }
+  // Sums over bodies of force and moment about the origin, relative to the largest load.
+  const sums = await page.value(`pfaffReport.data.stresses.map((stress) => {
+    const picture = pfaffReport.picture;
+    const n = pfaffReport.data.components.length;
+    const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    pfaffReport.clock.set(pfaffReport.data.t[0]);
+    const bodies = new Map();
+    let largest = 0;
+    stress.joints.forEach((j, k) => {
+      const wrench = stress.wrenches[k];
+      const site = picture.sites[j];
+      const force = n === 3 ? [wrench[0], wrench[1], 0] : wrench.slice(0, 3);
+      const own = n === 3 ? [0, 0, wrench[2]] : wrench.slice(3);
+      const moment = cross(site.place(picture.poses, picture.instant), force).map((x, i) => x + own[i]);
+      const [first, second] = site.joint.site.bodies;
+      [[first, 1], [second ?? -1, -1]].forEach(([b, sign]) => {
+        const sum = bodies.get(b) ?? [0, 0, 0, 0, 0, 0];
+        bodies.set(b, sum.map((x, i) => x + sign * [...force, ...moment][i]));
+      });
+      largest = Math.max(largest, ...[...force, ...moment].map(Math.abs));
+    });
+    bodies.delete(-1);
+    return Math.max(0, ...[...bodies.values()].flat().map(Math.abs)) / largest;
+  })`);
+  // Places that no body carries are rounded to 1e-5 of their way, and arms are some tenths of it.
+  assert.ok(sums.every((sum) => sum < 1e-3), `loads that do not cancel: ${sums}`);
+  if (sums.length === 0) return;
+  const before = await drawn(page);
+  await page.value(`(() => {
+    const select = document.getElementById("stress");
+    select.value = "0";
+    select.dispatchEvent(new Event("change"));
+  })()`);
+  await wait(SETTLED);
+  assert.notEqual(await drawn(page), before, "a self-stress is seen");
+  assert.ok((await page.value(`document.querySelectorAll("#stress-loads li").length`)) > 0, "and told");
+  await seek(page, 0.1);
+  assert.equal(await page.value("pfaffReport.picture.firstOrder"), null, "time goes on with the run");
+}
+
+/** In a page: the colour of a pixel of a canvas, read from a copy. */
+const PIXEL = `(canvas, x, y) => {
+  const copy = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+  copy.drawImage(canvas, x, y, 1, 1, 0, 0, 1, 1);
+  return [...copy.getImageData(0, 0, 1, 1).data].join();
+}`;
+
+/** Of two bars that cross, the nearer one is seen where they do: from both sides. */
+async function nearerHides(page) {
+  const colour = () => page.value(`(() => {
+    const { picture } = pfaffReport;
+    Object.assign(picture.show, { names: false, forces: false, freedom: false, centres: false, grid: false });
+    picture.sites = [];
+    picture.paint(1);
+    const [x, y] = picture.camera.project([0, 0, 0]).map(Math.round);
+    return (${PIXEL})(picture.canvas, x, y);
+  })()`);
+  const fleshOf = (k) => page.value(`((k) => {
+    const { brush } = pfaffReport.picture;
+    brush.context.fillStyle = brush.looks.of("body b" + k, "hull", "flesh").fill;
+    brush.context.fillRect(0, 0, 1, 1);
+    return (${PIXEL})(brush.canvas, 0, 0);
+  })(${k})`);
+  const [upper, lower] = [await fleshOf(0), await fleshOf(1)];
+  assert.notEqual(upper, lower, "bodies have colours");
+  for (const perspective of [false, true]) {
+    await page.value(`pfaffReport.picture.camera.isPerspective = ${perspective}`);
+    await page.value(`pfaffReport.picture.camera.standsAt = null; pfaffReport.picture.stand("z")`);
+    assert.equal(await colour(), upper, "seen from above");
+    await page.value(`pfaffReport.picture.stand("z")`);
+    assert.equal(await colour(), lower, "seen from below");
+  }
+}
+
+/** A thousand bodies: the page opens at once and shows this many pictures a second by its own counter. */
+async function crowdMoves(browser, file) {
+  const began = Date.now();
+  const page = await opened(browser, file);
+  const loaded = Date.now() - began - SETTLED;
+  const count = await page.value("pfaffReport.data.drawing.bodies.length");
+  assert.ok(count >= 1000, `${count} bodies`);
+  await page.value("pfaffReport.clock.play()");
+  await wait(4000);
+  const rate = await page.value("pfaffReport.clock.picturesPerSecond");
+  assert.ok(loaded < CROWD_LOAD, `${loaded} ms until it is shown`);
+  assert.ok(rate >= CROWD_RATE, `${rate.toFixed(1)} pictures a second`);
+  assertQuiet(page);
+  await browser.send("Target.closeTarget", { targetId: page.target });
+  return `${count} bodies, shown after ${loaded} ms, ${rate.toFixed(1)} pictures a second`;
+}
+
 /** Whether parts of the page stand over its edge. */
 const isTooWide = (page) => page.value("document.documentElement.scrollWidth > document.documentElement.clientWidth");
 
@@ -141,7 +404,12 @@ async function check(browser, name, file) {
   const light = await opened(browser, file);
   await movesAndScrubs(light);
   await curvesHaveContent(light);
+  await axesEndAtRounding(light);
   await noBareLines(light);
+  await turnsAndZooms(light);
+  await clicksChoose(light);
+  await namesStandApart(light);
+  await showsFirstOrder(light);
   await tipsTellValues(light);
   await seek(light, 0.35);
   assert.equal(await isTooWide(light), false, "the page fits its window");
@@ -165,6 +433,10 @@ async function check(browser, name, file) {
   await phone.value(`document.getElementById("motion").scrollIntoView()`);
   await seek(phone, 0.35);
   assert.equal(await isTooWide(phone), false, "the page fits a phone");
+  const cut = await phone.value(`[...document.querySelectorAll(".wide")].filter((e) => e.scrollWidth > e.clientWidth + 1).length`);
+  assert.equal(cut, 0, "no column is cut off");
+  await fingersTurnAndZoom(phone);
+  await phone.value(`document.getElementById("motion").scrollIntoView()`);
   save("phone.png", await phone.picture());
   assertQuiet(phone);
 
@@ -184,7 +456,16 @@ let failed = false;
 for (const report of reports) {
   const [name, file] = report.split("=");
   try {
+    if (name === "crowd") {
+      console.log(`${name}: ${await crowdMoves(browser, file)}`);
+      continue;
+    }
     await check(browser, name, file);
+    if (name === "crossing") {
+      const page = await opened(browser, file);
+      await nearerHides(page);
+      assertQuiet(page);
+    }
     console.log(`${name}: right`);
   } catch (error) {
     failed = true;

@@ -1,5 +1,6 @@
-//! `cargo xtask browser`: reports of three scenes in a real browser. Needs Node and Chromium, which
-//! are not dependencies of the project: without them the pages are tested only as text.
+//! `cargo xtask browser`: reports of scenes of the plane and of space in a real browser. Needs Node
+//! and Chromium, which are not dependencies of the project: without them the pages are tested only
+//! as text.
 
 use std::fs;
 use std::path::Path;
@@ -8,12 +9,59 @@ use std::process::{Command, Stdio};
 use crate::tree::{cargo, root, run, target};
 
 /// Scenes whose reports are opened: redundant and driven, closed loops, and nonholonomic without
-/// redundancy.
-const SCENES: [(&str, &str); 3] = [
+/// redundancy; in space wheels and loops, and a loop that moves against the count.
+const SCENES: [(&str, &str); 5] = [
     ("robot-trolley", "crates/robot-trolley/robot-trolley.toml"),
     ("three-cranks", "crates/suite/scenes/three-cranks.toml"),
     ("sleigh", "crates/suite/scenes/sleigh.toml"),
+    ("robot-in-space", "examples/robot-in-space.toml"),
+    ("bennett", "examples/bennett.toml"),
 ];
+
+/// Two bars in space that cross, the first above the second, on springs so that they move.
+const CROSSING: &str = r#"
+scene = { name = "crossing", space = "spatial" }
+body = [
+  { name = "upper", mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0, 0, 0.3] },
+  { name = "lower", mass = 1.0, inertia = [0.1, 0.1, 0.1], position = [0, 0, -0.3] },
+]
+joint = [
+  { name = "A", type = "spherical", bodies = ["ground", "upper"], at = [-1, 0, 0.3] },
+  { name = "B", type = "spherical", bodies = ["ground", "upper"], at = [1, 0, 0.3] },
+  { name = "C", type = "spherical", bodies = ["ground", "lower"], at = [0, -1, -0.3] },
+  { name = "D", type = "revolute", bodies = ["ground", "lower"], at = [0, 1, -0.3], axis = [0, 1, 0] },
+]
+force = [
+  { name = "twist", type = "torque", body = "upper", torque = [1, 0, 0] },
+  { name = "turn", type = "torque", body = "lower", torque = [0, 1, 0] },
+]
+simulate = { t_end = 0.5, output_step = 0.01 }
+"#;
+
+/// Half the number of bodies of a crowd: double pendulums in rows.
+const PENDULUMS: usize = 500;
+
+/// A thousand bodies in space.
+fn crowd() -> String {
+    let mut scene = String::from(
+        "[scene]\nname = \"crowd\"\nspace = \"spatial\"\ngravity = [0, 0, -9.81]\n\
+         [simulate]\nt_end = 2\noutput_step = 0.02\n",
+    );
+    for k in 0..PENDULUMS {
+        let (x, y) = (1.5 * (k % 25) as f64, 2.0 * (k / 25) as f64);
+        let (sin, cos) = (0.3 + 0.02 * k as f64).sin_cos();
+        scene += &format!(
+            "[[body]]\nname = \"a{k}\"\nmass = 1\ninertia = [0.1, 0.1, 0.1]\nposition = [{x}, {}, 0]\n\
+             [[body]]\nname = \"b{k}\"\nmass = 1\ninertia = [0.1, 0.1, 0.1]\nposition = [{x}, {}, -0.5]\n\
+             [[joint]]\nname = \"A{k}\"\ntype = \"revolute\"\nbodies = [\"ground\", \"a{k}\"]\nat = [{x}, {y}, 0]\naxis = [{cos}, 0, {sin}]\n\
+             [[joint]]\nname = \"B{k}\"\ntype = \"spherical\"\nbodies = [\"a{k}\", \"b{k}\"]\nat = [{x}, {}, 0]\n",
+            y + 0.5,
+            y + 1.0,
+            y + 1.0,
+        );
+    }
+    scene
+}
 
 /// Names of the program on different systems.
 const CHROMIUM: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
@@ -57,12 +105,21 @@ pub(crate) fn check(program: Program) -> Result<String, String> {
     node.current_dir(&root)
         .args(["tests/browser/report.mjs", &chromium])
         .arg(out.join("pictures"));
-    for (name, scene) in SCENES {
+    fs::create_dir_all(&out).map_err(|e| format!("{}: {e}", out.display()))?;
+    let mut scenes = SCENES
+        .map(|(name, scene)| (name, scene.to_owned()))
+        .to_vec();
+    for (name, text) in [("crossing", CROSSING.to_owned()), ("crowd", crowd())] {
+        let path = out.join(format!("{name}.toml"));
+        fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
+        scenes.push((name, path.display().to_string()));
+    }
+    for (name, scene) in scenes {
         let folder = out.join(name);
         let mut simulate = Command::new(&pfaff);
         simulate
             .current_dir(&root)
-            .args(["simulate", scene, "--out"]);
+            .args(["simulate", &scene, "--out"]);
         run(simulate.arg(&folder).stdout(Stdio::null()))?;
         node.arg(format!("{name}={}", folder.join("report.html").display()));
     }

@@ -8,14 +8,18 @@
 //! | module | content |
 //! | --- | --- |
 //! | `comparison` | the same reaction under several choices |
+//! | `first_order` | free motions and self-stresses of the start |
 //! | `data` | bodies, joints and curves as one JSON document, rounded |
-//! | `document`, `verdicts`, `inputs` | the page around them |
+//! | `document`, `motion`, `verdicts`, `peaks`, `inputs` | the page around them |
 //! | `report.css`, `script/` | its looks, and what moves |
 
 mod comparison;
 mod data;
 mod document;
+mod first_order;
 mod inputs;
+mod motion;
+mod peaks;
 mod run_page;
 mod verdicts;
 

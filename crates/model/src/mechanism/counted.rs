@@ -99,7 +99,8 @@ impl Mechanism {
     /// Gives the kernels their counted angles at the poses of the slots, with the turns of q.
     #[inline]
     pub(super) fn count_turns(&self, q: &[f64], slots: &mut Slots) {
-        for (angle, &known) in self.elements.counted.iter().zip(&q[self.first_counted()..]) {
+        let known = &q[self.first_counted()..self.layout.n_q];
+        for (angle, &known) in self.elements.counted.iter().zip(known) {
             let (x, v) = self.site_of(angle).in_space(slots);
             let [cos, sin, _] = self.turned(angle, x, v);
             let theta = closest(cos, sin, known);

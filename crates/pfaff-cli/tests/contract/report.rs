@@ -1,7 +1,7 @@
 //! `report.html` of a run: one file, complete, safe, small, and the same for the same input.
 
 use lab::generate::Kind;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
@@ -203,7 +203,7 @@ fn a_run_that_stops_has_a_page_that_says_so() {
 #[test]
 fn a_large_mechanism_is_drawn_in_part_and_says_so() {
     let folder = Folder::new("report-large");
-    let scene = super::generated(Kind::NFourBar, 400);
+    let scene = super::generated(Kind::NFourBar, 800);
     let output = with_scene(
         &["simulate", "-", "--t-end", "0.01", "--out", folder.text()],
         &scene,
@@ -213,7 +213,10 @@ fn a_large_mechanism_is_drawn_in_part_and_says_so() {
     assert!(page.len() < 3_000_000, "{} bytes", page.len());
     assert!(page.contains("The picture and the curves show "));
     let drawn = data(&page)["joints"].as_array().map(Vec::len);
-    assert!(drawn.is_some_and(|n| (300..=400).contains(&n)), "{drawn:?}");
+    assert!(
+        drawn.is_some_and(|n| (1100..=1200).contains(&n)),
+        "{drawn:?}"
+    );
 }
 
 #[test]
@@ -250,8 +253,106 @@ simulate = { t_end = 1.0 }
     let folder = Folder::new("report-mesh");
     let page = page(&folder, scene);
     let data = data(&page);
-    for name in ["A", "B", "teeth"] {
+    for name in ["A", "B"] {
         joint(&data, name);
     }
-    assert!(page.contains("<svg"));
+    // The symbol is where the teeth touch, and the wheels have the radii of the ratio.
+    let (k, _) = joint(&data, "teeth");
+    let site = &data["drawing"]["sites"][k];
+    assert_eq!(site["symbol"], "rotation");
+    assert_eq!(site["place"], json!({ "b": -1, "p": [0.1, 0, 0] }));
+    assert_eq!(site["end"], Value::Null);
+    let wheel = |b: i32, r: f64| json!({ "b": b, "p": [0, 0, 0], "axis": [0, 0, 1], "r": r });
+    assert_eq!(site["wheels"], json!([wheel(0, 0.1), wheel(1, 0.2)]));
+}
+
+/// A wheel of radius 0.5 whose axis is y, on the ground z = 0.
+#[test]
+fn a_wheel_on_the_ground_is_drawn_as_a_circle() {
+    let scene = r#"
+scene = { name = "wheel", space = "spatial", gravity = [0, 0, -9.81] }
+body = [{ name = "disk", mass = 1.0, inertia = [0.1, 0.2, 0.1], position = [0, 0, 0.5], velocity = [1, 0, 0], angular_velocity = [0, 2, 0] }]
+joint = [{ name = "tread", type = "wheel", body = "disk", point = [0, 0, 0], axis = [0, 1, 0], radius = 0.5 }]
+simulate = { t_end = 1.0 }
+"#;
+    let folder = Folder::new("report-wheel");
+    let data = data(&page(&folder, scene));
+    let wheels = &data["drawing"]["sites"][0]["wheels"];
+    assert_eq!(wheels.as_array().map(Vec::len), Some(1), "{wheels}");
+    let number = |v: &Value| v.as_f64().expect("a number");
+    assert!((number(&wheels[0]["r"]) - 0.5).abs() < 1e-6, "{wheels}");
+    for (k, axis) in [0.0, 1.0, 0.0].into_iter().enumerate() {
+        assert!(
+            (number(&wheels[0]["axis"][k]).abs() - axis).abs() < 1e-6,
+            "{wheels}"
+        );
+        assert!(number(&wheels[0]["p"][k]).abs() < 1e-6, "{wheels}");
+    }
+}
+
+/// A bar of length 2 on two pins and a pendulum of length 1: the pins can only push against each
+/// other along the bar, and the pendulum turns about its pin.
+#[test]
+fn self_stresses_and_free_motions_are_loads_and_velocities() {
+    let scene = r#"
+scene = { name = "bar", space = "plane" }
+body = [
+  { name = "bar", mass = 1.0, inertia = 0.3, position = [1, 0] },
+  { name = "bob", mass = 1.0, inertia = 0.1, position = [0, -1] },
+]
+joint = [
+  { name = "left", type = "revolute", bodies = ["ground", "bar"], at = [0, 0] },
+  { name = "right", type = "revolute", bodies = ["ground", "bar"], at = [2, 0] },
+  { name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0, 0] },
+]
+simulate = { t_end = 0.1 }
+"#;
+    let folder = Folder::new("report-first-order");
+    let page = page(&folder, scene);
+    let data = data(&page);
+    let (left, right) = (joint(&data, "left").0, joint(&data, "right").0);
+    let stresses = data["stresses"].as_array().expect("a list");
+    assert_eq!(stresses.len(), 1);
+    assert_eq!(stresses[0]["joints"], json!([left, right]));
+    let loads = &stresses[0]["wrenches"];
+    let sum: Vec<f64> = (0..3)
+        .map(|k| {
+            loads[0][k].as_f64().unwrap_or(f64::NAN) + loads[1][k].as_f64().unwrap_or(f64::NAN)
+        })
+        .collect();
+    assert_eq!(sum, [0.0; 3], "{loads}");
+    assert_eq!(loads[0][0].as_f64().map(f64::abs), Some(1.0), "{loads}");
+    let motions = data["motions"].as_array().expect("a list");
+    assert_eq!(motions.len(), 1);
+    let moving = motions[0]["velocities"][0][0].as_array().expect("a body");
+    assert_eq!(moving[0], 1);
+    let v: Vec<f64> = moving[1]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_f64)
+        .collect();
+    // Its frame is one metre below the pivot: v = (ω, 0).
+    assert_eq!(v.len(), 3);
+    assert!(
+        (v[0] - v[2]).abs() < 1e-9 && v[1].abs() < 1e-9 && v[2].abs() > 0.5,
+        "{v:?}"
+    );
+    // What is not unique stands beside its choice.
+    let peaks = page
+        .split_once("<h3>Peaks</h3>")
+        .expect("a table of peaks")
+        .1;
+    let row = |name: &str| {
+        let begin = format!("<td><b>{name}</b></td>");
+        peaks
+            .split_once(&begin)
+            .expect("a row")
+            .1
+            .split_once("</tr>")
+            .expect("its end")
+            .0
+    };
+    assert!(row("pivot").contains("every choice: it is unique"));
+    assert!(row("left").contains("deleted"), "{}", row("left"));
 }

@@ -98,9 +98,10 @@ fn the_page_of_a_run_draws_space() {
     let (data, _) = data.split_once("</script>").expect("its end");
     let data: Value = serde_json::from_str(data).expect("JSON");
     // Gravity along −z: z is straight up in the picture.
-    let view = data["drawing"]["view"].as_array().expect("two directions");
-    assert_eq!(view[0][2], 0);
-    let up = view[1][2].as_f64().expect("a number");
+    let view = &data["drawing"]["view"];
+    assert_eq!(view["right"][2], 0);
+    assert_eq!(view["above"], serde_json::json!([0, 0, 1]));
+    let up = view["up"][2].as_f64().expect("a number");
     assert!((up - 0.75_f64.sqrt()).abs() < 1e-6, "{up}");
     let components: Vec<&str> = data["components"]
         .as_array()

@@ -77,12 +77,12 @@ impl FreedomsDocument {
                 rank: without.ranks.rank,
                 redundancy: without.ranks.redundancy,
                 mobility: without.mobility,
-                free_motions: told(&without.motions.motions, mechanism),
+                free_motions: documents(&without.motions.motions, mechanism),
                 free_motions_left_out: without.motions.left_out.as_ref().map(Into::into),
             }),
-            free_motions: told(&freedoms.motions.motions, mechanism),
+            free_motions: documents(&freedoms.motions.motions, mechanism),
             free_motions_left_out: freedoms.motions.left_out.as_ref().map(Into::into),
-            freedoms_blocked: told(&freedoms.blocked, mechanism),
+            freedoms_blocked: documents(&freedoms.blocked, mechanism),
             cannot_move: freedoms.cannot_move,
         }
     }
@@ -121,43 +121,65 @@ impl FreedomsDocument {
     /// each once, and those that second order blocks, with an introduction that distinguishes them.
     #[must_use]
     pub fn sentences(&self) -> Vec<(String, String)> {
-        let mut told: Vec<(String, String)> = Vec::new();
-        let mut add =
-            |lead: &str, motions: &[FreeMotionDocument], left_out: &Option<LeftOutDocument>| {
-                for motion in motions {
-                    if told.iter().all(|(_, text)| *text != motion.text) {
-                        told.push((lead.to_owned(), motion.text.clone()));
-                    }
-                }
-                if let Some(LeftOutDocument { freedoms, reason }) = left_out {
-                    let more = if motions.is_empty() { "" } else { " more" };
-                    let noun = if *freedoms == 1 {
-                        "freedom"
-                    } else {
-                        "freedoms"
-                    };
-                    told.push((
-                        lead.to_owned(),
-                        format!("{freedoms} {noun}{more} ({reason})"),
-                    ));
-                }
-            };
+        let told = self.told().into_iter();
+        told.map(|(lead, text, _)| (lead, text)).collect()
+    }
+
+    /// The motions of these sentences that are described, with their introductions.
+    #[must_use]
+    pub fn motions(&self) -> Vec<(String, &FreeMotionDocument)> {
+        let told = self.told().into_iter();
+        told.filter_map(|(lead, _, motion)| Some((lead, motion?)))
+            .collect()
+    }
+
+    fn told(&self) -> Vec<Told<'_>> {
+        let mut told: Vec<Told<'_>> = Vec::new();
         let lead = if self.cannot_move || !self.freedoms_blocked.is_empty() {
             "free at first order"
         } else {
             "free"
         };
-        add(lead, &self.free_motions, &self.free_motions_left_out);
+        let left_out = self.free_motions_left_out.as_ref();
+        tell(&mut told, lead, &self.free_motions, left_out);
         if let Some(without) = &self.without_drives {
             let lead = format!("free without {}", without.possessive());
-            add(&lead, &without.free_motions, &without.free_motions_left_out);
+            let left_out = without.free_motions_left_out.as_ref();
+            tell(&mut told, &lead, &without.free_motions, left_out);
         }
         if !self.cannot_move {
             let blocked = self.freedoms_blocked.iter();
             let lead = || "blocked at second order".to_owned();
-            told.extend(blocked.map(|motion| (lead(), motion.text.clone())));
+            told.extend(blocked.map(|motion| (lead(), motion.text.clone(), Some(motion))));
         }
         told
+    }
+}
+
+/// Introduction, sentence, and the motion if it is described.
+type Told<'a> = (String, String, Option<&'a FreeMotionDocument>);
+
+/// Adds motions that are not told yet, and how many are only counted.
+fn tell<'a>(
+    told: &mut Vec<Told<'a>>,
+    lead: &str,
+    motions: &'a [FreeMotionDocument],
+    left_out: Option<&LeftOutDocument>,
+) {
+    for motion in motions {
+        if told.iter().all(|(_, text, _)| *text != motion.text) {
+            told.push((lead.to_owned(), motion.text.clone(), Some(motion)));
+        }
+    }
+    if let Some(LeftOutDocument { freedoms, reason }) = left_out {
+        let more = if motions.is_empty() { "" } else { " more" };
+        let noun = if *freedoms == 1 {
+            "freedom"
+        } else {
+            "freedoms"
+        };
+        let text = format!("{freedoms} {noun}{more} ({reason})");
+        told.push((lead.to_owned(), text, None));
     }
 }
 
@@ -176,7 +198,7 @@ fn shown_all(v: &[f64]) -> Vec<f64> {
     v.iter().copied().map(shown).collect()
 }
 
-fn told(motions: &[FreeMotion], mechanism: &Mechanism) -> Vec<FreeMotionDocument> {
+fn documents(motions: &[FreeMotion], mechanism: &Mechanism) -> Vec<FreeMotionDocument> {
     let told = |motion: &FreeMotion| FreeMotionDocument {
         text: motion.text.clone(),
         velocities: motion

@@ -6,18 +6,20 @@
 //! [`Projection`] makes them points of the picture.
 
 mod point;
+mod wheel;
 
 use model::space::{difference, norm};
 use model::{Bodies, BodyRef, ConstraintId, Mechanism, Scratch, SpaceKind, System};
 use serde::Serialize;
 
-use super::geometry::{Site, site, sites};
+use super::geometry::{Site, site, sites, turned_back};
 use super::outline::{double_area, hull};
 use super::projection::Projection;
 use super::symbol::{SPRING, Shapes, Symbol};
 use crate::channel::{Channel, Rounded};
 use crate::recording::Frame;
 pub(crate) use point::{Curves, Point};
+pub(crate) use wheel::DrawnWheel;
 
 /// Number of frames at which it is tested whether a place moves with a body.
 const PROBES: usize = 9;
@@ -82,8 +84,8 @@ pub(crate) struct DrawnSite {
     pub(crate) end: Option<Place>,
     pub(crate) grounded: bool,
     pub(crate) bodies: Vec<isize>,
-    /// Bodies with the radii of the pitch circles around their centres (m).
-    pub(crate) wheels: Vec<(isize, Rounded)>,
+    /// Circles that roll.
+    pub(crate) wheels: Vec<DrawnWheel>,
 }
 
 /// An applied force.
@@ -211,6 +213,8 @@ pub(crate) struct Stage<'a> {
     pub(crate) mechanism: &'a Mechanism,
     /// Indices of its bodies among all bodies.
     pub(crate) bodies: &'a [usize],
+    /// Indices of its coordinates among all coordinates.
+    pub(crate) coordinates: &'a [usize],
     pub(crate) frames: &'a [Frame],
 }
 
@@ -279,11 +283,9 @@ impl Stage<'_> {
             .collect()
     }
 
-    /// Coordinates of its bodies in a frame.
+    /// Its coordinates in a frame, with the counted angles of its joints.
     fn q(&self, frame: &Frame) -> Vec<f64> {
-        let (own, space) = (self.bodies.iter(), self.mechanism.space());
-        own.flat_map(|&k| frame.q[space.coordinates(k)].iter().copied())
-            .collect()
+        self.coordinates.iter().map(|&k| frame.q[k]).collect()
     }
 
     /// Velocities of its bodies in a frame.
@@ -398,10 +400,7 @@ impl Stage<'_> {
             end,
             grounded: probes.first().is_some_and(|p| p.sites[id.0].grounded),
             bodies: group.bodies.iter().map(|&b| index(b)).collect(),
-            wheels: probes.first().map_or_else(Vec::new, |p| {
-                let wheels = p.sites[id.0].pitch.iter().flatten();
-                wheels.map(|w| (index(w.body), Rounded(w.radius))).collect()
-            }),
+            wheels: self.wheels(id, probes, size),
         }
     }
 
@@ -536,12 +535,6 @@ type Local = dyn Fn(BodyRef, [f64; 3], &Scratch) -> [f64; 3];
 /// A global point in the frame of a body.
 fn local(body: BodyRef, point: [f64; 3], s: &Scratch) -> [f64; 3] {
     body.moving().map_or(point, |k| s.bodies.to_local(k, point))
-}
-
-/// A direction of the ground in the axes of a body.
-fn turned_back(body: BodyRef, d: [f64; 3], s: &Scratch) -> [f64; 3] {
-    let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * d[k]).sum();
-    body.moving().map_or(d, |k| s.bodies.axes(k).map(along))
 }
 
 fn turn(body: BodyRef, s: &Scratch) -> f64 {

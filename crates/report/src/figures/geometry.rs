@@ -7,10 +7,11 @@ mod tests;
 
 use linalg::Matrix;
 use model::reaction::ConstraintGroup;
-use model::space::difference;
+use model::space::{cross, difference, norm};
 use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, SpaceKind, System};
 
 use super::FigureError;
+use super::projection::unit;
 use super::symbol::Symbol;
 
 /// Larger coordinates cannot be drawn: their squares would overflow.
@@ -52,25 +53,32 @@ pub(crate) struct Site {
     pub(crate) end: [f64; 3],
     /// Whether it connects a body to the ground.
     pub(crate) grounded: bool,
-    /// Circles that roll on each other at its place, if it couples two rotations.
-    pub(crate) pitch: Option<[Pitch; 2]>,
+    /// Circles that roll on each other, or one on the ground, at its place.
+    pub(crate) pitch: Vec<Pitch>,
 }
 
-/// A pitch circle.
+/// A circle that rolls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pitch {
-    /// The body at whose centre it is.
+    /// The body that carries it.
     pub(crate) body: BodyRef,
+    /// Its centre from the centre of mass (m), and the unit vector across it, in the axes of the
+    /// body.
+    pub(crate) centre: [f64; 3],
+    pub(crate) axis: [f64; 3],
     pub(crate) radius: f64,
 }
 
 /// All joints and drives, in the order of the layout, at the poses of the scratch.
 pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
-    mechanism
-        .layout()
-        .constraint_ids()
-        .map(|id| site(mechanism, id, s))
-        .collect()
+    let ids = mechanism.layout().constraint_ids();
+    let mut all: Vec<Site> = ids.map(|id| site(mechanism, id, s)).collect();
+    for id in mechanism.layout().constraint_ids() {
+        if mechanism.layout().groups[id.0].spec.common.bearings {
+            all[id.0].pitch = borne(mechanism, id, &all, s);
+        }
+    }
+    all
 }
 
 /// One of them.
@@ -85,6 +93,10 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
     let force = rows.only_force().filter(|_| is_plane);
     let force = force.map(|row| Force::of(&map, row));
     let second = || other_end(mechanism, id, place, s);
+    let teeth = match force {
+        Some(force) if spec.common.points_apart => force.teeth(place, second()),
+        _ => None,
+    };
     let end = match (rows.only_force(), force) {
         (Some(_), _) if spec.common.points_apart => second(),
         (_, None) if !is_plane => second(),
@@ -92,6 +104,7 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
     };
     let slides = spec.nonholonomic() > 0;
     let symbol = match (group.kind, slides, force) {
+        _ if spec.common.bearings || teeth.is_some() => Symbol::Rotation,
         (_, false, _) if spec.common.points_apart && rows.only_force().is_some() => Symbol::Rod,
         _ if !is_plane => space::symbol(group, &map, difference(end, place)),
         (ConstraintKind::Drive, ..) => Symbol::Drive {
@@ -110,15 +123,27 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
         _ if rows.torques > 0 => Symbol::Weld,
         _ => Symbol::Pin,
     };
-    let mesh = match (symbol, spec.rows.len()) {
-        (Symbol::Rotation, 1) if is_plane => mesh(group, map[(2, 0)], s),
+    let points = || mechanism.points(id);
+    let mesh = match (symbol, spec.rows.len(), teeth) {
+        (_, _, Some(along)) => teeth_of(&points(), place, second(), along),
+        (Symbol::Rotation, 1, _) if is_plane => mesh(group, map[(2, 0)], s),
         _ => None,
     };
+    let rolls = || rolling(&points(), &map, place, s);
+    let (place, pitch) = match mesh {
+        Some((point, circles)) => (point, circles.to_vec()),
+        None if !is_plane && spec.nonholonomic() == 2 => (place, rolls().into_iter().collect()),
+        None => (place, Vec::new()),
+    };
     Site {
-        place: mesh.map_or(place, |(point, _)| point),
-        pitch: mesh.map(|(_, circles)| circles),
+        place,
+        end: if symbol == Symbol::Rotation {
+            place
+        } else {
+            end
+        },
+        pitch,
         symbol,
-        end,
         grounded: !slides
             && group.kind == ConstraintKind::Joint
             && symbol != Symbol::Rotation
@@ -151,6 +176,8 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 3], [
     let point = [0, 1, 2].map(|k| a[k] + share * (b[k] - a[k]));
     let circle = |body, share: f64| Pitch {
         body,
+        centre: [0.0; 3],
+        axis: UPRIGHT,
         radius: share.abs() * apart,
     };
     let circles = [circle(first, share), circle(second, 1.0 - share)];
@@ -158,6 +185,98 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 3], [
         .iter()
         .all(|x| within(*x, 2.0 * LIMIT))
         .then_some((point, circles))
+}
+
+/// Normal of the plane.
+const UPRIGHT: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// The pitch point of teeth on the line between the centres of two wheels, at a distance from the
+/// first one, and their pitch circles.
+fn teeth_of(
+    points: &[(BodyRef, [f64; 3])],
+    first: [f64; 3],
+    second: [f64; 3],
+    along: f64,
+) -> Option<([f64; 3], [Pitch; 2])> {
+    let &[(wheel, s_i), (other, s_j), ..] = points else {
+        return None;
+    };
+    let apart = difference(second, first);
+    let length = norm(&apart);
+    let circle = |body, centre, radius: f64| Pitch {
+        body,
+        centre,
+        axis: UPRIGHT,
+        radius: radius.abs(),
+    };
+    let point = [0, 1, 2].map(|k| first[k] + along / length * apart[k]);
+    let circles = [
+        circle(wheel, s_i, along),
+        circle(other, s_j, length - along),
+    ];
+    point
+        .iter()
+        .all(|x| within(*x, 2.0 * LIMIT))
+        .then_some((point, circles))
+}
+
+/// The circle of a wheel that rolls on the ground, from its centre, the point at which it touches
+/// and the forces of its rows, of which the last two are along its track and across it: the axis is
+/// across the track and the radius.
+fn rolling(
+    points: &[(BodyRef, [f64; 3])],
+    map: &Matrix,
+    touches: [f64; 3],
+    s: &Scratch,
+) -> Option<Pitch> {
+    let &[(body, centre)] = points else {
+        return None;
+    };
+    let k = body.moving()?;
+    let track = map.ncols().checked_sub(2)?;
+    let track = [0, 1, 2].map(|axis| map[(axis, track)]);
+    let down = difference(touches, s.bodies.to_global(k, centre));
+    let axis = unit(cross(track, down))?;
+    Some(Pitch {
+        body,
+        centre,
+        axis: turned_back(body, axis, s),
+        radius: norm(&down),
+    })
+}
+
+/// The pitch circles of wheels that other joints bear: those joints tell the axes.
+fn borne(mechanism: &Mechanism, id: ConstraintId, all: &[Site], s: &Scratch) -> Vec<Pitch> {
+    let points = mechanism.points(id);
+    let touches = all[id.0].place;
+    let wheel = |(body, bearing): (BodyRef, [f64; 3])| {
+        let k = body.moving()?;
+        let at = s.bodies.to_global(k, bearing);
+        let near = |site: &Site| {
+            let arm = norm(&difference(touches, at));
+            norm(&difference(site.place, at)) <= 1e-6 * arm
+        };
+        let axis = all.iter().find_map(|site| match site.symbol {
+            Symbol::Hinge { axis } if near(site) => Some(axis),
+            _ => None,
+        })?;
+        let arm = difference(touches, at);
+        let along: f64 = (0..3).map(|k| arm[k] * axis[k]).sum();
+        let centre = [0, 1, 2].map(|k| at[k] + along * axis[k]);
+        Some(Pitch {
+            body,
+            centre: s.bodies.to_local(k, centre),
+            axis: turned_back(body, axis, s),
+            radius: norm(&difference(touches, centre)),
+        })
+    };
+    points.into_iter().take(2).filter_map(wheel).collect()
+}
+
+/// A direction of the ground in the axes of a body.
+pub(crate) fn turned_back(body: BodyRef, d: [f64; 3], s: &Scratch) -> [f64; 3] {
+    let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * d[k]).sum();
+    body.moving().map_or(d, |k| s.bodies.axes(k).map(along))
 }
 
 /// Rows, classified by what they transmit.
@@ -185,6 +304,9 @@ impl Rows {
     }
 }
 
+/// Shorter lever arms are rounding, relative to the distance of two points.
+const LEAST_ARM: f64 = 1e-9;
+
 /// A force in the plane and its lever arm about the place.
 #[derive(Clone, Copy)]
 struct Force {
@@ -206,6 +328,17 @@ impl Force {
             direction: [x / size, y / size, 0.0],
             arm: torque / size,
         }
+    }
+
+    /// How far from the first of two points its line of action crosses the line between them (m);
+    /// `None` if it acts along that line.
+    fn teeth(&self, first: [f64; 3], second: [f64; 3]) -> Option<f64> {
+        let apart = difference(second, first);
+        let length = norm(&apart);
+        let across = apart[0] * self.direction[1] - apart[1] * self.direction[0];
+        let is_beside = self.arm.abs() > LEAST_ARM * length;
+        let crosses = across.abs() > LEAST_ARM * length;
+        (is_beside && crosses).then(|| self.arm * length / across)
     }
 
     fn perpendicular(&self) -> [f64; 3] {

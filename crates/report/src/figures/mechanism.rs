@@ -93,9 +93,11 @@ pub fn labelled_mechanism(
     posed(mechanism, t, q, &mut mechanism.scratch())?;
     let marks = marks(mechanism, marking)?;
     let bodies: Vec<usize> = (0..mechanism.bodies().len()).collect();
+    let coordinates: Vec<usize> = (0..mechanism.layout().n_q).collect();
     let stage = Stage {
         mechanism,
         bodies: &bodies,
+        coordinates: &coordinates,
         frames: &[Frame::at_rest(t, q, mechanism.layout().n_v)],
     };
     let model = stage.drawing(mechanism);
@@ -296,12 +298,11 @@ impl Picture<'_> {
         let model = self.model;
         for site in &model.sites {
             let place = self.view.to_page(model.at(&site.place));
-            for &(body, radius) in &site.wheels {
-                let [cx, cy] = self.view.to_page(model.centre(body));
-                let wheel = self.svg.element("circle").with("class", "wheel");
-                wheel
-                    .at([("cx", cx), ("cy", cy), ("r", radius.0 * self.view.scale)])
-                    .empty();
+            for wheel in &site.wheels {
+                let corners = model.wheel(wheel).into_iter();
+                let corners = corners.map(|p| pair(self.view.to_page(p)));
+                let corners: Vec<String> = corners.collect();
+                self.path("wheel", &format!("M{}Z", corners.join("L")));
             }
             if site.is_guided() {
                 self.rail(site, place);

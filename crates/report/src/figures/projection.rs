@@ -1,10 +1,11 @@
-//! The one view of a mechanism: from points of its space to the plane of the picture.
+//! The first view of a mechanism: from points of its space to the plane of the picture.
 //!
-//! The plane is seen along z. Space is seen from a fixed direction far away, from the right of its
-//! front and from above, with gravity downwards; where there is none, z is upwards.
+//! The plane is seen along z. Space is seen from a direction far away, from the right of its front
+//! and from above, with gravity downwards; where there is none, z is upwards. Figures keep this
+//! view; the script of a page begins with it and turns it.
 
 use model::{Mechanism, SpaceKind};
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::channel::Rounded;
 
@@ -15,11 +16,12 @@ const TURNED: f64 = -std::f64::consts::FRAC_PI_3;
 const RAISED: f64 = std::f64::consts::FRAC_PI_6;
 
 /// A view along parallel lines: the directions of space that point to the right and upwards in the
-/// picture, as orthogonal unit vectors.
+/// picture, as orthogonal unit vectors, and the one that is upright in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Projection {
     right: [f64; 3],
     up: [f64; 3],
+    above: [f64; 3],
 }
 
 impl Projection {
@@ -27,6 +29,7 @@ impl Projection {
     const PLANE: Self = Self {
         right: [1.0, 0.0, 0.0],
         up: [0.0, 1.0, 0.0],
+        above: [0.0, 1.0, 0.0],
     };
 
     /// The view of a mechanism.
@@ -57,6 +60,7 @@ impl Projection {
         Self {
             right: std::array::from_fn(|k| ct * back[k] - st * across[k]),
             up: std::array::from_fn(|k| cr * above[k] - sr * (ct * across[k] + st * back[k])),
+            above,
         }
     }
 
@@ -74,12 +78,18 @@ impl Projection {
     }
 }
 
-/// The rows of the map, for scripts.
+/// For scripts, which turn it on.
 impl Serialize for Projection {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        [self.right, self.up]
-            .map(|row| row.map(Rounded))
-            .serialize(serializer)
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(3))?;
+        for (name, direction) in [
+            ("right", self.right),
+            ("up", self.up),
+            ("above", self.above),
+        ] {
+            map.serialize_entry(name, &direction.map(Rounded))?;
+        }
+        map.end()
     }
 }
 

@@ -6,6 +6,7 @@ use model::{Measure, Mechanism, SpaceKind, System};
 use serde::Serialize;
 
 use super::comparison::{Comparison, Freedom};
+use super::first_order::{self, Motion, Stress};
 use super::run_page::{DriveCurve, RunPage};
 use crate::channel::Channel;
 use crate::documents::{EventDocument, ReactionDocument};
@@ -13,7 +14,7 @@ use crate::figures::drawing::{DrawingModel, Stage};
 use crate::recording::Frame;
 
 /// Largest number of joints and drives, and of bodies, that are drawn and plotted.
-pub(super) const DRAWN_MAX: usize = 400;
+pub(super) const DRAWN_MAX: usize = 1200;
 
 /// Largest number of measures that are plotted.
 pub(super) const MEASURES_MAX: usize = 24;
@@ -34,6 +35,8 @@ pub(super) struct Data<'a> {
     /// Names and units of the components of a reaction.
     components: Vec<(&'static str, &'static str)>,
     joints: Vec<Joint<'a>>,
+    pub(super) motions: Vec<Motion<'a>>,
+    pub(super) stresses: Vec<Stress<'a>>,
     comparisons: Vec<ComparisonData<'a>>,
     measures: Vec<MeasureCurve<'a>>,
     drives: Vec<Drive<'a>>,
@@ -146,6 +149,7 @@ struct Residuals {
 pub(super) struct Cast {
     part: Option<model::Part>,
     bodies: Vec<usize>,
+    coordinates: Vec<usize>,
     joints: Vec<usize>,
 }
 
@@ -159,6 +163,7 @@ impl Cast {
             return Self {
                 part: None,
                 bodies: (0..bodies).collect(),
+                coordinates: (0..mechanism.layout().n_q).collect(),
                 joints: (0..groups.len()).collect(),
             };
         }
@@ -174,6 +179,7 @@ impl Cast {
         let part = mechanism.part_of_groups(&joints);
         Self {
             bodies: part.places.bodies.clone(),
+            coordinates: part.places.coordinates.clone(),
             joints,
             part: Some(part),
         }
@@ -197,6 +203,7 @@ impl Cast {
         Stage {
             mechanism: self.part.as_ref().map_or(whole, |p| &p.mechanism),
             bodies: self.bodies(),
+            coordinates: &self.coordinates,
             frames,
         }
     }
@@ -206,7 +213,7 @@ impl<'a> Data<'a> {
     pub(super) fn new(page: &'a RunPage<'a>, cast: &Cast) -> Self {
         let frames = &page.recording.frames;
         let stage = cast.stage(page.mechanism, frames);
-        let noise = NOISE * largest_force(frames);
+        let noise = noise(frames);
         let measured = Measured::of(page.mechanism, frames);
         Self {
             name: page.mechanism.name(),
@@ -222,6 +229,8 @@ impl<'a> Data<'a> {
                 .iter()
                 .map(|&k| joint(page, k, noise))
                 .collect(),
+            motions: first_order::motions(page, cast),
+            stresses: first_order::stresses(page, cast),
             comparisons: page
                 .comparisons
                 .iter()
@@ -475,6 +484,11 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a, x| if x.abs() > a { x.abs() } else { a })
 }
 
+/// Size of a force that is rounding (N); torques about places are compared with it, too.
+pub(super) fn noise(frames: &[Frame]) -> f64 {
+    NOISE * largest_force(frames)
+}
+
 fn largest_force(frames: &[Frame]) -> f64 {
     let all = frames.iter().flat_map(|f| &f.reactions);
     largest(all.flat_map(|r| r.force).filter(|x| x.is_finite()))
@@ -502,7 +516,7 @@ pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
 }
 
 /// A number that is shown has the weight of this many stored numbers.
-const SHOWN: usize = 6;
+const SHOWN: usize = 10;
 
 /// Number of digits of the levels of a curve.
 pub(super) fn levels() -> u64 {

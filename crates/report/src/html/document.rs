@@ -5,7 +5,7 @@ use model::SpaceKind;
 
 use super::data::{Cast, Data};
 use super::run_page::{RunPage, Shows};
-use super::{inputs, verdicts};
+use super::{inputs, motion, peaks, verdicts};
 use crate::documents::{FreedomsDocument, RunDocument};
 use crate::figures::LOOKS;
 use crate::page::{add, safe, short};
@@ -13,11 +13,20 @@ use crate::page::{add, safe, short};
 const STYLE: &str = include_str!("report.css");
 
 /// Scripts in the order of their use; together they are one module.
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("script/data.js"),
+    include_str!("script/poses.js"),
     include_str!("script/clock.js"),
     include_str!("script/shapes.js"),
+    include_str!("script/solid.js"),
+    include_str!("script/camera.js"),
+    include_str!("script/looks.js"),
+    include_str!("script/painters.js"),
+    include_str!("script/loads.js"),
+    include_str!("script/names.js"),
+    include_str!("script/pointer.js"),
     include_str!("script/picture.js"),
+    include_str!("script/first_order.js"),
     include_str!("script/chart.js"),
     include_str!("script/main.js"),
 ];
@@ -32,10 +41,11 @@ const LISTED: usize = 12;
 
 pub(super) fn document(page: &RunPage<'_>) -> String {
     let cast = Cast::of(page.mechanism);
+    let data = Data::new(page, &cast);
     let mut out = String::new();
     open(&mut out, page);
     head(&mut out, page);
-    motion(&mut out, page);
+    motion::section(&mut out, page, &data);
     if !matches!(page.shows, Shows::Mode(_)) {
         verdicts::section(&mut out, page);
     }
@@ -45,9 +55,9 @@ pub(super) fn document(page: &RunPage<'_>) -> String {
     inputs::section(&mut out, page, &cast);
     out.push_str("</main>\n");
     if page.moves() {
-        transport(&mut out);
+        motion::transport(&mut out);
     }
-    close(&mut out, page, &cast);
+    close(&mut out, &data);
     out
 }
 
@@ -134,13 +144,9 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         format_args!(
             "<nav aria-label=\"Sections\"><a href=\"#motion\">{}</a> {verdicts}{of_run}\
              <a href=\"#inputs\">Inputs and versions</a></nav>\n</header>\n<main>\n",
-            picture_title(page)
+            motion::title(page)
         ),
     );
-}
-
-fn picture_title(page: &RunPage<'_>) -> &'static str {
-    if page.moves() { "Motion" } else { "Picture" }
 }
 
 /// One or two sentences with the main result.
@@ -305,93 +311,6 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</ul>\n");
 }
 
-/// Controls that only the page of a run has.
-const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
-step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
-<fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
-
-/// The animation with its controls.
-fn motion(out: &mut String, page: &RunPage<'_>) {
-    let title = picture_title(page);
-    add(
-        out,
-        format_args!(
-            "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">{title}</h2>\n"
-        ),
-    );
-    out.push_str(
-        "<noscript><p class=\"warning\">Picture and curves need scripts; verdicts and inputs below do not.</p></noscript>\n\
-         <div class=\"stage\">\n<div class=\"picture\">\n",
-    );
-    add(
-        out,
-        format_args!(
-            "<svg id=\"picture\" role=\"img\" aria-label=\"{} to scale, moving; joints are marked by the verdict of their reactions, \
-             which the table below tells in words\"></svg>\n",
-            safe(page.mechanism.name())
-        ),
-    );
-    out.push_str(
-        "<div class=\"now\" id=\"now\"></div>\n<div class=\"zoom\"><button id=\"zoom-in\" type=\"button\" aria-label=\"Zoom in\">+</button>\
-         <button id=\"zoom-out\" type=\"button\" aria-label=\"Zoom out\">−</button>\
-         <button id=\"zoom-reset\" type=\"button\" aria-label=\"Show all\">⤢</button></div>\n\
-         <div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
-         aria-label=\"What the picture shows\">\n",
-    );
-    if !page.verdicts().is_empty() {
-        out.push_str("<fieldset><legend>Reactions</legend>\n");
-        legend(out, page);
-        out.push_str("</fieldset>\n");
-    }
-    out.push_str(
-        "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div></fieldset>\n",
-    );
-    if page.run().is_some() {
-        out.push_str(OF_RUN);
-    }
-    out.push_str(
-        "</aside>\n</div>\n\
-         <p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
-         are unknown. Drag to move, Ctrl and wheel to zoom",
-    );
-    if page.run().is_some() {
-        out.push_str(", click a joint for its reaction, a body for its trace");
-    }
-    out.push_str(".</p>\n</section>\n");
-}
-
-/// The meaning of marks and arrows, as far as they occur.
-fn legend(out: &mut String, page: &RunPage<'_>) {
-    const MARK: &str = "<g transform=\"translate(17 11)\" class=\"site VERDICT\"><circle class=\"mark\" r=\"6.5\"/></g>";
-    const ARROW: &str = "<path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/>";
-    const FREE: &str = "<path class=\"free\" d=\"M1 11L10 4V8H24V4L33 11L24 18V14H10V18Z\"/>";
-    let all = page.verdicts();
-    let occurs = |word: &str| all.iter().any(|(_, verdict, _)| *verdict == word);
-    let mut row = |picture: &str, words: &str| {
-        add(
-            out,
-            format_args!(
-                "<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\">{picture}</svg>{words}</div>\n"
-            ),
-        );
-    };
-    for (verdict, words) in [
-        ("unique", "unique"),
-        ("not_unique", "not unique"),
-        ("undecided", "undecided"),
-    ] {
-        if occurs(verdict) {
-            row(&MARK.replace("VERDICT", verdict), words);
-        }
-    }
-    if page.run().is_some() {
-        row(ARROW, "determined part, on the first body");
-    }
-    if !page.comparisons.is_empty() {
-        row(FREE, "direction in which the model leaves it open");
-    }
-}
-
 /// Empty elements for the curves; scripts fill them.
 fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
     out.push_str(
@@ -399,7 +318,12 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
          <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select> \
          <label for=\"frame\">Components</label> <select id=\"frame\"><option value=\"global\">global</option>\
          <option value=\"body\">along the first body</option></select></div>\n\
-         <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n</section>\n\
+         <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n",
+    );
+    peaks::table(out, page);
+    out.push_str(
+        "<details class=\"on-request\" id=\"all-reactions\"><summary>Curves of all reactions</summary>\n\
+         <p class=\"grey\">They are drawn when this is opened, and printed if it is open.</p>\n<div id=\"all-curves\"></div>\n</details>\n</section>\n\
          <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n",
     );
     let units: Vec<&str> = page.scene.units.iter().flatten().map(|u| u.0).collect();
@@ -470,19 +394,9 @@ fn events(out: &mut String, run: &RunDocument) {
     out.push_str("</ul>\n");
 }
 
-fn transport(out: &mut String) {
-    out.push_str(
-        "<div class=\"transport\" role=\"group\" aria-label=\"Time\">\n\
-         <button id=\"play\" type=\"button\" aria-label=\"Play\">▶</button>\n\
-         <div class=\"track\"><div id=\"marks\"></div><input id=\"scrub\" type=\"range\" aria-label=\"Time (s)\"></div>\n\
-         <span id=\"time\"></span>\n<label>Speed <select id=\"speed\"></select></label>\n\
-         <span class=\"keys\">space: play · ← →: frame</span>\n</div>\n",
-    );
-}
-
-fn close(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
+fn close(out: &mut String, data: &Data<'_>) {
     // Only numbers and names, so this cannot fail.
-    let json = serde_json::to_string(&Data::new(page, cast)).unwrap_or_else(|_| "null".to_owned());
+    let json = serde_json::to_string(data).unwrap_or_else(|_| "null".to_owned());
     add(
         out,
         format_args!(

@@ -2,11 +2,14 @@
 //! reactions unique. Static text, so that it is available without scripts and on paper.
 
 use super::run_page::RunPage;
-use crate::documents::ReactionDocument;
+use crate::documents::{MakeUniqueDocument, ReactionDocument};
 use crate::page::{add, safe, short};
 
 /// Largest number of lines of a list.
 pub(super) const MOST: usize = 40;
+
+/// Largest number of ways to make a reaction unique that a sentence lists.
+const WAYS: usize = 5;
 
 /// Largest number of lines of the table.
 const LINES: usize = 300;
@@ -68,8 +71,9 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
         add(
             out,
             format_args!(
-                "<tr><td><b>{}</b></td><td>{}</td><td class=\"number\">{}</td><td><span class=\"badge {badge}\">{said}</span></td>\
-                 <td class=\"number\">{margin}</td><td class=\"why\">{}</td></tr>\n",
+                "<tr><td><b>{}</b></td><td data-label=\"Type\">{}</td><td class=\"number\" data-label=\"Rows\">{}</td>\
+                 <td data-label=\"Reaction\"><span class=\"badge {badge}\">{said}</span></td>\
+                 <td class=\"number\" data-label=\"Margin\">{margin}</td><td class=\"why\" data-label=\"Why\">{}</td></tr>\n",
                 safe(&r.name),
                 safe(r.kind),
                 rows.join(", "),
@@ -128,19 +132,7 @@ fn why(out: &mut String, page: &RunPage<'_>) {
         out.push_str("<h3>What is redundant</h3>\n");
         some(out, &reasons);
     }
-    let hints = page.hints.iter().map(|hint| {
-        let reaction = format!("`{}`", hint.reaction);
-        let ways: Vec<&str> = hint.ways.iter().map(|w| w.text.as_str()).collect();
-        let (last, first) = match ways.split_last() {
-            None => return format!("{reaction}: no small set of deletions was found"),
-            Some(split) => split,
-        };
-        match first {
-            [] => format!("{reaction}: {last}"),
-            _ => format!("{reaction}: {}; or {last}", first.join("; ")),
-        }
-    });
-    let hints: Vec<String> = hints.collect();
+    let hints = remedies(page.hints);
     if !hints.is_empty() {
         out.push_str("<h3>What would make a reaction unique, without a change of motion</h3>\n");
         some(out, &hints);
@@ -151,6 +143,38 @@ fn why(out: &mut String, page: &RunPage<'_>) {
         out.push_str("<h3>To be known</h3>\n");
         some(out, &known);
     }
+}
+
+/// What would make reactions unique: those with the same ways in one sentence.
+fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
+    let mut grouped: Vec<(Vec<String>, Vec<&str>)> = Vec::new();
+    for hint in hints {
+        let ways: Vec<&str> = hint.ways.iter().map(|w| w.text.as_str()).collect();
+        let reaction = format!("`{}`", hint.reaction);
+        match grouped.iter_mut().find(|(_, known)| *known == ways) {
+            Some((reactions, _)) => reactions.push(reaction),
+            None => grouped.push((vec![reaction], ways)),
+        }
+    }
+    let sentence = |(reactions, ways): (Vec<String>, Vec<&str>)| {
+        let reactions = match reactions.split_last() {
+            Some((last, first)) if !first.is_empty() => {
+                format!("each of {} and {last}", first.join(", "))
+            }
+            _ => reactions.concat(),
+        };
+        if ways.len() > WAYS {
+            let more = ways.len() - WAYS;
+            let few = ways[..WAYS].join("; ");
+            return format!("{reactions}: {few}; or {more} others, which `--make-unique` lists");
+        }
+        match ways.split_last() {
+            None => format!("{reactions}: no small set of deletions was found"),
+            Some((last, [])) => format!("{reactions}: {last}"),
+            Some((last, first)) => format!("{reactions}: {}; or {last}", first.join("; ")),
+        }
+    };
+    grouped.into_iter().map(sentence).collect()
 }
 
 fn some(out: &mut String, sentences: &[String]) {

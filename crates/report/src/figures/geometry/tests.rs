@@ -1,8 +1,8 @@
 //! The points of joints, compared with the points of their definitions.
 
 use joints::{
-    Angle, Direction, Distance, Fixed, Gear, KnifeEdge, Line, PinInSlot, PointOnLine, Revolute,
-    RevoluteAngleDrive, Rolling, Translational, TranslationalDisplacementDrive,
+    Angle, Direction, Distance, Fixed, Gear, KnifeEdge, Line, Mesh, PinInSlot, PointOnLine,
+    Revolute, RevoluteAngleDrive, Rolling, Translational, TranslationalDisplacementDrive,
 };
 use model::start::assemble;
 use model::{
@@ -72,6 +72,7 @@ fn outline_of_second(element: impl ConstraintKernels + 'static) -> Vec<[f64; 2]>
     let stage = Stage {
         mechanism: &mechanism,
         bodies: &[0, 1],
+        coordinates: &[0, 1, 2, 3, 4, 5],
         frames: &[Frame::at_rest(0.0, &q, mechanism.layout().n_v)],
     };
     let outline = &stage.drawing(&mechanism).bodies[1].outline;
@@ -141,12 +142,46 @@ fn wheels_touch_where_their_speeds_agree() {
     ] {
         let site = gear(ratio);
         assert!(near(flat(site.place), point), "{:?}", site.place);
-        let circles = site.pitch.expect("two wheels");
-        for (circle, radius) in circles.iter().zip(radii) {
+        assert_eq!(site.pitch.len(), 2);
+        for (circle, radius) in site.pitch.iter().zip(radii) {
             assert!((circle.radius - radius * 5.0_f64.sqrt()).abs() <= ROUNDING);
         }
     }
-    assert_eq!(gear(1.0).pitch, None);
+    assert_eq!(gear(1.0).pitch, []);
+}
+
+/// The same wheels with teeth: they touch in the pitch point whatever the pressure angle is.
+#[test]
+fn teeth_are_at_the_pitch_point() {
+    for pressure_angle in [None, Some(0.35), Some(-0.2)] {
+        let mesh = site(
+            Mesh {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+                ratio: -2.0,
+                pressure_angle,
+                pressure_angle_0: 0.0,
+                share: 0.0,
+                centres: [0.0; 2],
+                line: [0.0; 2],
+                inverse: 0.0,
+                phase: 0.0,
+            },
+            false,
+        );
+        assert_eq!(mesh.symbol, Symbol::Rotation);
+        assert!(
+            near(flat(mesh.place), [4.0 / 3.0, 2.0 / 3.0]),
+            "{:?}",
+            mesh.place
+        );
+        assert_eq!(mesh.end, mesh.place);
+        let radii = [2.0 / 3.0, 1.0 / 3.0];
+        assert_eq!(mesh.pitch.len(), 2);
+        for (circle, radius) in mesh.pitch.iter().zip(radii) {
+            assert!((circle.radius - radius * 5.0_f64.sqrt()).abs() <= ROUNDING);
+        }
+    }
 }
 
 #[test]

@@ -23,9 +23,8 @@ impl View {
         for site in &model.sites {
             points.push(model.at(&site.place));
             points.extend(site.end.as_ref().map(|end| model.at(end)));
-            for &(body, radius) in &site.wheels {
-                let ([x, y], r) = (model.centre(body), radius.0);
-                points.extend([[x - r, y - r], [x + r, y + r]]);
+            for wheel in &site.wheels {
+                points.extend(model.wheel(wheel));
             }
         }
         for &(body, point) in model.forces.iter().flat_map(|f| &f.points) {

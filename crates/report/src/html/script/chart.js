@@ -4,6 +4,8 @@
 const charts = [];
 
 const MARGIN = { top: 8, right: 14, bottom: 34, left: 62 };
+/** The lowest power of ten of an axis. */
+const LEAST_DECADE = -18;
 const DASHES = ["", "7 4", "2 3.5", "9 3 2 3", "4 3", "12 4", "1 4"];
 
 /**
@@ -47,6 +49,12 @@ class Chart {
     this.height = options.height ?? 190;
     this.follow();
     new ResizeObserver(() => this.redraw()).observe(this.figure);
+    // What nobody sees need not move.
+    this.isSeen = true;
+    new IntersectionObserver((entries) => {
+      this.isSeen = entries.at(-1).isIntersecting;
+      this.moveTo(clock.t);
+    }).observe(this.figure);
     charts.push(this);
   }
 
@@ -79,7 +87,11 @@ class Chart {
     const curves = this.series.map((s) => s.values);
     if (this.band) curves.push(this.band.low, this.band.high);
     let [low, high] = rangeOf(curves) ?? [0, 1];
-    if (this.options.logarithmic) return [Math.floor(low), Math.max(Math.ceil(high), Math.floor(low) + 1)];
+    if (this.options.logarithmic) {
+      // What is smaller than rounding is not told apart: it lies on the lower edge.
+      const top = Math.max(Math.ceil(high), LEAST_DECADE + 1);
+      return [Math.min(Math.max(Math.floor(low), LEAST_DECADE), top - 1), top];
+    }
     // What is zero everywhere is shown between −1 and 1.
     const least = Math.max(this.floor, 1e-9 * Math.max(Math.abs(low), Math.abs(high))) || 1;
     if (high - low < least) {
@@ -151,7 +163,8 @@ class Chart {
 
   toY(value) {
     const [low, high] = this.y;
-    return this.box.y + this.box.h * (1 - (value - low) / (high - low));
+    const shown = this.options.logarithmic ? Math.max(value, low) : value;
+    return this.box.y + this.box.h * (1 - (shown - low) / (high - low));
   }
 
   /** Path data; what is not finite is a gap. */
@@ -199,7 +212,7 @@ class Chart {
 
   /** Moves the cursor. */
   moveTo(t) {
-    if (!this.box || !this.cursor) return;
+    if (!this.box || !this.cursor || !this.isSeen) return;
     this.cursor.setAttribute("d", `M${this.toX(t).toFixed(1)} ${this.box.y}v${this.box.h}`);
     const instant = instantAt(t);
     this.series.forEach((s, k) => {

@@ -25,6 +25,7 @@ const clock = {
     if (this.t >= tLast) this.set(tFirst);
     this.playing = true;
     this.last = null;
+    this.shown = [];
     this.tell();
     requestAnimationFrame((now) => this.tick(now));
   },
@@ -47,7 +48,19 @@ const clock = {
     let t = this.t + past * this.rate;
     if (t > tLast) t = tFirst;
     this.set(t);
+    this.count(now);
     requestAnimationFrame((next) => this.tick(next));
+  },
+
+  /** Pictures in the last second. */
+  picturesPerSecond: 0,
+  shown: [],
+
+  count(now) {
+    this.shown.push(now);
+    while (this.shown[0] < now - 1000) this.shown.shift();
+    const past = now - this.shown[0];
+    if (past > 0) this.picturesPerSecond = (1000 * (this.shown.length - 1)) / past;
   },
 
   tell() {

@@ -19,6 +19,7 @@ function setUpTheme() {
   button.addEventListener("click", () => {
     document.documentElement.dataset.theme = isDark() ? "light" : "dark";
     tell();
+    dispatchEvent(new Event("themechange"));
   });
   tell();
 }
@@ -89,12 +90,12 @@ function setUpKeys() {
 /** Check boxes for what the picture shows. */
 function setUpOptions(picture) {
   const options = [
-    ["forces", "Reaction forces"], ["freedom", "Free directions"], ["names", "Names"],
+    ["forces", "Reactions"], ["freedom", "Free directions"], ["names", "Names"],
     ["centres", "Centres of mass"], ["grid", "Grid"], ["follow", "Camera follows"],
   ];
   for (const [key, words] of options) {
     if (key === "follow" && !picture.travels) continue;
-    if (key === "forces" && !joints.some((j) => j.wrench)) continue;
+    if (key === "forces" && !joints.some((j) => j.reaction)) continue;
     if (key === "freedom" && !joints.some((j) => j.freedom)) continue;
     const box = make(null, "input", { type: "checkbox", checked: picture.show[key] });
     box.addEventListener("change", () => {
@@ -103,9 +104,36 @@ function setUpOptions(picture) {
     });
     make(byId("options"), "label", {}, box, words);
   }
+  const rate = make(null, "input", { type: "checkbox" });
+  rate.addEventListener("change", () => {
+    byId("rate").hidden = !rate.checked;
+  });
+  make(byId("options"), "label", {}, rate, "Pictures per second");
+  clock.listeners.push(() => {
+    if (!byId("rate").hidden) byId("rate").textContent = `${clock.picturesPerSecond.toFixed(0)} pictures a second`;
+  });
   for (const [id, factor] of [["zoom-in", 1.3], ["zoom-out", 1 / 1.3], ["zoom-reset", 0]]) {
     byId(id).addEventListener("click", () => picture.zoomBy(factor));
   }
+}
+
+/** Standard views of space, and the kind of projection. */
+function setUpViews(picture) {
+  const perspective = byId("perspective");
+  if (!perspective) return;
+  picture.tellView = () => {
+    perspective.setAttribute("aria-pressed", picture.camera.isPerspective);
+    byId("view").textContent = picture.camera.inWords();
+  };
+  for (const name of ["x", "y", "z", "home"]) {
+    byId(`view-${name}`).addEventListener("click", () => picture.stand(name));
+  }
+  perspective.addEventListener("click", () => {
+    picture.camera.isPerspective = !picture.camera.isPerspective;
+    picture.resize();
+    picture.tellView();
+  });
+  picture.tellView();
 }
 
 /** The length of arrows. */
@@ -180,7 +208,7 @@ function setUpMotion(picture) {
 function setUpReactions(picture) {
   const select = byId("joint");
   const groups = [["not_unique", "Not unique"], ["undecided", "Undecided"], ["unique", "Unique"]];
-  const told = joints.filter((j) => j.wrench);
+  const told = joints.filter((j) => j.reaction);
   for (const [verdict, words] of groups) {
     const members = told.filter((j) => j.verdict === verdict);
     if (!members.length) continue;
@@ -206,15 +234,36 @@ function setUpReactions(picture) {
   byId("frame").addEventListener("change", refresh);
   refresh();
   return (index) => {
-    if (!joints[index].wrench) return;
+    if (!joints[index].reaction) return;
     select.value = String(index);
     refresh();
   };
 }
 
+/** The same curves for all joints and drives, drawn when somebody opens the appendix. */
+function setUpAllReactions(picture) {
+  const appendix = byId("all-reactions");
+  if (!appendix) return;
+  appendix.hidden = !joints.some((j) => j.reaction);
+  appendix.addEventListener("toggle", () => {
+    if (!appendix.open || appendix.dataset.drawn) return;
+    appendix.dataset.drawn = "true";
+    const frame = byId("frame").value;
+    for (const joint of joints.filter((j) => j.reaction)) {
+      const place = byId("all-curves");
+      make(place, "h4", { textContent: `${joint.name} (${joint.type})` });
+      showChoices(joint, make(place, "div", { className: "legend" }));
+      const curves = make(place, "div", { className: "curves" });
+      COMPONENTS.forEach((name, k) => {
+        const chart = new Chart(curves, { title: "", unit: "", height: 150, onSeek: seek });
+        showComponent(chart, joint, name, k, { large: picture.large.force, frame });
+      });
+    }
+  });
+}
+
 /** One legend for all components. */
-function showChoices(joint) {
-  const legend = byId("reaction-legend");
+function showChoices(joint, legend = byId("reaction-legend")) {
   legend.replaceChildren();
   if (!joint.choices.length) return;
   const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
@@ -314,26 +363,39 @@ function setUpChecks() {
   }
 }
 
-/** Paper has no folded parts and no second frame. */
+/** Size of the picture on paper in pixels of the page, that of A4 without its margins, and pixels of paper for one of these. */
+const PAPER = [688, 359, 3];
+
+/** Paper has no folded parts and no second frame, and is light. */
 function setUpPrint() {
   let folded = [];
+  let theme;
+  const picture = () => globalThis.pfaffReport?.picture;
   addEventListener("beforeprint", () => {
     clock.pause();
-    folded = [...document.querySelectorAll("details:not([open])")];
+    folded = [...document.querySelectorAll("details:not([open]):not(.on-request)")];
     folded.forEach((d) => { d.open = true; });
+    theme = document.documentElement.dataset.theme;
+    document.documentElement.dataset.theme = "light";
+    picture()?.printTo(...PAPER);
   });
-  addEventListener("afterprint", () => folded.forEach((d) => { d.open = false; }));
+  addEventListener("afterprint", () => {
+    folded.forEach((d) => { d.open = false; });
+    if (theme === undefined) delete document.documentElement.dataset.theme;
+    else document.documentElement.dataset.theme = theme;
+    picture()?.brush.looks.refresh();
+    picture()?.resize();
+  });
 }
 
 /** Names move with their places; where the picture rests they are placed anew. */
 function placeNamesAtRest(picture) {
-  let timer = 0;
-  const later = () => {
-    clearTimeout(timer);
-    if (!clock.playing) timer = setTimeout(() => picture.placeNames(clock.t), 120);
+  const later = () => !clock.playing && picture.names.later();
+  clock.onRest = () => {
+    picture.soon();
+    later();
   };
   clock.listeners.push(later);
-  clock.onRest = later;
 }
 
 /** The symbols that occur, with the types of joints that they stand for. */
@@ -359,6 +421,7 @@ function setUpRun(picture, handlers) {
   const refresh = setUpMotion(picture);
   handlers.body = setUpTracks(picture, refresh);
   handlers.joint = setUpReactions(picture);
+  setUpAllReactions(picture);
   setUpArrows(picture);
   setUpChecks();
   setUpKeys();
@@ -374,6 +437,8 @@ function start() {
     onBody: (index) => handlers.body?.(index),
   });
   setUpOptions(picture);
+  setUpViews(picture);
+  setUpFirstOrder(picture);
   placeNamesAtRest(picture);
   showSymbols();
   if (byId("arrows")) setUpRun(picture, handlers);

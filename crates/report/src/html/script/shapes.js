@@ -8,6 +8,15 @@ function arrow(length, width = 3.2, head = 10) {
   return `M0 ${-side}H${neck}V${-wing}L${length} 0L${neck} ${wing}V${side}H0Z`;
 }
 
+/** An arrow with two heads at its end, from 0 to `length` along x: a moment in space. */
+function momentArrow(length, width = 2.6, head = 9) {
+  const [tip, neck] = [Math.max(length, 0), Math.max(length - head, 0)];
+  const start = Math.max(neck - 0.75 * head, 0);
+  const side = width / 2;
+  const wing = Math.min(width * 1.6, head * 0.5) + 0.6;
+  return `M0 ${-side}H${start}V${-wing}L${neck} ${-side}V${-wing}L${tip} 0L${neck} ${wing}V${side}L${start} ${wing}V${side}H0Z`;
+}
+
 /** An arrow with two heads, from −`half` to `half` along x. */
 function doubleArrow(half, width = 7, head = 13) {
   const [neck, side, wing] = [half - head, width / 2, width * 1.15];
@@ -29,25 +38,54 @@ function turning(radius, angle, width = 2.6, head = 9) {
     + `L${at(inner, end)}A${inner} ${inner} 0 ${large} ${back} ${at(inner, 0)}Z`;
 }
 
-/** Paints a symbol of the drawing model, lying along x, into a group. */
+/** Paints a symbol of the drawing model, lying along x, into a group of a legend. */
 function drawSymbol(group, symbol) {
   const [, , strokes] = data.drawing.shapes[symbol];
   for (const [kind, d] of strokes) draw(group, "path", { d, class: kind });
 }
 
-/** Path data of a spring of this length along x. */
-function spring(length) {
-  return `M${data.drawing.spring.map(([x, y]) => `${(x * length).toFixed(2)} ${y}`).join("L")}`;
+/** Path of a spring between two places of the page. */
+function springBetween(a, b) {
+  const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+  const length = Math.hypot(dx, dy);
+  const path = new Path2D();
+  data.drawing.spring.forEach(([x, y]) => path.lineTo(a[0] + dx * x - (dy / length) * y, a[1] + dy * x + (dx / length) * y));
+  return path;
 }
 
-/** Hatches of one line style for each verdict; colours are those of the style sheet. */
-function defineHatches(svg) {
-  const defs = draw(svg, "defs");
-  for (const [id, pitch] of [["hatch", 4], ["hatch-wide", 6]]) {
-    const pattern = draw(defs, "pattern", {
-      id, width: pitch, height: pitch, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)",
-    });
-    draw(pattern, "rect", { width: pitch, height: pitch, class: "hatch-ground" });
-    draw(pattern, "rect", { width: pitch * 0.45, height: pitch, class: "hatch-line" });
+/** The outline at a distance round the corners of a convex polygon as `hull` orders them. */
+function roundedHull(corners, radius) {
+  const path = new Path2D();
+  const n = corners.length;
+  if (n === 1) path.arc(corners[0][0], corners[0][1], radius, 0, 2 * Math.PI);
+  else {
+    const normal = (a, b) => Math.atan2(a[0] - b[0], b[1] - a[1]);
+    for (let k = 0; k < n; k += 1) {
+      const [before, at, after] = [corners[(k + n - 1) % n], corners[k], corners[(k + 1) % n]];
+      path.arc(at[0], at[1], radius, normal(before, at), normal(at, after));
+    }
   }
+  path.closePath();
+  return path;
+}
+
+/** Convex hull of points of the page (Andrew 1979), in the sense from x to y. */
+function hull(points) {
+  const sorted = [...points].sort(([a, b], [c, d]) => a - c || b - d);
+  const half = (all) => {
+    const chain = [];
+    for (const p of all) {
+      while (chain.length > 1) {
+        const [a, b] = chain.slice(-2);
+        if ((b[0] - a[0]) * (p[1] - a[1]) > (b[1] - a[1]) * (p[0] - a[0]) + 1e-9) break;
+        chain.pop();
+      }
+      chain.push(p);
+    }
+    return chain;
+  };
+  const distinct = sorted.filter((p, k) => k === 0 || Math.hypot(p[0] - sorted[k - 1][0], p[1] - sorted[k - 1][1]) > 1e-6);
+  if (distinct.length < 3) return distinct;
+  const [there, back] = [half(distinct), half(distinct.reverse())];
+  return [...there.slice(0, -1), ...back.slice(0, -1)];
 }

@@ -1,0 +1,106 @@
+//! First order about the start, for the picture: free motions as velocities of bodies, and
+//! self-stresses as loads on the first bodies of joints.
+
+use std::collections::HashMap;
+
+use model::{ConstraintId, Mechanism, System};
+use serde::Serialize;
+
+use super::data::Cast;
+use super::run_page::{RunPage, Shows};
+use crate::channel::Rounded;
+use crate::documents::DependencyDocument;
+
+/// Largest number of free motions, and of self-stresses, that can be chosen.
+const MOST: usize = 40;
+
+/// A free motion of the start.
+#[derive(Serialize)]
+pub(super) struct Motion<'a> {
+    /// Introduction, and description.
+    lead: String,
+    text: &'a str,
+    /// For each degree of freedom of the description the drawn bodies that move, with the
+    /// velocities of their frames in ground axes.
+    velocities: Vec<Vec<(usize, Vec<Rounded>)>>,
+}
+
+/// A self-stress of the start: loads that cancel on every body.
+#[derive(Serialize)]
+pub(super) struct Stress<'a> {
+    text: &'a str,
+    /// Drawn joints and drives, with the components of the load on their first bodies.
+    joints: Vec<usize>,
+    wrenches: Vec<Vec<Rounded>>,
+}
+
+/// The free motions of a page, as far as their bodies are drawn.
+pub(super) fn motions<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Motion<'a>> {
+    let bodies = page.mechanism.bodies();
+    let place: HashMap<&str, usize> = (0..)
+        .zip(cast.bodies())
+        .map(|(own, &k)| (bodies[k].name.as_str(), own))
+        .collect();
+    let free = match page.shows {
+        Shows::Mode(_) => None,
+        _ => page.freedoms(),
+    };
+    let all = free.map(|free| free.motions()).unwrap_or_default();
+    let told = all.into_iter().take(MOST).map(|(lead, motion)| Motion {
+        lead,
+        text: &motion.text,
+        velocities: motion
+            .velocities
+            .iter()
+            .map(|moving| {
+                let known = moving.0.iter();
+                let drawn = known.filter_map(|(name, v)| {
+                    let own = *place.get(name.as_str())?;
+                    Some((own, v.iter().copied().map(Rounded).collect()))
+                });
+                drawn.collect()
+            })
+            .collect(),
+    });
+    told.collect()
+}
+
+/// The self-stresses of a page whose joints are all drawn.
+pub(super) fn stresses<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Stress<'a>> {
+    let (Some(analysis), Some(frame)) = (page.analysis, page.recording.frames.first()) else {
+        return Vec::new();
+    };
+    let mut s = page.mechanism.scratch();
+    page.mechanism.pose(frame.t, &frame.q, &mut s);
+    let stress = |dependency: &'a DependencyDocument| {
+        let lambda = multipliers(page.mechanism, dependency)?;
+        let groups = page.mechanism.layout().groups.iter().enumerate();
+        let loaded = groups.filter(|(_, group)| group.rows.iter().any(|row| lambda[row] != 0.0));
+        let mut told = Stress {
+            text: &dependency.text,
+            joints: Vec::new(),
+            wrenches: Vec::new(),
+        };
+        for (k, group) in loaded {
+            told.joints.push(cast.joints().binary_search(&k).ok()?);
+            let reaction = page
+                .mechanism
+                .reactions(&s)
+                .reaction(ConstraintId(k), &lambda);
+            let components = reaction.components(group.space);
+            told.wrenches.push(components.map(Rounded).collect());
+        }
+        Some(told)
+    };
+    let dependencies = &analysis.reasons.dependencies;
+    dependencies.iter().filter_map(stress).take(MOST).collect()
+}
+
+/// The coefficients of a dependency as multipliers of all rows; `None` if a row does not exist.
+fn multipliers(mechanism: &Mechanism, dependency: &DependencyDocument) -> Option<Vec<f64>> {
+    let mut lambda = vec![0.0; mechanism.layout().rows()];
+    for (row, coefficient) in dependency.rows.iter().zip(&dependency.coefficients) {
+        *lambda.get_mut(row.checked_sub(1)?)? = *coefficient;
+    }
+    Some(lambda)
+}

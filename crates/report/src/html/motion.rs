@@ -1,0 +1,170 @@
+//! The picture with its controls: views, what is shown, free motions and self-stresses, and the
+//! time.
+
+use model::SpaceKind;
+
+use super::data::Data;
+use super::run_page::RunPage;
+use crate::page::{add, safe};
+
+/// What the section of the picture is called.
+pub(super) fn title(page: &RunPage<'_>) -> &'static str {
+    if page.moves() { "Motion" } else { "Picture" }
+}
+
+/// Standard views of space.
+const VIEWS: &str = "<div class=\"views\" role=\"group\" aria-label=\"View\">\
+<button id=\"view-x\" type=\"button\" aria-label=\"View along x\">x</button>\
+<button id=\"view-y\" type=\"button\" aria-label=\"View along y\">y</button>\
+<button id=\"view-z\" type=\"button\" aria-label=\"View along z\">z</button>\
+<button id=\"view-home\" type=\"button\" aria-label=\"View from the right and above\" title=\"From the right and above\">◳</button>\
+<button id=\"perspective\" type=\"button\" aria-label=\"Perspective\" aria-pressed=\"false\" title=\"Perspective\">⬡</button></div>\n\
+<p id=\"view\" class=\"unseen\" aria-live=\"polite\"></p>\n";
+
+/// Keys of the picture of space, for those who do not see it.
+const SPATIAL_KEYS: &str = ". Arrow keys turn it, with Shift they move it, plus and minus zoom, x, y, z and i are standard views, p is perspective";
+
+/// Controls that only the page of a run has.
+const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
+step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
+<fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
+
+/// The animation with its controls.
+pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
+    let title = title(page);
+    add(
+        out,
+        format_args!(
+            "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">{title}</h2>\n"
+        ),
+    );
+    out.push_str(
+        "<noscript><p class=\"warning\">Picture and curves need scripts; verdicts and inputs below do not.</p></noscript>\n\
+         <div class=\"stage\">\n",
+    );
+    let is_spatial = page.mechanism.space() == SpaceKind::Space3;
+    out.push_str(if is_spatial {
+        "<div class=\"picture spatial\">\n"
+    } else {
+        "<div class=\"picture\">\n"
+    });
+    add(
+        out,
+        format_args!(
+            "<canvas id=\"picture\" role=\"img\" tabindex=\"0\" aria-label=\"{} to scale, moving; joints are marked by the verdict of their \
+             reactions, which the table below tells in words{}\"></canvas>\n",
+            safe(page.mechanism.name()),
+            if is_spatial { SPATIAL_KEYS } else { "" }
+        ),
+    );
+    out.push_str(
+        "<div class=\"now\" id=\"now\"></div>\n<div class=\"now\" id=\"rate\" hidden></div>\n<div class=\"zoom\"><button id=\"zoom-in\" type=\"button\" aria-label=\"Zoom in\">+</button>\
+         <button id=\"zoom-out\" type=\"button\" aria-label=\"Zoom out\">−</button>\
+         <button id=\"zoom-reset\" type=\"button\" aria-label=\"Show all\">⤢</button></div>\n",
+    );
+    if is_spatial {
+        out.push_str(VIEWS);
+    }
+    out.push_str(
+        "<div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
+         aria-label=\"What the picture shows\">\n",
+    );
+    if !page.verdicts().is_empty() {
+        out.push_str("<fieldset><legend>Reactions</legend>\n");
+        legend(out, page);
+        out.push_str("</fieldset>\n");
+    }
+    out.push_str(
+        "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div></fieldset>\n",
+    );
+    if page.run().is_some() {
+        out.push_str(OF_RUN);
+    }
+    out.push_str("</aside>\n</div>\n");
+    first_order(out, data);
+    out.push_str(
+        "<p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
+         are unknown. ",
+    );
+    out.push_str(if is_spatial { "Drag to turn, with Shift, the right button or two fingers to move; Ctrl and wheel, or the wheel after a click, to zoom" } else { "Drag to move, Ctrl and wheel, or the wheel after a click, to zoom" });
+    if page.run().is_some() {
+        out.push_str(", click a joint for its reaction, a body for its trace");
+    }
+    out.push_str(".</p>\n</section>\n");
+}
+
+/// Choices of free motions and self-stresses, if there are any.
+fn first_order(out: &mut String, data: &Data<'_>) {
+    if data.motions.is_empty() && data.stresses.is_empty() {
+        return;
+    }
+    out.push_str("<div class=\"first-order\">\n");
+    if !data.motions.is_empty() {
+        out.push_str(
+            "<fieldset class=\"option\"><legend>Free motions at the start</legend><div id=\"motions\"></div></fieldset>\n",
+        );
+    }
+    if !data.stresses.is_empty() {
+        out.push_str(
+            "<fieldset class=\"option\"><legend>Loads that cancel (self-stresses)</legend><select id=\"stress\" aria-label=\"Self-stress\">\
+             <option value=\"\">none</option></select><div id=\"stress-loads\"></div></fieldset>\n",
+        );
+    }
+    out.push_str("</div>\n");
+}
+
+/// The meaning of marks and arrows, as far as they occur.
+fn legend(out: &mut String, page: &RunPage<'_>) {
+    const MARK: &str = "<g transform=\"translate(17 11)\" class=\"site VERDICT\"><circle class=\"mark\" r=\"6.5\"/></g>";
+    const ARROW: &str = "<path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/>";
+    const MOMENT: &str =
+        "<path class=\"force\" d=\"M2 9.4H14V6L23 9.4V6L32 11L23 16V12.6L14 16V12.6H2Z\"/>";
+    const FREE: &str = "<path class=\"free\" d=\"M1 11L10 4V8H24V4L33 11L24 18V14H10V18Z\"/>";
+    let all = page.verdicts();
+    let occurs = |word: &str| all.iter().any(|(_, verdict, _)| *verdict == word);
+    let mut row = |picture: &str, words: &str| {
+        add(
+            out,
+            format_args!(
+                "<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\">{picture}</svg>{words}</div>\n"
+            ),
+        );
+    };
+    for (verdict, words) in [
+        ("unique", "unique"),
+        ("not_unique", "not unique"),
+        ("undecided", "undecided"),
+    ] {
+        if occurs(verdict) {
+            row(&MARK.replace("VERDICT", verdict), words);
+        }
+    }
+    let is_spatial = page.mechanism.space() == SpaceKind::Space3;
+    if page.run().is_some() {
+        row(ARROW, "determined part, on the first body");
+        if is_spatial {
+            row(MOMENT, "the same of the moment");
+        }
+    }
+    if !page.comparisons.is_empty() {
+        row(
+            FREE,
+            if is_spatial {
+                "directions in which the model leaves the chosen one open"
+            } else {
+                "direction in which the model leaves it open"
+            },
+        );
+    }
+}
+
+/// The controls of the time.
+pub(super) fn transport(out: &mut String) {
+    out.push_str(
+        "<div class=\"transport\" role=\"group\" aria-label=\"Time\">\n\
+         <button id=\"play\" type=\"button\" aria-label=\"Play\">▶</button>\n\
+         <div class=\"track\"><div id=\"marks\"></div><input id=\"scrub\" type=\"range\" aria-label=\"Time (s)\"></div>\n\
+         <span id=\"time\"></span>\n<label>Speed <select id=\"speed\"></select></label>\n\
+         <span class=\"keys\">space: play · ← →: frame</span>\n</div>\n",
+    );
+}

@@ -1,0 +1,206 @@
+//! The largest force and the largest moment of each reaction over the run, with their times, as a
+//! table. What the model does not determine has no peak of its own: its numbers stand beside the
+//! choice that they depend on, or are left out.
+
+use model::{ConstraintId, Mechanism, Reaction, System};
+
+use super::run_page::RunPage;
+use super::{data, verdicts};
+use crate::page::{add, safe};
+use crate::recording::Frame;
+
+/// Largest number of lines of the table.
+const LINES: usize = 300;
+
+/// A peak over the rows of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Peak {
+    value: f64,
+    /// s
+    t: f64,
+}
+
+/// The peaks of a joint or drive; `None` where nothing finite is known.
+struct Peaks {
+    force: Option<Peak>,
+    moment: Option<Peak>,
+    /// The named component, with its sign. What is `noise` or smaller is zero.
+    named: Option<Peak>,
+}
+
+impl Peaks {
+    fn of(frames: &[Frame], id: ConstraintId, noise: f64) -> Self {
+        let of = |value: &dyn Fn(&Reaction) -> Option<f64>| {
+            let known = frames.iter().filter_map(|frame| {
+                let value = value(frame.reactions.get(id.0)?)?;
+                let value = if value.abs() <= noise { 0.0 } else { value };
+                value.is_finite().then_some(Peak { value, t: frame.t })
+            });
+            // The first of equals.
+            known.fold(None, |best: Option<Peak>, peak| match best {
+                Some(best) if best.value.abs() >= peak.value.abs() => Some(best),
+                _ => Some(peak),
+            })
+        };
+        let size = |v: [f64; 3]| Some(model::space::norm(&v));
+        Self {
+            force: of(&|r| size(r.force)),
+            moment: of(&|r| size(r.torque)),
+            named: of(&|r| r.component),
+        }
+    }
+}
+
+/// The table, if the run has reactions.
+pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
+    let (Some(run), frames) = (page.run(), &page.recording.frames) else {
+        return;
+    };
+    let layout = page.mechanism.layout();
+    let has_reactions = frames.iter().any(|f| !f.reactions.is_empty());
+    if !has_reactions || run.reactions.0.len() != layout.groups.len() {
+        return;
+    }
+    out.push_str(
+        "<h3>Peaks</h3>\n<div class=\"wide\"><table class=\"peaks\">\n<thead><tr><th>Joint or drive</th>\
+         <th>Largest force (N)</th><th>at (s)</th><th>Largest moment (N·m)</th><th>at (s)</th>\
+         <th>Component</th><th>at (s)</th><th>Holds for</th></tr></thead>\n<tbody>\n",
+    );
+    let noise = data::noise(frames);
+    let told = layout.constraint_ids().take(LINES);
+    for id in told {
+        let (name, document) = &run.reactions.0[id.0];
+        let later = page.comparisons.iter().any(|c| c.reactions.contains(&id.0));
+        let is_unique = document.verdict.verdict == "unique" && !later;
+        let choice = document.choice.as_ref().map(ToString::to_string);
+        let holds = match (is_unique, &choice) {
+            (true, _) => "every choice: it is unique".to_owned(),
+            (false, Some(choice)) => choice.clone(),
+            (false, None) => "not determined by the model".to_owned(),
+        };
+        let peaks = Peaks::of(frames, id, noise);
+        let shown = |peak: Option<Peak>| peak.filter(|_| is_unique || choice.is_some());
+        let named = layout.groups[id.0].spec.component;
+        line(
+            out,
+            name,
+            [peaks.force, peaks.moment].map(shown),
+            (named, shown(peaks.named)),
+            &holds,
+        );
+    }
+    out.push_str("</tbody>\n</table></div>\n");
+    notes(out, page.mechanism, page.recording.stride);
+}
+
+fn line(
+    out: &mut String,
+    name: &str,
+    [force, moment]: [Option<Peak>; 2],
+    (named, component): (Option<&str>, Option<Peak>),
+    holds: &str,
+) {
+    let value = |label: &str, peak: Option<Peak>, prefix: &str| {
+        let cell = |label: &str, told: Option<String>| match told {
+            Some(told) => format!("<td class=\"number\" data-label=\"{label}\">{told}</td>"),
+            None => format!("<td class=\"number none\" data-label=\"{label}\">–</td>"),
+        };
+        let told = peak.map(|p| format!("{prefix}{}", digits(p.value)));
+        cell(label, told) + &cell("at (s)", peak.map(|p| digits(p.t)))
+    };
+    let prefix = named.map(|n| format!("{} = ", safe(n))).unwrap_or_default();
+    add(
+        out,
+        format_args!(
+            "<tr><td><b>{}</b></td>{}{}{}<td class=\"why\" data-label=\"Holds for\">{}</td></tr>\n",
+            safe(name),
+            value("Largest force (N)", force, ""),
+            value("Largest moment (N·m)", moment, ""),
+            value("Component", component, &prefix),
+            verdicts::marked(holds)
+        ),
+    );
+}
+
+fn notes(out: &mut String, mechanism: &Mechanism, stride: usize) {
+    let groups = mechanism.layout().groups.len();
+    if groups > LINES {
+        add(
+            out,
+            format_args!(
+                "<p class=\"grey\">{} more are not listed; reactions.csv has all.</p>\n",
+                groups - LINES
+            ),
+        );
+    }
+    let rows = match stride {
+        0 | 1 => "rows of output".to_owned(),
+        n => format!("rows that the page keeps, one in {n}"),
+    };
+    add(
+        out,
+        format_args!(
+            "<p class=\"grey\">Largest of the {rows}; between them reactions may be larger. Force and moment act on the first body, \
+             about the place of the joint.</p>\n"
+        ),
+    );
+}
+
+/// Four digits.
+fn digits(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let size = x.abs();
+    if !(1e-3..1e5).contains(&size) {
+        return format!("{x:.3e}");
+    }
+    let decimals = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
+    let text = format!("{x:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(t: f64, force: [f64; 3], component: f64) -> Frame {
+        Frame {
+            reactions: vec![Reaction {
+                force,
+                torque: [0.0, 0.0, f64::NAN],
+                component: Some(component),
+            }],
+            ..Frame::at_rest(t, &[], 0)
+        }
+    }
+
+    #[test]
+    fn a_peak_is_the_first_largest_and_keeps_its_sign() {
+        let frames = [
+            frame(0.0, [3.0, 0.0, 4.0], 1.0),
+            frame(0.5, [0.0, -13.0, 0.0], -7.0),
+            frame(1.0, [5.0, 12.0, 0.0], 7.0),
+            frame(1.5, [f64::NAN, 100.0, 0.0], 2.0),
+        ];
+        let peaks = Peaks::of(&frames, ConstraintId(0), 1e-9);
+        let at = |value, t| Some(Peak { value, t });
+        assert_eq!(peaks.force, at(13.0, 0.5));
+        assert_eq!(peaks.named, at(-7.0, 0.5));
+        assert_eq!(peaks.moment, None);
+        assert_eq!(
+            Peaks::of(&frames[..1], ConstraintId(0), 2.0).named,
+            at(0.0, 0.0)
+        );
+    }
+
+    #[test]
+    fn numbers_have_four_digits() {
+        let told = [0.0, 3.0, 12.34567, -0.0123456, 1234.5, 2.5e-7].map(digits);
+        assert_eq!(told, ["0", "3", "12.35", "-0.01235", "1234", "2.500e-7"]);
+    }
+}
