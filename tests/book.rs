@@ -23,6 +23,8 @@ mod verdict {}
 mod not_unique {}
 #[doc = include_str!("../docs/book/own-joint.md")]
 mod own_joint {}
+#[doc = include_str!("../docs/book/import.md")]
+mod models_of_robots {}
 #[doc = include_str!("../docs/book/accuracy.md")]
 mod accuracy {}
 #[doc = include_str!("../docs/book/speed.md")]

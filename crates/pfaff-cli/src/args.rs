@@ -14,6 +14,7 @@ use clap_complete::Shell;
 use pfaff::Overrides;
 use pfaff::dynamics::options::moved;
 use pfaff::dynamics::{Method, Stabilisation};
+use pfaff::import::Base;
 use pfaff::sweep::{Axis, Shard};
 
 pub(crate) use known::{Known, Settings};
@@ -65,6 +66,9 @@ pub(crate) enum Command {
     /// Create a scene from a template; without a name, list the templates
     #[command(after_help = examples::NEW)]
     New(New),
+    /// A scene from a model of a robot: MJCF, URDF or SDF
+    #[command(after_help = examples::IMPORT)]
+    Import(Import),
     /// Draw the assembled start, with joints marked by their verdicts
     #[command(after_help = examples::VIEW)]
     View(View),
@@ -104,6 +108,7 @@ impl Command {
             | Self::Equilibrium(Equilibrium { json, .. })
             | Self::Linearise(Linearise { json, .. })
             | Self::New(New { json, .. })
+            | Self::Import(Import { json, .. })
             | Self::View(View { json, .. })
             | Self::Diff(Diff { json, .. })
             | Self::Explain(Explain { json, .. }) => *json,
@@ -403,6 +408,48 @@ pub(crate) struct New {
     #[arg(long, requires = "template")]
     pub(crate) force: bool,
     /// The written file, or the templates, as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// A joint and a value of its coordinate.
+fn joint_value(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.rsplit_once('=').ok_or("expected JOINT=VALUE")?;
+    let number = value.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    let number = number.ok_or_else(|| format!("`{value}` is not a finite number"))?;
+    Ok((name.trim().to_owned(), number))
+}
+
+#[derive(Args)]
+pub(crate) struct Import {
+    /// File to import, or - for standard input; its root tells the format
+    pub(crate) file: PathBuf,
+    /// File for the scene, or - for standard output
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) out: PathBuf,
+    /// Replace an existing file
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Keep links that are fixed to others as bodies with `fixed` joints; by default they become
+    /// parts of the others
+    #[arg(long)]
+    pub(crate) keep_fixed: bool,
+    /// What becomes of the root link of a URDF
+    #[arg(long, value_name = "BASE", default_value = "fixed", value_parser = named(&Base::ALL, Base::name))]
+    pub(crate) base: Base,
+    /// A YAML file with the loops of a URDF: `closed_loop`, pairs of links, and `type`, 3d or 6d
+    #[arg(long, value_name = "YAML")]
+    pub(crate) loops: Option<PathBuf>,
+    /// Values of coordinates near which loops are closed (m, rad), as knee=0.6,hip=-0.3
+    #[arg(long, value_name = "JOINT=VALUE", value_delimiter = ',', allow_hyphen_values = true, value_parser = joint_value, conflicts_with = "keyframe")]
+    pub(crate) pose: Vec<(String, f64)>,
+    /// Make axes of a loop parallel, or make them meet, where they nearly are or do
+    #[arg(long)]
+    pub(crate) snap: bool,
+    /// Start at this keyframe of the file
+    #[arg(long, value_name = "NAME")]
+    pub(crate) keyframe: Option<String>,
+    /// What is left out, and what was written, as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -40,28 +40,7 @@ impl<'r> Source<'r> {
         settings: &Settings,
         console: &Console<'r>,
     ) -> Result<Self, Failure> {
-        let standard_input = path.as_os_str() == "-";
-        let name = if standard_input {
-            "<stdin>".to_owned()
-        } else {
-            path.display().to_string()
-        };
-        let bytes = if standard_input {
-            bounded(std::io::stdin())
-        } else {
-            File::open(path).and_then(bounded)
-        };
-        let bytes = bytes.map_err(|e| unreadable(path, &e))?;
-        if bytes.len() as u64 > LARGEST {
-            let largest = LARGEST >> 20;
-            let message = format!("`{name}` is too large for a scene: more than {largest} MiB");
-            return Err(Failure::input(message).coded(UNREADABLE));
-        }
-        let text = String::from_utf8(bytes).map_err(|e| {
-            let (line, column) = end_of(&e.as_bytes()[..e.utf8_error().valid_up_to()]);
-            let message = format!("{name}:{line}:{column}: not UTF-8: save the file as UTF-8");
-            Failure::input(message).coded(UNREADABLE)
-        })?;
+        let (name, text) = text_of(path)?;
         Ok(Self {
             name,
             text: with_settings(text, settings)?,
@@ -122,6 +101,33 @@ impl<'r> Source<'r> {
         };
         failure.coded(code)
     }
+}
+
+/// The name in messages and the text of a file, or of standard input for `-`.
+pub(crate) fn text_of(path: &Path) -> Result<(String, String), Failure> {
+    let standard_input = path.as_os_str() == "-";
+    let name = if standard_input {
+        "<stdin>".to_owned()
+    } else {
+        path.display().to_string()
+    };
+    let bytes = if standard_input {
+        bounded(std::io::stdin())
+    } else {
+        File::open(path).and_then(bounded)
+    };
+    let bytes = bytes.map_err(|e| unreadable(path, &e))?;
+    if bytes.len() as u64 > LARGEST {
+        let largest = LARGEST >> 20;
+        let message = format!("`{name}` is too large for a scene: more than {largest} MiB");
+        return Err(Failure::input(message).coded(UNREADABLE));
+    }
+    let text = String::from_utf8(bytes).map_err(|e| {
+        let (line, column) = end_of(&e.as_bytes()[..e.utf8_error().valid_up_to()]);
+        let message = format!("{name}:{line}:{column}: not UTF-8: save the file as UTF-8");
+        Failure::input(message).coded(UNREADABLE)
+    })?;
+    Ok((name, text))
 }
 
 /// The text of a scene with other numbers in it. One that is not TOML stays as it is: its reader

@@ -7,6 +7,7 @@ pub mod console;
 mod diff;
 mod equilibrium;
 mod explain;
+mod import;
 pub mod input;
 pub mod interrupt;
 mod linearise;
@@ -153,6 +154,7 @@ impl CommandLine for Arguments {
             Command::Linearise(a) => linearise::run(a, console),
             Command::Equilibrium(a) => equilibrium::run(a, console),
             Command::New(a) => new::run(a, console),
+            Command::Import(a) => import::run(a, console),
             Command::View(a) => view::run(a, console),
             Command::Diff(a) => diff::run(a, console),
             Command::Explain(a) => explain::run(a, console),

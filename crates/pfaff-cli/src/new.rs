@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
 }
 
 /// Writes a file; replaces an existing one only with `force`.
-fn write(path: &Path, text: &str, force: bool) -> Outcome {
+pub(crate) fn write(path: &Path, text: &str, force: bool) -> Outcome {
     let refused = |e: std::io::Error| {
         let name = path.display();
         match e.kind() {

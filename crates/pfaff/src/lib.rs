@@ -36,6 +36,7 @@ pub mod sweep;
 pub mod work_precision;
 
 pub use dynamics;
+pub use import;
 pub use integrators;
 pub use joints;
 pub use linalg;

@@ -33,8 +33,8 @@ pub use analysis::{
 };
 pub use answers::{
     CheckDocument, CodeDocument, CodesDocument, DiffBody, DiffChange, DiffDocument, DiffMotion,
-    DiffReaction, DiffSide, EndedDocument, NewDocument, RefusalDocument, TemplateDocument,
-    TemplatesDocument, ViewDocument,
+    DiffReaction, DiffSide, EndedDocument, ImportDocument, NewDocument, OmissionDocument,
+    RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
 };
 pub use equilibrium::{EquilibriumDocument, ReactionAtRestDocument, RestingBodyDocument};
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};

@@ -1,5 +1,6 @@
 //! The table of codes: below 100 the command and its files, from 100 the text of a scene, from 200
-//! its start and its rank, from 300 questions, from 400 runs, from 500 sweeps.
+//! its start and its rank, from 300 questions, from 400 runs, from 500 sweeps, from 600
+//! files that are imported.
 
 use super::{Code, Entry, Example};
 
@@ -1091,5 +1092,110 @@ pub const TABLE: &[Entry] = &[
         "Threads cannot be started",
         "Use fewer with `--threads`.",
         MACHINE,
+    ),
+    entry(
+        601,
+        "A file to import is not XML",
+        "Correct it at the mark: every element needs its end, every attribute its quotes.",
+        Example::Scene("import - --out -", "<mujoco>\n  <worldbody>\n</mujoco>\n"),
+    ),
+    entry(
+        602,
+        "A file to import has a format that is not known",
+        "MJCF has the root `<mujoco>`, URDF `<robot>`, SDF `<sdf>`.",
+        Example::Scene("import - --out -", "<svg/>\n"),
+    ),
+    entry(
+        603,
+        "A file to import is refused unread",
+        "It declares a document type, which may define entities, or it is too large or too deep: remove the declaration, or split the file.",
+        Example::Scene(
+            "import - --out -",
+            "<!DOCTYPE mujoco [<!ENTITY a \"aaaa\">]>\n<mujoco model=\"&a;\"/>\n",
+        ),
+    ),
+    entry(
+        604,
+        "An element of a file to import lacks something",
+        "Add the attribute or element that the message names.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <worldbody>\n    <body>\n      <inertial pos=\"0 0 0\"/>\n    </body>\n  </worldbody>\n</mujoco>\n",
+        ),
+    ),
+    entry(
+        605,
+        "A value of a file to import is not what is expected",
+        "Write numbers that are finite, as many as are asked for, or one of the words that the message names.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <worldbody>\n    <body pos=\"0 0\"/>\n  </worldbody>\n</mujoco>\n",
+        ),
+    ),
+    entry(
+        606,
+        "A file to import refers to something that is not there",
+        "Correct the name of the body, joint, site, class or keyframe.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <worldbody>\n    <body name=\"arm\"/>\n  </worldbody>\n  <equality>\n    <weld body1=\"leg\"/>\n  </equality>\n</mujoco>\n",
+        ),
+    ),
+    entry(
+        607,
+        "A name occurs twice in a file to import",
+        "Rename one of the two: references to the name have two meanings.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <worldbody>\n    <body name=\"arm\"/>\n    <body name=\"arm\"/>\n  </worldbody>\n</mujoco>\n",
+        ),
+    ),
+    entry(
+        608,
+        "A file to import has something that changes the mechanism and is not read",
+        "Expand it with the tool that the file is for, as MuJoCo does when it saves a model, and import the result.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <worldbody>\n    <composite type=\"cable\"/>\n  </worldbody>\n</mujoco>\n",
+        ),
+    ),
+    entry(
+        609,
+        "Bodies and joints of a file to import do not fit together",
+        "The message names what is at odds: a body without a place, a joint of a body with itself, no body at all.",
+        Example::Scene("import - --out -", "<mujoco/>\n"),
+    ),
+    entry(
+        610,
+        "A number of a file to import is out of its range",
+        "Masses, sizes and stiffnesses are not negative, and directions and quaternions are not zero.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <worldbody>\n    <body quat=\"0 0 0 0\"/>\n  </worldbody>\n</mujoco>\n",
+        ),
+    ),
+    entry(
+        611,
+        "A file is not included",
+        "Included files have to lie in the folder of the file that is imported, or below it, each once.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <include file=\"../arm.xml\"/>\n</mujoco>\n",
+        ),
+    ),
+    entry(
+        612,
+        "A file of loop closures cannot be read",
+        "It has the keys `closed_loop`, pairs of links that coincide, and `type`, for each of them `3d` or `6d`.",
+        Example::None("needs a second file"),
+    ),
+    entry(
+        613,
+        "Loops of a file to import are open at every pose that is tried",
+        "Give a pose near which they close with `--pose`, or correct lengths: the message names the loop with the largest gap.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <worldbody>\n    <body name=\"arm\">\n      <joint name=\"hinge\"/>\n      <geom size=\"0.1\"/>\n      <site name=\"tip\" pos=\"1 0 0\"/>\n    </body>\n    <site name=\"far\" pos=\"2 0 0\"/>\n  </worldbody>\n  <equality>\n    <connect site1=\"tip\" site2=\"far\"/>\n  </equality>\n</mujoco>\n",
+        ),
     ),
 ];

@@ -74,6 +74,13 @@ pub(super) const NEW: &str = "Examples:
 
 A file that is there already is not touched without --force.";
 
+pub(super) const IMPORT: &str = "Examples:
+  pfaff import humanoid.xml --out humanoid.toml        and what the scene lacks, with lines of the file
+  pfaff import arm.xml --out arm.toml --keyframe home  starts at a keyframe of the file
+  pfaff import arm.xml --out - | pfaff analyze -
+
+What a scene cannot express is not invented: it stands at the head of the scene, and in the answer.";
+
 pub(super) const VIEW: &str = "Examples:
   pfaff view robot-trolley.toml                 writes the page robot-trolley.html and opens it
   pfaff view robot-trolley.toml --out picture.svg --no-open

@@ -98,7 +98,7 @@ const OF_PLACES: [Fault; 1] = [Fault {
 }];
 
 /// The commands with arguments that are right, and whether these end with a scene and with a place.
-const COMMANDS: [(&str, &str, bool, bool); 15] = [
+const COMMANDS: [(&str, &str, bool, bool); 16] = [
     ("analyze", "-", true, false),
     ("simulate", "- --out run --t-end 1", true, true),
     ("plan", "-", true, false),
@@ -113,6 +113,7 @@ const COMMANDS: [(&str, &str, bool, bool); 15] = [
     ("equilibrium", "- --out rest", true, true),
     ("linearise", "- --out modes", true, true),
     ("new", "door", false, true),
+    ("import", "- --out -", false, false),
     ("view", "- --no-open", true, true),
     ("diff", "- ./door.toml", true, false),
     ("explain", "P0102", false, false),
@@ -122,7 +123,7 @@ const COMMANDS: [(&str, &str, bool, bool); 15] = [
 ];
 
 /// Further faults of single commands.
-const OF_ONE: [(&str, &str, &str); 18] = [
+const OF_ONE: [(&str, &str, &str); 22] = [
     ("linearise", "- --coordinates leaf.tilt", "P0222"),
     ("linearise", "- --at-time soon", "P0001"),
     ("analyze", "- --drop 0", "P0001"),
@@ -139,6 +140,10 @@ const OF_ONE: [(&str, &str, &str); 18] = [
     ("sweep", "--merge . --out sweep", "P0507"),
     ("view", "- --out picture.png", "P0001"),
     ("new", "no-such-template", "P0001"),
+    ("import", "-", "P0001"),
+    ("import", "- --out -", "P0601"),
+    ("import", "no-such-file.xml --out -", "P0002"),
+    ("import", "taken --out -", "P0601"),
     ("explain", "P9999", "P0001"),
     ("man", "analyze too many", "P0001"),
 ];

@@ -145,6 +145,40 @@ pub struct NewDocument<'a> {
     pub file: &'a str,
 }
 
+/// A scene that was made of a file of another format.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ImportDocument<'a> {
+    /// `true`
+    pub ok: bool,
+    /// Format of the file.
+    pub source_format: &'a str,
+    /// The scene file.
+    pub file: &'a str,
+    /// Number of bodies.
+    pub bodies: usize,
+    /// Number of joints and couplings.
+    pub joints: usize,
+    /// Statements about the scene as a whole.
+    pub remarks: &'a [String],
+    /// What the scene does not contain.
+    pub left_out: Vec<OmissionDocument<'a>>,
+    /// The first error of the scene, where it has one.
+    pub scene_error: Option<String>,
+}
+
+/// Something of a file that its scene does not contain.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OmissionDocument<'a> {
+    /// What kind of thing.
+    pub kind: &'a str,
+    /// Which one.
+    pub subject: &'a str,
+    /// Its file, if it is an included one.
+    pub file: Option<&'a str>,
+    /// Its line.
+    pub line: usize,
+}
+
 /// All templates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TemplatesDocument<'a> {

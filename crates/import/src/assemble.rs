@@ -1,0 +1,278 @@
+//! A pose at which loops are closed, found from a guess by least squares in the coordinates of the
+//! joints that place links; by continuation from the gaps of the guess, and from other guesses,
+//! where that fails.
+
+mod loops;
+
+use nalgebra::{DMatrix, DVector, Isometry3, Vector3};
+
+use crate::couple;
+use crate::limits::{ASSEMBLED, CLOSED, GUESSES, ITERATIONS, MOST_COORDINATES};
+use crate::mechanism::{Kind, Model};
+use crate::pose::{Placed, displaced, rotation};
+use loops::{Gap, Tree};
+
+/// A pose of all links.
+pub(crate) struct Assembled {
+    poses: Vec<Isometry3<f64>>,
+    /// For each joint, changes of its coordinates since the described pose.
+    moved: Vec<[f64; 2]>,
+    /// Displacements of the joints.
+    displacements: Vec<Isometry3<f64>>,
+    /// The largest gap that is left, as a share of the size or in rad.
+    pub(crate) gap: f64,
+    /// How it was found, in words.
+    pub(crate) way: &'static str,
+}
+
+/// Why there is none.
+pub(crate) enum NotAssembled {
+    /// The loop with the largest gap at the best pose, and this gap.
+    Open(String, f64),
+    /// More coordinates than are tried.
+    TooLarge(usize),
+}
+
+/// Whether loops are open at the described pose: the largest gap.
+pub(crate) fn gap(model: &Model) -> f64 {
+    let tree = Tree::new(model);
+    let state = State::new(model, &[]);
+    let gaps = tree.gaps(model, &state.poses(model), &state.q);
+    gaps.iter().map(Gap::size).fold(0.0, f64::max)
+}
+
+/// Assembles a model from a guess of changes of its coordinates.
+pub(crate) fn assemble(
+    model: &Model,
+    guess: &[(usize, usize, f64)],
+) -> Result<Assembled, NotAssembled> {
+    let tree = Tree::new(model);
+    let n = tree.freedoms.len();
+    if n > MOST_COORDINATES {
+        return Err(NotAssembled::TooLarge(n));
+    }
+    let first = State::new(model, guess);
+    let mut best = first.clone();
+    let mut least = best.descend(model, &tree, None);
+    let mut way = "from the guess";
+    if least > ASSEMBLED {
+        let mut state = first.clone();
+        let found = state.continue_from(model, &tree);
+        if found < least {
+            (best, least, way) = (state, found, "by continuation from the guess");
+        }
+    }
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    for _ in 0..GUESSES {
+        if least <= ASSEMBLED {
+            break;
+        }
+        let mut state = first.clone();
+        state.shake(model, &mut random);
+        let found = state.descend(model, &tree, None);
+        if found < least {
+            (best, least, way) = (state, found, "from another guess, found at random");
+        }
+    }
+    let poses = best.poses(model);
+    if least > CLOSED {
+        let gaps = tree.gaps(model, &poses, &best.q);
+        let worst = gaps.iter().max_by(|a, b| a.size().total_cmp(&b.size()));
+        let name = worst.map_or_else(String::new, |gap| gap.name.clone());
+        return Err(NotAssembled::Open(name, least));
+    }
+    Ok(Assembled {
+        poses,
+        moved: best.q,
+        displacements: best.moved,
+        gap: least,
+        way,
+    })
+}
+
+/// Makes a pose the described one: springs, couplings and what welds keep still refer to that of
+/// the file. Springs of spherical joints that have turned cannot: they are removed, and their
+/// joints named.
+pub(crate) fn describe(model: &mut Model, found: &Assembled) -> Vec<String> {
+    let mut removed = Vec::new();
+    for k in 0..model.joints.len() {
+        let [a, b] = model.joints[k].links.map(|link| model.pose(link).rotation);
+        let joint = &mut model.joints[k];
+        let keeps = matches!(joint.kind, Kind::Fixed | Kind::Translational);
+        if keeps && !joint.places && joint.frames.is_none() {
+            joint.frames = Some([a.inverse() * b, Default::default()]);
+        }
+        for c in 0..2 {
+            joint.zero[c] += found.moved[k][c];
+        }
+        let turned = found.displacements[k] != Isometry3::identity();
+        if joint.kind == Kind::Spherical && joint.loads[0].stiffness != 0.0 && turned {
+            joint.loads[0].stiffness = 0.0;
+            removed.push(joint.name.clone());
+        }
+    }
+    for coupling in &mut model.couplings {
+        let x = coupling.x.map_or(0.0, |(joint, c)| found.moved[joint][c]);
+        coupling.coefficients = couple::about(&coupling.coefficients, x);
+    }
+    for (link, pose) in model.links.iter_mut().zip(&found.poses) {
+        link.pose = *pose;
+    }
+    removed
+}
+
+/// Coordinates of all joints.
+#[derive(Clone)]
+struct State {
+    q: Vec<[f64; 2]>,
+    /// Displacements of the joints.
+    moved: Vec<Isometry3<f64>>,
+}
+
+impl State {
+    fn new(model: &Model, guess: &[(usize, usize, f64)]) -> Self {
+        let mut q = vec![[0.0; 2]; model.joints.len()];
+        for &(joint, coordinate, value) in guess {
+            q[joint][coordinate] = value;
+        }
+        let moved = vec![Isometry3::identity(); model.joints.len()];
+        let mut state = Self { q, moved };
+        for joint in 0..model.joints.len() {
+            state.follow(model, joint);
+        }
+        state
+    }
+
+    /// Takes the displacement of a joint from its coordinates, if it has any.
+    fn follow(&mut self, model: &Model, joint: usize) {
+        let of = &model.joints[joint];
+        let n = of.kind.measures().len();
+        if n > 0 {
+            self.moved[joint] = Placed::of(model, of).displacement(of.kind, &self.q[joint][..n]);
+        }
+    }
+
+    fn displacements(&self, model: &Model) -> Vec<Isometry3<f64>> {
+        displaced(model, &self.moved)
+    }
+
+    fn poses(&self, model: &Model) -> Vec<Isometry3<f64>> {
+        let displaced = self.displacements(model);
+        let links = model.links.iter().zip(displaced);
+        links.map(|(link, g)| g * link.pose).collect()
+    }
+
+    /// Other values of all coordinates.
+    fn shake(&mut self, model: &Model, random: &mut Random) {
+        for (k, joint) in model
+            .joints
+            .iter()
+            .enumerate()
+            .filter(|(_, joint)| joint.places)
+        {
+            for c in 0..joint.kind.measures().len() {
+                let range = match joint.kind.measures()[c] {
+                    "displacement" => 0.2,
+                    _ => 1.5,
+                };
+                self.q[k][c] += range * random.signed();
+            }
+            if joint.kind == Kind::Spherical {
+                let axis = Vector3::new(random.signed(), random.signed(), random.signed());
+                let place = Placed::of(model, joint);
+                let turn = place.turn(rotation(
+                    axis.try_normalize(1e-9).unwrap_or_default(),
+                    random.signed(),
+                ));
+                self.moved[k] = turn * self.moved[k];
+            }
+            self.follow(model, k);
+        }
+    }
+
+    /// Closes the loops in steps: gaps of the guess are made smaller by and by.
+    fn continue_from(&mut self, model: &Model, tree: &Tree) -> f64 {
+        let start = tree.residual(model, &self.poses(model), &self.q);
+        let (mut share, mut step): (f64, f64) = (1.0, 0.125);
+        while share > 0.0 && step > 1e-3 {
+            let next = (share - step).max(0.0);
+            let mut trial = self.clone();
+            let target = &start * next;
+            if trial.descend(model, tree, Some(&target)) <= ASSEMBLED {
+                *self = trial;
+                share = next;
+                step *= 1.5;
+            } else {
+                step *= 0.5;
+            }
+        }
+        self.descend(model, tree, None)
+    }
+
+    /// Least squares by steps of Levenberg and Marquardt towards a target, by default zero; returns
+    /// the largest residual.
+    fn descend(&mut self, model: &Model, tree: &Tree, target: Option<&DVector<f64>>) -> f64 {
+        let off = |state: &Self| {
+            let r = tree.residual(model, &state.poses(model), &state.q);
+            target.map_or_else(|| r.clone(), |target| &r - target)
+        };
+        let mut r = off(self);
+        let mut damping = 1e-3;
+        for _ in 0..ITERATIONS {
+            if r.amax() <= ASSEMBLED * 1e-3 {
+                break;
+            }
+            let j = tree.jacobian(model, &self.displacements(model), &self.q);
+            let (normal, gradient) = (j.transpose() * &j, j.transpose() * &r);
+            let mut improved = false;
+            for _ in 0..12 {
+                let n = normal.nrows();
+                let damped = &normal + DMatrix::identity(n, n) * damping;
+                let Some(factor) = damped.cholesky() else {
+                    damping *= 8.0;
+                    continue;
+                };
+                let mut step = factor.solve(&gradient);
+                // Half a radian, or half of the size, at most.
+                let longest = step.amax();
+                if longest > 0.5 {
+                    step *= 0.5 / longest;
+                }
+                let mut trial = self.clone();
+                tree.advance(model, &mut trial, &(-step));
+                let found = off(&trial);
+                if found.norm() < r.norm() {
+                    *self = trial;
+                    r = found;
+                    damping = (damping * 0.1).max(1e-14);
+                    improved = true;
+                    break;
+                }
+                damping *= 8.0;
+            }
+            if !improved {
+                break;
+            }
+        }
+        let largest = r.amax();
+        if largest.is_finite() {
+            largest
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+/// A generator of numbers (xorshift64*).
+struct Random(u64);
+
+impl Random {
+    /// A number from −1 to 1.
+    fn signed(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        let high = u32::try_from(self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 32).unwrap_or(0);
+        f64::from(high) / f64::from(u32::MAX) * 2.0 - 1.0
+    }
+}

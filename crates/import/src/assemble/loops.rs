@@ -1,0 +1,324 @@
+//! What loops miss at a pose, and how that changes with the coordinates of the joints.
+
+use nalgebra::{DMatrix, DVector, Isometry3, Point3, UnitQuaternion, Vector3};
+
+use super::State;
+use crate::mechanism::{Joint, Kind, Model};
+use crate::pose::{Placed, placing, rotation};
+
+/// A way in which a joint moves the links behind it.
+#[derive(Clone, Copy)]
+pub(super) struct Freedom {
+    joint: usize,
+    kind: Way,
+}
+
+#[derive(Clone, Copy)]
+enum Way {
+    /// A coordinate of the joint.
+    Coordinate(usize),
+    /// A turn about the k-th axis of the ground through its point.
+    Turn(usize),
+    /// A shift along the k-th axis of the ground.
+    Shift(usize),
+}
+
+/// What one loop or coupling misses.
+pub(super) struct Gap {
+    pub(super) name: String,
+    rows: Vec<f64>,
+}
+
+impl Gap {
+    pub(super) fn size(&self) -> f64 {
+        self.rows.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+    }
+}
+
+/// The tree of links with what moves it.
+pub(super) struct Tree {
+    pub(super) freedoms: Vec<Freedom>,
+    /// For each link the joints between the ground and it.
+    chains: Vec<Vec<usize>>,
+    /// Length by which gaps between points are divided (m).
+    size: f64,
+}
+
+impl Tree {
+    pub(super) fn new(model: &Model) -> Self {
+        let before = placing(model);
+        let chains: Vec<Vec<usize>> = (0..model.links.len())
+            .map(|link| {
+                let (mut chain, mut at) = (Vec::new(), Some(link));
+                while let Some(joint) = at.and_then(|link| before[link]) {
+                    chain.push(joint);
+                    if chain.len() > model.joints.len() {
+                        break;
+                    }
+                    at = model.joints[joint].links[0];
+                }
+                chain
+            })
+            .collect();
+        let closing = |joint: &&Joint| !joint.places && joint.is_active;
+        let mut moves = vec![false; model.joints.len()];
+        for link in model
+            .joints
+            .iter()
+            .filter(closing)
+            .flat_map(|joint| joint.links)
+            .flatten()
+        {
+            for &joint in &chains[link] {
+                moves[joint] = true;
+            }
+        }
+        for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
+            moves[coupling.y.0] = true;
+        }
+        let mut freedoms = Vec::new();
+        for (k, joint) in model.joints.iter().enumerate().filter(|(k, _)| moves[*k]) {
+            let mut add = |kind| freedoms.push(Freedom { joint: k, kind });
+            match joint.kind {
+                Kind::Spherical => (0..3).for_each(|axis| add(Way::Turn(axis))),
+                // Out of the plane the steps are taken back by the loops alone: planar joints of a
+                // tree stay where they are.
+                Kind::Fixed | Kind::Free | Kind::Planar => {}
+                kind => (0..kind.measures().len()).for_each(|c| add(Way::Coordinate(c))),
+            }
+            if joint.kind == Kind::Free {
+                (0..3).for_each(|axis| add(Way::Shift(axis)));
+                (0..3).for_each(|axis| add(Way::Turn(axis)));
+            }
+        }
+        let points = model.links.iter().map(|link| link.pose.translation.vector);
+        let (low, high) = points.fold(
+            (
+                Vector3::repeat(f64::INFINITY),
+                Vector3::repeat(f64::NEG_INFINITY),
+            ),
+            |(low, high), p| (low.inf(&p), high.sup(&p)),
+        );
+        let size = (high - low).norm();
+        let size = if size > 0.0 && size.is_finite() {
+            size
+        } else {
+            1.0
+        };
+        Self {
+            freedoms,
+            chains,
+            size,
+        }
+    }
+
+    /// What every active loop and coupling misses at these poses.
+    pub(super) fn gaps(&self, model: &Model, poses: &[Isometry3<f64>], q: &[[f64; 2]]) -> Vec<Gap> {
+        let closing = model
+            .joints
+            .iter()
+            .filter(|joint| !joint.places && joint.is_active);
+        let mut gaps: Vec<Gap> = closing
+            .filter(|joint| joint.kind != Kind::Free)
+            .map(|joint| Gap {
+                name: joint.name.clone(),
+                rows: self.miss(model, joint, poses),
+            })
+            .collect();
+        for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
+            let (joint, c) = coupling.y;
+            let x = coupling.x.map_or(0.0, |(joint, c)| q[joint][c]);
+            let value = coupling
+                .coefficients
+                .iter()
+                .rev()
+                .fold(0.0, |sum, c| sum * x + c);
+            gaps.push(Gap {
+                name: coupling.name.clone(),
+                rows: vec![q[joint][c] - value],
+            });
+        }
+        gaps
+    }
+
+    pub(super) fn residual(
+        &self,
+        model: &Model,
+        poses: &[Isometry3<f64>],
+        q: &[[f64; 2]],
+    ) -> DVector<f64> {
+        let gaps = self.gaps(model, poses, q);
+        DVector::from_iterator(
+            gaps.iter().map(|gap| gap.rows.len()).sum(),
+            gaps.iter().flat_map(|gap| gap.rows.iter().copied()),
+        )
+    }
+
+    /// The misses of one joint: of points as a share of the size, of directions in rad.
+    fn miss(&self, model: &Model, joint: &Joint, poses: &[Isometry3<f64>]) -> Vec<f64> {
+        let of =
+            |side: usize| joint.links[side].map_or_else(Isometry3::identity, |link| poses[link]);
+        let at = [of(0), of(1)];
+        let point = |side: usize| (at[side] * Point3::from(joint.points[side])).coords;
+        let apart = (point(1) - point(0)) / self.size;
+        let axes = [0, 1].map(|side| at[side].rotation * joint.axes[side]);
+        let across = apart - axes[0] * axes[0].dot(&apart);
+        let tilt = axes[0].cross(&axes[1]);
+        let frames = joint
+            .frames
+            .unwrap_or_else(|| joint.links.map(|link| model.pose(link).rotation.inverse()));
+        let turned: UnitQuaternion<f64> =
+            (at[1].rotation * frames[1]) * (at[0].rotation * frames[0]).inverse();
+        let parts: Vec<Vector3<f64>> = match joint.kind {
+            Kind::Spherical => vec![apart],
+            Kind::Revolute => vec![apart, tilt],
+            Kind::Fixed => vec![apart, turned.scaled_axis()],
+            Kind::Translational => vec![across, turned.scaled_axis()],
+            Kind::Cylindrical | Kind::Screw(_) => vec![across, tilt],
+            Kind::Planar => vec![apart - across, tilt],
+            Kind::Universal => {
+                let right = axes[0].dot(&(at[1].rotation * joint.cross));
+                let mut rows: Vec<f64> = apart.iter().copied().collect();
+                rows.push(right);
+                return rows;
+            }
+            Kind::Free => Vec::new(),
+        };
+        parts
+            .iter()
+            .flat_map(|part| part.iter().copied().collect::<Vec<_>>())
+            .collect()
+    }
+
+    /// Derivatives of the residuals by the freedoms, by central differences of rigid motions.
+    pub(super) fn jacobian(
+        &self,
+        model: &Model,
+        displaced: &[Isometry3<f64>],
+        q: &[[f64; 2]],
+    ) -> DMatrix<f64> {
+        /// Step of the difference: its error is some 1e-10, which costs a step of Newton nothing.
+        const STEP: f64 = 1e-5;
+        let poses: Vec<Isometry3<f64>> = displaced
+            .iter()
+            .zip(&model.links)
+            .map(|(g, link)| g * link.pose)
+            .collect();
+        let rows = self.residual(model, &poses, q).len();
+        let mut out = DMatrix::zeros(rows, self.freedoms.len());
+        for (column, freedom) in self.freedoms.iter().enumerate() {
+            let screw = self.screw(model, displaced, q, *freedom);
+            let moved = |by: f64| {
+                let motion = screw.motion(by * self.unit(model, *freedom));
+                let mut poses = poses.clone();
+                for (link, chain) in self.chains.iter().enumerate() {
+                    if chain.contains(&freedom.joint) {
+                        poses[link] = motion * poses[link];
+                    }
+                }
+                let mut q = q.to_vec();
+                if let Way::Coordinate(c) = freedom.kind {
+                    q[freedom.joint][c] += by * self.unit(model, *freedom);
+                }
+                self.residual(model, &poses, &q)
+            };
+            let difference = (moved(STEP) - moved(-STEP)) / (2.0 * STEP);
+            out.set_column(column, &difference);
+        }
+        out
+    }
+
+    /// Lengths are counted in sizes.
+    fn unit(&self, model: &Model, freedom: Freedom) -> f64 {
+        match freedom.kind {
+            Way::Shift(_) => self.size,
+            Way::Turn(_) => 1.0,
+            Way::Coordinate(c) => match model.joints[freedom.joint].kind.measures()[c] {
+                "displacement" => self.size,
+                _ => 1.0,
+            },
+        }
+    }
+
+    fn screw(
+        &self,
+        model: &Model,
+        displaced: &[Isometry3<f64>],
+        q: &[[f64; 2]],
+        freedom: Freedom,
+    ) -> Screw {
+        let joint = &model.joints[freedom.joint];
+        let place = Placed::of(model, joint);
+        let g = joint.links[0].map_or_else(Isometry3::identity, |link| displaced[link]);
+        let point = (g * Point3::from(place.point)).coords;
+        let axis = g.rotation * place.axis;
+        let turn = |axis| Screw {
+            point,
+            axis,
+            turns: true,
+            advance: 0.0,
+        };
+        let shift = |axis| Screw {
+            point,
+            axis,
+            turns: false,
+            advance: 0.0,
+        };
+        let unit = |k: usize| Vector3::ith(k, 1.0);
+        match (freedom.kind, joint.kind) {
+            (Way::Turn(k), _) => turn(unit(k)),
+            (Way::Shift(k), _) => shift(unit(k)),
+            (Way::Coordinate(0), Kind::Translational | Kind::Cylindrical) => shift(axis),
+            (Way::Coordinate(1), Kind::Universal) => {
+                let first = rotation(place.axis, q[freedom.joint][0]);
+                turn(g.rotation * (first * place.cross))
+            }
+            (Way::Coordinate(_), Kind::Screw(pitch)) => Screw {
+                advance: pitch / std::f64::consts::TAU,
+                ..turn(axis)
+            },
+            (Way::Coordinate(_), _) => turn(axis),
+        }
+    }
+
+    /// Moves a state along the freedoms.
+    pub(super) fn advance(&self, model: &Model, state: &mut State, step: &DVector<f64>) {
+        let displaced = state.displacements(model);
+        for (freedom, by) in self.freedoms.iter().zip(step.iter()) {
+            let by = by * self.unit(model, *freedom);
+            match freedom.kind {
+                Way::Coordinate(c) => state.q[freedom.joint][c] += by,
+                Way::Turn(_) | Way::Shift(_) => {
+                    let joint = &model.joints[freedom.joint];
+                    let g = joint.links[0].map_or_else(Isometry3::identity, |link| displaced[link]);
+                    let motion = self.screw(model, &displaced, &state.q, *freedom).motion(by);
+                    let own = g.inverse() * motion * g;
+                    state.moved[freedom.joint] = own * state.moved[freedom.joint];
+                }
+            }
+        }
+        for freedom in &self.freedoms {
+            state.follow(model, freedom.joint);
+        }
+    }
+}
+
+/// A rigid motion of one freedom, in ground axes.
+struct Screw {
+    point: Vector3<f64>,
+    axis: Vector3<f64>,
+    turns: bool,
+    /// Metres per radian.
+    advance: f64,
+}
+
+impl Screw {
+    fn motion(&self, by: f64) -> Isometry3<f64> {
+        if !self.turns {
+            return Isometry3::from_parts((self.axis * by).into(), UnitQuaternion::identity());
+        }
+        let turned = rotation(self.axis, by);
+        let shift = self.point - turned * self.point + self.axis * (self.advance * by);
+        Isometry3::from_parts(shift.into(), turned)
+    }
+}

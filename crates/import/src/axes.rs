@@ -1,0 +1,203 @@
+//! Axes of loops that are nearly parallel, or nearly meet: rounded digits, or a tilt that is meant.
+//! They are named, and on request made so.
+
+use std::cmp::Reverse;
+
+use nalgebra::{Isometry3, Point3, Vector3};
+
+use crate::findings::Findings;
+use crate::limits::{EXACT, NEARLY, SNAPPED};
+use crate::mechanism::{Kind, Model};
+use crate::pose::placing;
+
+/// Whether axes are made parallel, or only told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// They are told.
+    Told,
+    /// Those that nearly are parallel or meet are made so, and by how much is told.
+    Snapped,
+}
+
+/// An axis at the start, in ground axes.
+#[derive(Clone, Copy)]
+struct Axis {
+    joint: usize,
+    point: Vector3<f64>,
+    direction: Vector3<f64>,
+}
+
+/// Names axes of each loop that nearly are parallel or meet. `poses` are those of the links at the
+/// start, `tolerance` what lengths and angles are known to.
+pub(crate) fn look(
+    model: &mut Model,
+    poses: &[Isometry3<f64>],
+    tolerance: [Option<f64>; 2],
+    axes: Axes,
+    findings: &mut Findings,
+) {
+    let [length, angle] = tolerance;
+    let near = SNAPPED.max(3.0 * angle.unwrap_or(0.0));
+    let mut told = std::collections::BTreeSet::new();
+    for loop_ in loops(model) {
+        let mut of: Vec<Axis> = loop_
+            .iter()
+            .filter_map(|&joint| axis(model, poses, joint))
+            .collect();
+        // The reference is the axis that most others of the loop agree with.
+        let agree = |a: &Axis, within: f64| of.iter().filter(|b| tilt(a, b) <= within).count();
+        let votes: Vec<usize> = of
+            .iter()
+            .map(|a| agree(a, EXACT.max(angle.unwrap_or(0.0))))
+            .collect();
+        let Some(best) = (0..of.len()).max_by_key(|&k| (votes[k], Reverse(of[k].joint))) else {
+            continue;
+        };
+        let reference = of[best];
+        for axis in &mut of {
+            let off = tilt(&reference, axis);
+            if off <= EXACT || off > NEARLY || !told.insert((reference.joint, axis.joint)) {
+                continue;
+            }
+            let mut members = loop_.clone();
+            members.sort_unstable();
+            let others: Vec<String> = members
+                .iter()
+                .filter(|&&joint| joint != axis.joint)
+                .filter(|&&joint| {
+                    self::axis(model, poses, joint).is_some_and(|other| {
+                        tilt(&reference, &other) <= EXACT.max(angle.unwrap_or(0.0))
+                    })
+                })
+                .map(|&joint| format!("`{}`", model.joints[joint].name))
+                .collect();
+            let name = &model.joints[axis.joint].name;
+            let what = format!(
+                "The axis of `{name}` is tilted by {off:.2e} rad against {} of its loop",
+                others.join(", ")
+            );
+            if axes == Axes::Snapped && off <= near {
+                findings
+                    .remarks
+                    .push(format!("{what}; it is made parallel."));
+                let sign = reference.direction.dot(&axis.direction).signum();
+                turn(model, poses, axis.joint, reference.direction * sign);
+                axis.direction = reference.direction * sign;
+            } else {
+                let within = if angle.is_some_and(|angle| off <= angle) {
+                    ", within the digits of the file"
+                } else {
+                    ""
+                };
+                let advice = if off <= near {
+                    " (--snap makes it parallel)"
+                } else {
+                    ""
+                };
+                findings.remarks.push(format!("{what}{within}{advice}."));
+            }
+        }
+        let Some(length) = length else { continue };
+        for pair in of.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let normal = a.direction.cross(&b.direction);
+            if normal.norm() <= NEARLY {
+                continue;
+            }
+            let normal = normal.normalize();
+            let off = normal.dot(&(b.point - a.point));
+            if off.abs() <= length * 1e-6
+                || off.abs() > 2.0 * length
+                || !told.insert((a.joint, b.joint))
+            {
+                continue;
+            }
+            let [one, two] = [a, b].map(|axis| &model.joints[axis.joint].name);
+            let what = format!(
+                "The axes of `{one}` and `{two}` meet to {:.2e} m, within the digits of the file",
+                off.abs()
+            );
+            if axes == Axes::Snapped {
+                findings
+                    .remarks
+                    .push(format!("{what}; they are made to meet."));
+                shift(model, poses, b.joint, -normal * off);
+            } else {
+                findings
+                    .remarks
+                    .push(format!("{what} (--snap makes them meet)."));
+            }
+        }
+    }
+}
+
+/// Angle between two lines, sense not counted.
+fn tilt(a: &Axis, b: &Axis) -> f64 {
+    let sine = a.direction.cross(&b.direction).norm();
+    sine.atan2(a.direction.dot(&b.direction).abs())
+}
+
+fn axis(model: &Model, poses: &[Isometry3<f64>], joint: usize) -> Option<Axis> {
+    let of = &model.joints[joint];
+    let has_axis = matches!(
+        of.kind,
+        Kind::Revolute | Kind::Translational | Kind::Cylindrical | Kind::Screw(_)
+    );
+    let pose = of.links[1].map_or_else(Isometry3::identity, |link| poses[link]);
+    has_axis.then(|| Axis {
+        joint,
+        point: (pose * Point3::from(of.points[1])).coords,
+        direction: pose.rotation * of.axes[1],
+    })
+}
+
+/// Gives a joint another direction of its axis.
+fn turn(model: &mut Model, poses: &[Isometry3<f64>], joint: usize, direction: Vector3<f64>) {
+    let of = &mut model.joints[joint];
+    for side in 0..2 {
+        let pose = of.links[side].map_or_else(Isometry3::identity, |link| poses[link]);
+        of.axes[side] = pose.rotation.inverse() * direction;
+    }
+}
+
+/// Shifts the point of a joint.
+fn shift(model: &mut Model, poses: &[Isometry3<f64>], joint: usize, by: Vector3<f64>) {
+    let of = &mut model.joints[joint];
+    for side in 0..2 {
+        let pose = of.links[side].map_or_else(Isometry3::identity, |link| poses[link]);
+        of.points[side] += pose.rotation.inverse() * by;
+    }
+}
+
+/// The joints of each loop: one that closes it, and those of the tree between its links.
+fn loops(model: &Model) -> Vec<Vec<usize>> {
+    let before = placing(model);
+    let chain = |link: Option<usize>| {
+        let (mut out, mut at) = (Vec::new(), link);
+        while let Some(joint) = at.and_then(|link| before[link]) {
+            out.push(joint);
+            if out.len() > model.joints.len() {
+                break;
+            }
+            at = model.joints[joint].links[0];
+        }
+        out
+    };
+    let closing = model.joints.iter().enumerate();
+    let closing =
+        closing.filter(|(_, joint)| !joint.places && joint.is_active && joint.kind != Kind::Free);
+    closing
+        .map(|(k, joint)| {
+            let [mut a, mut b] = joint.links.map(chain);
+            // What both have in common is no part of the loop.
+            while a.last().is_some() && a.last() == b.last() {
+                a.pop();
+                b.pop();
+            }
+            a.reverse();
+            a.push(k);
+            a.extend(b);
+            a
+        })
+        .collect()
+}

@@ -1,0 +1,102 @@
+//! Couplings that are not satisfied where the file describes the links: a coordinate that follows
+//! another one is described where the coupling puts it.
+
+use nalgebra::Isometry3;
+
+use crate::findings::Findings;
+use crate::mechanism::{Kind, Model};
+use crate::pose::{Placed, displaced};
+
+/// Value of a polynomial.
+fn value(coefficients: &[f64], x: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
+}
+
+/// Coefficients of P(s + x) − P(s) for changes of x.
+pub(crate) fn about(coefficients: &[f64], s: f64) -> Vec<f64> {
+    let mut shifted = coefficients.to_vec();
+    if s != 0.0 {
+        let n = shifted.len();
+        // Horner's scheme again and again: the Taylor coefficients at s.
+        for first in 0..n {
+            for k in (first..n.saturating_sub(1)).rev() {
+                shifted[k] += s * shifted[k + 1];
+            }
+        }
+    }
+    if let Some(constant) = shifted.first_mut() {
+        *constant = 0.0;
+    }
+    shifted
+}
+
+/// Moves what couplings place, and makes their polynomials ones of changes.
+pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
+    let mut shifts = vec![[0.0; 2]; model.joints.len()];
+    // A chain of couplings is settled after as many rounds as it is long.
+    for _ in 0..=model.couplings.len() {
+        let before = shifts.clone();
+        for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
+            let x = coupling.x.map_or(0.0, |(joint, k)| before[joint][k]);
+            let (joint, k) = coupling.y;
+            if model.joints[joint].places {
+                shifts[joint][k] = value(&coupling.coefficients, x);
+            }
+        }
+        if shifts == before {
+            break;
+        }
+    }
+    for coupling in &mut model.couplings {
+        let x = coupling.x.map_or(0.0, |(joint, k)| shifts[joint][k]);
+        coupling.coefficients = about(&coupling.coefficients, x);
+        // What follows nothing is held.
+        if coupling.coefficients.iter().all(|c| *c == 0.0) {
+            coupling.x = None;
+        }
+    }
+    if shifts.iter().flatten().all(|shift| *shift == 0.0) {
+        return;
+    }
+    let moved: Vec<Isometry3<f64>> = model
+        .joints
+        .iter()
+        .zip(&shifts)
+        .map(|(joint, shift)| match joint.kind {
+            Kind::Spherical | Kind::Free | Kind::Fixed | Kind::Planar => Isometry3::identity(),
+            kind => {
+                let n = kind.measures().len();
+                Placed::of(model, joint).displacement(kind, &shift[..n])
+            }
+        })
+        .collect();
+    let links = displaced(model, &moved);
+    for (link, g) in model.links.iter_mut().zip(links) {
+        link.pose = g * link.pose;
+    }
+    let mut names = Vec::new();
+    for (joint, shift) in model.joints.iter_mut().zip(&shifts) {
+        for k in 0..2 {
+            joint.zero[k] += shift[k];
+        }
+        if shift.iter().any(|x| *x != 0.0) {
+            names.push(format!("`{}`", joint.name));
+        }
+    }
+    findings.remarks.push(format!(
+        "These joints are described where couplings put them, not at zero: {}.",
+        names.join(", ")
+    ));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_of_changes() {
+        // (2 + x)³ − 8 = 12·x + 6·x² + x³
+        assert_eq!(about(&[5.0, 0.0, 0.0, 1.0], 2.0), [0.0, 12.0, 6.0, 1.0]);
+        assert_eq!(value(&[1.0, 2.0, 3.0], 2.0), 17.0);
+    }
+}

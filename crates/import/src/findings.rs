@@ -1,0 +1,289 @@
+//! What is found while a file is read: problems that refuse it, what is left out of the scene, and
+//! how many digits its numbers have.
+
+use std::ops::Range;
+
+use model::codes::Code;
+use scene::{Diagnostic, SourceText};
+
+use crate::digits::Digits;
+use crate::limits::{LARGEST_NUMBER, MOST_PROBLEMS};
+use crate::xml::{Element, Value};
+
+/// A kind of fault of a file.
+#[derive(Clone, Copy)]
+pub(crate) enum Fault {
+    /// The root is that of no format that is known.
+    Format,
+    /// An element or attribute is missing.
+    Missing,
+    /// A text is not what is expected: a number, a word, a list of some length.
+    Value,
+    /// A name that nothing has.
+    Unknown,
+    /// A name that two things have.
+    Twice,
+    /// Something that changes the mechanism and cannot be read.
+    Unsupported,
+    /// Links and joints that do not fit together.
+    Structure,
+    /// A number that no body or joint can have.
+    Range,
+    /// A file that is included and cannot be used.
+    Include,
+    /// A file of loop closures that cannot be read.
+    Loops,
+    /// Loops that are open at every pose that is tried.
+    Assembly,
+}
+
+impl Fault {
+    fn code(self) -> Code {
+        match self {
+            Self::Format => const { Code::new(602) },
+            Self::Missing => const { Code::new(604) },
+            Self::Value => const { Code::new(605) },
+            Self::Unknown => const { Code::new(606) },
+            Self::Twice => const { Code::new(607) },
+            Self::Unsupported => const { Code::new(608) },
+            Self::Structure => const { Code::new(609) },
+            Self::Range => const { Code::new(610) },
+            Self::Include => const { Code::new(611) },
+            Self::Loops => const { Code::new(612) },
+            Self::Assembly => const { Code::new(613) },
+        }
+    }
+}
+
+/// Something of the file that the scene does not contain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Omission {
+    /// What kind of thing, in words.
+    pub kind: &'static str,
+    /// Which one.
+    pub subject: String,
+    /// Name of the file, if it is an included one.
+    pub file: Option<String>,
+    /// Its line.
+    pub line: usize,
+}
+
+/// Everything that is found.
+#[derive(Default)]
+pub(crate) struct Findings {
+    problems: Vec<Diagnostic>,
+    more: usize,
+    pub(crate) omissions: Vec<Omission>,
+    /// Statements about the scene as a whole, for its head.
+    pub(crate) remarks: Vec<String>,
+    /// Name of the file that was given; others are included.
+    pub(crate) file: String,
+    pub(crate) lengths: Digits,
+    pub(crate) directions: Digits,
+}
+
+/// What numbers mean, for the count of digits.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Counted {
+    Length,
+    Direction,
+    Not,
+}
+
+impl Findings {
+    pub(crate) fn new(file: &str) -> Self {
+        let file = file.to_owned();
+        Self {
+            file,
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn problem(&mut self, problem: Diagnostic) {
+        if self.problems.len() < MOST_PROBLEMS {
+            self.problems.push(problem);
+        } else {
+            self.more += 1;
+        }
+    }
+
+    pub(crate) fn fault(
+        &mut self,
+        fault: Fault,
+        source: &SourceText,
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+    ) {
+        self.problem(Diagnostic::error(
+            fault.code(),
+            source,
+            span,
+            message,
+            label,
+        ));
+    }
+
+    pub(crate) fn fault_with_help(
+        &mut self,
+        fault: Fault,
+        source: &SourceText,
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Into<Option<String>>,
+    ) {
+        let problem = Diagnostic::error(fault.code(), source, span, message, label);
+        self.problem(problem.help(help));
+    }
+
+    /// A fault of an element.
+    pub(crate) fn of(&mut self, fault: Fault, element: Element, message: impl Into<String>) {
+        self.fault(fault, element.source, element.span(), message, "");
+    }
+
+    /// A fault of a value.
+    pub(crate) fn at(&mut self, fault: Fault, value: &Value, message: impl Into<String>) {
+        self.fault(fault, value.source, value.span.clone(), message, "");
+    }
+
+    pub(crate) fn missing(&mut self, element: Element, what: &str) {
+        let message = format!("`<{}>` needs {what}", element.name());
+        self.of(Fault::Missing, element, message);
+    }
+
+    /// Notes something that the scene does not contain.
+    pub(crate) fn leave(
+        &mut self,
+        kind: &'static str,
+        subject: impl Into<String>,
+        source: &SourceText,
+        line: usize,
+    ) {
+        let file = (source.name() != self.file).then(|| source.name().to_owned());
+        let subject = subject.into();
+        self.omissions.push(Omission {
+            kind,
+            subject,
+            file,
+            line,
+        });
+    }
+
+    /// Notes an element that the scene does not contain.
+    pub(crate) fn leave_element(&mut self, kind: &'static str, element: Element, subject: &str) {
+        self.leave(kind, subject, element.source, element.line());
+    }
+
+    pub(crate) fn has_problems(&self) -> bool {
+        !self.problems.is_empty()
+    }
+
+    /// All problems, if there are any.
+    pub(crate) fn refusal(&mut self) -> Option<(Vec<Diagnostic>, usize)> {
+        let is_fine = self.problems.is_empty();
+        (!is_fine).then(|| (std::mem::take(&mut self.problems), self.more))
+    }
+
+    /// The numbers of a value: finite, at least `least` and at most `most` of them.
+    pub(crate) fn numbers(
+        &mut self,
+        value: &Value,
+        [least, most]: [usize; 2],
+        counted: Counted,
+    ) -> Option<Vec<f64>> {
+        let mut numbers = Vec::new();
+        for word in value.text.split_whitespace() {
+            let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
+            let number = number.filter(|x| x.abs() <= LARGEST_NUMBER);
+            let Some(number) = number else {
+                let shown: String = word.chars().take(40).collect();
+                let message = format!("{}: `{shown}` is not a finite number", value.subject);
+                self.at(Fault::Value, value, message);
+                return None;
+            };
+            if numbers.len() > most {
+                break;
+            }
+            match counted {
+                Counted::Length => self.lengths.see(word),
+                Counted::Direction => self.directions.see(word),
+                Counted::Not => {}
+            }
+            numbers.push(number);
+        }
+        if (least..=most).contains(&numbers.len()) {
+            return Some(numbers);
+        }
+        let need = if least == most {
+            format!("{least}")
+        } else {
+            format!("{least} to {most}")
+        };
+        let found = numbers.len();
+        let message = format!("{}: needs {need} numbers, found {found}", value.subject);
+        self.at(Fault::Value, value, message);
+        None
+    }
+
+    pub(crate) fn number(&mut self, value: &Value, counted: Counted) -> Option<f64> {
+        self.numbers(value, [1, 1], counted)?.first().copied()
+    }
+
+    /// A number ≥ 0.
+    pub(crate) fn not_negative(&mut self, value: &Value, counted: Counted) -> Option<f64> {
+        let number = self.number(value, counted)?;
+        if number < 0.0 {
+            let message = format!("{} is {number}, which may not be negative", value.subject);
+            self.at(Fault::Range, value, message);
+            return None;
+        }
+        Some(number)
+    }
+
+    pub(crate) fn vector(
+        &mut self,
+        value: &Value,
+        counted: Counted,
+    ) -> Option<nalgebra::Vector3<f64>> {
+        let numbers = self.numbers(value, [3, 3], counted)?;
+        Some(nalgebra::Vector3::from_column_slice(&numbers))
+    }
+
+    /// A vector that is not zero, of length 1.
+    pub(crate) fn direction(&mut self, value: &Value) -> Option<nalgebra::Vector3<f64>> {
+        let vector = self.vector(value, Counted::Direction)?;
+        let length = vector.norm();
+        if length > 0.0 && length.is_finite() {
+            return Some(unit(vector));
+        }
+        let message = format!("{} has length zero", value.subject);
+        self.at(Fault::Range, value, message);
+        None
+    }
+
+    /// `true` or `false`.
+    pub(crate) fn boolean(&mut self, value: &Value) -> Option<bool> {
+        match value.text.trim() {
+            "true" | "1" => Some(true),
+            "false" | "0" => Some(false),
+            other => {
+                let shown: String = other.chars().take(40).collect();
+                let message = format!("{}: `{shown}` is neither true nor false", value.subject);
+                self.at(Fault::Value, value, message);
+                None
+            }
+        }
+    }
+}
+
+/// A vector scaled to length 1; one that has it to rounding keeps its digits.
+pub(crate) fn unit(vector: nalgebra::Vector3<f64>) -> nalgebra::Vector3<f64> {
+    let scaled = vector / vector.amax();
+    let length = scaled.norm() * vector.amax();
+    if (length - 1.0).abs() < 4.0 * f64::EPSILON {
+        vector
+    } else {
+        scaled / scaled.norm()
+    }
+}

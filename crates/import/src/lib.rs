@@ -1,0 +1,434 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Code map, in the order of the data
+//!
+//! | module | content |
+//! | --- | --- |
+//! | `limits` | largest sizes |
+//! | `xml`, `files` | guarded parsing, elements with their places; included files |
+//! | `findings` | problems, what is left out, digits of numbers |
+//! | `mjcf`, `urdf` with `loops`, `sdf` | one reader for each format |
+//! | `solids` | what URDF and SDF share |
+//! | `mechanism`, `mass` | links, joints, couplings, keyframes; masses and simple solids |
+//! | `couple` | couplings that are not satisfied where the file describes the links |
+//! | `digits` | what the numbers of a file are known to |
+//! | `pose` | where links are for coordinates of joints |
+//! | `assemble` | poses at which loops are closed |
+//! | `axes` | axes that nearly are parallel or meet |
+//! | `merge` | fixed links become parts of others |
+//! | `names`, `write` | the text of the scene |
+
+mod assemble;
+mod axes;
+mod couple;
+mod digits;
+mod files;
+mod findings;
+mod limits;
+mod loops;
+mod mass;
+mod mechanism;
+mod merge;
+mod mjcf;
+mod names;
+mod pose;
+mod sdf;
+mod solids;
+mod urdf;
+mod write;
+mod xml;
+
+use scene::{Diagnostic, SourceText};
+
+pub use axes::Axes;
+pub use files::Folder;
+pub use findings::Omission;
+
+use findings::{Fault, Findings};
+use mechanism::Model;
+use pose::Motion;
+
+/// How a file is imported.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Where included files are.
+    pub folder: Folder,
+    /// Whether links that are fixed to others stay bodies of their own.
+    pub fixed: FixedLinks,
+    /// What becomes of the root link of a URDF.
+    pub base: Base,
+    /// A file of loop closures of a URDF: its name and its text.
+    pub loops: Option<(String, String)>,
+    /// Values of coordinates of joints near which loops are closed: name of the joint and value (m
+    /// or rad), in the file's sense of the coordinate.
+    pub pose: Vec<(String, f64)>,
+    /// What is done with axes that nearly are parallel or meet.
+    pub axes: Axes,
+    /// The keyframe at which the scene starts; without it, where the file describes the links.
+    pub keyframe: Option<String>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            folder: Folder::None,
+            fixed: FixedLinks::Merged,
+            base: Base::Fixed,
+            loops: None,
+            pose: Vec::new(),
+            axes: Axes::Told,
+            keyframe: None,
+        }
+    }
+}
+
+/// What becomes of links that are fixed to others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FixedLinks {
+    /// They are parts of the others, and markers there.
+    Merged,
+    /// They are bodies with a `fixed` joint.
+    Kept,
+}
+
+/// What becomes of the root link of a URDF, of which the format says nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Base {
+    /// It is fixed to the ground.
+    Fixed,
+    /// It is free.
+    Free,
+}
+
+impl Base {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Fixed, Self::Free];
+
+    /// Its name on a command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Free => "free",
+        }
+    }
+}
+
+/// A scene that was made of a file.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The text of the scene.
+    pub scene: String,
+    /// `MJCF`, `URDF` or `SDF`.
+    pub format: &'static str,
+    /// What the scene does not contain.
+    pub omissions: Vec<Omission>,
+    /// Statements about the scene as a whole, which stand at its head, too.
+    pub remarks: Vec<String>,
+    /// Numbers of bodies and of joints and couplings.
+    pub counts: [usize; 2],
+}
+
+impl Imported {
+    /// What the scene does not contain, kind by kind, in words with lines of the file.
+    #[must_use]
+    pub fn left_out(&self) -> Vec<(&'static str, Vec<String>)> {
+        write::by_kind(&self.omissions)
+    }
+}
+
+/// Why a file is not imported.
+#[derive(Clone, Debug)]
+pub struct Refusal {
+    /// The file with the problems: the given one, or one that it includes.
+    pub file: String,
+    /// Its text.
+    pub text: String,
+    /// The problems.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Refusal {
+    fn of(mut diagnostics: Vec<Diagnostic>, more: usize, texts: &[SourceText]) -> Self {
+        // Places belong to one text: problems of others are told when this one is mended.
+        let file = diagnostics
+            .first()
+            .map_or_else(String::new, |d| d.file.clone());
+        let all = diagnostics.len() + more;
+        diagnostics.retain(|d| d.file == file);
+        let text = texts.iter().find(|text| text.name() == file);
+        let rest = all - diagnostics.len();
+        if let (Some(last), true) = (diagnostics.last_mut(), rest > 0) {
+            let help = last
+                .help
+                .take()
+                .map(|help| format!("{help}; "))
+                .unwrap_or_default();
+            last.help = Some(format!("{help}{rest} more problems are not listed"));
+        }
+        Self {
+            text: text.map_or_else(String::new, |text| text.text().to_owned()),
+            file,
+            diagnostics,
+        }
+    }
+}
+
+/// Imports a text; `name` is that of its file.
+///
+/// ```
+/// let file = r#"<mujoco model="pendulum"><worldbody><body name="rod">
+///   <joint name="hinge" axis="0 1 0"/>
+///   <inertial pos="0 0 -0.5" mass="2" diaginertia="0.17 0.17 0.001"/>
+/// </body></worldbody></mujoco>"#;
+/// let imported = import::import("pendulum.xml", file, &import::Options::default()).unwrap();
+/// assert!(imported.scene.contains("type = \"revolute\""));
+/// assert!(imported.omissions.is_empty());
+/// ```
+///
+/// # Errors
+/// Everything that is wrong with the file, with its places.
+pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Box<Refusal>> {
+    let mut findings = Findings::new(name);
+    let source = SourceText::new(name, text);
+    let loops = options.loops.as_ref();
+    let loops = loops.map(|(name, text)| SourceText::new(name, text));
+    let texts = files::load(source, &options.folder, &mut findings);
+    let refused = |findings: &mut Findings| {
+        let refusal = findings.refusal();
+        let all: Vec<SourceText> = texts.iter().chain(&loops).cloned().collect();
+        refusal.map(|(found, more)| Box::new(Refusal::of(found, more, &all)))
+    };
+    let mut documents = Vec::new();
+    for text in &texts {
+        match xml::parse(text) {
+            Ok(document) => documents.push(document),
+            Err(problem) => return Err(Box::new(Refusal::of(vec![*problem], 0, &texts))),
+        }
+    }
+    let files = files::Files::new(&documents, &texts);
+    let (mut model, format) = read(&files, options, loops.as_ref(), &mut findings);
+    if let Some(refusal) = refused(&mut findings) {
+        return Err(refusal);
+    }
+    check(&model, files.root(), &mut findings);
+    couple::settle(&mut model, &mut findings);
+    let motions = start(&mut model, options, files.root(), &mut findings);
+    if let Some(refusal) = refused(&mut findings) {
+        return Err(refusal);
+    }
+    let (mut motions, moves) = motions.map_or((Vec::new(), false), |(m, moves)| (m, moves));
+    let starts = !motions.is_empty();
+    let tolerance = digits::tolerances(&model, &mut findings);
+    let described = model.links.iter().map(|link| link.pose);
+    let poses: Vec<_> = if starts {
+        motions.iter().map(|motion| motion.pose).collect()
+    } else {
+        described.collect()
+    };
+    axes::look(&mut model, &poses, tolerance, options.axes, &mut findings);
+    if options.fixed == FixedLinks::Merged {
+        merge::merge(&mut model, &mut motions, &mut findings);
+    }
+    if model.links.is_empty() {
+        let message = "every link is fixed to the ground: nothing moves";
+        findings.of(Fault::Structure, files.root(), message);
+    }
+    if let Some(refusal) = refused(&mut findings) {
+        return Err(refusal);
+    }
+    let heading = write::Heading {
+        source: (name, format),
+        tolerance,
+        start: starts.then_some((motions.as_slice(), moves)),
+    };
+    let scene = write::scene(&model, &heading, &mut findings);
+    let joints = model
+        .joints
+        .iter()
+        .filter(|joint| joint.kind.name().is_some())
+        .count();
+    Ok(Imported {
+        scene,
+        format,
+        counts: [model.links.len(), joints + model.couplings.len()],
+        omissions: findings.omissions,
+        remarks: findings.remarks,
+    })
+}
+
+fn read<'a>(
+    files: &'a files::Files<'a>,
+    options: &Options,
+    loops: Option<&SourceText>,
+    findings: &mut Findings,
+) -> (Model, &'static str) {
+    let root = files.root();
+    let (mut model, format) = match root.name() {
+        "mujoco" => (mjcf::read(files, findings), "MJCF"),
+        "robot" => (urdf::read(root, options.base, findings), "URDF"),
+        "sdf" => (sdf::read(root, findings), "SDF"),
+        other => {
+            let shown: String = other.chars().take(40).collect();
+            let message =
+                format!("the root is `<{shown}>`, expected `<mujoco>`, `<robot>` or `<sdf>`");
+            findings.of(Fault::Format, root, message);
+            (Model::default(), "")
+        }
+    };
+    match loops {
+        Some(text) if format == "URDF" && !findings.has_problems() => {
+            urdf::close_loops(&mut model, text, findings);
+        }
+        Some(text) if format != "URDF" => {
+            let message = "a file of loops belongs to a URDF; other formats have loops themselves";
+            findings.fault(Fault::Loops, text, 0..0, message, "");
+        }
+        _ => {}
+    }
+    (model, format)
+}
+
+/// Bodies that no scene can have.
+fn check(model: &Model, root: xml::Element, findings: &mut Findings) {
+    if model.links.is_empty() {
+        findings.of(Fault::Structure, root, "the file has no body");
+    }
+    for link in &model.links {
+        let mass = &link.mass;
+        let is_finite = mass
+            .inertia
+            .iter()
+            .chain(&mass.centre)
+            .all(|x| x.is_finite());
+        let is_fine = is_finite && mass.mass.is_finite();
+        let numbers = link
+            .pose
+            .translation
+            .vector
+            .iter()
+            .chain(link.pose.rotation.coords.iter());
+        if !is_fine || numbers.into_iter().any(|x| !x.is_finite()) {
+            let message = format!("the numbers of body `{}` are too large", link.name);
+            findings.of(Fault::Range, root, message);
+        }
+    }
+}
+
+/// The state at which the scene starts, and whether it has velocities; `None` if it starts as
+/// described.
+fn start(
+    model: &mut Model,
+    options: &Options,
+    root: xml::Element,
+    findings: &mut Findings,
+) -> Option<(Vec<Motion>, bool)> {
+    let told = |state: &mechanism::State| format!("`{}`", state.name);
+    let Some(name) = &options.keyframe else {
+        if !model.states.is_empty() {
+            let names: Vec<String> = model.states.iter().map(told).collect();
+            let names = names.join(", ");
+            findings.remarks.push(format!(
+                "Keyframes of the file (--keyframe NAME starts there): {names}."
+            ));
+        }
+        close(model, &options.pose, root, findings);
+        return None;
+    };
+    let Some(state) = model.states.iter().find(|state| state.name == *name) else {
+        let names: Vec<String> = model.states.iter().map(told).collect();
+        let names = if names.is_empty() {
+            "none".to_owned()
+        } else {
+            names.join(", ")
+        };
+        let message = format!("there is no keyframe `{name}`; there are: {names}");
+        findings.of(Fault::Unknown, root, message);
+        return None;
+    };
+    let motions = pose::at_state(model, &state.q, state.v.as_deref());
+    findings
+        .remarks
+        .push(format!("The scene starts at the keyframe `{name}`."));
+    let moves = state.v.is_some();
+    let q = state.q.clone();
+    for (joint, q) in model.joints.iter_mut().zip(q) {
+        for k in 0..joint.kind.measures().len().min(q.len()) {
+            joint.moved[k] = q[k] - joint.zero[k];
+        }
+    }
+    // Angles of a start have no turns, and couplings count them.
+    for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
+        for (joint, k) in coupling.x.into_iter().chain([coupling.y]) {
+            let joint = &model.joints[joint];
+            let turns = joint.kind.measures().get(k) != Some(&"displacement");
+            if turns && joint.moved[k].abs() > std::f64::consts::PI {
+                let message = format!(
+                    "the keyframe `{name}` turns `{}` by {:.3} rad, more than half a turn, and \
+                     `{}` counts turns from where the file describes the links",
+                    joint.name, joint.moved[k], coupling.name
+                );
+                findings.of(Fault::Unsupported, root, message);
+            }
+        }
+    }
+    Some((motions, moves))
+}
+
+/// Describes the links where loops are closed, if they are open where the file describes them or a
+/// pose is wanted.
+fn close(model: &mut Model, pose: &[(String, f64)], root: xml::Element, findings: &mut Findings) {
+    let mut guess = Vec::new();
+    for (name, value) in pose {
+        let found = model.joints.iter().position(|joint| joint.name == *name);
+        match found.filter(|&joint| !model.joints[joint].kind.measures().is_empty()) {
+            Some(joint) => guess.push((joint, 0, value - model.joints[joint].zero[0])),
+            None => {
+                let names = model.joints.iter().map(|joint| joint.name.as_str());
+                let near = scene::nearest(name, names);
+                let help = near.map(|near| format!("did you mean `{near}`?"));
+                let message = format!("there is no joint `{name}` with a coordinate");
+                let fault = Fault::Unknown;
+                findings.fault_with_help(fault, root.source, root.span(), message, "", help);
+            }
+        }
+    }
+    let open = assemble::gap(model);
+    if findings.has_problems() || (guess.is_empty() && open <= limits::OPEN) {
+        return;
+    }
+    match assemble::assemble(model, &guess) {
+        Ok(found) => {
+            let mut remark = format!(
+                "The links are described at a pose at which loops are closed, found {}; \
+                 where the file describes them, loops are open by {open:.1e} of the size or rad.",
+                found.way
+            );
+            if found.gap > limits::ASSEMBLED {
+                remark += &format!(
+                    " The best pose leaves {:.1e} of the size or rad.",
+                    found.gap
+                );
+            }
+            findings.remarks.push(remark);
+            for joint in assemble::describe(model, &found) {
+                let kind = "springs of spherical joints, since another pose is described";
+                findings.leave_element(kind, root, &joint);
+            }
+        }
+        Err(assemble::NotAssembled::Open(name, gap)) => {
+            let message = format!(
+                "no pose is found at which all loops are closed: at the best one `{name}` is open by \
+                 {gap:.1e} of the size or rad"
+            );
+            let help = "give a pose near which they close: --pose joint=0.3,other=-0.2".to_owned();
+            let fault = Fault::Assembly;
+            findings.fault_with_help(fault, root.source, root.span(), message, "", help);
+        }
+        Err(assemble::NotAssembled::TooLarge(n)) => {
+            findings.remarks.push(format!(
+                "Loops are open by {open:.1e} of the size or rad, and {n} coordinates are more than are tried."
+            ));
+        }
+    }
+}

@@ -1,0 +1,365 @@
+//! Loop closures of a URDF as a file of their own, as in the collection of parallel robots of
+//! Gepetto: pairs of links whose frames coincide, and joints with more freedoms than URDF knows.
+//! Of YAML it reads keys with texts and lists, in brackets or with dashes.
+
+use std::collections::HashMap;
+
+use nalgebra::{UnitQuaternion, Vector3};
+use scene::SourceText;
+
+use crate::findings::{Fault, Findings};
+use crate::mechanism::{Joint, Kind, Model};
+
+/// A value of the file with its place.
+#[derive(Clone, Debug, PartialEq)]
+enum Node {
+    Text(String, usize),
+    List(Vec<Node>),
+}
+
+impl Node {
+    /// The texts of a list.
+    fn texts(&self) -> Option<Vec<(&str, usize)>> {
+        let Self::List(items) = self else { return None };
+        let text = |item: &'_ Node| match item {
+            Self::Text(text, _) => Some(text.len()),
+            Self::List(_) => None,
+        };
+        if items.iter().any(|item| text(item).is_none()) {
+            return None;
+        }
+        let own = items.iter().filter_map(|item| match item {
+            Self::Text(text, at) => Some((text.as_str(), *at)),
+            Self::List(_) => None,
+        });
+        Some(own.collect())
+    }
+}
+
+/// A place and what is wrong there.
+type Wrong = (usize, String);
+
+/// Adds the closures to a model.
+pub(crate) fn read(
+    model: &mut Model,
+    links: &HashMap<String, usize>,
+    text: &SourceText,
+    findings: &mut Findings,
+) {
+    let told = keys(text.text()).and_then(|keys| apply(model, links, &keys, text, findings));
+    if let Err((at, message)) = told {
+        findings.fault(Fault::Loops, text, at..at + 1, message, "");
+    }
+}
+
+fn apply(
+    model: &mut Model,
+    links: &HashMap<String, usize>,
+    keys: &[(String, usize, Node)],
+    text: &SourceText,
+    findings: &mut Findings,
+) -> Result<(), Wrong> {
+    let find = |key: &str| keys.iter().find(|(name, ..)| name == key);
+    let list = |key: &str| -> Result<Vec<(&str, usize)>, Wrong> {
+        let Some((_, at, node)) = find(key) else {
+            return Ok(Vec::new());
+        };
+        node.texts()
+            .ok_or_else(|| (*at, format!("`{key}` has to be a list of texts")))
+    };
+    for (key, at, _) in keys {
+        let line = text.position(*at).0;
+        match key.as_str() {
+            "closed_loop" | "type" | "joint_name" | "joint_type" => {}
+            "name_mot" => findings.leave("actuators", key.as_str(), text, line),
+            _ => findings.leave("elements that are not understood", key.as_str(), text, line),
+        }
+    }
+    let types = list("type")?;
+    let pairs = match find("closed_loop") {
+        Some((_, _, Node::List(pairs))) => pairs.as_slice(),
+        Some((_, at, _)) => return Err((*at, "`closed_loop` has to be a list of pairs".into())),
+        None => &[],
+    };
+    let start = find("closed_loop").map_or(0, |(_, at, _)| *at);
+    if types.len() != pairs.len() {
+        let message = format!(
+            "`closed_loop` has {} pairs, `type` {} types",
+            pairs.len(),
+            types.len()
+        );
+        return Err((start, message));
+    }
+    for (k, (pair, (kind, at))) in pairs.iter().zip(types).enumerate() {
+        let names = pair.texts().filter(|names| names.len() == 2);
+        let names =
+            names.ok_or_else(|| (start, format!("pair {} is not one of two links", k + 1)))?;
+        let mut ends = [None; 2];
+        for (end, (name, at)) in ends.iter_mut().zip(&names) {
+            let found = links.get(*name).copied();
+            *end = Some(found.ok_or_else(|| (*at, format!("there is no link `{name}`")))?);
+        }
+        let kind = match kind.to_ascii_lowercase().as_str() {
+            "6d" => Kind::Fixed,
+            "3d" => Kind::Spherical,
+            other => return Err((at, format!("the type `{other}` is neither `3d` nor `6d`"))),
+        };
+        if ends[0] == ends[1] {
+            return Err((at, format!("pair {} is one link twice", k + 1)));
+        }
+        let name = format!("{} to {}", names[0].0, names[1].0);
+        let zero = [Vector3::zeros(); 2];
+        let frames = (kind == Kind::Fixed).then(|| [UnitQuaternion::identity(); 2]);
+        let joint = Joint::new(name, kind, ends, zero, [Vector3::z(); 2]);
+        model.joints.push(Joint {
+            places: false,
+            frames,
+            ..joint
+        });
+    }
+    let (names, kinds) = (list("joint_name")?, list("joint_type")?);
+    if names.len() != kinds.len() {
+        let at = names.first().map_or(0, |(_, at)| *at);
+        return Err((
+            at,
+            "`joint_name` and `joint_type` have different lengths".into(),
+        ));
+    }
+    for ((name, at), (kind, of)) in names.into_iter().zip(kinds) {
+        let joint = model.joints.iter_mut().find(|joint| joint.name == name);
+        let joint = joint.ok_or_else(|| (at, format!("there is no joint `{name}`")))?;
+        if !matches!(joint.kind, Kind::Revolute | Kind::Fixed) {
+            return Err((at, format!("joint `{name}` is no hinge")));
+        }
+        let axis = |letter: char| match letter {
+            'X' => Some(Vector3::x()),
+            'Y' => Some(Vector3::y()),
+            'Z' => Some(Vector3::z()),
+            _ => None,
+        };
+        let letters: Vec<char> = kind
+            .strip_prefix("UJOINT_")
+            .unwrap_or_default()
+            .chars()
+            .collect();
+        match letters.as_slice() {
+            [] if kind == "SPHERICAL" => joint.kind = Kind::Spherical,
+            &[a, b] => {
+                let (Some(first), Some(second)) = (axis(a), axis(b)) else {
+                    return Err((of, format!("there is no joint of the type `{kind}`")));
+                };
+                if first == second {
+                    return Err((of, format!("`{kind}` has one axis twice")));
+                }
+                // The rotation from the joint's axes to those of the first link.
+                let turned = model.links[joint.links[1].unwrap_or(0)].pose.rotation;
+                let before = joint.links[0].map(|link| model.links[link].pose.rotation);
+                let relation = before.unwrap_or_default().inverse() * turned;
+                joint.kind = Kind::Universal;
+                joint.axes = [relation * first, first];
+                joint.cross = second;
+            }
+            _ => return Err((of, format!("there is no joint of the type `{kind}`"))),
+        }
+        joint.loads = Default::default();
+        joint.places = true;
+    }
+    Ok(())
+}
+
+/// A key with its place, and the signs of its value with their places.
+type Open = (String, usize, Vec<(char, usize)>);
+
+/// The keys of the first level with their values.
+fn keys(text: &str) -> Result<Vec<(String, usize, Node)>, Wrong> {
+    let mut out: Vec<(String, usize, Node)> = Vec::new();
+    let mut at = 0;
+    // The key whose lines are being collected, with the places of its characters.
+    let mut open: Option<Open> = None;
+    let close = |open: Option<Open>, out: &mut Vec<_>| {
+        if let Some((key, at, signs)) = open {
+            out.push((key, at, value(&signs, at)?));
+        }
+        Ok::<(), Wrong>(())
+    };
+    for line in text.split_inclusive('\n') {
+        let kept = uncommented(line);
+        let starts = kept
+            .chars()
+            .next()
+            .is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
+        let mut from = 0;
+        if starts && let Some((key, _)) = kept.split_once(':') {
+            close(open.take(), &mut out)?;
+            open = Some((key.trim().to_owned(), at, Vec::new()));
+            from = key.len() + 1;
+        } else if starts && !kept.trim().is_empty() {
+            return Err((at, "expected `key:`".to_owned()));
+        }
+        if let Some((_, _, signs)) = &mut open {
+            let own = kept[from..].char_indices();
+            signs.extend(own.map(|(k, c)| (c, at + from + k)));
+            signs.push(('\n', at + kept.len()));
+        } else if !kept.trim().is_empty() && kept.trim() != "---" {
+            return Err((at, "expected `key:`".to_owned()));
+        }
+        at += line.len();
+    }
+    close(open, &mut out)?;
+    Ok(out)
+}
+
+/// A line without its comment.
+fn uncommented(line: &str) -> &str {
+    let line = line.trim_end_matches(['\n', '\r']);
+    let (mut quote, mut before) = (None, ' ');
+    for (at, c) in line.char_indices() {
+        match quote {
+            Some(open) if c == open => quote = None,
+            Some(_) => {}
+            None if c == '\'' || c == '"' => quote = Some(c),
+            None if c == '#' && before.is_whitespace() => return &line[..at],
+            None => {}
+        }
+        before = c;
+    }
+    line
+}
+
+/// Deepest nesting of lists.
+const DEEPEST: usize = 8;
+
+fn value(signs: &[(char, usize)], at: usize) -> Result<Node, Wrong> {
+    let first = signs.iter().position(|(c, _)| !c.is_whitespace());
+    let Some(first) = first else {
+        return Ok(Node::Text(String::new(), at));
+    };
+    let signs = &signs[first..];
+    if signs[0].0 == '-' && signs.get(1).is_some_and(|(c, _)| c.is_whitespace()) {
+        return dashes(signs, at);
+    }
+    let (node, used) = flow(signs, 0)?;
+    let rest = signs[used..].iter().find(|(c, _)| !c.is_whitespace());
+    match rest {
+        Some((c, at)) => Err((*at, format!("unexpected `{c}`"))),
+        None => Ok(node),
+    }
+}
+
+/// A list with a dash in front of each item.
+fn dashes(signs: &[(char, usize)], at: usize) -> Result<Node, Wrong> {
+    let mut items = Vec::new();
+    let mut lines: Vec<Vec<(char, usize)>> = Vec::new();
+    for line in signs.split(|(c, _)| *c == '\n') {
+        let first = line.iter().position(|(c, _)| !c.is_whitespace());
+        let Some(first) = first else { continue };
+        let is_item =
+            line[first].0 == '-' && line.get(first + 1).is_none_or(|(c, _)| c.is_whitespace());
+        match lines.last_mut() {
+            _ if is_item => lines.push(line[first + 1..].to_vec()),
+            Some(last) => {
+                last.push((' ', line[first].1));
+                last.extend(&line[first..]);
+            }
+            None => return Err((at, "expected `-`".to_owned())),
+        }
+    }
+    for line in &lines {
+        let first = line.iter().position(|(c, _)| !c.is_whitespace());
+        let Some(first) = first else {
+            return Err((at, "an item without a value".to_owned()));
+        };
+        let (node, used) = flow(&line[first..], 0)?;
+        if let Some((c, at)) = line[first + used..]
+            .iter()
+            .find(|(c, _)| !c.is_whitespace())
+        {
+            return Err((*at, format!("unexpected `{c}`")));
+        }
+        items.push(node);
+    }
+    Ok(Node::List(items))
+}
+
+/// A text or a list in brackets; and how many signs it takes.
+fn flow(signs: &[(char, usize)], depth: usize) -> Result<(Node, usize), Wrong> {
+    let (first, at) = signs[0];
+    match first {
+        '[' if depth < DEEPEST => {
+            let (mut items, mut k) = (Vec::new(), 1);
+            loop {
+                while signs
+                    .get(k)
+                    .is_some_and(|(c, _)| c.is_whitespace() || *c == ',')
+                {
+                    k += 1;
+                }
+                match signs.get(k) {
+                    None => return Err((at, "a list without its end `]`".to_owned())),
+                    Some((']', _)) => return Ok((Node::List(items), k + 1)),
+                    Some(_) => {
+                        let (node, used) = flow(&signs[k..], depth + 1)?;
+                        items.push(node);
+                        k += used;
+                    }
+                }
+            }
+        }
+        '[' => Err((at, "lists within too many others".to_owned())),
+        '\'' | '"' => {
+            let end = signs[1..].iter().position(|(c, _)| *c == first);
+            let end = end.ok_or_else(|| (at, "a text without its end".to_owned()))?;
+            let text = signs[1..=end].iter().map(|(c, _)| c).collect();
+            Ok((Node::Text(text, at), end + 2))
+        }
+        '{' | '}' | ']' | '&' | '*' | '!' | '|' | '>' | '%' | '@' | '`' => {
+            Err((at, format!("`{first}` is not read here")))
+        }
+        _ => {
+            let end = signs
+                .iter()
+                .position(|(c, _)| matches!(c, ',' | ']' | '[' | '\n'));
+            let end = end.unwrap_or(signs.len());
+            let text: String = signs[..end].iter().map(|(c, _)| c).collect();
+            Ok((Node::Text(text.trim().to_owned(), at), end.max(1)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_in_brackets_and_with_dashes_are_the_same() {
+        let brackets = "# loops\npairs:\n  [\n    [\"a\", 'b c'], # one\n    [d, e],\n  ]\n";
+        let dashes = "---\npairs:\n  - [a, 'b c']\n  - [d,\n     e]\n";
+        let plain = |text: &str| -> Vec<Vec<String>> {
+            let keys = keys(text).expect("readable");
+            let Node::List(pairs) = &keys[0].2 else {
+                panic!("{keys:?}")
+            };
+            let texts = |pair: &Node| {
+                pair.texts()
+                    .expect("texts")
+                    .iter()
+                    .map(|(t, _)| (*t).to_owned())
+                    .collect()
+            };
+            pairs.iter().map(texts).collect()
+        };
+        assert_eq!(plain(brackets), [["a", "b c"], ["d", "e"]]);
+        assert_eq!(plain(dashes), plain(brackets));
+        for wrong in [
+            "a",
+            "a: [",
+            "a: 'x",
+            "a: {}",
+            "a: [x] y",
+            "- a",
+            "a:\n  - - x: [",
+        ] {
+            assert!(keys(wrong).is_err(), "{wrong}");
+        }
+    }
+}

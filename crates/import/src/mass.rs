@@ -1,0 +1,213 @@
+//! Mass, centre and tensor of inertia of rigid bodies: sums, other axes, and simple solids.
+
+use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
+
+/// Mass of a rigid body in some axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Mass {
+    /// Unit: kg.
+    pub(crate) mass: f64,
+    /// Centre of mass (m).
+    pub(crate) centre: Vector3<f64>,
+    /// Tensor about the centre of mass, in the same axes (kg·m²).
+    pub(crate) inertia: Matrix3<f64>,
+}
+
+impl Default for Mass {
+    fn default() -> Self {
+        let (centre, inertia) = (Vector3::zeros(), Matrix3::zeros());
+        Self {
+            mass: 0.0,
+            centre,
+            inertia,
+        }
+    }
+}
+
+impl Mass {
+    /// A body with this tensor in axes that are turned against those of the body.
+    pub(crate) fn turned(
+        mass: f64,
+        centre: Vector3<f64>,
+        axes: UnitQuaternion<f64>,
+        inertia: Matrix3<f64>,
+    ) -> Self {
+        let inertia = turned(axes, inertia);
+        Self {
+            mass,
+            centre,
+            inertia,
+        }
+    }
+
+    /// The same body in other axes: `pose` maps its own axes to them.
+    pub(crate) fn seen(&self, pose: &Isometry3<f64>) -> Self {
+        Self {
+            mass: self.mass,
+            centre: pose.translation.vector + pose.rotation * self.centre,
+            inertia: turned(pose.rotation, self.inertia),
+        }
+    }
+
+    pub(crate) fn is_nothing(&self) -> bool {
+        self.mass == 0.0 && self.inertia == Matrix3::zeros()
+    }
+
+    /// Both bodies as one; where one of them is nothing, the numbers of the other are kept.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        if other.is_nothing() {
+            return *self;
+        }
+        if self.is_nothing() {
+            return *other;
+        }
+        let mass = self.mass + other.mass;
+        let centre = if mass > 0.0 {
+            (self.centre * self.mass + other.centre * other.mass) / mass
+        } else {
+            self.centre
+        };
+        let about = |body: &Self| body.inertia + steiner(body.mass, body.centre - centre);
+        Self {
+            mass,
+            centre,
+            inertia: about(self) + about(other),
+        }
+    }
+
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            mass: self.mass * factor,
+            centre: self.centre,
+            inertia: self.inertia * factor,
+        }
+    }
+}
+
+/// A tensor in other axes; without a turn its digits are kept.
+fn turned(axes: UnitQuaternion<f64>, inertia: Matrix3<f64>) -> Matrix3<f64> {
+    if axes == UnitQuaternion::identity() {
+        return inertia;
+    }
+    let r = axes.to_rotation_matrix();
+    let turned = r.matrix() * inertia * r.matrix().transpose();
+    (turned + turned.transpose()) * 0.5
+}
+
+/// Tensor of a point mass at d: m·(d·d − d dᵀ).
+fn steiner(mass: f64, d: Vector3<f64>) -> Matrix3<f64> {
+    (Matrix3::identity() * d.dot(&d) - d * d.transpose()) * mass
+}
+
+/// A homogeneous solid about its centre, its axis along z.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Solid {
+    Sphere {
+        radius: f64,
+    },
+    /// A cylinder of this half length with half spheres at its ends.
+    Capsule {
+        radius: f64,
+        half: f64,
+    },
+    Cylinder {
+        radius: f64,
+        half: f64,
+    },
+    Ellipsoid {
+        half: [f64; 3],
+    },
+    Box {
+        half: [f64; 3],
+    },
+}
+
+impl Solid {
+    /// Volume (m³).
+    pub(crate) fn volume(self) -> f64 {
+        use std::f64::consts::PI;
+        match self {
+            Self::Sphere { radius: r } => 4.0 / 3.0 * PI * r * r * r,
+            Self::Capsule { radius: r, half } => PI * r * r * (2.0 * half + 4.0 / 3.0 * r),
+            Self::Cylinder { radius: r, half } => PI * r * r * 2.0 * half,
+            Self::Ellipsoid { half: [a, b, c] } => 4.0 / 3.0 * PI * a * b * c,
+            Self::Box { half: [a, b, c] } => 8.0 * a * b * c,
+        }
+    }
+
+    /// Principal moments of a mass of that form.
+    pub(crate) fn moments(self, mass: f64) -> [f64; 3] {
+        match self {
+            Self::Sphere { radius } => [0.4 * mass * radius * radius; 3],
+            Self::Capsule { radius: r, half } => {
+                let height = 2.0 * half;
+                let whole = height + 4.0 / 3.0 * r;
+                let (tube, ends) = (mass * height / whole, mass * (4.0 / 3.0 * r) / whole);
+                let along = tube * r * r / 2.0 + 0.4 * ends * r * r;
+                // Half spheres: centre at 3r/8 from their plane, 83/320·m·r² about it.
+                let across = tube * (3.0 * r * r + height * height) / 12.0
+                    + ends * (0.4 * r * r + 0.375 * r * height + 0.25 * height * height);
+                [across, across, along]
+            }
+            Self::Cylinder { radius: r, half } => {
+                let across = mass * (3.0 * r * r + 4.0 * half * half) / 12.0;
+                [across, across, mass * r * r / 2.0]
+            }
+            Self::Ellipsoid { half: [a, b, c] } => {
+                [b * b + c * c, c * c + a * a, a * a + b * b].map(|sum| mass * sum / 5.0)
+            }
+            Self::Box { half: [a, b, c] } => {
+                [b * b + c * c, c * c + a * a, a * a + b * b].map(|sum| mass * sum / 3.0)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A capsule as 400 000 discs: volume and moments by a sum.
+    #[test]
+    fn a_capsule_is_the_sum_of_its_discs() {
+        let (radius, half) = (0.3, 0.5);
+        let solid = Solid::Capsule { radius, half };
+        let (n, whole) = (400_000, half + radius);
+        let step = 2.0 * whole / f64::from(n);
+        let (mut volume, mut along, mut across) = (0.0, 0.0, 0.0);
+        for k in 0..n {
+            let z = -whole + (f64::from(k) + 0.5) * step;
+            let cap = (z.abs() - half).max(0.0);
+            let r2 = radius * radius - cap * cap;
+            let disc = std::f64::consts::PI * r2 * step;
+            volume += disc;
+            along += disc * r2 / 2.0;
+            across += disc * (r2 / 4.0 + z * z);
+        }
+        let [x, _, z] = solid.moments(volume);
+        assert!((solid.volume() - volume).abs() < 1e-9);
+        assert!((z - along).abs() < 1e-9 && (x - across).abs() < 1e-9);
+    }
+
+    /// Two halves of a cube are the cube.
+    #[test]
+    fn parts_add_up() {
+        let half = Solid::Box {
+            half: [0.5, 1.0, 1.0],
+        };
+        let part = |x: f64| {
+            let inertia = Matrix3::from_diagonal(&Vector3::from(half.moments(4.0)));
+            Mass {
+                mass: 4.0,
+                centre: Vector3::new(x, 0.0, 0.0),
+                inertia,
+            }
+        };
+        let whole = part(-0.5).plus(&part(0.5));
+        let cube = Solid::Box { half: [1.0; 3] }.moments(8.0);
+        assert_eq!(whole.centre, Vector3::zeros());
+        for k in 0..3 {
+            assert!((whole.inertia[(k, k)] - cube[k]).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Links that are fixed to others become parts of them.
+
+use nalgebra::Isometry3;
+
+use crate::findings::Findings;
+use crate::mechanism::{Frame, Kind, Model};
+use crate::pose::{Motion, placing};
+
+/// Where the axes of a link have gone: the link that has them, and their place there.
+type Host = (Option<usize>, Isometry3<f64>);
+
+/// Makes links that fixed joints place parts of the links before them. `motions` are those of the
+/// links, and stay so.
+pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut Findings) {
+    let before = placing(model);
+    let fixed = |link: usize| {
+        let joint = before[link].map(|joint| &model.joints[joint])?;
+        let merges = joint.kind == Kind::Fixed && joint.is_active && joint.frames.is_none();
+        merges.then_some(joint.links[0])
+    };
+    let hosts: Vec<Host> = (0..model.links.len())
+        .map(|link| {
+            let (mut host, mut steps) = (Some(link), 0);
+            while let Some(parent) = host.and_then(fixed) {
+                host = parent;
+                steps += 1;
+                if steps > model.links.len() {
+                    return (Some(link), Isometry3::identity());
+                }
+            }
+            if host == Some(link) {
+                return (host, Isometry3::identity());
+            }
+            (host, model.pose(host).inverse() * model.links[link].pose)
+        })
+        .collect();
+    let merged: Vec<usize> = (0..hosts.len())
+        .filter(|&k| hosts[k].0 != Some(k))
+        .collect();
+    if merged.is_empty() {
+        return;
+    }
+    let names: Vec<String> = merged
+        .iter()
+        .map(|&k| {
+            let host = hosts[k].0.map_or("ground", |host| &model.links[host].name);
+            format!("`{}` in `{host}`", model.links[k].name)
+        })
+        .collect();
+    findings.remarks.push(format!(
+        "Fixed links are parts of the bodies that they are fixed to (--keep-fixed keeps them): {}.",
+        names.join(", ")
+    ));
+    for &link in &merged {
+        let (host, pose) = hosts[link];
+        let own = model.links[link].clone();
+        if let Some(host) = host {
+            let seen = own.mass.seen(&pose);
+            let whole = &mut model.links[host];
+            // Weight that is held acts on the whole: as a mean by mass.
+            let held = whole.held_weight * whole.mass.mass + own.held_weight * seen.mass;
+            whole.mass = whole.mass.plus(&seen);
+            if held != 0.0 && whole.mass.mass > 0.0 {
+                whole.held_weight = held / whole.mass.mass;
+            }
+        }
+        let name = own.name;
+        model.frames.push(Frame {
+            name,
+            link: Some(link),
+            pose: Isometry3::identity(),
+        });
+    }
+    // Bodies that stay, by their new numbers.
+    let mut numbers = vec![None; hosts.len()];
+    let stay = (0..hosts.len()).filter(|&k| hosts[k].0 == Some(k));
+    for (new, old) in stay.enumerate() {
+        numbers[old] = Some(new);
+    }
+    let place = |link: Option<usize>| -> Host {
+        let (host, pose) = link.map_or((None, Isometry3::identity()), |link| hosts[link]);
+        (host.and_then(|host| numbers[host]), pose)
+    };
+    let mut kept = vec![None; model.joints.len()];
+    let joints = std::mem::take(&mut model.joints);
+    for (k, mut joint) in joints.into_iter().enumerate() {
+        let places = [place(joint.links[0]), place(joint.links[1])];
+        let was_merged = joint.places && joint.links[1].is_some_and(|link| numbers[link].is_none());
+        if was_merged {
+            continue;
+        }
+        for side in 0..2 {
+            let (link, pose) = places[side];
+            joint.links[side] = link;
+            if pose != Isometry3::identity() {
+                joint.points[side] = pose.translation.vector + pose.rotation * joint.points[side];
+                joint.axes[side] = pose.rotation * joint.axes[side];
+                if side == 1 {
+                    joint.cross = pose.rotation * joint.cross;
+                }
+                if let Some(frames) = &mut joint.frames {
+                    frames[side] = pose.rotation * frames[side];
+                }
+            }
+        }
+        if joint.links[0] == joint.links[1] {
+            findings.remarks.push(format!(
+                "Joint `{}` is between parts of one body, so it is left out.",
+                joint.name
+            ));
+            continue;
+        }
+        kept[k] = Some(model.joints.len());
+        model.joints.push(joint);
+    }
+    model.couplings.retain_mut(|coupling| {
+        let y = kept[coupling.y.0];
+        let x = coupling
+            .x
+            .map(|(joint, coordinate)| (kept[joint], coordinate));
+        let (Some(y), None | Some((Some(_), _))) = (y, x) else {
+            return false;
+        };
+        coupling.y.0 = y;
+        coupling.x = x.and_then(|(joint, coordinate)| Some((joint?, coordinate)));
+        true
+    });
+    for frame in &mut model.frames {
+        let (link, pose) = place(frame.link);
+        frame.link = link;
+        frame.pose = pose * frame.pose;
+    }
+    let flags: Vec<bool> = numbers.iter().map(Option::is_some).collect();
+    let mut flag = flags.iter();
+    model.links.retain(|_| flag.next().copied().unwrap_or(true));
+    let mut flag = flags.iter();
+    motions.retain(|_| flag.next().copied().unwrap_or(true));
+}

@@ -1,0 +1,240 @@
+//! MJCF, the format of MuJoCo: <https://mujoco.readthedocs.io/en/stable/XMLreference.html>.
+
+mod body;
+mod compiler;
+mod defaults;
+mod equality;
+mod geom;
+mod keyframe;
+
+use std::collections::{HashMap, HashSet};
+
+use nalgebra::{Isometry3, Vector3};
+
+use crate::files::Files;
+use crate::findings::{Counted, Fault, Findings};
+use crate::mechanism::Model;
+use crate::xml::{Element, Value};
+use compiler::Compiler;
+use defaults::Defaults;
+
+/// Standard gravity of MuJoCo (m/s²).
+const GRAVITY: f64 = -9.81;
+
+/// What several readers need.
+struct Reader<'a, 'f> {
+    files: &'a Files<'a>,
+    findings: &'f mut Findings,
+    compiler: Compiler,
+    defaults: Defaults<'a>,
+    model: Model,
+    /// Links by the names of their bodies; `world` is the ground.
+    bodies: HashMap<String, Option<usize>>,
+    /// Joint and coordinate of the joints of the file, by name.
+    joints: HashMap<String, (usize, usize)>,
+    /// Names that the file gives to joints.
+    names: HashSet<String>,
+    sites: HashMap<String, (Option<usize>, Isometry3<f64>)>,
+    /// Joint and coordinate of the joints of the file, in their order.
+    slots: Vec<(usize, usize)>,
+}
+
+/// An element with the attributes of its class.
+struct Attributes<'a, 'r> {
+    element: Element<'a>,
+    class: usize,
+    defaults: &'r Defaults<'a>,
+}
+
+impl<'a> Attributes<'a, '_> {
+    fn get(&self, key: &str) -> Option<Value<'a>> {
+        let own = self.element.attribute(key);
+        own.or_else(|| self.defaults.get(self.class, self.element.name(), key))
+    }
+}
+
+/// Reads a model. What is found is in `findings`.
+pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
+    let root = files.root();
+    let sections = files.children(root, findings);
+    let compiler = Compiler::read(&sections, findings);
+    let defaults = Defaults::read(files, &sections, findings);
+    let mut reader = Reader {
+        files,
+        findings,
+        compiler,
+        defaults,
+        model: Model::default(),
+        bodies: HashMap::from([("world".to_owned(), None)]),
+        joints: HashMap::new(),
+        names: HashSet::new(),
+        sites: HashMap::new(),
+        slots: Vec::new(),
+    };
+    let name = root
+        .attribute("model")
+        .map(|value| value.text.trim().to_owned());
+    reader.model.name = name
+        .filter(|name| !name.is_empty())
+        .unwrap_or_else(|| "MuJoCo model".into());
+    reader.model.gravity = Vector3::new(0.0, 0.0, GRAVITY);
+    for section in &sections {
+        reader.option(*section);
+    }
+    for section in sections
+        .iter()
+        .filter(|section| section.name() == "worldbody")
+    {
+        reader.world(*section);
+    }
+    reader.finish_masses(root);
+    for section in &sections {
+        reader.section(*section);
+    }
+    reader.model
+}
+
+impl<'a> Reader<'a, '_> {
+    fn option(&mut self, section: Element<'a>) {
+        if section.name() != "option" {
+            return;
+        }
+        for (key, value) in section.attributes() {
+            match key {
+                "gravity" => {
+                    if let Some(gravity) = self.findings.vector(&value, Counted::Not) {
+                        self.model.gravity = gravity;
+                    }
+                }
+                "wind" | "density" | "viscosity" | "magnetic" => {
+                    let numbers = self.findings.numbers(&value, [1, 3], Counted::Not);
+                    if numbers.is_some_and(|numbers| numbers.iter().any(|x| *x != 0.0)) {
+                        let kind = "forces of a medium or field";
+                        self.findings.leave(kind, key, value.source, value.line());
+                    }
+                }
+                _ => self.findings.leave(
+                    "settings of MuJoCo's solver",
+                    key,
+                    value.source,
+                    value.line(),
+                ),
+            }
+        }
+        for flags in section.children().filter(|child| child.name() == "flag") {
+            for (key, value) in flags.attributes() {
+                match (key, value.text.trim()) {
+                    ("gravity", "disable") => self.model.gravity = Vector3::zeros(),
+                    ("spring" | "damper" | "passive" | "equality", "disable") => {
+                        let message =
+                            format!("{} disables what the scene would contain", value.subject);
+                        let help = "remove the flag, or what it disables".to_owned();
+                        let (source, span) = (value.source, value.span.clone());
+                        self.findings.fault_with_help(
+                            Fault::Unsupported,
+                            source,
+                            span,
+                            message,
+                            "",
+                            help,
+                        );
+                    }
+                    _ => {
+                        let kind = "settings of MuJoCo's solver";
+                        self.findings.leave(
+                            kind,
+                            format!("flag {key}"),
+                            value.source,
+                            value.line(),
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    fn section(&mut self, section: Element<'a>) {
+        let left: &'static str = match section.name() {
+            "compiler" | "option" | "default" | "worldbody" | "visual" | "statistic" | "size"
+            | "asset" | "custom" => return,
+            "equality" => return self.equalities(section),
+            "keyframe" => return self.keyframes(section),
+            "actuator" => "actuators",
+            "tendon" => "tendons",
+            "sensor" => "sensors",
+            "contact" => "pairs and exclusions of contacts",
+            "deformable" => "deformable bodies",
+            "extension" => "plugins",
+            _ => {
+                let what = format!("<{}>", section.name());
+                self.findings
+                    .leave_element("elements that are not understood", section, &what);
+                return;
+            }
+        };
+        let mut is_empty = true;
+        for child in self.files.children(section, self.findings) {
+            is_empty = false;
+            let name = child.attribute("name").map(|name| name.text.to_owned());
+            let subject = name.unwrap_or_else(|| format!("<{}>", child.name()));
+            self.findings.leave_element(left, child, &subject);
+        }
+        if is_empty && section.attributes().next().is_some() {
+            self.findings.leave_element(left, section, "");
+        }
+    }
+
+    /// The class of an element: its own, or that of the body around it.
+    fn attributes(&mut self, element: Element<'a>, around: usize) -> Attributes<'a, '_> {
+        let class = match element.attribute("class") {
+            Some(value) => self.class(&value),
+            None => around,
+        };
+        Attributes {
+            element,
+            class,
+            defaults: &self.defaults,
+        }
+    }
+
+    /// The number of a class.
+    fn class(&mut self, value: &Value) -> usize {
+        self.defaults.find(value.text.trim()).unwrap_or_else(|| {
+            let message = format!("{}: there is no class `{}`", value.subject, value.text);
+            self.findings.at(Fault::Unknown, value, message);
+            0
+        })
+    }
+
+    /// The body of a value; `world` is the ground.
+    fn body(&mut self, value: &Value) -> Option<Option<usize>> {
+        let found = self.bodies.get(value.text.trim()).copied();
+        if found.is_none() {
+            let near = scene::nearest(value.text, self.bodies.keys().map(String::as_str));
+            let help = near.map(|near| format!("did you mean `{near}`?"));
+            let message = format!("{}: there is no body `{}`", value.subject, value.text);
+            let (source, span) = (value.source, value.span.clone());
+            self.findings.fault_with_help(
+                Fault::Unknown,
+                source,
+                span,
+                message,
+                "no such body",
+                help,
+            );
+        }
+        found
+    }
+
+    /// Attributes of an element that no reader asks for.
+    fn close(&mut self, element: Element<'a>, known: &[&str]) {
+        for (key, value) in element.attributes() {
+            if !known.contains(&key) {
+                let subject = format!("{key} of <{}>", element.name());
+                let kind = "attributes that are not understood";
+                self.findings
+                    .leave(kind, subject, value.source, value.line());
+            }
+        }
+    }
+}

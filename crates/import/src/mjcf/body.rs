@@ -1,0 +1,592 @@
+//! `<worldbody>`, `<body>`, `<frame>`, `<joint>`, `<inertial>`, `<site>`.
+
+use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
+
+use super::Reader;
+use super::geom::Geoms;
+use crate::findings::{Counted, Fault, unit};
+use crate::limits::{DEEPEST, PERPENDICULAR};
+use crate::mass::Mass;
+use crate::mechanism::{Frame, Joint, Kind, Link, Load};
+use crate::xml::Element;
+
+/// An element of a body, with the place of the frames around it and its class.
+#[derive(Clone)]
+pub(super) struct Item<'a> {
+    pub(super) element: Element<'a>,
+    pub(super) frame: Isometry3<f64>,
+    pub(super) class: usize,
+}
+
+/// A joint of the file, in the axes of its body.
+struct Freedom {
+    name: String,
+    kind: Kind,
+    point: Vector3<f64>,
+    axis: Vector3<f64>,
+    zero: f64,
+    load: Load,
+}
+
+impl<'a> Reader<'a, '_> {
+    pub(super) fn world(&mut self, section: Element<'a>) {
+        let mut items = Vec::new();
+        self.items(section, Isometry3::identity(), 0, &mut items, 0);
+        for item in &items {
+            match item.element.name() {
+                "geom" => self.contact_of(item),
+                "site" => self.site(item, None),
+                _ => {}
+            }
+        }
+        for item in items.iter().filter(|item| item.element.name() == "body") {
+            self.body_element(item, None, 1);
+        }
+    }
+
+    /// The elements of a body, those within frames included.
+    fn items(
+        &mut self,
+        around: Element<'a>,
+        frame: Isometry3<f64>,
+        class: usize,
+        out: &mut Vec<Item<'a>>,
+        depth: usize,
+    ) {
+        if depth > DEEPEST {
+            return self
+                .findings
+                .of(Fault::Structure, around, "frames are nested too deeply");
+        }
+        for element in self.files.children(around, self.findings) {
+            let left: &'static str = match element.name() {
+                "frame" => {
+                    let get = |key: &str| element.attribute(key);
+                    let own = self.compiler.pose(get, self.findings);
+                    let class = match element.attribute("childclass") {
+                        Some(value) => self.class(&value),
+                        None => class,
+                    };
+                    self.items(element, frame * own, class, out, depth + 1);
+                    continue;
+                }
+                "camera" | "light" => continue,
+                "body" | "joint" | "freejoint" | "geom" | "site" | "inertial" => {
+                    out.push(Item {
+                        element,
+                        frame,
+                        class,
+                    });
+                    continue;
+                }
+                "composite" | "flexcomp" | "replicate" | "attach" => {
+                    let message = format!("`<{}>` makes bodies that are not read", element.name());
+                    let help = "load the file in MuJoCo, save it with mj_saveLastXML, and import what is saved";
+                    let (source, span) = (element.source, element.span());
+                    let fault = Fault::Unsupported;
+                    self.findings.fault_with_help(
+                        fault,
+                        source,
+                        span,
+                        message,
+                        "",
+                        help.to_owned(),
+                    );
+                    continue;
+                }
+                "plugin" => "plugins",
+                _ => "elements that are not understood",
+            };
+            let subject = format!("<{}>", element.name());
+            self.findings.leave_element(left, element, &subject);
+        }
+    }
+
+    fn body_element(&mut self, item: &Item<'a>, parent: Option<usize>, depth: usize) {
+        let element = item.element;
+        if depth > DEEPEST {
+            return self
+                .findings
+                .of(Fault::Structure, element, "bodies are nested too deeply");
+        }
+        let known = [
+            "name",
+            "childclass",
+            "pos",
+            "quat",
+            "axisangle",
+            "euler",
+            "xyaxes",
+            "zaxis",
+            "mocap",
+            "gravcomp",
+            "user",
+            "sleep",
+        ];
+        self.close(element, &known);
+        let class = match element.attribute("childclass") {
+            Some(value) => self.class(&value),
+            None => item.class,
+        };
+        let get = |key: &str| element.attribute(key);
+        let own = item.frame * self.compiler.pose(get, self.findings);
+        let name = element
+            .attribute("name")
+            .map(|name| name.text.trim().to_owned());
+        let number = self.model.links.len() + 1;
+        let name = name
+            .filter(|name| !name.is_empty())
+            .unwrap_or_else(|| format!("body {number}"));
+        if element
+            .attribute("mocap")
+            .is_some_and(|value| value.text.trim() == "true")
+        {
+            let kind = "motions from outside (mocap): the body is fixed to the ground";
+            self.findings.leave_element(kind, element, &name);
+        }
+        let mut items = Vec::new();
+        self.items(element, Isometry3::identity(), class, &mut items, 0);
+        let freedoms: Vec<Freedom> = items
+            .iter()
+            .filter(|item| matches!(item.element.name(), "joint" | "freejoint"))
+            .filter_map(|item| self.freedom(item, &name, parent.is_none()))
+            .collect();
+        let mass = self.mass(element, &items);
+        let held = element.attribute("gravcomp");
+        let held = held.and_then(|value| self.findings.number(&value, Counted::Not));
+        let link = self.chain(&name, own, freedoms, parent);
+        self.model.links[link].mass = mass;
+        self.model.links[link].held_weight = held.unwrap_or(0.0);
+        if self.bodies.insert(name.clone(), Some(link)).is_some() {
+            let message = format!("the body `{name}` is there already");
+            self.findings.of(Fault::Twice, element, message);
+        }
+        for item in &items {
+            match item.element.name() {
+                "site" => self.site(item, Some(link)),
+                "geom" => self.contact_of(item),
+                _ => {}
+            }
+        }
+        for item in items.iter().filter(|item| item.element.name() == "body") {
+            self.body_element(item, Some(link), depth + 1);
+        }
+    }
+
+    /// The links of a body with its joints: one for each joint or pair of hinges of a universal
+    /// joint, all but the last without mass. Returns the last.
+    fn chain(
+        &mut self,
+        name: &str,
+        own: Isometry3<f64>,
+        freedoms: Vec<Freedom>,
+        parent: Option<usize>,
+    ) -> usize {
+        let pose = self.model.pose(parent) * own;
+        let mut joints: Vec<(Joint, usize)> = Vec::new();
+        let mut at = 0;
+        while at < freedoms.len() {
+            let first = &freedoms[at];
+            let mut joint = Joint::new(
+                first.name.clone(),
+                first.kind,
+                [None, None],
+                [first.point; 2],
+                [first.axis; 2],
+            );
+            joint.zero[0] = first.zero;
+            joint.loads[0] = first.load;
+            let mut consumed = 1;
+            if let Some(second) = freedoms.get(at + 1) {
+                let pair = match (first.kind, second.kind) {
+                    (Kind::Revolute, Kind::Revolute)
+                        if first.point == second.point
+                            && first.axis.dot(&second.axis).abs() <= PERPENDICULAR =>
+                    {
+                        joint.cross = second.axis;
+                        Some(Kind::Universal)
+                    }
+                    (Kind::Translational, Kind::Revolute) if first.axis == second.axis => {
+                        joint.points = [second.point; 2];
+                        Some(Kind::Cylindrical)
+                    }
+                    _ => None,
+                };
+                if let Some(kind) = pair {
+                    joint.kind = kind;
+                    joint.name = format!("{} and {}", first.name, second.name);
+                    joint.zero[1] = second.zero;
+                    joint.loads[1] = second.load;
+                    consumed = 2;
+                }
+            }
+            joints.push((joint, at));
+            at += consumed;
+        }
+        if joints.is_empty() {
+            let link = self.link(name.to_owned(), pose);
+            let points = [own.translation.vector, Vector3::zeros()];
+            let axes = [own.rotation * Vector3::z(), Vector3::z()];
+            let weld = Joint::new(name, Kind::Fixed, [parent, Some(link)], points, axes);
+            self.model.joints.push(weld);
+            return link;
+        }
+        let (mut before, mut from) = (parent, own);
+        let count = joints.len();
+        for (k, (mut joint, first)) in joints.into_iter().enumerate() {
+            let name = if k + 1 == count {
+                name.to_owned()
+            } else {
+                format!("{name} behind {}", joint.name)
+            };
+            let link = self.link(name, pose);
+            joint.links = [before, Some(link)];
+            joint.points[0] = from.translation.vector + from.rotation * joint.points[0];
+            joint.axes[0] = from.rotation * joint.axes[0];
+            let coordinates = joint.kind.measures().len().max(1);
+            for coordinate in 0..coordinates {
+                let slot = (self.model.joints.len(), coordinate);
+                self.slots.push(slot);
+                let name = &freedoms[first + coordinate].name;
+                self.joints.insert(name.clone(), slot);
+            }
+            self.model.joints.push(joint);
+            (before, from) = (Some(link), Isometry3::identity());
+        }
+        self.model.links.len() - 1
+    }
+
+    fn link(&mut self, name: String, pose: Isometry3<f64>) -> usize {
+        self.model.links.push(Link {
+            name,
+            pose,
+            mass: Mass::default(),
+            held_weight: 0.0,
+        });
+        self.model.links.len() - 1
+    }
+
+    /// A joint of a body; `None` if it cannot be read.
+    fn freedom(&mut self, item: &Item<'a>, body: &str, is_outer: bool) -> Option<Freedom> {
+        let element = item.element;
+        let known = [
+            "name",
+            "class",
+            "type",
+            "pos",
+            "axis",
+            "stiffness",
+            "damping",
+            "springref",
+            "ref",
+            "armature",
+            "springdamper",
+            "range",
+            "limited",
+            "frictionloss",
+            "group",
+            "margin",
+            "solreflimit",
+            "solimplimit",
+            "solreffriction",
+            "solimpfriction",
+            "user",
+            "actuatorfrcrange",
+            "actuatorfrclimited",
+            "actuatorgravcomp",
+            "align",
+        ];
+        self.close(element, &known);
+        let name = element
+            .attribute("name")
+            .map(|name| name.text.trim().to_owned());
+        let given = name.filter(|name| !name.is_empty());
+        let is_given = given.is_some();
+        let count = self.model.joints.len() + 1;
+        let name = given.unwrap_or_else(|| format!("joint {count} of {body}"));
+        if is_given && !self.names.insert(name.clone()) {
+            let message = format!("the joint `{name}` is there already");
+            self.findings.of(Fault::Twice, element, message);
+        }
+        let attributes = self.attributes(element, item.class);
+        let keys = [
+            "type",
+            "pos",
+            "axis",
+            "ref",
+            "springref",
+            "stiffness",
+            "damping",
+            "armature",
+        ];
+        let [
+            kind,
+            pos,
+            axis,
+            zero,
+            reference,
+            stiffness,
+            damping,
+            armature,
+        ] = keys.map(|key| attributes.get(key));
+        let [range, limited, friction, tuned] =
+            ["range", "limited", "frictionloss", "springdamper"].map(|key| attributes.get(key));
+        let word = kind.as_ref().map_or("hinge", |value| value.text.trim());
+        let kind = match (element.name(), word) {
+            ("freejoint", _) | (_, "free") => Kind::Free,
+            (_, "hinge") => Kind::Revolute,
+            (_, "slide") => Kind::Translational,
+            (_, "ball") => Kind::Spherical,
+            (_, other) => {
+                let shown: String = other.chars().take(40).collect();
+                let message = format!("joint `{name}`: there is no type `{shown}`");
+                self.findings.of(Fault::Value, element, message);
+                return None;
+            }
+        };
+        if kind == Kind::Free && !is_outer {
+            let message = format!("joint `{name}`: only bodies of the world may be free");
+            self.findings.of(Fault::Structure, element, message);
+            return None;
+        }
+        let is_free_element = element.name() == "freejoint";
+        let point = pos.and_then(|value| self.findings.vector(&value, Counted::Length));
+        let axis = match axis {
+            Some(value) if matches!(kind, Kind::Revolute | Kind::Translational) => {
+                self.findings.direction(&value)?
+            }
+            _ => Vector3::z(),
+        };
+        let angle = if kind == Kind::Revolute {
+            self.compiler.angle
+        } else {
+            1.0
+        };
+        let mut number = |value: Option<crate::xml::Value<'a>>| {
+            let number = value.map(|value| self.findings.numbers(&value, [1, 16], Counted::Not));
+            number.flatten().unwrap_or_else(|| vec![0.0])
+        };
+        let [zero, reference] = [number(zero)[0] * angle, number(reference)[0] * angle];
+        let [stiffness, damping, armature] = [number(stiffness), number(damping), number(armature)];
+        let line = element.line();
+        let mut leave = |kind: &'static str| {
+            self.findings
+                .leave(kind, name.clone(), element.source, line);
+        };
+        if stiffness[1..]
+            .iter()
+            .chain(&damping[1..])
+            .any(|x| *x != 0.0)
+        {
+            leave("nonlinear terms of springs and dampers");
+        }
+        if tuned.is_some_and(|value| value.text.split_whitespace().any(|x| x != "0"))
+            && !is_free_element
+        {
+            leave("springs that are tuned by `springdamper`");
+        }
+        let has_range =
+            range.is_some() || limited.as_ref().is_some_and(|v| v.text.trim() == "true");
+        let is_off = limited.as_ref().is_some_and(|v| v.text.trim() == "false");
+        let is_on = limited.as_ref().is_some_and(|v| v.text.trim() == "true");
+        if has_range && !is_off && (self.compiler.auto_limits || is_on) && kind != Kind::Free {
+            leave("limits of joints");
+        }
+        if friction.is_some_and(|value| value.text.trim().parse() != Ok(0.0)) && !is_free_element {
+            leave("friction of joints");
+        }
+        let mut load = Load {
+            stiffness: stiffness[0],
+            damping: damping[0],
+            reference,
+            armature: armature[0],
+        };
+        if [load.stiffness, load.damping, load.armature]
+            .iter()
+            .any(|x| *x < 0.0)
+        {
+            let message =
+                format!("joint `{name}`: stiffness, damping and armature are not negative");
+            self.findings.of(Fault::Range, element, message);
+            return None;
+        }
+        if kind == Kind::Free {
+            if load
+                != (Load {
+                    reference,
+                    ..Load::default()
+                })
+                && !is_free_element
+            {
+                leave("springs, dampers and armatures of free bodies");
+            }
+            load = Load::default();
+        }
+        if kind == Kind::Spherical {
+            if load.damping != 0.0 {
+                leave("dampers of spherical joints: accelerations differ where they turn");
+            }
+            if load.armature != 0.0 {
+                leave("armatures of spherical joints: accelerations differ");
+            }
+            load = Load {
+                stiffness: load.stiffness,
+                ..Load::default()
+            };
+        }
+        let point = item.frame.translation.vector + item.frame.rotation * point.unwrap_or_default();
+        let axis = if item.frame.rotation == UnitQuaternion::identity() {
+            axis
+        } else {
+            unit(item.frame.rotation * axis)
+        };
+        Some(Freedom {
+            name,
+            kind,
+            point,
+            axis,
+            zero,
+            load,
+        })
+    }
+
+    /// Mass of a body: its own, or that of its geoms.
+    fn mass(&mut self, body: Element<'a>, items: &[Item<'a>]) -> Mass {
+        use super::compiler::FromGeoms;
+        let own = items.iter().find(|item| item.element.name() == "inertial");
+        let own = own.filter(|_| self.compiler.from_geoms != FromGeoms::Always);
+        let mass = match own {
+            Some(item) => self.inertial(item).unwrap_or_default(),
+            None if self.compiler.from_geoms == FromGeoms::Never => Mass::default(),
+            None => self.mass_of_geoms(body, items),
+        };
+        self.bounded(mass)
+    }
+
+    fn inertial(&mut self, item: &Item<'a>) -> Option<Mass> {
+        let element = item.element;
+        let known = [
+            "pos",
+            "quat",
+            "axisangle",
+            "euler",
+            "xyaxes",
+            "zaxis",
+            "mass",
+            "diaginertia",
+            "fullinertia",
+        ];
+        self.close(element, &known);
+        let get = |key: &str| element.attribute(key);
+        let Some(mass) = get("mass") else {
+            self.findings.missing(element, "a `mass`");
+            return None;
+        };
+        let mass = self.findings.not_negative(&mass, Counted::Not)?;
+        // The centre of mass is no place of a joint: its digits say nothing of them.
+        let centre = match get("pos") {
+            Some(value) => self.findings.vector(&value, Counted::Not)?,
+            None => Vector3::zeros(),
+        };
+        let digits = self.findings.directions;
+        let turned = self.compiler.orientation(get, self.findings);
+        self.findings.directions = digits;
+        let tensor = match (get("fullinertia"), get("diaginertia")) {
+            (Some(full), None) => {
+                let n = self.findings.numbers(&full, [6, 6], Counted::Not)?;
+                let [xx, yy, zz, xy, xz, yz] = [n[0], n[1], n[2], n[3], n[4], n[5]];
+                Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+            }
+            (None, Some(diagonal)) => {
+                Matrix3::from_diagonal(&self.findings.vector(&diagonal, Counted::Not)?)
+            }
+            (Some(full), Some(_)) => {
+                let message = "`fullinertia` and `diaginertia` exclude each other";
+                self.findings.at(Fault::Value, &full, message);
+                return None;
+            }
+            (None, None) => {
+                self.findings
+                    .missing(element, "`diaginertia` or `fullinertia`");
+                return None;
+            }
+        };
+        let own = Mass::turned(mass, centre, turned, tensor);
+        Some(if item.frame == Isometry3::identity() {
+            own
+        } else {
+            own.seen(&item.frame)
+        })
+    }
+
+    /// The bounds of `<compiler>`, on the principal moments.
+    fn bounded(&self, mut mass: Mass) -> Mass {
+        let compiler = &self.compiler;
+        mass.mass = mass.mass.max(compiler.least_mass);
+        if compiler.least_inertia == 0.0 && !compiler.balances {
+            return mass;
+        }
+        let eigen = mass.inertia.symmetric_eigen();
+        let mut moments = eigen.eigenvalues.map(|x| x.max(compiler.least_inertia));
+        let [a, b, c] = [moments[0], moments[1], moments[2]];
+        if compiler.balances && (a + b < c || a + c < b || b + c < a) {
+            moments = Vector3::repeat((a + b + c) / 3.0);
+        }
+        if moments != eigen.eigenvalues {
+            let axes = eigen.eigenvectors;
+            mass.inertia = axes * Matrix3::from_diagonal(&moments) * axes.transpose();
+            mass.inertia = (mass.inertia + mass.inertia.transpose()) * 0.5;
+        }
+        mass
+    }
+
+    /// Scales all masses, where `<compiler>` gives their sum.
+    pub(super) fn finish_masses(&mut self, root: Element<'a>) {
+        let Some(total) = self.compiler.total_mass else {
+            return;
+        };
+        let sum: f64 = self.model.links.iter().map(|link| link.mass.mass).sum();
+        if sum > 0.0 {
+            for link in &mut self.model.links {
+                link.mass = link.mass.scaled(total / sum);
+            }
+            let remark = format!(
+                "All masses are multiplied by {:.6} (settotalmass).",
+                total / sum
+            );
+            self.findings.remarks.push(remark);
+        } else {
+            let message = "`settotalmass` of bodies without mass";
+            self.findings.of(Fault::Range, root, message);
+        }
+    }
+
+    fn site(&mut self, item: &Item<'a>, link: Option<usize>) {
+        let element = item.element;
+        let attributes = self.attributes(element, item.class);
+        let ends = attributes.get("fromto");
+        let keys = ["pos", "quat", "axisangle", "euler", "xyaxes", "zaxis"];
+        let values = keys.map(|key| attributes.get(key));
+        let get = |key: &str| {
+            keys.iter()
+                .position(|k| *k == key)
+                .and_then(|k| values[k].clone())
+        };
+        let mut pose = item.frame * self.compiler.pose(get, self.findings);
+        if let Some(value) = ends {
+            let Some((middle, axes, _)) = Geoms::ends(&value, self.findings) else {
+                return;
+            };
+            pose = item.frame * Isometry3::from_parts(middle.into(), axes);
+        }
+        let Some(name) = element.attribute("name") else {
+            return;
+        };
+        let name = name.text.trim().to_owned();
+        if self.sites.insert(name.clone(), (link, pose)).is_some() {
+            let message = format!("the site `{name}` is there already");
+            self.findings.of(Fault::Twice, element, message);
+        }
+        self.model.frames.push(Frame { name, link, pose });
+    }
+}

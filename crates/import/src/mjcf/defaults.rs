@@ -1,0 +1,99 @@
+//! `<default>`: classes of attributes, each within another one.
+
+use std::collections::HashMap;
+
+use crate::files::Files;
+use crate::findings::{Fault, Findings};
+use crate::xml::{Element, Value};
+
+#[derive(Default)]
+pub(super) struct Defaults<'a> {
+    classes: Vec<Class<'a>>,
+    by_name: HashMap<String, usize>,
+}
+
+#[derive(Default)]
+struct Class<'a> {
+    around: Option<usize>,
+    /// By element and attribute.
+    values: HashMap<(&'a str, &'a str), Value<'a>>,
+}
+
+impl<'a> Defaults<'a> {
+    pub(super) fn read(
+        files: &'a Files<'a>,
+        sections: &[Element<'a>],
+        findings: &mut Findings,
+    ) -> Self {
+        let mut defaults = Self::default();
+        defaults.classes.push(Class::default());
+        defaults.by_name.insert("main".to_owned(), 0);
+        for section in sections
+            .iter()
+            .filter(|section| section.name() == "default")
+        {
+            if let Some(name) = section.attribute("class") {
+                defaults.by_name.insert(name.text.trim().to_owned(), 0);
+            }
+            defaults.class(files, *section, 0, findings);
+        }
+        defaults
+    }
+
+    /// The attributes of one class, and the classes within it. The depth is that of the file.
+    fn class(
+        &mut self,
+        files: &'a Files<'a>,
+        section: Element<'a>,
+        class: usize,
+        findings: &mut Findings,
+    ) {
+        for child in files.children(section, findings) {
+            if child.name() != "default" {
+                for (key, value) in child.attributes() {
+                    // `joint` is written for free joints, too, which have no such attributes.
+                    self.classes[class]
+                        .values
+                        .insert((child.name(), key), value);
+                }
+                continue;
+            }
+            let Some(name) = child.attribute("class") else {
+                findings.missing(child, "a `class`: only the first one may be without");
+                continue;
+            };
+            let new = self.classes.len();
+            let around = Some(class);
+            self.classes.push(Class {
+                around,
+                values: HashMap::new(),
+            });
+            if self
+                .by_name
+                .insert(name.text.trim().to_owned(), new)
+                .is_some()
+            {
+                let message = format!("the class `{}` is there already", name.text);
+                findings.at(Fault::Twice, &name, message);
+            }
+            self.class(files, child, new, findings);
+        }
+    }
+
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        self.by_name.get(name).copied()
+    }
+
+    /// An attribute of a class, or of the nearest class around it that has it.
+    pub(super) fn get(&self, class: usize, element: &str, key: &str) -> Option<Value<'a>> {
+        let mut at = Some(class);
+        while let Some(class) = at {
+            let class = self.classes.get(class)?;
+            if let Some(value) = class.values.get(&(element, key)) {
+                return Some(value.clone());
+            }
+            at = class.around;
+        }
+        None
+    }
+}

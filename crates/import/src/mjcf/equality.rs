@@ -1,0 +1,224 @@
+//! `<equality>`: soft constraints of MuJoCo, which are exact ones in a scene.
+
+use nalgebra::{Isometry3, Point3, Vector3};
+
+use super::Reader;
+use crate::findings::{Counted, Fault};
+use crate::mechanism::{Coupling, Joint, Kind};
+use crate::pose::quaternion;
+use crate::xml::{Element, Value};
+
+impl<'a> Reader<'a, '_> {
+    pub(super) fn equalities(&mut self, section: Element<'a>) {
+        let mut lines = Vec::new();
+        for (k, element) in self
+            .files
+            .children(section, self.findings)
+            .into_iter()
+            .enumerate()
+        {
+            let name = element
+                .attribute("name")
+                .map(|name| name.text.trim().to_owned());
+            let name = name.filter(|name| !name.is_empty());
+            let name = name.unwrap_or_else(|| format!("{} {}", element.name(), k + 1));
+            lines.push(element.line().to_string());
+            match element.name() {
+                "connect" | "weld" => {
+                    if let Some(joint) = self.closure(element, name) {
+                        self.model.joints.push(joint);
+                    }
+                }
+                "joint" => {
+                    if let Some(coupling) = self.coupling(element, name) {
+                        self.model.couplings.push(coupling);
+                    }
+                }
+                _ => {
+                    let subject = format!("{name}, <{}>", element.name());
+                    let kind = "constraints of tendons, flexible bodies and others";
+                    self.findings.leave_element(kind, element, &subject);
+                }
+            }
+        }
+        if !lines.is_empty() {
+            self.findings.remarks.push(format!(
+                "Constraints of <equality> (line {}) are exact here; in MuJoCo they are soft.",
+                lines.join(", ")
+            ));
+        }
+    }
+
+    fn is_active(&mut self, element: Element<'a>) -> bool {
+        let value = self.equality_attribute(element, "active");
+        value.is_none_or(|value| self.findings.boolean(&value).unwrap_or(true))
+    }
+
+    /// An attribute of an element, or of its class of `<equality>`.
+    fn equality_attribute(&mut self, element: Element<'a>, key: &str) -> Option<Value<'a>> {
+        let class = element
+            .attribute("class")
+            .map_or(0, |value| self.class(&value));
+        element
+            .attribute(key)
+            .or_else(|| self.defaults.get(class, "equality", key))
+    }
+
+    /// `<connect>` and `<weld>`.
+    fn closure(&mut self, element: Element<'a>, name: String) -> Option<Joint> {
+        let known = [
+            "name",
+            "class",
+            "active",
+            "solref",
+            "solimp",
+            "body1",
+            "body2",
+            "site1",
+            "site2",
+            "anchor",
+            "relpose",
+            "torquescale",
+        ];
+        self.close(element, &known);
+        let is_weld = element.name() == "weld";
+        let kind = if is_weld {
+            Kind::Fixed
+        } else {
+            Kind::Spherical
+        };
+        let is_active = self.is_active(element);
+        let joint = |links, points, frames| Joint {
+            places: false,
+            frames,
+            is_active,
+            ..Joint::new(name, kind, links, points, [Vector3::z(); 2])
+        };
+        if let (Some(a), Some(b)) = (element.attribute("site1"), element.attribute("site2")) {
+            let [a, b] = [self.site_of(&a), self.site_of(&b)];
+            let ((first, a), (second, b)) = (a?, b?);
+            let points = [a.translation.vector, b.translation.vector];
+            let frames = is_weld.then_some([a.rotation, b.rotation]);
+            return self
+                .between(element, [first, second])
+                .then(|| joint([first, second], points, frames));
+        }
+        let Some(first) = element.attribute("body1") else {
+            self.findings
+                .missing(element, "`body1`, or `site1` and `site2`");
+            return None;
+        };
+        let first = self.body(&first)?;
+        let second = match element.attribute("body2") {
+            Some(second) => self.body(&second)?,
+            None => None,
+        };
+        if !self.between(element, [first, second]) {
+            return None;
+        }
+        let anchor = match element.attribute("anchor") {
+            Some(value) => Some(self.findings.vector(&value, Counted::Length)?),
+            None => None,
+        };
+        let [a, b] = [first, second].map(|link| self.model.pose(link));
+        let relation = b.inverse() * a;
+        if !is_weld {
+            let Some(anchor) = anchor else {
+                self.findings.missing(element, "an `anchor`");
+                return None;
+            };
+            let other = (relation * Point3::from(anchor)).coords;
+            return Some(joint([first, second], [anchor, other], None));
+        }
+        let given = element.attribute("relpose");
+        let given = match given {
+            Some(value) => Some(self.findings.numbers(&value, [7, 7], Counted::Not)?),
+            None => None,
+        };
+        // A quaternion of zeros stands for the relation at the described pose.
+        let given = given.filter(|n| n[3..].iter().any(|x| *x != 0.0));
+        let anchor = anchor.unwrap_or_default();
+        match given {
+            None => {
+                let at = (relation.inverse() * Point3::from(anchor)).coords;
+                Some(joint([first, second], [at, anchor], None))
+            }
+            Some(n) => {
+                let turned = quaternion([n[3], n[4], n[5], n[6]]);
+                let pose = Isometry3::from_parts(Vector3::new(n[0], n[1], n[2]).into(), turned);
+                let at = (pose * Point3::from(anchor)).coords;
+                let frames = Some([turned, Default::default()]);
+                Some(joint([first, second], [at, anchor], frames))
+            }
+        }
+    }
+
+    fn between(&mut self, element: Element<'a>, [first, second]: [Option<usize>; 2]) -> bool {
+        if first == second {
+            let message = "a constraint between a body and itself";
+            self.findings.of(Fault::Structure, element, message);
+        }
+        first != second
+    }
+
+    fn site_of(&mut self, value: &Value<'a>) -> Option<(Option<usize>, Isometry3<f64>)> {
+        let found = self.sites.get(value.text.trim()).copied();
+        if found.is_none() {
+            let message = format!("{}: there is no site `{}`", value.subject, value.text);
+            self.findings.at(Fault::Unknown, value, message);
+        }
+        found
+    }
+
+    /// `<joint>`: y − y₀ = P(x − x₀).
+    fn coupling(&mut self, element: Element<'a>, name: String) -> Option<Coupling> {
+        let known = [
+            "name", "class", "active", "solref", "solimp", "joint1", "joint2", "polycoef",
+        ];
+        self.close(element, &known);
+        let Some(y) = element.attribute("joint1") else {
+            self.findings.missing(element, "`joint1`");
+            return None;
+        };
+        let y = self.coordinate(&y)?;
+        let x = match element.attribute("joint2") {
+            Some(x) => Some(self.coordinate(&x)?),
+            None => None,
+        };
+        let mut coefficients = vec![0.0, 1.0, 0.0, 0.0, 0.0];
+        if let Some(value) = element.attribute("polycoef") {
+            let given = self.findings.numbers(&value, [1, 5], Counted::Not)?;
+            coefficients[..given.len()].copy_from_slice(&given);
+        }
+        let is_active = self.is_active(element);
+        Some(Coupling {
+            name,
+            x,
+            y,
+            coefficients,
+            is_active,
+        })
+    }
+
+    fn coordinate(&mut self, value: &Value<'a>) -> Option<(usize, usize)> {
+        let Some(found) = self.joints.get(value.text.trim()).copied() else {
+            let message = format!("{}: there is no joint `{}`", value.subject, value.text);
+            self.findings.at(Fault::Unknown, value, message);
+            return None;
+        };
+        if self.model.joints[found.0]
+            .kind
+            .measures()
+            .get(found.1)
+            .is_none()
+        {
+            let message = format!(
+                "{}: `{}` is neither hinge nor slide",
+                value.subject, value.text
+            );
+            self.findings.at(Fault::Structure, value, message);
+            return None;
+        }
+        Some(found)
+    }
+}

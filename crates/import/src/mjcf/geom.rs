@@ -1,0 +1,178 @@
+//! `<geom>`: only its mass is of use; contacts are left out.
+
+use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
+
+use super::Reader;
+use super::body::Item;
+use crate::findings::{Counted, Fault, Findings, unit};
+use crate::mass::{Mass, Solid};
+use crate::pose::along_z;
+use crate::xml::{Element, Value};
+
+/// Density of MuJoCo where none is given (kg/m³).
+const DENSITY: f64 = 1000.0;
+
+/// Geometry of geoms.
+pub(super) struct Geoms;
+
+impl Geoms {
+    /// Middle, orientation and half length of `fromto`.
+    pub(super) fn ends(
+        value: &Value,
+        findings: &mut Findings,
+    ) -> Option<(Vector3<f64>, UnitQuaternion<f64>, f64)> {
+        let n = findings.numbers(value, [6, 6], Counted::Not)?;
+        let (a, b) = (
+            Vector3::new(n[0], n[1], n[2]),
+            Vector3::new(n[3], n[4], n[5]),
+        );
+        let along = a - b;
+        let length = along.norm();
+        if length == 0.0 || !length.is_finite() {
+            let message = format!("{}: its ends coincide", value.subject);
+            findings.at(Fault::Range, value, message);
+            return None;
+        }
+        Some(((a + b) * 0.5, along_z(unit(along)), 0.5 * length))
+    }
+}
+
+impl<'a> Reader<'a, '_> {
+    pub(super) fn mass_of_geoms(&mut self, body: Element<'a>, items: &[Item<'a>]) -> Mass {
+        let mut sum = Mass::default();
+        for item in items.iter().filter(|item| item.element.name() == "geom") {
+            if let Some(mass) = self.geom(item) {
+                sum = sum.plus(&mass);
+            }
+        }
+        if !sum.mass.is_finite() || sum.inertia.iter().any(|x| !x.is_finite()) {
+            self.findings
+                .of(Fault::Range, body, "the mass of its geoms is not finite");
+            return Mass::default();
+        }
+        sum
+    }
+
+    /// The mass of a geom in the axes of its body.
+    fn geom(&mut self, item: &Item<'a>) -> Option<Mass> {
+        let attributes = self.attributes(item.element, item.class);
+        let keys = [
+            "type",
+            "size",
+            "fromto",
+            "mass",
+            "density",
+            "group",
+            "shellinertia",
+            "pos",
+            "quat",
+            "axisangle",
+            "euler",
+            "xyaxes",
+            "zaxis",
+            "mesh",
+        ];
+        let values = keys.map(|key| attributes.get(key));
+        let get = |key: &str| {
+            keys.iter()
+                .position(|k| *k == key)
+                .and_then(|k| values[k].clone())
+        };
+        if let Some(group) = get("group") {
+            let group = self.findings.number(&group, Counted::Not)?;
+            let [first, last] = self.compiler.groups;
+            if group < first || group > last {
+                return None;
+            }
+        }
+        let given = match get("mass") {
+            Some(value) => Some(self.findings.not_negative(&value, Counted::Not)?),
+            None => None,
+        };
+        let density = match get("density") {
+            Some(value) => self.findings.not_negative(&value, Counted::Not)?,
+            None => DENSITY,
+        };
+        if given == Some(0.0) || (given.is_none() && density == 0.0) {
+            return None;
+        }
+        let digits = (self.findings.lengths, self.findings.directions);
+        let mut pose = self.compiler.pose(get, self.findings);
+        (self.findings.lengths, self.findings.directions) = digits;
+        let kind = get("type");
+        let word = kind.as_ref().map_or("sphere", |value| value.text.trim());
+        if matches!(word, "plane" | "hfield") {
+            return None;
+        }
+        if matches!(word, "mesh" | "sdf") || get("mesh").is_some() {
+            let name = item.element.attribute("name").map_or("", |name| name.text);
+            let kind = "masses of meshes: the body lacks them, give it an <inertial>";
+            self.findings.leave_element(kind, item.element, name);
+            return None;
+        }
+        if get("shellinertia").is_some_and(|value| value.text.trim() == "true") {
+            let message = "`shellinertia` is not read: give the body an `<inertial>`";
+            self.findings.of(Fault::Unsupported, item.element, message);
+            return None;
+        }
+        let size = match get("size") {
+            Some(value) => self.findings.numbers(&value, [1, 3], Counted::Not)?,
+            None => Vec::new(),
+        };
+        let mut size = size;
+        if let Some(value) = get("fromto") {
+            let (middle, axes, half) = Geoms::ends(&value, self.findings)?;
+            pose = Isometry3::from_parts(middle.into(), axes);
+            let radius = size.first().copied().unwrap_or(0.0);
+            size = match word {
+                "box" | "ellipsoid" => vec![radius, radius, half],
+                _ => vec![radius, half],
+            };
+        }
+        let solid = match (word, size.as_slice()) {
+            ("sphere", &[radius, ..]) => Solid::Sphere { radius },
+            ("capsule", &[radius, half, ..]) => Solid::Capsule { radius, half },
+            ("cylinder", &[radius, half, ..]) => Solid::Cylinder { radius, half },
+            ("ellipsoid", &[a, b, c]) => Solid::Ellipsoid { half: [a, b, c] },
+            ("box", &[a, b, c]) => Solid::Box { half: [a, b, c] },
+            ("sphere" | "capsule" | "cylinder" | "ellipsoid" | "box", _) => {
+                let message = format!("a {word} needs more numbers in its `size`");
+                self.findings.of(Fault::Missing, item.element, message);
+                return None;
+            }
+            _ => {
+                let shown: String = word.chars().take(40).collect();
+                let message = format!("there is no geom of type `{shown}`");
+                self.findings.of(Fault::Value, item.element, message);
+                return None;
+            }
+        };
+        if !size.iter().all(|x| *x > 0.0) {
+            let message = format!("the `size` of a {word} has to be positive");
+            self.findings.of(Fault::Range, item.element, message);
+            return None;
+        }
+        let mass = given.unwrap_or_else(|| density * solid.volume());
+        let moments = Matrix3::from_diagonal(&Vector3::from(solid.moments(mass)));
+        let pose = item.frame * pose;
+        Some(Mass::turned(
+            mass,
+            pose.translation.vector,
+            pose.rotation,
+            moments,
+        ))
+    }
+
+    /// Notes that a geom may touch others.
+    pub(super) fn contact_of(&mut self, item: &Item<'a>) {
+        let attributes = self.attributes(item.element, item.class);
+        let off = |value: Option<Value>| value.is_some_and(|value| value.text.trim() == "0");
+        let (by_type, affinity) = (attributes.get("contype"), attributes.get("conaffinity"));
+        if off(by_type) && off(affinity) {
+            return;
+        }
+        let name = item.element.attribute("name").map_or("", |name| name.text);
+        self.findings
+            .leave_element("contacts of geoms", item.element, name);
+    }
+}

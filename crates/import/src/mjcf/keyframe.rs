@@ -1,0 +1,112 @@
+//! `<keyframe>`: states by name.
+
+use super::Reader;
+use crate::findings::{Counted, Fault};
+use crate::mechanism::{Kind, State};
+use crate::xml::Element;
+
+/// Numbers of coordinates and velocities that a joint has in a keyframe.
+fn counts(kind: Kind) -> (usize, usize) {
+    match kind {
+        Kind::Free => (7, 6),
+        Kind::Spherical => (4, 3),
+        _ => (1, 1),
+    }
+}
+
+impl<'a> Reader<'a, '_> {
+    pub(super) fn keyframes(&mut self, section: Element<'a>) {
+        for (k, element) in self
+            .files
+            .children(section, self.findings)
+            .into_iter()
+            .enumerate()
+        {
+            if element.name() != "key" {
+                let subject = format!("<{}>", element.name());
+                let kind = "elements that are not understood";
+                self.findings.leave_element(kind, element, &subject);
+                continue;
+            }
+            self.close(
+                element,
+                &[
+                    "name", "time", "qpos", "qvel", "act", "ctrl", "mpos", "mquat",
+                ],
+            );
+            let name = element
+                .attribute("name")
+                .map(|name| name.text.trim().to_owned());
+            let name = name
+                .filter(|name| !name.is_empty())
+                .unwrap_or_else(|| format!("{k}"));
+            if let Some(state) = self.state(element, name) {
+                self.model.states.push(state);
+            }
+        }
+    }
+
+    fn state(&mut self, element: Element<'a>, name: String) -> Option<State> {
+        let slots = self.slots.clone();
+        let kinds: Vec<Kind> = slots
+            .iter()
+            .map(|(joint, _)| self.model.joints[*joint].kind)
+            .collect();
+        let total = |of: fn((usize, usize)) -> usize| kinds.iter().map(|k| of(counts(*k))).sum();
+        let (n_q, n_v): (usize, usize) = (total(|c| c.0), total(|c| c.1));
+        let mut read = |key: &str, n: usize| match element.attribute(key) {
+            Some(value) => self
+                .findings
+                .numbers(&value, [n, n], Counted::Not)
+                .map(Some),
+            None => Some(None),
+        };
+        let (q, v) = (read("qpos", n_q)?, read("qvel", n_v)?);
+        let mut out_q = rest(&self.model.joints, |joint| match joint.kind {
+            Kind::Free => {
+                let pose = self.model.pose(joint.links[1]);
+                let (p, e) = (pose.translation.vector, pose.rotation);
+                vec![p.x, p.y, p.z, e.w, e.i, e.j, e.k]
+            }
+            Kind::Spherical => vec![1.0, 0.0, 0.0, 0.0],
+            Kind::Fixed | Kind::Planar => Vec::new(),
+            kind => joint.zero[..kind.measures().len()].to_vec(),
+        });
+        let mut out_v = rest(&self.model.joints, |joint| match joint.kind {
+            Kind::Free => vec![0.0; 6],
+            Kind::Spherical => vec![0.0; 3],
+            Kind::Fixed | Kind::Planar => Vec::new(),
+            kind => vec![0.0; kind.measures().len()],
+        });
+        let (mut at_q, mut at_v) = (0, 0);
+        for ((joint, coordinate), kind) in slots.iter().zip(&kinds) {
+            let (n, m) = counts(*kind);
+            if let Some(q) = &q {
+                let own = &q[at_q..at_q + n];
+                let quaternion = &own[n - n.min(4)..];
+                if n > 1 && quaternion.iter().all(|x| *x == 0.0) {
+                    let message = format!("the keyframe `{name}` has a quaternion of zeros");
+                    self.findings.of(Fault::Range, element, message);
+                    return None;
+                }
+                out_q[*joint][*coordinate..*coordinate + n].copy_from_slice(own);
+            }
+            if let Some(v) = &v {
+                out_v[*joint][*coordinate..*coordinate + m].copy_from_slice(&v[at_v..at_v + m]);
+            }
+            (at_q, at_v) = (at_q + n, at_v + m);
+        }
+        Some(State {
+            name,
+            q: out_q,
+            v: v.map(|_| out_v),
+        })
+    }
+}
+
+fn rest(
+    joints: &[crate::mechanism::Joint],
+    of: impl Fn(&crate::mechanism::Joint) -> Vec<f64>,
+) -> Vec<Vec<f64>> {
+    joints.iter().map(of).collect()
+}

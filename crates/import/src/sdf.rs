@@ -1,0 +1,570 @@
+//! SDF, the format of Gazebo: <http://sdformat.org/spec>.
+
+mod frames;
+
+use std::collections::HashMap;
+
+use nalgebra::{Isometry3, Vector3};
+
+use crate::findings::{Counted, Fault, Findings};
+use crate::mass::Mass;
+use crate::mechanism::{Coupling, Frame, Kind, Link, Load, Model};
+use crate::solids::{assume_gravity, find_tree, joint_between, tensor, with_second_axis};
+use crate::xml::{Element, Value};
+use frames::{Frames, pose_of};
+
+/// Names of links for joints, and how the file writes axes.
+pub(crate) struct Scope<'n> {
+    links: HashMap<&'n str, Option<usize>>,
+    frames: Frames,
+    /// Axes are written in the axes of the model, as before version 1.5.
+    in_model: bool,
+}
+
+impl<'n> Scope<'n> {
+    /// For joints in `<gazebo>` of a URDF.
+    pub(crate) fn of_links(names: &'n HashMap<String, usize>) -> Self {
+        let links = names
+            .iter()
+            .map(|(name, link)| (name.as_str(), Some(*link)));
+        Self {
+            links: links.collect(),
+            frames: Frames::default(),
+            in_model: false,
+        }
+    }
+
+    fn link(&self, value: &Value, findings: &mut Findings) -> Option<Option<usize>> {
+        let name = value.text.trim();
+        if name == "world" {
+            return Some(None);
+        }
+        if let Some(link) = self.links.get(name) {
+            return Some(*link);
+        }
+        if let Some(link) = self.frames.link_of(name) {
+            return Some(Some(link));
+        }
+        let near = scene::nearest(name, self.links.keys().copied());
+        let help = near.map(|near| format!("did you mean `{near}`?"));
+        let message = format!("{}: there is no link `{name}`", value.subject);
+        let (source, span) = (value.source, value.span.clone());
+        findings.fault_with_help(Fault::Unknown, source, span, message, "no such link", help);
+        None
+    }
+}
+
+/// Reads the model of a file.
+pub(crate) fn read(root: Element, findings: &mut Findings) -> Model {
+    let mut model = Model::default();
+    let world = root.child("world");
+    let around = world.unwrap_or(root);
+    let models: Vec<Element> = around
+        .children()
+        .filter(|child| child.name() == "model")
+        .collect();
+    let &[element] = models.as_slice() else {
+        let message = format!("one `<model>` is read, found {}", models.len());
+        findings.of(Fault::Structure, root, message);
+        return model;
+    };
+    let gravity = world.and_then(|world| world.text_of("gravity"));
+    match gravity.map(|value| findings.vector(&value, Counted::Not)) {
+        Some(Some(gravity)) => model.gravity = gravity,
+        Some(None) => return model,
+        None => assume_gravity(&mut model, findings),
+    }
+    for child in around.children() {
+        match child.name() {
+            "model" | "gravity" | "light" | "scene" | "gui" => {}
+            "include" => unsupported(
+                child,
+                "`<include>` is not read: put the model into the file",
+                findings,
+            ),
+            other => {
+                let subject = format!("<{other}>");
+                findings.leave_element("settings of the world", child, &subject);
+            }
+        }
+    }
+    let version = root.attribute("version");
+    let version = version.map_or((1, 6), |value| numbers_of(value.text));
+    read_model(element, version, &mut model, findings);
+    model
+}
+
+fn numbers_of(version: &str) -> (u32, u32) {
+    let mut parts = version
+        .trim()
+        .split('.')
+        .map(|part| part.parse().unwrap_or(0));
+    (parts.next().unwrap_or(1), parts.next().unwrap_or(6))
+}
+
+fn unsupported(element: Element, message: &str, findings: &mut Findings) {
+    findings.of(Fault::Unsupported, element, message);
+}
+
+fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings: &mut Findings) {
+    let name = element
+        .attribute("name")
+        .map(|name| name.text.trim().to_owned());
+    model.name = name
+        .filter(|name| !name.is_empty())
+        .unwrap_or_else(|| "SDF model".into());
+    let mut names: Vec<String> = Vec::new();
+    let mut is_static = false;
+    for child in element.children() {
+        match child.name() {
+            "link" => {
+                let name = child
+                    .attribute("name")
+                    .map(|name| name.text.trim().to_owned());
+                let Some(name) = name else {
+                    findings.missing(child, "a `name`");
+                    continue;
+                };
+                if names.contains(&name) && names.len() < 5000 {
+                    let message = format!("the link `{name}` is there already");
+                    findings.of(Fault::Twice, child, message);
+                }
+                names.push(name);
+            }
+            "static" => is_static = findings.boolean(&child.text()).unwrap_or(false),
+            "joint" | "pose" | "frame" => {}
+            "self_collide" | "allow_auto_disable" | "enable_wind" => {
+                findings.leave_element("settings of a simulator", child, child.name());
+            }
+            "model" => unsupported(child, "a model within a model is not read", findings),
+            "include" => unsupported(
+                child,
+                "`<include>` is not read: put the model into the file",
+                findings,
+            ),
+            "plugin" => {
+                let name = child.attribute("name").map_or("", |name| name.text);
+                findings.leave_element("plugins", child, name);
+            }
+            other => {
+                let subject = format!("<{other}>");
+                findings.leave_element("elements that are not understood", child, &subject);
+            }
+        }
+    }
+    if is_static {
+        return findings.of(
+            Fault::Structure,
+            element,
+            "the model is static: nothing in it moves",
+        );
+    }
+    let frames = Frames::read(element, &names, findings);
+    for (child, name) in element
+        .children()
+        .filter(|child| child.name() == "link")
+        .zip(&names)
+    {
+        let pose = frames.pose(name).unwrap_or_default();
+        let (mass, held_weight) = link(child, name, findings).unwrap_or_default();
+        model.links.push(Link {
+            name: name.clone(),
+            pose,
+            mass,
+            held_weight,
+        });
+    }
+    let mut scope = Scope {
+        links: names
+            .iter()
+            .enumerate()
+            .map(|(k, name)| (name.as_str(), Some(k)))
+            .collect(),
+        frames,
+        in_model: version < (1, 5),
+    };
+    for (name, link, pose) in scope.frames.places(&model.links) {
+        model.frames.push(Frame { name, link, pose });
+    }
+    let mut seen = std::collections::HashSet::new();
+    for child in element.children().filter(|child| child.name() == "joint") {
+        if let Some(name) = child.attribute("name")
+            && !seen.insert(name.text)
+        {
+            let message = format!("the joint `{}` is there already", name.text);
+            findings.of(Fault::Twice, child, message);
+        }
+        joint(child, &scope, model, findings);
+    }
+    scope.links.clear();
+    for child in element.children().filter(|child| child.name() == "joint") {
+        mimic(child, model, findings);
+    }
+    find_tree(model);
+}
+
+/// Mass of a link, and the share of its weight that is held.
+fn link(element: Element, name: &str, findings: &mut Findings) -> Option<(Mass, f64)> {
+    let (mut mass, mut held) = (None, 0.0);
+    for child in element.children() {
+        match child.name() {
+            "pose" | "visual" | "light" | "velocity_decay" | "enable_wind"
+            | "must_be_base_link" => {}
+            "inertial" => mass = Some(inertial(child, name, findings)?),
+            "collision" => findings.leave_element("contacts of links", child, name),
+            "gravity" => {
+                if findings.boolean(&child.text()) == Some(false) {
+                    held = 1.0;
+                }
+            }
+            "self_collide" | "kinematic" => {
+                let subject = format!("{} of `{name}`", child.name());
+                findings.leave_element("settings of a simulator", child, &subject);
+            }
+            "sensor" | "projector" | "audio_sink" | "audio_source" | "battery"
+            | "particle_emitter" => {
+                findings.leave_element("sensors and devices", child, name);
+            }
+            other => {
+                let subject = format!("<{other}> of `{name}`");
+                findings.leave_element("elements that are not understood", child, &subject);
+            }
+        }
+    }
+    let mass = mass.unwrap_or_else(|| {
+        findings.remarks.push(format!(
+            "Link `{name}` has no inertia: 1 kg and 1 kg·m² are taken, as SDF says."
+        ));
+        let inertia = tensor([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
+        Mass {
+            mass: 1.0,
+            centre: Vector3::zeros(),
+            inertia,
+        }
+    });
+    Some((mass, held))
+}
+
+fn inertial(element: Element, link: &str, findings: &mut Findings) -> Option<Mass> {
+    if element
+        .attribute("auto")
+        .is_some_and(|value| value.text.trim() == "true")
+    {
+        unsupported(
+            element,
+            "`auto` inertia is not read: give the numbers",
+            findings,
+        );
+        return None;
+    }
+    let pose = match element.child("pose") {
+        Some(pose) => pose_of(pose, Counted::Not, findings)?,
+        None => Isometry3::identity(),
+    };
+    let mass = match element.text_of("mass") {
+        Some(value) => findings.not_negative(&value, Counted::Not)?,
+        None => {
+            findings.remarks.push(format!(
+                "Link `{link}` has no mass: 1 kg is taken, as SDF says."
+            ));
+            1.0
+        }
+    };
+    let mut numbers = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+    match element.child("inertia") {
+        Some(inertia) => {
+            for (number, key) in numbers
+                .iter_mut()
+                .zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"])
+            {
+                if let Some(value) = inertia.text_of(key) {
+                    *number = findings.number(&value, Counted::Not)?;
+                }
+            }
+        }
+        None => {
+            findings.remarks.push(format!(
+                "Link `{link}` has no moments: 1 kg·m² is taken, as SDF says."
+            ));
+        }
+    }
+    Some(Mass::turned(
+        mass,
+        pose.translation.vector,
+        pose.rotation,
+        tensor(numbers),
+    ))
+}
+
+/// An axis with its loads.
+struct Axis {
+    /// In the axes of the second link.
+    direction: Vector3<f64>,
+    load: Load,
+}
+
+/// Reads a joint and adds it to the model.
+pub(crate) fn joint(element: Element, scope: &Scope, model: &mut Model, findings: &mut Findings) {
+    // What is missing or wrong has been told.
+    let _ = read_joint(element, scope, model, findings);
+}
+
+fn read_joint(
+    element: Element,
+    scope: &Scope,
+    model: &mut Model,
+    findings: &mut Findings,
+) -> Option<()> {
+    let Some(name) = element.attribute("name") else {
+        findings.missing(element, "a `name`");
+        return None;
+    };
+    let name = name.text.trim();
+    let Some(kind) = element.attribute("type") else {
+        findings.missing(element, "a `type`");
+        return None;
+    };
+    let mut end = |key: &str| {
+        let Some(child) = element.child(key) else {
+            findings.missing(element, &format!("a `<{key}>`"));
+            return None;
+        };
+        // In `<gazebo>` of a URDF the name may be an attribute.
+        let value = child.attribute("link").unwrap_or_else(|| child.text());
+        scope.link(&value, findings)
+    };
+    let (first, second) = (end("parent"), end("child"));
+    let links = [first?, second?];
+    if links[0] == links[1] {
+        let message = format!("joint `{name}` connects a link with itself");
+        findings.of(Fault::Structure, element, message);
+        return None;
+    }
+    let in_second = match scope.frames.pose_of_joint(name) {
+        Some(pose) => model.pose(links[1]).inverse() * pose,
+        None => match element.child("pose") {
+            Some(pose) => pose_of(pose, Counted::Length, findings)?,
+            None => Isometry3::identity(),
+        },
+    };
+    let axis = |key: &str, findings: &mut Findings| {
+        let child = element.child(key);
+        child.map(|child| read_axis(child, name, &in_second, links, scope, model, findings))
+    };
+    let first = axis("axis", findings);
+    let second = axis("axis2", findings);
+    let z = Axis {
+        direction: in_second.rotation * Vector3::z(),
+        load: Load::default(),
+    };
+    let first = match first {
+        Some(axis) => axis?,
+        None => z,
+    };
+    let word = kind.text.trim();
+    let pitch = || {
+        let metres = element.text_of("screw_thread_pitch");
+        let radians = element.text_of("thread_pitch");
+        (metres, radians)
+    };
+    let found = match word {
+        "revolute" | "continuous" => Kind::Revolute,
+        "prismatic" => Kind::Translational,
+        "ball" => Kind::Spherical,
+        "fixed" => Kind::Fixed,
+        "universal" | "revolute2" => Kind::Universal,
+        "screw" => match pitch() {
+            (Some(value), _) => Kind::Screw(findings.number(&value, Counted::Length)?),
+            (None, Some(value)) => {
+                let turns = findings.number(&value, Counted::Not)?;
+                if turns == 0.0 {
+                    findings.at(Fault::Range, &value, "a thread without a pitch");
+                    return None;
+                }
+                Kind::Screw(-std::f64::consts::TAU / turns)
+            }
+            (None, None) => {
+                findings.missing(element, "a `<screw_thread_pitch>`");
+                return None;
+            }
+        },
+        "gearbox" => {
+            unsupported(
+                element,
+                "a `gearbox` is not read: write it as a `mimic`, or add a `coupling` to the scene",
+                findings,
+            );
+            return None;
+        }
+        other => {
+            let shown: String = other.chars().take(40).collect();
+            let message = format!("joint `{name}`: there is no type `{shown}`");
+            findings.at(Fault::Value, &kind, message);
+            return None;
+        }
+    };
+    for child in element.children() {
+        let known = [
+            "parent",
+            "child",
+            "pose",
+            "axis",
+            "axis2",
+            "screw_thread_pitch",
+            "thread_pitch",
+        ];
+        match child.name() {
+            other if known.contains(&other) => {}
+            "physics" => findings.leave_element("settings of a simulator", child, name),
+            "sensor" => findings.leave_element("sensors and devices", child, name),
+            other => {
+                let subject = format!("<{other}> of `{name}`");
+                findings.leave_element("elements that are not understood", child, &subject);
+            }
+        }
+    }
+    let mut joint = joint_between(model, name, found, links, in_second, first.direction);
+    if found.measures().is_empty() {
+        if first.load != Load::default() {
+            findings.leave_element(
+                "springs and dampers of joints without one axis",
+                element,
+                name,
+            );
+        }
+    } else {
+        joint.loads[0] = first.load;
+    }
+    if found == Kind::Universal {
+        let Some(second) = second else {
+            findings.missing(element, "an `<axis2>`");
+            return None;
+        };
+        let second = second?;
+        with_second_axis(model, joint, second.direction, second.load);
+    } else {
+        model.joints.push(joint);
+    }
+    Some(())
+}
+
+fn read_axis(
+    element: Element,
+    joint: &str,
+    in_second: &Isometry3<f64>,
+    links: [Option<usize>; 2],
+    scope: &Scope,
+    model: &Model,
+    findings: &mut Findings,
+) -> Option<Axis> {
+    let xyz = element.child("xyz");
+    let given = match xyz {
+        Some(xyz) => findings.direction(&xyz.text())?,
+        None => Vector3::z(),
+    };
+    let of_model = element.text_of("use_parent_model_frame");
+    let of_model = match of_model {
+        Some(value) => findings.boolean(&value)?,
+        None => scope.in_model,
+    };
+    let expressed = xyz.and_then(|xyz| xyz.attribute("expressed_in"));
+    let second = model.pose(links[1]).rotation;
+    let direction = match expressed.filter(|value| !value.text.is_empty()) {
+        Some(value) => {
+            let Some(pose) = scope.frames.pose(value.text.trim()) else {
+                let message = format!("{}: there is no frame `{}`", value.subject, value.text);
+                findings.at(Fault::Unknown, &value, message);
+                return None;
+            };
+            second.inverse() * (pose.rotation * given)
+        }
+        None if of_model => second.inverse() * (scope.frames.model().rotation * given),
+        None => in_second.rotation * given,
+    };
+    let mut load = Load::default();
+    for child in element.children() {
+        match child.name() {
+            "xyz" | "use_parent_model_frame" | "initial_position" | "mimic" => {}
+            "limit" => {
+                // Limits as large as 1e16 stand for none.
+                let bounds = ["lower", "upper"].map(|key| {
+                    let text = child.text_of(key)?;
+                    text.text.parse::<f64>().ok().filter(|x| x.abs() < 1e15)
+                });
+                if bounds.iter().any(Option::is_some) {
+                    findings.leave_element("limits of joints", child, joint);
+                }
+            }
+            "dynamics" => {
+                let mut number = |key: &str| match child.text_of(key) {
+                    Some(value) => findings.not_negative(&value, Counted::Not),
+                    None => Some(0.0),
+                };
+                load.damping = number("damping")?;
+                load.stiffness = number("spring_stiffness")?;
+                if number("friction")? != 0.0 {
+                    findings.leave_element("friction of joints", child, joint);
+                }
+                if let Some(value) = child.text_of("spring_reference") {
+                    load.reference = findings.number(&value, Counted::Not)?;
+                }
+            }
+            other => {
+                let subject = format!("<{other}> of `{joint}`");
+                findings.leave_element("elements that are not understood", child, &subject);
+            }
+        }
+    }
+    Some(Axis { direction, load })
+}
+
+/// `<mimic>` of an axis: y = multiplier·(x − reference) + offset.
+fn mimic(element: Element, model: &mut Model, findings: &mut Findings) {
+    let Some(name) = element.attribute("name") else {
+        return;
+    };
+    for (coordinate, key) in ["axis", "axis2"].into_iter().enumerate() {
+        let Some(mimic) = element.child(key).and_then(|axis| axis.child("mimic")) else {
+            continue;
+        };
+        let Some(other) = mimic.attribute("joint") else {
+            findings.missing(mimic, "a `joint`");
+            continue;
+        };
+        let find = |name: &str| {
+            model
+                .joints
+                .iter()
+                .position(|joint| joint.name == name.trim())
+        };
+        let led = usize::from(
+            mimic
+                .attribute("axis")
+                .is_some_and(|axis| axis.text == "axis2"),
+        );
+        let (Some(y), Some(x)) = (find(name.text), find(other.text)) else {
+            let message = format!("there is no joint `{}`", other.text);
+            findings.at(Fault::Unknown, &other, message);
+            continue;
+        };
+        let has = |joint: usize, k: usize| model.joints[joint].kind.measures().len() > k;
+        if !has(x, led) || !has(y, coordinate) || (x, led) == (y, coordinate) {
+            let message = format!("joint `{}` cannot follow `{}`", name.text, other.text);
+            findings.at(Fault::Structure, &other, message);
+            continue;
+        }
+        let mut number = |key: &str, default: f64| match mimic.text_of(key) {
+            Some(value) => findings.number(&value, Counted::Not).unwrap_or(default),
+            None => default,
+        };
+        let (multiplier, offset) = (number("multiplier", 1.0), number("offset", 0.0));
+        let reference = number("reference", 0.0);
+        model.couplings.push(Coupling {
+            name: format!("{} follows {}", name.text.trim(), other.text.trim()),
+            x: Some((x, led)),
+            y: (y, coordinate),
+            coefficients: vec![offset - multiplier * reference, multiplier],
+            is_active: true,
+        });
+    }
+}

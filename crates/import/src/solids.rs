@@ -1,0 +1,113 @@
+//! What URDF and SDF have in common: poses of six numbers, tensors by names, tree and loops.
+
+use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
+
+use crate::findings::Findings;
+use crate::limits::RIGHT_ANGLE;
+use crate::mechanism::{Joint, Kind, Load, Model};
+use crate::pose::rotation;
+
+/// Standard gravity, where a file has none (m/s²).
+pub(crate) const GRAVITY: f64 = -9.81;
+
+/// Angles about the fixed axes x, then y, then z.
+pub(crate) fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
+    let [x, y, z] = [
+        (Vector3::x(), roll),
+        (Vector3::y(), pitch),
+        (Vector3::z(), yaw),
+    ]
+    .map(|(axis, angle)| rotation(axis, angle));
+    z * y * x
+}
+
+/// A tensor of ixx, iyy, izz, ixy, ixz, iyz.
+pub(crate) fn tensor([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Matrix3<f64> {
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+/// Tells that the gravity is not that of the file.
+pub(crate) fn assume_gravity(model: &mut Model, findings: &mut Findings) {
+    model.gravity = Vector3::new(0.0, 0.0, GRAVITY);
+    let remark = "The file has no gravity: 9.81 m/s² along −z is taken.";
+    findings.remarks.push(remark.to_owned());
+}
+
+/// Decides which joints place links: the first one of each link, unless it would go round in a
+/// circle. The others close loops.
+pub(crate) fn find_tree(model: &mut Model) {
+    let mut before: Vec<Option<Option<usize>>> = vec![None; model.links.len()];
+    for joint in &mut model.joints {
+        joint.places = false;
+        let [first, Some(second)] = joint.links else {
+            continue;
+        };
+        if before[second].is_some() {
+            continue;
+        }
+        let (mut at, mut steps) = (first, 0);
+        while let Some(link) = at {
+            if link == second || steps > before.len() {
+                break;
+            }
+            at = before[link].flatten();
+            steps += 1;
+        }
+        if at.is_none() {
+            before[second] = Some(first);
+            joint.places = true;
+        }
+    }
+}
+
+/// A joint with a second axis: universal if both are at right angles, else two hinges with a link
+/// without mass between them. `second` is the axis in the axes of the second link.
+pub(crate) fn with_second_axis(
+    model: &mut Model,
+    mut joint: Joint,
+    second: Vector3<f64>,
+    load: Load,
+) {
+    if joint.axes[1].dot(&second).abs() <= RIGHT_ANGLE {
+        joint.kind = Kind::Universal;
+        joint.cross = second;
+        joint.loads[1] = load;
+        model.joints.push(joint);
+        return;
+    }
+    let pose = model.pose(joint.links[1]);
+    let between = model.links.len();
+    model.links.push(crate::mechanism::Link {
+        name: format!("between axes of {}", joint.name),
+        pose,
+        mass: Default::default(),
+        held_weight: 0.0,
+    });
+    let mut outer = joint.clone();
+    outer.kind = Kind::Revolute;
+    outer.links[1] = Some(between);
+    let mut inner = joint;
+    inner.kind = Kind::Revolute;
+    inner.links[0] = Some(between);
+    inner.points[0] = inner.points[1];
+    inner.axes = [second; 2];
+    inner.loads = [load, Load::default()];
+    inner.name = format!("{} second axis", inner.name);
+    model.joints.extend([outer, inner]);
+}
+
+/// The place of a joint on both links: its frame in the axes of the second, at the described pose.
+pub(crate) fn joint_between(
+    model: &Model,
+    name: &str,
+    kind: Kind,
+    links: [Option<usize>; 2],
+    in_second: Isometry3<f64>,
+    axis: Vector3<f64>,
+) -> Joint {
+    let relation = model.pose(links[0]).inverse() * model.pose(links[1]);
+    let point = in_second.translation.vector;
+    let other = relation.translation.vector + relation.rotation * point;
+    let axes = [relation.rotation * axis, axis];
+    Joint::new(name, kind, links, [other, point], axes)
+}

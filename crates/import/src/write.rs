@@ -1,0 +1,519 @@
+//! The text of a scene.
+
+use std::fmt::Write;
+
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+use crate::findings::{Findings, Omission};
+use crate::mechanism::{Joint, Kind, Load, Model};
+use crate::names::Names;
+use crate::pose::{Motion, along_z};
+
+/// What is written in addition to the model.
+pub(crate) struct Heading<'a> {
+    /// Name of the file and of its format.
+    pub(crate) source: (&'a str, &'static str),
+    /// Lengths and directions are known to this (m, rad).
+    pub(crate) tolerance: [Option<f64>; 2],
+    /// The links where they start, if that is not where they are described, and whether they move.
+    pub(crate) start: Option<(&'a [Motion], bool)>,
+}
+
+/// The scene of a model.
+pub(crate) fn scene(model: &Model, heading: &Heading, findings: &mut Findings) -> String {
+    let mut writer = Writer::new(model, findings);
+    let mut body = String::new();
+    writer.bodies(heading, &mut body);
+    writer.joints(&mut body);
+    writer.couplings(&mut body);
+    writer.loads(&mut body);
+    writer.markers(&mut body);
+    let needs_format = writer.needs_format;
+    let mut out = head(heading, findings);
+    out.push_str("[scene]\n");
+    key(&mut out, "name", &text(&Names::default().free(&model.name)));
+    out.push_str("space = \"spatial\"\n");
+    if needs_format {
+        out.push_str("format = 2\n");
+    }
+    key(&mut out, "gravity", &vector(model.gravity));
+    for (name, value) in ["tolerance", "angle_tolerance"]
+        .iter()
+        .zip(heading.tolerance)
+    {
+        if let Some(value) = value {
+            key(&mut out, name, &number(value));
+        }
+    }
+    out + &body
+}
+
+/// Comments: where the scene comes from, and what it lacks.
+fn head(heading: &Heading, findings: &Findings) -> String {
+    let (file, format) = heading.source;
+    let mut out = String::new();
+    comment(
+        &mut out,
+        "# ",
+        &format!(
+            "Imported from {file} ({format}) by pfaff {}.",
+            env!("CARGO_PKG_VERSION")
+        ),
+    );
+    for remark in &findings.remarks {
+        comment(&mut out, "# ", remark);
+    }
+    if findings.omissions.is_empty() {
+        comment(&mut out, "# ", "Nothing of the file is left out.");
+    } else {
+        comment(&mut out, "# ", "Left out, with the lines of the file:");
+    }
+    for (kind, list) in by_kind(&findings.omissions) {
+        comment(&mut out, "# - ", &format!("{kind}: {}", list.join(", ")));
+    }
+    out.push('\n');
+    out
+}
+
+/// Omissions of each kind, in the order in which kinds were met.
+pub(crate) fn by_kind(omissions: &[Omission]) -> Vec<(&'static str, Vec<String>)> {
+    let mut kinds: Vec<(&'static str, Vec<String>)> = Vec::new();
+    for omission in omissions {
+        let place = match &omission.file {
+            Some(file) => format!("line {} of {file}", omission.line),
+            None => format!("line {}", omission.line),
+        };
+        let words = match omission.subject.as_str() {
+            "" => place,
+            subject => format!("{subject} ({place})"),
+        };
+        match kinds.iter_mut().find(|(kind, _)| *kind == omission.kind) {
+            Some((_, list)) => list.push(words),
+            None => kinds.push((omission.kind, vec![words])),
+        }
+    }
+    kinds
+}
+
+/// Width of comments (characters).
+const WIDTH: usize = 110;
+
+/// A comment in lines; signs that would end one are replaced.
+fn comment(out: &mut String, lead: &str, words: &str) {
+    let mut line = lead.to_owned();
+    let mut is_empty = true;
+    for word in words.split_whitespace() {
+        let word: String = word
+            .chars()
+            .map(|c| if c.is_control() { '?' } else { c })
+            .collect();
+        if !is_empty && line.chars().count() + word.chars().count() >= WIDTH {
+            out.push_str(&line);
+            out.push('\n');
+            line = format!("#{}", " ".repeat(lead.len() - 1));
+            is_empty = true;
+        }
+        if !is_empty {
+            line.push(' ');
+        }
+        line.push_str(&word);
+        is_empty = false;
+    }
+    out.push_str(&line);
+    out.push('\n');
+}
+
+struct Writer<'a> {
+    model: &'a Model,
+    findings: &'a mut Findings,
+    /// Names of links and markers in the scene.
+    links: Vec<String>,
+    joints: Vec<String>,
+    places: Names,
+    elements: Names,
+    needs_format: bool,
+}
+
+impl<'a> Writer<'a> {
+    fn new(model: &'a Model, findings: &'a mut Findings) -> Self {
+        let (mut places, mut elements) = (Names::default(), Names::default());
+        let links = model
+            .links
+            .iter()
+            .map(|link| places.take(&link.name, findings));
+        let links = links.collect();
+        let joints = model
+            .joints
+            .iter()
+            .map(|joint| elements.take(&joint.name, findings));
+        let joints = joints.collect();
+        Self {
+            model,
+            findings,
+            links,
+            joints,
+            places,
+            elements,
+            needs_format: false,
+        }
+    }
+
+    fn link(&self, link: Option<usize>) -> &str {
+        link.and_then(|link| self.links.get(link))
+            .map_or("ground", String::as_str)
+    }
+
+    fn bodies(&self, heading: &Heading, out: &mut String) {
+        for (k, link) in self.model.links.iter().enumerate() {
+            table(out, "body", &self.links[k]);
+            let mass = &link.mass;
+            key(out, "mass", &number(mass.mass));
+            let off = [(0, 1), (0, 2), (1, 2)];
+            let inertia = if off.iter().all(|&at| mass.inertia[at] == 0.0) {
+                vector(mass.inertia.diagonal())
+            } else {
+                let row = |k: usize| vector(mass.inertia.row(k).transpose());
+                format!("[{}, {}, {}]", row(0), row(1), row(2))
+            };
+            key(out, "inertia", &inertia);
+            if mass.centre != Vector3::zeros() {
+                key(out, "centre", &vector(mass.centre));
+            }
+            let position = link.pose.translation.vector;
+            if position != Vector3::zeros() {
+                key(out, "position", &vector(position));
+            }
+            if link.pose.rotation != UnitQuaternion::identity() {
+                key(out, "orientation", &orientation(link.pose.rotation));
+            }
+            if let Some((motions, moves)) = heading.start
+                && let Some(motion) = motions.get(k)
+            {
+                let at = vector(motion.pose.translation.vector);
+                let turned = orientation(motion.pose.rotation);
+                key(
+                    out,
+                    "start",
+                    &format!("{{ position = {at}, orientation = {turned} }}"),
+                );
+                if moves {
+                    key(out, "velocity", &vector(motion.velocity));
+                    key(out, "angular_velocity", &vector(motion.spin));
+                }
+            }
+        }
+    }
+
+    fn joints(&mut self, out: &mut String) {
+        for (k, joint) in self.model.joints.iter().enumerate() {
+            let Some(kind) = joint.kind.name() else {
+                continue;
+            };
+            let [first, second] = joint.links.map(|link| self.link(link).to_owned());
+            let frames = joint.frames.map(|frames| self.ends(k, joint, frames, out));
+            table(out, "joint", &self.joints[k]);
+            key(out, "type", &text(kind));
+            key(
+                out,
+                "bodies",
+                &format!("[{}, {}]", text(&first), text(&second)),
+            );
+            if let Some([a, b]) = frames {
+                key(out, "markers", &format!("[{}, {}]", text(&a), text(&b)));
+            } else {
+                let [a, b] = joint.points.map(vector);
+                let points = format!("{{ {} = {a}, {} = {b} }}", text(&first), text(&second));
+                key(out, "points", &points);
+                match joint.kind {
+                    Kind::Spherical | Kind::Fixed | Kind::Free => {}
+                    Kind::Planar => key(out, "normal", &direction(joint.axes[0])),
+                    Kind::Universal => {
+                        let [a, b] = joint.links.map(|link| self.model.pose(link).rotation);
+                        key(out, "axis", &direction(joint.axes[0]));
+                        key(out, "cross", &direction(a.inverse() * (b * joint.cross)));
+                    }
+                    _ => key(out, "axis", &direction(joint.axes[0])),
+                }
+            }
+            if let Kind::Screw(pitch) = joint.kind {
+                key(out, "pitch", &number(pitch));
+            }
+            if !joint.is_active {
+                key(out, "active", "false");
+            }
+        }
+    }
+
+    /// Markers whose axes a joint makes coincide.
+    fn ends(
+        &mut self,
+        k: usize,
+        joint: &Joint,
+        frames: [UnitQuaternion<f64>; 2],
+        out: &mut String,
+    ) -> [String; 2] {
+        // A marker has the axis of a slide as its z.
+        let own = match joint.kind {
+            Kind::Translational => along_z(frames[1].inverse() * joint.axes[1]),
+            _ => UnitQuaternion::identity(),
+        };
+        [0, 1].map(|side| {
+            let wanted = format!("{} {}", self.joints[k], ["first", "second"][side]);
+            let name = self.places.free(&wanted);
+            let pose = Isometry3::from_parts(joint.points[side].into(), frames[side] * own);
+            self.marker(&name, joint.links[side], &pose, out);
+            name
+        })
+    }
+
+    fn marker(&self, name: &str, link: Option<usize>, pose: &Isometry3<f64>, out: &mut String) {
+        table(out, "marker", name);
+        key(out, "body", &text(self.link(link)));
+        key(out, "point", &vector(pose.translation.vector));
+        if pose.rotation != UnitQuaternion::identity() {
+            key(out, "orientation", &orientation(pose.rotation));
+        }
+    }
+
+    fn markers(&mut self, out: &mut String) {
+        for frame in &self.model.frames {
+            let name = self.places.take(&frame.name, self.findings);
+            self.marker(&name, frame.link, &frame.pose, out);
+        }
+    }
+
+    /// The measure of a coordinate of a joint, as `joint.angle`.
+    fn measure(&self, (joint, coordinate): (usize, usize)) -> String {
+        let measures = self.model.joints[joint].kind.measures();
+        let measure = measures.get(coordinate).unwrap_or(&"angle");
+        format!("{}.{measure}", self.joints[joint])
+    }
+
+    fn couplings(&mut self, out: &mut String) {
+        for coupling in &self.model.couplings {
+            let name = self.elements.take(&coupling.name, self.findings);
+            let (joint, coordinate) = coupling.y;
+            let Some(x) = coupling.x else {
+                let measures = self.model.joints[joint].kind.measures();
+                table(out, "drive", &name);
+                key(out, "joint", &text(&self.joints[joint]));
+                key(
+                    out,
+                    "type",
+                    &text(measures.get(coordinate).unwrap_or(&"angle")),
+                );
+                key(out, "motion", "0");
+                if !coupling.is_active {
+                    key(out, "active", "false");
+                }
+                continue;
+            };
+            table(out, "joint", &name);
+            key(out, "type", "\"coupling\"");
+            let measures = [self.measure(x), self.measure(coupling.y)].map(|m| text(&m));
+            key(out, "measures", &format!("[{}]", measures.join(", ")));
+            key(
+                out,
+                "ratio",
+                &number(coupling.coefficients.get(1).copied().unwrap_or(0.0)),
+            );
+            let more: Vec<f64> = coupling.coefficients.iter().skip(2).copied().collect();
+            if more.iter().any(|c| *c != 0.0) {
+                let more: Vec<String> = more.iter().map(|c| number(*c)).collect();
+                key(out, "coefficients", &format!("[{}]", more.join(", ")));
+            }
+            if !coupling.is_active {
+                key(out, "active", "false");
+            }
+        }
+    }
+
+    /// Springs, dampers and rotors of joints, and weights that are held.
+    fn loads(&mut self, out: &mut String) {
+        for (k, joint) in self.model.joints.iter().enumerate() {
+            if !joint.is_active {
+                continue;
+            }
+            for (coordinate, load) in joint.loads.iter().enumerate() {
+                self.spring(k, coordinate, load, out);
+                if load.armature != 0.0 {
+                    self.rotor(k, coordinate, load.armature, out);
+                }
+            }
+        }
+        for (k, link) in self.model.links.iter().enumerate() {
+            if link.held_weight != 0.0 && link.mass.mass != 0.0 {
+                let name = format!("held weight of {}", self.links[k]);
+                table(out, "force", &self.elements.free(&name));
+                key(out, "type", "\"point-force\"");
+                key(out, "body", &text(&self.links[k]));
+                key(out, "point", &vector(link.mass.centre));
+                let force = -self.model.gravity * (link.mass.mass * link.held_weight);
+                key(out, "force", &vector(force));
+            }
+        }
+    }
+
+    fn spring(&mut self, k: usize, coordinate: usize, load: &Load, out: &mut String) {
+        let Load {
+            stiffness,
+            damping,
+            reference,
+            ..
+        } = *load;
+        if stiffness == 0.0 && damping == 0.0 {
+            return;
+        }
+        let joint = &self.model.joints[k];
+        let name = self.elements.free(&format!("{} spring", self.joints[k]));
+        let of = |list: &[f64; 2]| list.get(coordinate).copied().unwrap_or(0.0);
+        // A start knows an angle up to whole turns only: the spring is told of the others.
+        let turns = match joint.kind.measures().get(coordinate) {
+            Some(&"displacement") | None => 0.0,
+            Some(_) => (of(&joint.moved) / std::f64::consts::TAU).round(),
+        };
+        let free = reference - of(&joint.zero) - turns * std::f64::consts::TAU;
+        let Some(measure) = joint.kind.measures().get(coordinate) else {
+            let [first, second] = joint.links.map(|link| text(self.link(link)));
+            let [a, b] = joint.points.map(vector);
+            table(out, "force", &name);
+            key(out, "type", "\"bushing\"");
+            key(out, "bodies", &format!("[{first}, {second}]"));
+            key(
+                out,
+                "points",
+                &format!("{{ {first} = {a}, {second} = {b} }}"),
+            );
+            let of = number(stiffness);
+            key(
+                out,
+                "stiffness",
+                &format!("[0.0, 0.0, 0.0, {of}, {of}, {of}]"),
+            );
+            key(out, "damping", "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]");
+            return;
+        };
+        if *measure == "displacement" {
+            self.needs_format = true;
+            table(out, "drive", &name);
+            key(out, "joint", &text(&self.joints[k]));
+            key(out, "type", "\"displacement\"");
+            let sign = if free < 0.0 { '+' } else { '-' };
+            let (k, c, free) = (number(stiffness), number(damping), number(free.abs()));
+            let law = match (stiffness != 0.0, damping != 0.0) {
+                (true, false) => format!("-{k}*(measure {sign} {free})"),
+                (false, _) => format!("-{c}*rate"),
+                (true, true) => format!("-{k}*(measure {sign} {free}) - {c}*rate"),
+            };
+            key(out, "force", &text(&law));
+            return;
+        }
+        table(out, "force", &name);
+        key(out, "type", "\"torsion-spring-damper\"");
+        key(out, "joint", &text(&self.joints[k]));
+        key(out, "measure", &text(measure));
+        key(out, "stiffness", &number(stiffness));
+        key(out, "damping", &number(damping));
+        if stiffness != 0.0 {
+            key(out, "free_angle", &number(free));
+        }
+    }
+
+    /// A wheel on the ground that turns with a coordinate: its kinetic energy ½·a·q̇² is that of a
+    /// rotor as MuJoCo adds it to the diagonal of the mass matrix.
+    fn rotor(&mut self, k: usize, coordinate: usize, inertia: f64, out: &mut String) {
+        let joint = &self.joints[k];
+        let wheel = self.places.free(&format!("{joint} rotor"));
+        let bearing = self.elements.free(&format!("{joint} rotor bearing"));
+        let gear = self.elements.free(&format!("{joint} rotor gear"));
+        let [first, _] = self.model.joints[k].links;
+        let point = self.model.pose(first) * nalgebra::Point3::from(self.model.joints[k].points[0]);
+        table(out, "body", &wheel);
+        key(out, "mass", "0.0");
+        let of = number(inertia);
+        key(out, "inertia", &format!("[{of}, {of}, {of}]"));
+        key(out, "position", &vector(point.coords));
+        let moved = self.model.joints[k]
+            .moved
+            .get(coordinate)
+            .copied()
+            .unwrap_or(0.0);
+        if moved != 0.0 {
+            let turned = crate::pose::rotation(Vector3::z(), moved);
+            key(
+                out,
+                "start",
+                &format!("{{ orientation = {} }}", orientation(turned)),
+            );
+        }
+        table(out, "joint", &bearing);
+        key(out, "type", "\"revolute\"");
+        key(out, "bodies", &format!("[\"ground\", {}]", text(&wheel)));
+        let at = vector(point.coords);
+        key(
+            out,
+            "points",
+            &format!("{{ ground = {at}, {} = [0.0, 0.0, 0.0] }}", text(&wheel)),
+        );
+        key(out, "axis", "[0.0, 0.0, 1.0]");
+        table(out, "joint", &gear);
+        key(out, "type", "\"coupling\"");
+        let measures = [self.measure((k, coordinate)), format!("{bearing}.angle")];
+        key(
+            out,
+            "measures",
+            &format!("[{}, {}]", text(&measures[0]), text(&measures[1])),
+        );
+        key(out, "ratio", "1.0");
+    }
+}
+
+fn table(out: &mut String, kind: &str, name: &str) {
+    let _ = write!(out, "\n[[{kind}]]\n");
+    key(out, "name", &text(name));
+}
+
+fn key(out: &mut String, key: &str, value: &str) {
+    let _ = writeln!(out, "{key} = {value}");
+}
+
+/// The shortest digits that are this double.
+pub(crate) fn number(x: f64) -> String {
+    if x == 0.0 {
+        "0.0".to_owned()
+    } else {
+        format!("{x:?}")
+    }
+}
+
+fn vector(v: Vector3<f64>) -> String {
+    format!("[{}, {}, {}]", number(v.x), number(v.y), number(v.z))
+}
+
+/// A direction: components below the rounding of the others are zero.
+fn direction(v: Vector3<f64>) -> String {
+    let floor = 4.0 * f64::EPSILON * v.amax();
+    vector(v.map(|x| if x.abs() < floor { 0.0 } else { x }))
+}
+
+fn orientation(q: UnitQuaternion<f64>) -> String {
+    let numbers = [q.w, q.i, q.j, q.k].map(number);
+    format!("{{ quaternion = [{}] }}", numbers.join(", "))
+}
+
+/// A text in TOML.
+fn text(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04x}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}

@@ -1,0 +1,196 @@
+//! XML files with the places of all values: guarded parsing, elements, attributes.
+
+use std::ops::Range;
+
+use model::codes::Code;
+use roxmltree::{Document, Node, ParsingOptions};
+use scene::{Diagnostic, SourceText};
+
+use crate::limits::{DEEPEST, LARGEST, MOST_NODES};
+
+/// An element of a file.
+#[derive(Clone, Copy)]
+pub(crate) struct Element<'a> {
+    node: Node<'a, 'a>,
+    pub(crate) source: &'a SourceText,
+}
+
+/// A text of a file: the value of an attribute, or what an element contains.
+#[derive(Clone)]
+pub(crate) struct Value<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) span: Range<usize>,
+    pub(crate) source: &'a SourceText,
+    /// Its key and element, as `pos` of `<body>`.
+    pub(crate) subject: String,
+}
+
+impl Value<'_> {
+    /// The line at which it begins.
+    pub(crate) fn line(&self) -> usize {
+        self.source.position(self.span.start).0
+    }
+}
+
+impl<'a> Element<'a> {
+    /// The root of a document.
+    pub(crate) fn root(document: &'a Document<'a>, source: &'a SourceText) -> Self {
+        let node = document.root_element();
+        Self { node, source }
+    }
+
+    pub(crate) fn name(&self) -> &'a str {
+        self.node.tag_name().name()
+    }
+
+    /// The place of its opening tag.
+    pub(crate) fn span(&self) -> Range<usize> {
+        let range = self.node.range();
+        let text = self.source.text().get(range.clone()).unwrap_or_default();
+        let end = text.find(['>', '\n']).map_or(text.len(), |at| at + 1);
+        range.start..range.start + end
+    }
+
+    pub(crate) fn line(&self) -> usize {
+        self.source.position(self.node.range().start).0
+    }
+
+    pub(crate) fn children(&self) -> impl Iterator<Item = Self> + use<'a> {
+        let source = self.source;
+        let elements = self.node.children().filter(Node::is_element);
+        elements.map(move |node| Self { node, source })
+    }
+
+    /// The first child of that name.
+    pub(crate) fn child(&self, name: &str) -> Option<Self> {
+        self.children().find(|child| child.name() == name)
+    }
+
+    pub(crate) fn attribute(&self, name: &str) -> Option<Value<'a>> {
+        self.attributes()
+            .find(|(key, _)| *key == name)
+            .map(|(_, value)| value)
+    }
+
+    pub(crate) fn attributes(&self) -> impl Iterator<Item = (&'a str, Value<'a>)> + use<'a> {
+        let (source, element) = (self.source, self.name());
+        self.node.attributes().map(move |attribute| {
+            let key = attribute.name();
+            let value = Value {
+                text: attribute.value(),
+                span: attribute.range_value(),
+                source,
+                subject: format!("`{key}` of `<{element}>`"),
+            };
+            (key, value)
+        })
+    }
+
+    /// The text in a child of that name.
+    pub(crate) fn text_of(&self, name: &str) -> Option<Value<'a>> {
+        self.child(name).map(|child| child.text())
+    }
+
+    /// The text that it contains.
+    pub(crate) fn text(&self) -> Value<'a> {
+        let texts = self
+            .node
+            .children()
+            .find(|node| node.is_text() && node.text().is_some_and(|text| !text.trim().is_empty()));
+        let (text, span) = match texts {
+            Some(node) => (node.text().unwrap_or_default(), node.range()),
+            None => ("", self.span()),
+        };
+        let front = text.len() - text.trim_start().len();
+        let trimmed = text.trim();
+        let start = (span.start + front).min(span.end);
+        let end = (start + trimmed.len()).min(span.end).max(start);
+        Value {
+            text: trimmed,
+            span: start..end,
+            source: self.source,
+            subject: format!("`<{}>`", self.name()),
+        }
+    }
+}
+
+/// Parses a text. Declarations of types and entities, great depth and great size are refused.
+pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>> {
+    let text = source.text();
+    let refuse = |code, span, message: String, label: &str| {
+        Err(Box::new(Diagnostic::error(
+            code, source, span, message, label,
+        )))
+    };
+    const LARGE: Code = Code::new(603);
+    if text.len() > LARGEST {
+        let message = format!("a file of {} bytes: at most {LARGEST} are read", text.len());
+        return refuse(LARGE, 0..0, message, "too large");
+    }
+    if let Some(at) = too_deep(text) {
+        let message = format!("elements within more than {DEEPEST} others are not read");
+        return refuse(LARGE, at..at + 1, message, "too deep");
+    }
+    let options = ParsingOptions {
+        allow_dtd: false,
+        nodes_limit: MOST_NODES,
+        ..ParsingOptions::default()
+    };
+    match Document::parse_with_options(text, options) {
+        Ok(document) => Ok(document),
+        Err(roxmltree::Error::DtdDetected) => {
+            let at = text.find("<!DOCTYPE").unwrap_or(0);
+            let message =
+                "a declaration of a document type, as it may define entities, is not read";
+            let help = "remove it: models of robots need none".to_owned();
+            refuse(LARGE, at..at + 9, message.to_owned(), "not read")
+                .map_err(|d| Box::new(d.help(help)))
+        }
+        Err(roxmltree::Error::NodesLimitReached) => {
+            let message = format!("more than {MOST_NODES} elements and texts");
+            refuse(LARGE, 0..0, message, "too large")
+        }
+        Err(error) => {
+            let at = offset(source, error.pos());
+            let said = error.to_string();
+            let said = said
+                .rsplit_once(" at ")
+                .map_or(said.as_str(), |(what, _)| what);
+            let message = format!("not XML: {said}");
+            refuse(const { Code::new(601) }, at..at + 1, message, "here")
+        }
+    }
+}
+
+/// Where elements are nested too deeply: counted without a parser, which may need its stack.
+/// Comments and sections of characters may hold tags, too: counting them only refuses earlier.
+fn too_deep(text: &str) -> Option<usize> {
+    let (mut depth, bytes) = (0_usize, text.as_bytes());
+    for (at, _) in text.match_indices('<') {
+        match bytes.get(at + 1) {
+            Some(b'/') => depth = depth.saturating_sub(1),
+            Some(b'!' | b'?') | None => {}
+            Some(_) => {
+                let end = text[at..].find('>').map_or(text.len(), |end| at + end);
+                if end > 0 && bytes.get(end - 1) != Some(&b'/') {
+                    depth += 1;
+                }
+            }
+        }
+        if depth > DEEPEST {
+            return Some(at);
+        }
+    }
+    None
+}
+
+/// The byte of a place of the parser.
+fn offset(source: &SourceText, place: roxmltree::TextPos) -> usize {
+    let text = source.text();
+    let mut lines = text.split_inclusive('\n');
+    let row = (place.row as usize).saturating_sub(1);
+    let before: usize = lines.by_ref().take(row).map(str::len).sum();
+    let line = lines.next().unwrap_or_default();
+    let column = (place.col as usize).saturating_sub(1);
+    before + line.char_indices().nth(column).map_or(0, |(at, _)| at)
+}

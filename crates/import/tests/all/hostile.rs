@@ -1,0 +1,97 @@
+//! Files that want memory, the stack, or other files.
+
+use import::{Folder, Options};
+
+use super::{first, refused};
+
+#[test]
+fn hostile_files_are_refused() {
+    let laughs =
+        "<!DOCTYPE mujoco [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>\n<mujoco model=\"&b;\"/>";
+    let external =
+        "<!DOCTYPE r [<!ENTITY f SYSTEM \"file:///etc/passwd\">]><mujoco model=\"&f;\"/>";
+    let deep = format!("<mujoco>{}", "<worldbody><body>".repeat(200));
+    let deeper = "<a>".repeat(1_000_000);
+    let large = format!("<mujoco>{}</mujoco>", " ".repeat(17 << 20));
+    let wide = format!("<mujoco>{}</mujoco>", "<a/>".repeat(1 << 20));
+    for text in [laughs, external, &deep, &deeper, &large, &wide] {
+        assert_eq!(first(&refused(text)).0, "P0603", "{}", &text[..60]);
+    }
+    for (text, code) in [
+        ("", "P0601"),
+        ("<mujoco", "P0601"),
+        ("<mujoco></robot>", "P0601"),
+        ("<mujoco model=\"&b;\"/>", "P0601"),
+        ("<svg/>", "P0602"),
+        ("<mujoco/>", "P0609"),
+    ] {
+        assert_eq!(first(&refused(text)).0, code, "{text}");
+    }
+}
+
+/// As deep as is allowed, on the stack of a thread.
+#[test]
+fn deep_files_are_read() {
+    let (open, close) = (
+        "<body><joint/><geom size='0.1'/>".repeat(290),
+        "</body>".repeat(290),
+    );
+    let text = format!("<mujoco><worldbody>{open}{close}</worldbody></mujoco>");
+    let done = import::import("deep.xml", &text, &Options::default()).expect("imported");
+    assert_eq!(done.counts, [290, 290]);
+}
+
+#[test]
+fn includes_stay_in_their_folder() {
+    let folder = std::env::temp_dir().join(format!("pfaff-import-{}", std::process::id()));
+    std::fs::create_dir_all(folder.join("in")).expect("writable");
+    std::fs::write(folder.join("outside.xml"), "<mujoco/>").expect("writable");
+    std::fs::write(
+        folder.join("in/self.xml"),
+        "<mujoco><include file='self.xml'/></mujoco>",
+    )
+    .expect("writable");
+    let at = Options {
+        folder: Folder::At(folder.join("in")),
+        ..Options::default()
+    };
+    let outside = folder.join("outside.xml").display().to_string();
+    for file in [
+        "../outside.xml",
+        "missing.xml",
+        "",
+        ".",
+        &outside,
+        "/etc/passwd",
+    ] {
+        let text = format!("<mujoco><include file='{file}'/></mujoco>");
+        let refusal = import::import("model.xml", &text, &at).expect_err("refused");
+        assert_eq!(first(&refusal).0, "P0611", "{file}");
+        let refusal = refused(&text);
+        assert_eq!(first(&refusal).0, "P0611", "{file} of standard input");
+    }
+    let text = "<mujoco><include file='self.xml'/></mujoco>";
+    let refusal = import::import("model.xml", text, &at).expect_err("refused");
+    assert_eq!(
+        (first(&refusal).0.as_str(), refusal.file.as_str()),
+        ("P0611", "self.xml")
+    );
+    std::fs::remove_dir_all(&folder).expect("removable");
+}
+
+#[test]
+fn problems_are_counted() {
+    let bodies = "<body pos='1'/>".repeat(300);
+    let refusal = refused(&format!("<mujoco><worldbody>{bodies}</worldbody></mujoco>"));
+    assert_eq!(refusal.diagnostics.len(), 100);
+    let help = refusal.diagnostics[99].help.as_deref().expect("a count");
+    assert!(help.contains("200 more problems"), "{help}");
+}
+
+#[test]
+fn numbers_have_bounds() {
+    for number in ["1e61", "-1e300", "nan", "1e999", "0x10", "1,5", "--1"] {
+        let text = format!("<mujoco><worldbody><body pos='{number} 0 0'/></worldbody></mujoco>");
+        assert_eq!(first(&refused(&text)).0, "P0605", "{number}");
+    }
+}

@@ -1,0 +1,77 @@
+//! Files of our own as scenes, and files that are refused.
+
+mod fuzz;
+mod hostile;
+mod mjcf;
+mod sdf;
+mod urdf;
+
+use import::{Folder, Imported, Options, Refusal};
+use model::Registry;
+use scene::Scene;
+
+/// A file of this folder.
+fn text_of(file: &str) -> String {
+    let path = path_of(file);
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+fn path_of(file: &str) -> String {
+    format!("{}/tests/all/{file}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn options_of(file: &str) -> Options {
+    let folder = Folder::of(std::path::Path::new(&path_of(file)));
+    Options {
+        folder,
+        ..Options::default()
+    }
+}
+
+/// A file of this folder as a scene.
+fn imported(file: &str) -> Imported {
+    let done = import::import(file, &text_of(file), &options_of(file));
+    done.unwrap_or_else(|refusal| panic!("{file}: {:?}", refusal.diagnostics))
+}
+
+fn refused(text: &str) -> Refusal {
+    let done = import::import("file.xml", text, &Options::default());
+    *done.err().unwrap_or_else(|| panic!("imported: {text}"))
+}
+
+/// What the reader of scenes makes of it.
+fn read(imported: &Imported) -> Scene {
+    let read = scene::read("imported.toml", &imported.scene, &Registry::standard());
+    read.unwrap_or_else(|e| panic!("{e:?}\n{}", imported.scene))
+}
+
+/// Code, line and message of the first problem.
+fn first(refusal: &Refusal) -> (String, usize, String) {
+    let problem = &refusal.diagnostics[0];
+    (
+        problem.code.to_string(),
+        problem.primary.line,
+        problem.message.clone(),
+    )
+}
+
+/// The value of a key of a table of a scene, as text.
+fn value(scene: &str, table: &str, name: &str, key: &str) -> Option<String> {
+    let head = format!("[[{table}]]\nname = \"{name}\"\n");
+    let (_, rest) = scene.split_once(&head)?;
+    let own = rest.split("\n\n").next()?;
+    let line = own
+        .lines()
+        .find_map(|line| line.strip_prefix(&format!("{key} = ")))?;
+    Some(line.to_owned())
+}
+
+/// The numbers of a list.
+fn numbers(list: &str) -> Vec<f64> {
+    let (_, rest) = list.split_once('[').expect("a list");
+    let (inner, _) = rest.split_once(']').expect("a list");
+    inner
+        .split(", ")
+        .map(|x| x.parse().expect("a number"))
+        .collect()
+}

@@ -1,0 +1,271 @@
+//! URDF: what becomes of each part of a file, loops, and poses at which they are closed.
+
+use import::{Base, Imported, Options, Refusal};
+
+use super::{first, imported, numbers, options_of, read, refused, text_of, value};
+
+/// Bodies, then joints and couplings, by hand: the root is fixed to the ground and merged, and so
+/// are links behind fixed joints.
+const FILES: [(&str, [usize; 2]); 8] = [
+    ("urdf/arm.urdf", [2, 2]),
+    ("urdf/gripper.urdf", [3, 5]),
+    ("urdf/four-bar.urdf", [3, 4]),
+    ("urdf/triangle.urdf", [2, 2]),
+    ("urdf/parallelogram.urdf", [4, 4]),
+    ("urdf/universal.urdf", [3, 3]),
+    ("urdf/floating.urdf", [2, 1]),
+    ("urdf/chain.urdf", [1, 1]),
+];
+
+#[test]
+fn every_file_is_a_scene() {
+    for (file, counts) in FILES {
+        let imported = imported(file);
+        assert_eq!(
+            (imported.format, imported.counts),
+            ("URDF", counts),
+            "{file}"
+        );
+        read(&imported);
+    }
+}
+
+fn with_loops(name: &str, pose: &[(&str, f64)]) -> Result<Imported, Box<Refusal>> {
+    let file = format!("urdf/{name}.urdf");
+    let yaml = format!("urdf/{name}.yaml");
+    let options = Options {
+        loops: Some((yaml.clone(), text_of(&yaml))),
+        pose: pose
+            .iter()
+            .map(|(name, q)| ((*name).to_owned(), *q))
+            .collect(),
+        ..options_of(&file)
+    };
+    import::import(&file, &text_of(&file), &options)
+}
+
+#[test]
+fn what_is_left_out_is_told() {
+    let imported = imported("urdf/arm.urdf");
+    let told: Vec<(&str, &str)> = imported
+        .omissions
+        .iter()
+        .map(|o| (o.kind, o.subject.as_str()))
+        .collect();
+    let expected = [
+        ("contacts of links", "upper"),
+        ("limits of joints", "shoulder"),
+        ("friction of joints", "shoulder"),
+        ("actuators", "drive of the shoulder"),
+    ];
+    assert_eq!(told, expected);
+    assert_eq!(
+        value(&imported.scene, "force", "shoulder spring", "damping").as_deref(),
+        Some("0.3")
+    );
+}
+
+#[test]
+fn the_base_is_fixed_or_free() {
+    let file = "urdf/arm.urdf";
+    let options = Options {
+        base: Base::Free,
+        ..options_of(file)
+    };
+    let free = import::import(file, &text_of(file), &options).expect("imported");
+    assert_eq!(free.counts, [3, 2]);
+    assert!(free.remarks.iter().any(|r| r.contains("`base` is free")));
+    assert!(
+        imported(file)
+            .remarks
+            .iter()
+            .any(|r| r.contains("--base free"))
+    );
+}
+
+#[test]
+fn joints_that_follow_others() {
+    let imported = imported("urdf/gripper.urdf");
+    let of = |name, key| value(&imported.scene, "joint", name, key).expect("there");
+    assert_eq!(of("thumb follows left", "ratio"), "-20.0");
+    assert_eq!(
+        of("thumb follows left", "measures"),
+        "[\"left.displacement\", \"thumb.angle\"]"
+    );
+    // Its offset moves the right finger by 0.01 m along −y, where it is turned by π.
+    let at = numbers(&value(&imported.scene, "body", "right", "position").expect("there"));
+    assert!((at[1] + 0.06).abs() < 1e-15, "{at:?}");
+}
+
+#[test]
+fn loops_in_gazebo_are_closed() {
+    let imported = imported("urdf/four-bar.urdf");
+    let of = |key| value(&imported.scene, "joint", "C", key).expect("there");
+    assert_eq!(of("bodies"), "[\"coupler\", \"rocker\"]");
+    let points = of("points");
+    // C is at (1.5, 1.1), the coupler begins at (0.3, 0.8).
+    let coupler = numbers(points.split("\"rocker\"").next().expect("first"));
+    assert!(
+        (coupler[0] - 1.2).abs() < 1e-15 && (coupler[1] - 0.3).abs() < 1e-15,
+        "{points}"
+    );
+}
+
+/// A triangle with sides 3, 4 and 5 has a right angle: its corner is at (1.8, ±2.4).
+#[test]
+fn loops_are_closed_from_a_guess() {
+    let angle = |imported: &Imported, body| {
+        let turned = value(&imported.scene, "body", body, "orientation").expect("turned");
+        let (_, q) = turned.split_once("quaternion = ").expect("a quaternion");
+        let q = numbers(q);
+        2.0 * q[3].atan2(q[0])
+    };
+    let turn = 0.6_f64.acos();
+    // At zero the sides are in one line, where the first search cannot begin.
+    for (pose, sign) in [
+        (vec![], None),
+        (vec![("A", 0.5)], Some(1.0)),
+        (vec![("A", -0.5), ("B", 0.1)], Some(-1.0)),
+    ] {
+        let found = with_loops("triangle", &pose).unwrap_or_else(|e| panic!("{:?}", e.diagnostics));
+        read(&found);
+        let three = angle(&found, "three");
+        let sign = sign.unwrap_or(three.signum());
+        assert!((three - sign * turn).abs() < 1e-10, "{pose:?}: {three}");
+        let four = angle(&found, "four");
+        assert!(
+            (four + sign * 0.8_f64.acos()).abs() < 1e-10,
+            "{pose:?}: {four}"
+        );
+        assert!(found.remarks.iter().any(|r| r.contains("loops are closed")));
+    }
+    // A pose that is assembled is left alone.
+    let flat = with_loops("parallelogram", &[]).expect("imported");
+    assert!(!flat.remarks.iter().any(|r| r.contains("loops are closed")));
+    read(&flat);
+}
+
+#[test]
+fn loops_that_cannot_close_are_refused() {
+    // A side of 3 m in place of 0.3 m from each other: 1 + 4 < 8.
+    let text = text_of("urdf/triangle.urdf").replace("\"5 0 0\"", "\"8 0 0\"");
+    let options = Options {
+        loops: Some(("loops.yaml".into(), text_of("urdf/triangle.yaml"))),
+        ..Options::default()
+    };
+    let refusal = import::import("far.urdf", &text, &options).expect_err("refused");
+    let (code, _, message) = first(&refusal);
+    assert_eq!(code, "P0613");
+    assert!(
+        message.contains("`tip of three to tip of four`"),
+        "{message}"
+    );
+    let (code, _, message) = first(&with_loops("triangle", &[("Q", 1.0)]).expect_err("refused"));
+    assert_eq!(code, "P0606", "{message}");
+}
+
+#[test]
+fn joints_of_a_yaml() {
+    let imported = with_loops("universal", &[]).expect("imported");
+    let of = |name, key| value(&imported.scene, "joint", name, key).expect("there");
+    assert_eq!(of("hook", "type"), "\"universal\"");
+    assert_eq!(of("socket", "type"), "\"spherical\"");
+    // The second axis is y of the joint: rpy (0.1, 0.2, 0.3) in the first link.
+    let cross = numbers(&of("hook", "cross"));
+    let (r, p, y) = (0.1_f64, 0.2_f64, 0.3_f64);
+    let expected = [
+        y.cos() * p.sin() * r.sin() - y.sin() * r.cos(),
+        y.sin() * p.sin() * r.sin() + y.cos() * r.cos(),
+        p.cos() * r.sin(),
+    ];
+    for k in 0..3 {
+        assert!(
+            (cross[k] - expected[k]).abs() < 1e-15,
+            "{cross:?} {expected:?}"
+        );
+    }
+}
+
+#[test]
+fn faults_of_a_yaml_have_places() {
+    let file = "urdf/triangle.urdf";
+    for (yaml, line) in [
+        ("closed_loop: [[a, b]]\ntype: [3d]\n", 1),
+        (
+            "closed_loop: [['tip of three', 'tip of four']]\ntype: [4d]\n",
+            2,
+        ),
+        (
+            "closed_loop: [['tip of three', 'tip of four']]\ntype: []\n",
+            1,
+        ),
+        ("# x\nclosed_loop: [['tip of three'", 2),
+        ("closed_loop: 5\n", 1),
+        ("joint_name: [A]\njoint_type: [HINGE]\n", 2),
+        ("joint_name: [Z]\njoint_type: [SPHERICAL]\n", 1),
+        ("nonsense\n", 1),
+    ] {
+        let options = Options {
+            loops: Some(("l.yaml".into(), yaml.into())),
+            ..options_of(file)
+        };
+        let refusal = import::import(file, &text_of(file), &options).expect_err("refused");
+        let (code, at, message) = first(&refusal);
+        assert_eq!(
+            (code.as_str(), at, refusal.file.as_str()),
+            ("P0612", line, "l.yaml"),
+            "{yaml}: {message}"
+        );
+    }
+    let options = Options {
+        loops: Some(("l.yaml".into(), String::new())),
+        ..Options::default()
+    };
+    let refusal = import::import(
+        "m.xml",
+        "<mujoco><worldbody><body/></worldbody></mujoco>",
+        &options,
+    );
+    assert_eq!(first(&refusal.expect_err("refused")).0, "P0612");
+}
+
+#[test]
+fn faults_have_codes_and_lines() {
+    let link = "<link name='a'/><link name='b'/>";
+    let joint = |inner: &str| {
+        format!("<robot>{link}\n<joint name='j' type='revolute'>\n{inner}</joint></robot>")
+    };
+    let ends = "<parent link='a'/><child link='b'/>";
+    for (text, code, line) in [
+        ("<robot/>".to_owned(), "P0609", 1),
+        (format!("<robot>{link}</robot>"), "P0609", 1),
+        ("<robot><link name='a'/></robot>".into(), "P0609", 1),
+        ("<robot>\n<link/></robot>".into(), "P0604", 2),
+        (
+            "<robot><link name='a'/>\n<link name='a'/></robot>".into(),
+            "P0607",
+            2,
+        ),
+        (joint("<parent link='a'/>"), "P0604", 2),
+        (joint("<parent link='a'/><child link='c'/>"), "P0606", 3),
+        (joint(&format!("{ends}<axis xyz='0 0 0'/>")), "P0610", 3),
+        (joint(&format!("{ends}<origin xyz='0 0'/>")), "P0605", 3),
+        (
+            joint(&format!("{ends}<dynamics damping='-1'/>")),
+            "P0610",
+            3,
+        ),
+        (joint(&format!("{ends}<mimic joint='j'/>")), "P0609", 3),
+        (joint(&format!("{ends}<mimic joint='k'/>")), "P0606", 3),
+        (joint(ends).replace("revolute", "bolt"), "P0605", 2),
+        (joint("<parent link='a'/><child link='a'/>"), "P0609", 1),
+        (
+            "<robot>\n<link name='a'><inertial><mass value='1'/></inertial></link></robot>".into(),
+            "P0604",
+            2,
+        ),
+    ] {
+        let (found, at, message) = first(&refused(&text));
+        assert_eq!((found.as_str(), at), (code, line), "{text}: {message}");
+    }
+}

@@ -1,0 +1,117 @@
+//! `pfaff import`: a scene from a model of a robot.
+
+use std::path::Path;
+
+use pfaff::import::{Axes, FixedLinks, Folder, Imported, Omission, Options, Refusal};
+use pfaff::report::documents::{ImportDocument, OmissionDocument};
+
+use crate::args::Import;
+use crate::console::Console;
+use crate::input::text_of;
+use crate::new::write;
+use crate::output::{Failure, Outcome, count, wrapped};
+
+pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
+    let standard_output = arguments.out.as_os_str() == "-";
+    let (name, text) = text_of(&arguments.file)?;
+    let imported = pfaff::import::import(&name, &text, &options(arguments)?);
+    let imported = imported.map_err(|refusal| refused(*refusal))?;
+    if standard_output {
+        return if arguments.json {
+            let message = "--json and --out - both want standard output";
+            Err(Failure::input(message.to_owned()))
+        } else {
+            console.print(&imported.scene)
+        };
+    }
+    write(&arguments.out, &imported.scene, arguments.force)?;
+    let file = arguments.out.display().to_string();
+    let read = pfaff::scene::read(&file, &imported.scene, console.registry);
+    let scene_error = read.err().and_then(|list| Some(list.first()?.sentence()));
+    if arguments.json {
+        console.document(&document(&imported, &file, scene_error))
+    } else {
+        console.print(&words(&imported, &file, scene_error.as_deref()))
+    }
+}
+
+fn options(arguments: &Import) -> Result<Options, Failure> {
+    let loops = arguments.loops.as_deref().map(text_of).transpose()?;
+    let is_file = arguments.file.as_os_str() != Path::new("-");
+    Ok(Options {
+        loops,
+        base: arguments.base,
+        folder: if is_file {
+            Folder::of(&arguments.file)
+        } else {
+            Folder::None
+        },
+        fixed: if arguments.keep_fixed {
+            FixedLinks::Kept
+        } else {
+            FixedLinks::Merged
+        },
+        pose: arguments.pose.clone(),
+        axes: if arguments.snap {
+            Axes::Snapped
+        } else {
+            Axes::Told
+        },
+        keyframe: arguments.keyframe.clone(),
+    })
+}
+
+fn refused(refusal: Refusal) -> Failure {
+    Failure::Scene {
+        name: refusal.file,
+        text: refusal.text,
+        diagnostics: refusal.diagnostics,
+    }
+}
+
+fn document<'a>(
+    imported: &'a Imported,
+    file: &'a str,
+    scene_error: Option<String>,
+) -> ImportDocument<'a> {
+    let left_out = |omission: &'a Omission| OmissionDocument {
+        kind: omission.kind,
+        subject: &omission.subject,
+        file: omission.file.as_deref(),
+        line: omission.line,
+    };
+    ImportDocument {
+        ok: true,
+        source_format: imported.format,
+        file,
+        bodies: imported.counts[0],
+        joints: imported.counts[1],
+        remarks: &imported.remarks,
+        left_out: imported.omissions.iter().map(left_out).collect(),
+        scene_error,
+    }
+}
+
+fn words(imported: &Imported, file: &str, error: Option<&str>) -> String {
+    let [bodies, joints] = imported.counts;
+    let mut out = format!(
+        "{}: {}, {}, written to {file}\n",
+        imported.format,
+        count(bodies, "body", "bodies"),
+        count(joints, "joint or coupling", "joints and couplings"),
+    );
+    for remark in &imported.remarks {
+        out += &wrapped("note: ", remark);
+    }
+    for (kind, list) in imported.left_out() {
+        out += &wrapped("left out: ", &format!("{kind}: {}", list.join(", ")));
+    }
+    if imported.omissions.is_empty() {
+        out += "nothing of the file is left out\n";
+    }
+    out += &match error {
+        Some(error) => wrapped("warning: ", &format!("the scene has an error, {error}")),
+        None => format!("next: pfaff analyze {file}\n"),
+    };
+    out
+}
