@@ -99,8 +99,8 @@ pub(crate) const CANDIDATE: f64 = 0.1;
 /// above this share of the best one: multipliers of the elimination stay below its inverse.
 /// Unit: share of the largest entry. Less: elimination grows. More: coordinates and the places of
 /// all entries are searched for again and again. Test:
-/// `a_row_is_solved_for_the_same_entry_while_that_is_more_than_half_the_largest`.
-pub(crate) const PIVOT_REPEATED: f64 = 0.5;
+/// `a_row_is_solved_for_the_same_entry_while_that_is_nearly_the_largest`.
+pub(crate) const PIVOT_REPEATED: f64 = 0.8;
 
 /// Another order of rows than the given one is taken if its factors need less than this share of
 /// the entries.

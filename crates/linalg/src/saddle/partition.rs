@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_is_solved_for_the_same_entry_while_that_is_more_than_half_the_largest() {
+    fn a_row_is_solved_for_the_same_entry_while_that_is_nearly_the_largest() {
         let mut saddle = KeptRowSaddle::new(4, 2).unwrap();
         let mut solved_for = |first: [f64; 4]| {
             let rows = [first, ROWS[1]];
@@ -132,9 +132,9 @@ mod tests {
             saddle.solved_for()[0]
         };
         assert_eq!(solved_for(ROWS[0]), 1);
-        assert_eq!(solved_for([1.0, 2.0, -1.0, 3.9]), 1);
-        assert_eq!(solved_for([1.0, 2.0, -1.0, 4.1]), 3);
-        assert_eq!(solved_for([1.0, 2.0, -1.0, 1.1]), 3);
+        assert_eq!(solved_for([1.0, 2.0, -1.0, 2.4]), 1);
+        assert_eq!(solved_for([1.0, 2.0, -1.0, 2.6]), 3);
+        assert_eq!(solved_for([1.0, 2.0, -1.0, 1.7]), 3);
         assert_eq!(solved_for(ROWS[0]), 1);
     }
 

@@ -401,7 +401,7 @@ fn summary_has_the_keys_of_the_contract() {
             "lower \"2\"": { "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false,
                 "choice": { "method": "kept-rows", "deleted_rows": [4] } } },
         "plan": { "components": "solved as one", "generated_code": "interpreted", "rows_of_output": "201", "accelerations": "at rows of output", "method": "dop853", "linear_systems": "none",
-            "elimination": "dense, 3 × 3", "refinement": "none", "freedom": "none", "nonholonomic_rows": "none", "dropped_rows": "1 monitored",
+            "elimination": "null space, 3 × 3", "refinement": "none", "freedom": "none", "nonholonomic_rows": "none", "dropped_rows": "1 monitored",
             "rows_of_time": "b = 0", "varying_entries": "4 evaluated", "rows_of_gamma": "4 evaluated", "turning_bodies": "1 of 1",
             "forces": "Q = 0", "reactions": "all 2" } }"#;
     assert_eq!(squeezed(&found), squeezed(expected));
