@@ -102,12 +102,6 @@ pub(crate) const CANDIDATE: f64 = 0.1;
 /// `a_row_is_solved_for_the_same_entry_while_that_is_nearly_the_largest`.
 pub(crate) const PIVOT_REPEATED: f64 = 0.8;
 
-/// Another order of rows than the given one is taken if its factors need less than this share of
-/// the entries.
-/// Unit: share of entries. Less: time where loops are closed by late rows. More: orders change for
-/// nothing. Test: none, work only.
-pub(crate) const FEWER: f64 = 0.75;
-
 /// Entries of L and of U for which storage is reserved at once; larger factors ask for it when
 /// they find them.
 /// Unit: entries. Less: allocations in the first factorisations. More: memory. Test: none, work

@@ -12,7 +12,7 @@
 use super::bound::bound;
 use super::error::{SaddleError, check_length};
 use super::lists::{Entries, Entry, Lists};
-use crate::limits::{CANDIDATE, FEWER, PIVOT_REPEATED, RESERVED};
+use crate::limits::{CANDIDATE, PIVOT_REPEATED, RESERVED};
 use crate::minimum_degree;
 
 /// Factors of the rows that are used.
@@ -133,7 +133,7 @@ impl Choice<'_> {
 }
 
 /// Rows in the given order of elimination, or in one of approximately minimum degree if its factors
-/// need many fewer entries.
+/// need fewer entries.
 fn order(n: usize, columns: &[Vec<usize>]) -> Vec<usize> {
     let mut touching = vec![Vec::new(); n];
     for (row, columns) in columns.iter().enumerate() {
@@ -147,11 +147,7 @@ fn order(n: usize, columns: &[Vec<usize>]) -> Vec<usize> {
         let columns: Vec<&[usize]> = order.iter().map(|&row| &columns[row][..]).collect();
         bound(n, &columns).iter().sum::<usize>()
     });
-    if (of_other as f64) < FEWER * of_given as f64 {
-        other
-    } else {
-        given
-    }
+    if of_other < of_given { other } else { given }
 }
 
 /// Sum of entries times the values at their places.
