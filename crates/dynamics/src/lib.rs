@@ -8,7 +8,7 @@
 //! | [`mod@prepare`] | consistent start, decided rank, kept rows |
 //! | [`code`] | what a run needs from code generated for one mechanism |
 //! | [`plan`] | what a run does and omits, with reasons |
-//! | `solve` | accelerations and multipliers at a state: dense, sparse, refined, generated |
+//! | `solve` | accelerations and multipliers at a state: null space, Schur complement, refined, generated |
 //! | `manifold` | moves states onto the constraints and along them; the only writer of q and v |
 //! | `watch` | checks the ends of steps: pivots, exchange of rows, singular passages, code |
 //! | [`motion`] | these three for one mechanism |
