@@ -44,11 +44,7 @@ fn free(pivots: &[f64]) -> Mechanism {
 }
 
 fn motor(pair: [BodyRef; 2], motion: Function) -> Drive {
-    let element = RevoluteAngleDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let element = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
     Drive {
         tolerance: None,
         name: "motor".into(),

@@ -132,12 +132,7 @@ fn clamped_and_pinned_bar() {
     let pair = [BodyRef::Ground, BodyRef::Body(0)];
     let ends = |x: f64| ([x, 0.0], [x, 0.0]);
     let ((s_i, s_j), (p_i, p_j)) = (ends(0.0), ends(1.0));
-    let clamp = Fixed {
-        s_i,
-        s_j,
-        offset: [0.0; 2],
-        angle_0: 0.0,
-    };
+    let clamp = Fixed::new(s_i, s_j);
     let joints = vec![
         Joint::new("clamp", &pair, clamp),
         Joint::new("pin", &pair, Revolute { s_i: p_i, s_j: p_j }),

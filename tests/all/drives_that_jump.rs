@@ -37,11 +37,7 @@ fn wheel(motion: Function) -> Prepared {
             tolerance: None,
             name: "motor".into(),
             bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
-            element: Box::new(RevoluteAngleDrive {
-                s_i: [0.0; 2],
-                s_j: [0.0; 2],
-                measure_0: 0.0,
-            }),
+            element: Box::new(RevoluteAngleDrive::new([0.0; 2], [0.0; 2])),
             motion,
         }],
         ..Description::default()
@@ -139,24 +135,17 @@ fn a_start_at_once_takes_half_m_v_squared() {
         joints: vec![Joint::new(
             "guide",
             &[BodyRef::Ground, BodyRef::Body(0)],
-            Translational {
-                s_i: [0.0; 2],
-                s_j: [0.0; 2],
-                axis: Direction::X,
-                angle_0: 0.0,
-            },
+            Translational::new([0.0; 2], [0.0; 2], Direction::X),
         )],
         drives: vec![Drive {
             tolerance: None,
             name: "push".into(),
             bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
-            element: Box::new(TranslationalDisplacementDrive {
-                s_i: [0.0; 2],
-                s_j: [0.0; 2],
-                axis: Direction::X,
-                angle_0: 0.0,
-                measure_0: 0.0,
-            }),
+            element: Box::new(TranslationalDisplacementDrive::new(
+                [0.0; 2],
+                [0.0; 2],
+                Direction::X,
+            )),
             motion,
         }],
         ..Description::default()

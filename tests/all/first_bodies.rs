@@ -349,7 +349,7 @@ fn gears_in_every_order_are_what_their_first_body_misses() {
                 }
                 for ratio in [-2.0, 0.3] {
                     let (mut d, _) = free_bodies();
-                    d.joint("mesh", &all, Gear { ratio, phase: 0.0 });
+                    d.joint("mesh", &all, Gear::new(ratio));
                     let study = Study::build(d.clone()).unwrap_or_else(|e| panic!("{e}"));
                     compare(&study, &d, first, |_| [0.0, 0.0]);
                     orders += 1;
@@ -371,13 +371,11 @@ fn racks_in_every_order_are_what_their_first_body_misses() {
         for radius in [0.4, -1.3] {
             let (mut d, _) = free_bodies();
             let s_j = [0.3, -0.2];
-            let joint = RackAndPinion {
+            let joint = RackAndPinion::new(
                 s_j,
-                axis: Direction::new([0.6, 0.8]).expect("a direction"),
+                Direction::new([0.6, 0.8]).expect("a direction"),
                 radius,
-                phase: 0.0,
-                centre: [0.0; 2],
-            };
+            );
             d.joint("mesh", &bodies, joint);
             let study = Study::build(d.clone()).unwrap_or_else(|e| panic!("{e}"));
             // The pinion's centre at the start, as a point fixed to the rack.
@@ -437,11 +435,7 @@ fn a_joint_of_three_bodies_is_what_its_first_body_misses() {
         [a, ground, ground],
     ] {
         let (mut d, _) = free_bodies();
-        let joint = MiddleDistance {
-            s_i,
-            s_j: [0.2, 0.9],
-            square: 0.0,
-        };
+        let joint = MiddleDistance::new(s_i, [0.2, 0.9]);
         d.joint("middle", &bodies, joint);
         let study = Study::build(d.clone()).unwrap_or_else(|e| panic!("{e}"));
         compare(&study, &d, bodies[0], |row| match bodies[0] {
@@ -476,8 +470,7 @@ pfaff::joint! { plane NamedDistance(i, j, k) {
 fn a_named_component_needs_a_first_body_of_one_slot() {
     let build = |bodies: fn([BodyRef; 3]) -> [BodyRef; 3]| {
         let (mut d, all) = free_bodies();
-        let along = Direction::X;
-        let joint = NamedDistance { along, start: 0.0 };
+        let joint = NamedDistance::new(Direction::X);
         d.joint("named", &bodies(all), joint);
         Mechanism::build(&d)
     };

@@ -96,12 +96,7 @@ fn description() -> Description {
     }
     let (s_i, s_j) = (d.local(coupler, [1.6, 0.8]), d.local(slide, [1.6, 0.8]));
     let axis = Direction::new([1.0, 0.5]).expect("a direction");
-    let guide = Translational {
-        s_i,
-        s_j,
-        axis,
-        angle_0: 0.0,
-    };
+    let guide = Translational::new(s_i, s_j, axis);
     d.joint("guide", &[coupler, slide], guide.clone());
     for (name, y) in [("left", 0.5), ("right", -0.5)] {
         let normal = Direction::Y;
@@ -126,14 +121,8 @@ fn description() -> Description {
         guide.displacement_drive(),
         motion,
     );
-    let spring = SpringDamper {
-        s_i: [0.0, 2.0],
-        s_j: d.local(coupler, [1.1, 0.8]),
-        stiffness: 30.0,
-        damping: 0.5,
-        free_length: Some(1.0),
-        free_length_0: 0.0,
-    };
+    let spring = SpringDamper::new([0.0, 2.0], d.local(coupler, [1.1, 0.8]), 30.0, 0.5)
+        .with_free_length(1.0);
     d.force("spring", &[BodyRef::Ground, coupler], spring);
     let torque = Function::polynomial(&[1.0, -0.5]).expect("finite");
     d.force("push", &cranks[..1], Torque {}).functions = vec![torque];
@@ -273,14 +262,7 @@ fn errors_have_names() {
     });
     assert!(nan.to_string().contains("`bad`"), "{nan}");
     let nan = build(&|d| {
-        let push = SpringDamper {
-            s_i: [0.0, f64::INFINITY],
-            s_j: [0.0; 2],
-            stiffness: 1.0,
-            damping: 1.0,
-            free_length: None,
-            free_length_0: 0.0,
-        };
+        let push = SpringDamper::new([0.0, f64::INFINITY], [0.0; 2], 1.0, 1.0);
         let bodies = vec![BodyRef::Ground, BodyRef::Body(5)];
         let (element, functions) = (Box::new(push), Vec::new());
         d.forces.push(Force {

@@ -148,11 +148,7 @@ fn driven(pivots: &[f64], start: f64, motion: Function) -> Prepared {
         tolerance: None,
         name: "motor".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
-        element: Box::new(joints::RevoluteAngleDrive {
-            s_i: [0.0; 2],
-            s_j: [0.0; 2],
-            measure_0: 0.0,
-        }),
+        element: Box::new(joints::RevoluteAngleDrive::new([0.0; 2], [0.0; 2])),
         motion,
     });
     started(&d)

@@ -20,11 +20,7 @@ fn at_start(d: &Description) -> (usize, Option<Generic>) {
 }
 
 fn driven(mut d: Description) -> Description {
-    let element = RevoluteAngleDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let element = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
     d.drives.push(Drive {
         tolerance: None,
         name: "motor".into(),

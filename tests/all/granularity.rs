@@ -299,69 +299,22 @@ fn edge_frames_come_from_the_definitions() {
             Some(normal),
         ),
         (
-            Joint::new(
-                "j",
-                &pair,
-                Translational {
-                    s_i,
-                    s_j,
-                    axis,
-                    angle_0: 0.0,
-                },
-            ),
+            Joint::new("j", &pair, Translational::new(s_i, s_j, axis)),
             Some(normal),
         ),
         (
-            Joint::new(
-                "j",
-                &pair,
-                RackAndPinion {
-                    s_j,
-                    axis,
-                    radius: 0.3,
-                    phase: 0.0,
-                    centre: [0.0; 2],
-                },
-            ),
+            Joint::new("j", &pair, RackAndPinion::new(s_j, axis, 0.3)),
             Some(along),
         ),
         (
-            Joint::new(
-                "j",
-                &pair,
-                Distance {
-                    s_i: [0.0; 2],
-                    s_j: [0.0; 2],
-                    length: 5_f64.sqrt(),
-                    half_inverse: 0.5 / 5_f64.sqrt(),
-                },
-            ),
+            Joint::new("j", &pair, Distance::new([0.0; 2], [0.0; 2])),
             Some([origin(1)[0] / 5_f64.sqrt(), origin(1)[1] / 5_f64.sqrt()]),
         ),
         (Joint::new("j", &pair, Revolute { s_i, s_j }), None),
+        (Joint::new("j", &pair, Fixed::new(s_i, s_j)), None),
+        (Joint::new("j", &pair, Angle::new()), None),
         (
-            Joint::new(
-                "j",
-                &pair,
-                Fixed {
-                    s_i,
-                    s_j,
-                    offset: [0.0; 2],
-                    angle_0: 0.0,
-                },
-            ),
-            None,
-        ),
-        (Joint::new("j", &pair, Angle { angle_0: 0.0 }), None),
-        (
-            Joint::new(
-                "j",
-                &[pair[0], pair[1], BodyRef::Ground],
-                Gear {
-                    ratio: -2.0,
-                    phase: 0.0,
-                },
-            ),
+            Joint::new("j", &[pair[0], pair[1], BodyRef::Ground], Gear::new(-2.0)),
             None,
         ),
     ];
@@ -455,11 +408,7 @@ fn affine_and_rheonomic_rows() {
         tolerance: None,
         name: name.into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
-        element: Box::new(RevoluteAngleDrive {
-            s_i: [0.0; 2],
-            s_j: [0.0; 2],
-            measure_0: 0.0,
-        }),
+        element: Box::new(RevoluteAngleDrive::new([0.0; 2], [0.0; 2])),
         motion: Function::constant_rate(1.0).expect("finite"),
     };
     let d = Description {

@@ -41,28 +41,9 @@ fn force(name: &str, bodies: [BodyRef; 2], element: impl ForceKernels + 'static)
 /// Three cranks with forces of every kind.
 fn sprung_cranks() -> Description {
     let [ground, crank, coupler] = [BodyRef::Ground, BodyRef::Body(0), BodyRef::Body(3)];
-    let spring = SpringDamper {
-        s_i: [0.3, 2.0],
-        s_j: [0.2, 0.1],
-        stiffness: 40.0,
-        damping: 1.5,
-        free_length: Some(0.7),
-        free_length_0: 0.0,
-    };
-    let torsion = TorsionSpringDamper {
-        stiffness: 30.0,
-        damping: 0.8,
-        free_angle: Some(0.5),
-        free_angle_0: 0.0,
-    };
-    let bushing = Bushing {
-        s_i: [0.5, 1.0],
-        s_j: [0.1, -0.2],
-        stiffness: [20.0, 10.0, 5.0],
-        damping: [0.3, 0.2, 0.1],
-        offset: [0.0; 2],
-        angle_0: 0.0,
-    };
+    let spring = SpringDamper::new([0.3, 2.0], [0.2, 0.1], 40.0, 1.5).with_free_length(0.7);
+    let torsion = TorsionSpringDamper::new(30.0, 0.8).with_free_angle(0.5);
+    let bushing = Bushing::new([0.5, 1.0], [0.1, -0.2], [20.0, 10.0, 5.0], [0.3, 0.2, 0.1]);
     let mut d = cranks(&[0.0, 1.0, 2.0], 0.8, 0.9);
     d.gravity = [0.0, -9.81];
     d.forces = vec![
@@ -246,19 +227,10 @@ mod held {
             tolerance: None,
             name: "drive".into(),
             bodies: pair.to_vec(),
-            element: Box::new(RevoluteAngleDrive {
-                s_i: [0.0; 2],
-                s_j: [0.0; 2],
-                measure_0: 0.0,
-            }),
+            element: Box::new(RevoluteAngleDrive::new([0.0; 2], [0.0; 2])),
             motion: Function::harmonic(0.3, 1.0, 0.0, 0.0).expect("finite"),
         });
-        let spring = TorsionSpringDamper {
-            stiffness: K,
-            damping: C,
-            free_angle: Some(-0.7),
-            free_angle_0: 0.0,
-        };
+        let spring = TorsionSpringDamper::new(K, C).with_free_angle(-0.7);
         let pair = [BodyRef::Body(4), BodyRef::Body(0)];
         d.forces.push(force("grip", pair, spring));
         d

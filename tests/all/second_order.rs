@@ -16,11 +16,7 @@ const PITCH: f64 = 1.0;
 const RATIO: f64 = (LENGTH + PITCH) / (LENGTH - PITCH);
 
 fn driven(mut d: Description, rate: f64) -> Description {
-    let element = RevoluteAngleDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let element = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
     d.drives.push(Drive {
         tolerance: None,
         name: "motor".into(),

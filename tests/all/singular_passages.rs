@@ -13,11 +13,7 @@ use tests::robot::{robot, robot_of_size, steering, steering_of_size};
 /// The motor rotates crank 1 with ω = 1 from `start`.
 fn driven(pivots: &[f64], start: f64) -> dynamics::Prepared {
     let mut d = cranks(pivots, 0.5, start);
-    let element = RevoluteAngleDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let element = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
     d.drives.push(Drive {
         tolerance: None,
         name: "motor".into(),

@@ -190,7 +190,7 @@ fn a_start_far_beside_the_constraints_is_corrected_alike() {
     d.joints.push(model::Joint::new(
         "held",
         &[BodyRef::Ground, BodyRef::Body(0)],
-        joints::Angle { angle_0: 0.0 },
+        joints::Angle::new(),
     ));
     let start = StartOptions {
         correction: CorrectionLimit::Any,

@@ -9,11 +9,7 @@ use tests::{revolute, rod};
 
 fn drive(name: &str, bodies: [BodyRef; 2]) -> Drive {
     // The angle needs no points.
-    let element = RevoluteAngleDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let element = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
     Drive {
         tolerance: None,
         name: name.into(),

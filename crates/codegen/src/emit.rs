@@ -190,7 +190,7 @@ fn constraint_type(
     let name = &t.name;
     let structure = parts::structure(d, model, name, &t.doc, t.driven);
     let spec = facts::constraint_spec(d, t, k, body, text);
-    let from_arguments = parts::from_arguments(d, model, t.driven);
+    let from_arguments = parts::from_arguments(d, t.driven);
     let measure = t.driven.map(|_| body.measures[0].1);
     let initialise = parts::initialise(model, measure);
     let requirement = parts::requirement(model);
@@ -383,7 +383,7 @@ pub(crate) fn force(
     let name = &d.name;
     let structure = parts::structure(d, &model, name, &d.doc, None);
     let spec = facts::force_spec(d, &model, &k, text);
-    let from_arguments = parts::from_arguments(d, &model, None);
+    let from_arguments = parts::from_arguments(d, None);
     let initialise = parts::initialise(&model, None);
     let requirement = parts::requirement(&model);
     let points = parts::points(d);

@@ -110,7 +110,7 @@ impl<'m> KeptRowMotion<'m> {
     /// // A body that does not rotate: x and y are independent, its angle is not.
     /// let level = Description {
     ///     bodies: vec![Body { name: "crate".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
-    ///     joints: vec![Joint::new("level", &[BodyRef::Ground, BodyRef::Body(0)], Angle { angle_0: 0.0 })],
+    ///     joints: vec![Joint::new("level", &[BodyRef::Ground, BodyRef::Body(0)], Angle::new())],
     ///     ..Description::default()
     /// };
     /// let mechanism = Mechanism::build(&level).unwrap();

@@ -183,11 +183,7 @@ joint! { plane Shadows(i) {
 
 #[test]
 fn names_of_arguments_hide_nothing() {
-    let mut joint = Shadows {
-        lambda: 3.0,
-        x: 0.0,
-        v: 0.0,
-    };
+    let mut joint = Shadows::new(3.0);
     Definition::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
     let mut phi = [0.0];
     Element::phi(&joint, &[Pose::new(3.0, 0.0, 0.5)], &[], &mut phi);
@@ -199,11 +195,7 @@ fn names_of_arguments_hide_nothing() {
 /// dNone/dx_0 = −3.
 #[test]
 fn what_is_computed_from_other_numbers_changes_with_them() {
-    let mut joint = Shadows {
-        lambda: 3.0,
-        x: 0.0,
-        v: 0.0,
-    };
+    let mut joint = Shadows::new(3.0);
     Definition::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
     let named: Vec<&str> = Shadows::SPEC.data.iter().map(|d| d.name).collect();
     assert_eq!(named, ["lambda", "x"]);
@@ -271,6 +263,9 @@ fn quotients_of_data_have_their_derivatives() {
     ];
     let mut joint = Scaled::from_arguments(&arguments).expect("the arguments are right");
     let start = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
+    // The constructor takes the values without their shapes; what is kept comes from the start.
+    assert_eq!(Scaled::new(joint.line, [4.0, 3.0]).with_rest(2.0), joint);
+    assert_ne!(Scaled::new(joint.line, [4.0, 3.0]), joint);
     Definition::initialise(&mut joint, &start);
     let data: Vec<_> = Scaled::SPEC
         .data
@@ -313,7 +308,8 @@ fn quotients_of_data_have_their_derivatives() {
     numbers[6] = 8.0;
     Definition::set_data(&mut joint, &numbers);
     Definition::initialise(&mut joint, &start);
-    assert_eq!((joint.rest, joint.rest_0), (Some(8.0), 8.0));
+    Definition::data(&joint, &mut numbers);
+    assert_eq!((joint.rest, numbers[6]), (Some(8.0), 8.0));
 }
 
 force! { plane Magnet(i, j) {

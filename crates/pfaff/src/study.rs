@@ -191,10 +191,8 @@ impl Study {
     /// let mut d = Description { gravity: [0.0, -10.0], ..Description::new("scale") };
     /// let pan = d.body(Body { position: [0.0, -1.0], ..Body::new("pan", 2.0, 0.1) });
     /// let both = [BodyRef::Ground, pan];
-    /// d.joint("guide", &both, Translational { s_i: [0.0; 2], s_j: [0.0; 2], axis: Direction::Y, angle_0: 0.0 });
-    /// d.force("spring", &both, SpringDamper {
-    ///     s_i: [0.0; 2], s_j: [0.0; 2], stiffness: 100.0, damping: 0.0, free_length: Some(1.0), free_length_0: 1.0,
-    /// });
+    /// d.joint("guide", &both, Translational::new([0.0; 2], [0.0; 2], Direction::Y));
+    /// d.force("spring", &both, SpringDamper::new([0.0; 2], [0.0; 2], 100.0, 0.0).with_free_length(1.0));
     /// let (found, there) = Study::build(d)?.equilibrium(&EquilibriumOptions::default())?;
     /// assert!((found.q[1] + 1.2).abs() < 1e-12);
     /// assert_eq!(there.prepared.v, [0.0; 3]);

@@ -139,28 +139,14 @@ impl Sketch {
     pub(crate) fn bar(&mut self, name: &str, bodies: [BodyRef; 2], ends: [[f64; 3]; 2]) {
         let end = |k: usize| self.d.local(bodies[k], self.moved.to_global(ends[k]));
         let [s_i, s_j] = [end(0), end(1)];
-        let (length, half_inverse) = (0.0, 0.0);
-        let bar = Distance {
-            s_i,
-            s_j,
-            length,
-            half_inverse,
-        };
+        let bar = Distance::new(s_i, s_j);
         self.d.joint(name, &bodies, bar);
     }
 
     /// A wheel of this radius on the plane z = 0 of the home pose, which the mechanism must be at.
     pub(crate) fn wheel(&mut self, name: &str, wheel: BodyRef, axis: [f64; 3], radius: f64) {
         let axis = Direction::new(self.direction(wheel, axis)).expect("a direction");
-        let rolls = Wheel {
-            s: [0.0; 3],
-            axis,
-            radius,
-            tube: None,
-            tube_0: 0.0,
-            plane: GroundPlane::Z,
-            inverse: 0.0,
-        };
+        let rolls = Wheel::new([0.0; 3], axis, radius, GroundPlane::Z);
         self.d.joint(name, &[wheel], rolls);
     }
 

@@ -143,18 +143,7 @@ impl Case {
                 // x of the joint turns with the ground, y with the pendulum.
                 let axis = Direction::new(axis.uvw()[0]).expect("a direction");
                 let cross = Direction::Y;
-                d.joint(
-                    "joint",
-                    &bodies,
-                    Universal {
-                        s_i,
-                        s_j,
-                        axis,
-                        cross,
-                        b_in_i: [0.0; 3],
-                        a_in_j: [0.0; 3],
-                    },
-                );
+                d.joint("joint", &bodies, Universal::new(s_i, s_j, axis, cross));
             }
             Kind::Cylindrical => {
                 d.joint(

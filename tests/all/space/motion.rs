@@ -391,14 +391,7 @@ fn explicit_and_implicit_methods_agree_in_space() {
     let [s_i, s_j] = pair.map(|body| d.local(body, [0.0; 3]));
     d.joint("ball", &pair, Spherical { s_i, s_j });
     let s_j = d.local(rod, [1.0, 0.0, 0.0]);
-    let spring = SpringDamper {
-        s_i: [1.0, 0.5, 0.8],
-        s_j,
-        stiffness: 400.0,
-        damping: 3.0,
-        free_length: Some(0.4),
-        free_length_0: 0.4,
-    };
+    let spring = SpringDamper::new([1.0, 0.5, 0.8], s_j, 400.0, 3.0).with_free_length(0.4);
     d.force("spring", &pair, spring);
     let (explicit, v, _) = moved(&d, 2.0, Method::Dop853, 1e-12);
     let (implicit, w, _) = moved(&d, 2.0, Method::Radau5, 1e-11);

@@ -32,12 +32,10 @@ fn triangle_on_bars(
     };
     for k in 0..3 {
         for foot in [k, k + 1] {
-            let bar = Distance {
-                s_i: corner(120.0 * f64::from(foot), 0.0),
-                s_j: d.local(top, corner(120.0 * f64::from(k) + turn, 1.0)),
-                length: 0.0,
-                half_inverse: 0.0,
-            };
+            let bar = Distance::new(
+                corner(120.0 * f64::from(foot), 0.0),
+                d.local(top, corner(120.0 * f64::from(k) + turn, 1.0)),
+            );
             d.joint(&format!("bar {k} {foot}"), &[BodyRef::Ground, top], bar);
         }
     }
@@ -194,14 +192,12 @@ fn what_rounding_leaves_of_a_self_stress_blocks_nothing() {
         let rod = d.body(body("rod", [0.5, 1.0, -1.0]));
         let door = d.body(body("door", [-2.0, 1.0, 1.5]));
         let [a, b] = [[0.5, 2.0, 0.5], [-1.0, -2.0, -2.0]];
-        let hooke = Universal {
-            s_i: a,
-            s_j: d.local(rod, a),
-            axis: Direction::new([-1.0, 0.0, 0.0]).expect("a direction"),
-            cross: Direction::new([0.0, cos, sin]).expect("a direction"),
-            b_in_i: [0.0; 3],
-            a_in_j: [0.0; 3],
-        };
+        let hooke = Universal::new(
+            a,
+            d.local(rod, a),
+            Direction::new([-1.0, 0.0, 0.0]).expect("a direction"),
+            Direction::new([0.0, cos, sin]).expect("a direction"),
+        );
         d.joint("a", &[BodyRef::Ground, rod], hooke);
         let s_j = d.local(rod, b);
         d.joint("b", &[BodyRef::Ground, rod], Spherical { s_i: b, s_j });

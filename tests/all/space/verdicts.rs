@@ -105,18 +105,8 @@ impl Sketch {
         let [s_i, s_j] = bodies.map(|body| self.d.local(body, at));
         let [axis, cross] = [(0, a), (1, b)]
             .map(|(k, v)| Direction::new(self.direction(bodies[k], v)).expect("a direction"));
-        self.d.joint(
-            name,
-            &bodies,
-            Universal {
-                s_i,
-                s_j,
-                axis,
-                cross,
-                b_in_i: [0.0; 3],
-                a_in_j: [0.0; 3],
-            },
-        );
+        self.d
+            .joint(name, &bodies, Universal::new(s_i, s_j, axis, cross));
     }
 
     fn build(&self) -> Mechanism {
@@ -432,15 +422,7 @@ fn cars() {
             let axis = [-angle.sin(), angle.cos(), 0.0];
             s.joint(&format!("hub {k}"), Kind::R, [chassis, wheel], centre, axis);
             let axis = Direction::new(s.direction(wheel, axis)).expect("a direction");
-            let rolls = Wheel {
-                s: [0.0; 3],
-                axis,
-                radius: 0.3,
-                tube: None,
-                tube_0: 0.0,
-                plane: GroundPlane::Z,
-                inverse: 0.0,
-            };
+            let rolls = Wheel::new([0.0; 3], axis, 0.3, GroundPlane::Z);
             s.d.joint(&format!("tread {k}"), &[wheel], rolls);
         }
         s

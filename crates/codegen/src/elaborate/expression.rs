@@ -11,7 +11,7 @@ use super::value::Value;
 use crate::nearest::hint;
 use crate::parse::Definition;
 use crate::space::Space;
-use crate::vector::{Components, Vector};
+use crate::vector::{Components, Frame, Vector};
 
 /// Allowed magnitudes of numbers: products of a few of them, and of their derivatives, do not
 /// overflow.
@@ -76,7 +76,17 @@ impl<'a> Scope<'a> {
     pub(super) fn vector(&mut self, e: &'a syn::Expr) -> syn::Result<Vector> {
         match self.value(e)? {
             Value::Vector(v) => Ok(v),
-            other => Err(wrong(e, "a vector", &other)),
+            other => Err(no_vector(e, &other)),
+        }
+    }
+
+    /// A vector, or the one with these components in the frame of a body: for products and
+    /// lengths, which know no place.
+    pub(super) fn free_vector(&mut self, e: &'a syn::Expr) -> syn::Result<Vector> {
+        match self.value(e)? {
+            Value::Vector(v) => Ok(v),
+            Value::Local { slot, local } => Ok(Vector::new(Frame::Body(slot), local)),
+            other => Err(no_vector(e, &other)),
         }
     }
 
@@ -330,6 +340,14 @@ pub(super) fn wrong(at: &syn::Expr, expected: &str, found: &Value) -> syn::Error
     syn::Error::new_spanned(at, format!("expected {expected}, found {}", found.shape()))
 }
 
+fn no_vector(at: &syn::Expr, found: &Value) -> syn::Error {
+    let mut message = format!("expected a vector, found {}", found.shape());
+    if let Some(hint) = found.as_vector() {
+        message = format!("{message}: {hint}");
+    }
+    syn::Error::new_spanned(at, message)
+}
+
 fn no_operator(b: &syn::ExprBinary, op: &BinOp, left: &Value, right: &Value) -> syn::Error {
     let refused = format!(
         "`{}` does not apply to {} and {}",
@@ -338,24 +356,9 @@ fn no_operator(b: &syn::ExprBinary, op: &BinOp, left: &Value, right: &Value) -> 
         right.shape()
     );
     for (value, at) in [(left, &b.left), (right, &b.right)] {
-        let hint = match value {
-            Value::Point { .. } => {
-                "the point of body i that a parameter `s` gives is `point(i, s)`"
-            }
-            Value::Direction { .. } => "the vector that a parameter `n` gives is `direction(i, n)`",
-            Value::Local { .. } => {
-                "the vector with components `c` in the frame of body i is `vector(i, c)`"
-            }
-            Value::Axes { .. } => {
-                "of axes `a`, `direction(i, a[0])` and `direction(i, a[1])` lie across, `direction(i, a[2])` along"
-            }
-            Value::Plane { .. } => {
-                "a plane has a point `start(plane)` and a vector `normal(plane)`"
-            }
-            Value::Line { .. } => "a line has a point `start(line)` and a direction `along(line)`",
-            _ => continue,
-        };
-        return syn::Error::new_spanned(at, format!("{refused}: {hint}"));
+        if let Some(hint) = value.as_vector() {
+            return syn::Error::new_spanned(at, format!("{refused}: {hint}"));
+        }
     }
     match (op, left, right) {
         (BinOp::Mul(_), Value::Vector(_), Value::Vector(_)) => syn::Error::new_spanned(

@@ -83,7 +83,7 @@ impl<'a> Scope<'a> {
             "point" | "direction" | "vector" => self.placed(function, args[0], args[1]),
             "local" => {
                 let slot = self.slot_argument(args[0])?;
-                let v = self.vector(args[1])?;
+                let v = self.free_vector(args[1])?;
                 let model = &mut self.model;
                 let local = v.in_body(&mut model.g, slot, &model.turns);
                 Ok(Value::Local { slot, local })
@@ -98,8 +98,8 @@ impl<'a> Scope<'a> {
             }
             "angle" => self.angle_about(args[0], args[1]),
             "turn" => {
-                let (about, from) = (self.vector(args[0])?, self.vector(args[1])?);
-                let to = self.vector(args[2])?;
+                let (about, from) = (self.free_vector(args[0])?, self.free_vector(args[1])?);
+                let to = self.free_vector(args[2])?;
                 let model = &mut self.model;
                 let across = from.cross(&mut model.g, &to, &model.turns);
                 Ok(Value::Angle {
@@ -113,7 +113,7 @@ impl<'a> Scope<'a> {
                 Ok(Value::Vector(Vector::new(Frame::Body(slot), omega)))
             }
             "cross" => {
-                let (a, b) = (self.vector(args[0])?, self.vector(args[1])?);
+                let (a, b) = (self.free_vector(args[0])?, self.free_vector(args[1])?);
                 let model = &mut self.model;
                 Ok(Value::Vector(a.cross(&mut model.g, &b, &model.turns)))
             }
@@ -141,16 +141,16 @@ impl<'a> Scope<'a> {
                 other => Err(wrong(args[0], "a plane", &other)),
             },
             "perp" => {
-                let v = self.vector(args[0])?;
+                let v = self.free_vector(args[0])?;
                 Ok(Value::Vector(v.perp(&mut self.model.g)))
             }
             "dot" => {
-                let (a, b) = (self.vector(args[0])?, self.vector(args[1])?);
+                let (a, b) = (self.free_vector(args[0])?, self.free_vector(args[1])?);
                 let model = &mut self.model;
                 Ok(Value::Scalar(a.dot(&mut model.g, &b, &model.turns)))
             }
             "norm" => {
-                let v = self.vector(args[0])?;
+                let v = self.free_vector(args[0])?;
                 let model = &mut self.model;
                 let square = v.dot(&mut model.g, &v, &model.turns);
                 Ok(Value::Scalar(model.g.call(Function::Sqrt, square)))

@@ -66,6 +66,13 @@ fn functions_mean_what_they_say() {
         ("local(j, direction(j, n))[0]", 0.6),
         ("vector(i, [2.0 * l, 1])[0]", 5.0 * cos - sin),
         ("vector(i, local(i, origin(j)))[0]", 0.3),
+        // Components in a frame have products and a length like the vector that they tell.
+        ("dot(local(i, origin(j)), local(i, origin(j)))", 0.34),
+        (
+            "dot(local(i, origin(j)), direction(j, n))",
+            0.3 * n[0] - 0.5 * n[1],
+        ),
+        ("perp(local(i, origin(j)))[0]", 0.5),
         ("start(g)[1]", 7.0),
         ("along(g)[1]", 1.0),
         (

@@ -63,6 +63,23 @@ impl Value {
             Self::List(_) => "a list",
         }
     }
+
+    /// How a vector is made of it, in words; `None` for a scalar, a vector and a list.
+    pub(super) fn as_vector(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::Point { .. } => "the point of body i that a parameter `s` gives is `point(i, s)`",
+            Self::Direction { .. } => "the vector that a parameter `n` gives is `direction(i, n)`",
+            Self::Local { .. } => {
+                "the vector with components `c` in the frame of body i is `vector(i, c)`"
+            }
+            Self::Axes { .. } => {
+                "of axes `a`, `direction(i, a[0])` and `direction(i, a[1])` lie across, `direction(i, a[2])` along"
+            }
+            Self::Plane { .. } => "a plane has a point `start(plane)` and a vector `normal(plane)`",
+            Self::Line { .. } => "a line has a point `start(line)` and a direction `along(line)`",
+            Self::Scalar(_) | Self::Vector(_) | Self::Angle { .. } | Self::List(_) => return None,
+        })
+    }
 }
 
 impl Value {

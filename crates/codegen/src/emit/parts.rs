@@ -162,19 +162,20 @@ pub(super) fn structure(
             }
             None => " Kept from the assembled start; set by `initialise`.".to_owned(),
         };
-        quote!(#[doc = #doc] pub #name: #ty,)
+        quote!(#[doc = #doc] #name: #ty,)
     });
     let measure = match driven {
         Some(Driven::Measure) => Some(quote! {
             #[doc = " Value of the measure at the assembled start; set by `initialise`."]
-            pub measure_0: f64,
+            measure_0: f64,
         }),
         Some(Driven::Turn) => Some(quote! {
             #[doc = " Cosine and sine of the measure at the assembled start; set by `initialise`."]
-            pub measure_0: [f64; 2],
+            measure_0: [f64; 2],
         }),
         Some(Driven::Rows) | None => None,
     };
+    let constructors = constructors(d, model, name, driven);
     quote! {
         #(#[doc = #doc])*
         #[derive(Clone, Debug, PartialEq)]
@@ -182,6 +183,82 @@ pub(super) fn structure(
             #(#params)*
             #(#kept)*
             #measure
+        }
+
+        #constructors
+    }
+}
+
+/// `new` with the parameters that have no default, and a method for each that has one. The values
+/// kept from the start are set by `initialise` and cannot be given.
+fn constructors(
+    d: &Definition,
+    model: &Model,
+    name: &Ident,
+    driven: Option<Driven>,
+) -> TokenStream {
+    let stored = || {
+        d.params
+            .iter()
+            .filter_map(|p| Some((p, field_type(d.space, p)?)))
+    };
+    let (optional, required): (Vec<_>, Vec<_>) = stored().partition(|(p, _)| p.default.is_some());
+    let arguments = required.iter().map(|(p, ty)| {
+        let name = &p.name;
+        quote!(#name: #ty)
+    });
+    let fields = stored().map(|(p, _)| {
+        let name = &p.name;
+        match p.default {
+            Some(_) => quote!(#name: None),
+            None => quote!(#name),
+        }
+    });
+    let kept = model.kept.iter().map(|k| {
+        let name = format_ident!("{}", k.field);
+        match k.kind {
+            Kept::Number(_) => quote!(#name: 0.0),
+            Kept::Vector(_) => {
+                let dim = index(d.space.dim());
+                quote!(#name: [0.0; #dim])
+            }
+            Kept::Turn => quote!(#name: [1.0, 0.0]),
+        }
+    });
+    let fields = fields.chain(kept).chain(driven.and_then(measure_0));
+    // The lints are about the number of parameters, which is that of the definition.
+    let lints = match required.len() {
+        0 => Some(quote!(#[allow(clippy::new_without_default)])),
+        8.. => Some(quote!(#[allow(clippy::too_many_arguments)])),
+        _ => None,
+    };
+    let doc = match (required.is_empty(), optional.is_empty()) {
+        (true, _) => " It has no parameters that must be given.",
+        (false, true) => " From its parameters, in the order of its fields.",
+        (false, false) => " From the parameters that have no default, in the order of its fields.",
+    };
+    let with = optional.iter().map(|(p, _)| {
+        let (field, doc) = (&p.name, format!(" The same, with `{}`.", p.name));
+        let method = format_ident!("with_{}", field);
+        quote! {
+            #[doc = #doc]
+            #[must_use]
+            #[allow(dead_code)]
+            pub const fn #method(mut self, #field: f64) -> Self {
+                self.#field = Some(#field);
+                self
+            }
+        }
+    });
+    quote! {
+        impl #name {
+            #[doc = #doc]
+            #[must_use]
+            #lints
+            pub const fn new(#(#arguments),*) -> Self {
+                Self { #(#fields),* }
+            }
+            #(#with)*
         }
     }
 }
@@ -289,7 +366,7 @@ pub(super) fn slot(d: &Definition, name: &Ident) -> proc_macro2::Literal {
 }
 
 /// The constructor from checked arguments.
-pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Driven>) -> TokenStream {
+pub(super) fn from_arguments(d: &Definition, driven: Option<Driven>) -> TokenStream {
     let mut reads: Vec<TokenStream> = d
         .params
         .iter()
@@ -319,24 +396,18 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Drive
     if driven.is_some() {
         reads.push(quote!(reader.skip();));
     }
-    let fields = d
-        .params
-        .iter()
-        .filter(|p| field_type(d.space, p).is_some())
-        .map(|p| &p.name);
-    let kept = model.kept.iter().map(|k| {
-        let name = format_ident!("{}", k.field);
-        match k.kind {
-            Kept::Number(_) => quote!(#name: 0.0,),
-            Kept::Vector(_) => {
-                let dim = index(d.space.dim());
-                quote!(#name: [0.0; #dim],)
-            }
-            Kept::Turn => quote!(#name: [1.0, 0.0],),
-        }
-    });
-    let measure = driven.and_then(measure_0);
-    let measure = measure.map(|field| quote!(#field,));
+    let stored = || d.params.iter().filter(|p| field_type(d.space, p).is_some());
+    let required = stored().filter(|p| p.default.is_none()).map(|p| &p.name);
+    let given: Vec<_> = stored()
+        .filter(|p| p.default.is_some())
+        .map(|p| &p.name)
+        .collect();
+    let new = quote!(Self::new(#(#required),*));
+    let new = if given.is_empty() {
+        new
+    } else {
+        quote!(Self { #(#given,)* ..#new })
+    };
     // Without parameters only the number of arguments is checked.
     let reader = if reads.is_empty() {
         quote!(Reader::new(Self::SPEC.common.parameters, arguments)?;)
@@ -347,7 +418,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: Option<Drive
         fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
             #reader
             #(#reads)*
-            Ok(Self { #(#fields,)* #(#kept)* #measure })
+            Ok(#new)
         }
     }
 }

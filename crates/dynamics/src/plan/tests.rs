@@ -46,14 +46,7 @@ fn pendulum(d: &mut Description, name: &str, x: f64) {
 fn stiff(d: &mut Description) {
     let k = d.bodies.len();
     d.bodies.push(body("stiff", [6.1, 0.0]));
-    let spring = SpringDamper {
-        s_i: [5.0, 0.0],
-        s_j: [0.0; 2],
-        stiffness: 1e4,
-        damping: 1e8,
-        free_length: Some(1.0),
-        free_length_0: 1.0,
-    };
+    let spring = SpringDamper::new([5.0, 0.0], [0.0; 2], 1e4, 1e8).with_free_length(1.0);
     d.forces.push(Force {
         name: "damper".into(),
         bodies: vec![GROUND, BodyRef::Body(k)],
@@ -328,11 +321,7 @@ fn the_first_component_to_stop_stops_all() {
             s_i: [9.0, 0.0],
             s_j: [-0.5, 0.0],
         };
-        let motor = RevoluteAngleDrive {
-            s_i: [9.0, 0.0],
-            s_j: [-0.5, 0.0],
-            measure_0: 0.0,
-        };
+        let motor = RevoluteAngleDrive::new([9.0, 0.0], [-0.5, 0.0]);
         let arm = BodyRef::Body(1);
         d.joints.push(Joint::new("shoulder", &[GROUND, arm], pin));
         d.drives.push(Drive {
@@ -343,12 +332,7 @@ fn the_first_component_to_stop_stops_all() {
             tolerance: None,
         });
         d.bodies.push(body("block", [10.6, 0.8]));
-        let rod = Distance {
-            s_i: [0.5, 0.0],
-            s_j: [0.0; 2],
-            length: 0.0,
-            half_inverse: 0.0,
-        };
+        let rod = Distance::new([0.5, 0.0], [0.0; 2]);
         let block = BodyRef::Body(2);
         d.joints.push(Joint::new("rod", &[arm, block], rod));
         let slot = PinInSlot {
@@ -357,11 +341,8 @@ fn the_first_component_to_stop_stops_all() {
             axis: Direction::X,
         };
         d.joints.push(Joint::new("rail", &[GROUND, block], slot));
-        d.joints.push(Joint::new(
-            "upright",
-            &[GROUND, block],
-            Angle { angle_0: 0.0 },
-        ));
+        d.joints
+            .push(Joint::new("upright", &[GROUND, block], Angle::new()));
     });
     let plan = Plan::new(&p, &to(0.4), &Wanted::default()).expect("a plan");
     assert_eq!(plan.components.len(), 2);
@@ -453,12 +434,7 @@ fn guided(d: &mut Description) {
     });
     d.bodies.push(body("held", [2.0, 1.0]));
     d.bodies.push(body("bob", [1.0, -1.0]));
-    let rail = Translational {
-        s_i: [0.0; 2],
-        s_j: [0.3, 0.2],
-        axis,
-        angle_0: 0.0,
-    };
+    let rail = Translational::new([0.0; 2], [0.3, 0.2], axis);
     let mut rail = Joint::new("rail", &[GROUND, block], rail);
     // The point of the block that slides is on the rail.
     d.bodies[0].position = [
@@ -468,7 +444,7 @@ fn guided(d: &mut Description) {
     rail.name = "rail".into();
     d.joints.push(rail);
     d.joints
-        .push(Joint::new("hold", &[block, held], Angle { angle_0: 0.0 }));
+        .push(Joint::new("hold", &[block, held], Angle::new()));
     let pin = |name: &str, i, j, at: [f64; 2], bodies: &[Body]| {
         let local = |b| match b {
             BodyRef::Ground => at,
@@ -486,13 +462,7 @@ fn guided(d: &mut Description) {
     d.joints
         .push(pin("hook", block, bob, [0.5, -0.5], &d.bodies));
     d.joints.push(pin("tie", held, bob, [1.5, 0.0], &d.bodies));
-    let motor = joints::TranslationalDisplacementDrive {
-        s_i: [0.0; 2],
-        s_j: [0.3, 0.2],
-        axis,
-        angle_0: 0.0,
-        measure_0: 0.0,
-    };
+    let motor = joints::TranslationalDisplacementDrive::new([0.0; 2], [0.3, 0.2], axis);
     d.drives.push(Drive {
         name: "motor".into(),
         bodies: vec![GROUND, block],

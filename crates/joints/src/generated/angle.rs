@@ -15,7 +15,15 @@ use crate::spec::{
 #[derive(Clone, Debug, PartialEq)]
 pub struct Angle {
     /// Kept from the assembled start; set by `initialise`.
-    pub angle_0: f64,
+    angle_0: f64,
+}
+impl Angle {
+    /// It has no parameters that must be given.
+    #[must_use]
+    #[allow(clippy::new_without_default)]
+    pub const fn new() -> Self {
+        Self { angle_0: 0.0 }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for Angle {
@@ -51,7 +59,7 @@ impl Constraint for Angle {
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         Reader::new(Self::SPEC.common.parameters, arguments)?;
-        Ok(Self { angle_0: 0.0 })
+        Ok(Self::new())
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

@@ -21,9 +21,28 @@ pub struct Bushing {
     /// Along x and y of the frame of body i, and about the relative rotation. Units: [`Unit::Damping`], [`Unit::Damping`], [`Unit::TorsionDamping`].
     pub damping: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub offset: [f64; 2],
+    offset: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub angle_0: f64,
+    angle_0: f64,
+}
+impl Bushing {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 2],
+        s_j: [f64; 2],
+        stiffness: [f64; 3],
+        damping: [f64; 3],
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            stiffness,
+            damping,
+            offset: [0.0; 2],
+            angle_0: 0.0,
+        }
+    }
 }
 impl Force for Bushing {
     const SPEC: ForceSpec = ForceSpec {
@@ -147,14 +166,7 @@ impl Force for Bushing {
         let s_j = reader.point()?;
         let stiffness = reader.numbers()?;
         let damping = reader.numbers()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            stiffness,
-            damping,
-            offset: [0.0; 2],
-            angle_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, stiffness, damping))
     }
     fn element<T: Real>(&self) -> &dyn ForceElement<T> {
         self

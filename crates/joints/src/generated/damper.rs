@@ -18,6 +18,13 @@ pub struct Damper {
     /// Damping c, tension per rate of extension. Unit: [`Unit::Damping`].
     pub damping: f64,
 }
+impl Damper {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2], damping: f64) -> Self {
+        Self { s_i, s_j, damping }
+    }
+}
 impl Force for Damper {
     const SPEC: ForceSpec = ForceSpec {
         common: Spec {
@@ -126,7 +133,7 @@ impl Force for Damper {
         let s_i = reader.point()?;
         let s_j = reader.point()?;
         let [damping] = reader.numbers()?;
-        Ok(Self { s_i, s_j, damping })
+        Ok(Self::new(s_i, s_j, damping))
     }
     fn element<T: Real>(&self) -> &dyn ForceElement<T> {
         self

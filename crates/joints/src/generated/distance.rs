@@ -20,9 +20,21 @@ pub struct Distance {
     /// End on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub length: f64,
+    length: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub half_inverse: f64,
+    half_inverse: f64,
+}
+impl Distance {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2]) -> Self {
+        Self {
+            s_i,
+            s_j,
+            length: 0.0,
+            half_inverse: 0.0,
+        }
+    }
 }
 impl Distance {
     /// The drive of its length, with the same parameters.
@@ -115,12 +127,7 @@ impl Constraint for Distance {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s_i = reader.point()?;
         let s_j = reader.point()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            length: 0.0,
-            half_inverse: 0.0,
-        })
+        Ok(Self::new(s_i, s_j))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {
         visitor.drive::<DistanceLengthDrive>();
@@ -728,9 +735,21 @@ pub struct DistanceLengthDrive {
     /// End on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub length: f64,
+    length: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub half_inverse: f64,
+    half_inverse: f64,
+}
+impl DistanceLengthDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2]) -> Self {
+        Self {
+            s_i,
+            s_j,
+            length: 0.0,
+            half_inverse: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for DistanceLengthDrive {
@@ -817,12 +836,7 @@ impl Constraint for DistanceLengthDrive {
         let s_i = reader.point()?;
         let s_j = reader.point()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            length: 0.0,
-            half_inverse: 0.0,
-        })
+        Ok(Self::new(s_i, s_j))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

@@ -19,9 +19,21 @@ pub struct Fixed {
     /// The point of body j that keeps its place in body i. Point in the frame of body j (m).
     pub s_j: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub offset: [f64; 2],
+    offset: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub angle_0: f64,
+    angle_0: f64,
+}
+impl Fixed {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2]) -> Self {
+        Self {
+            s_i,
+            s_j,
+            offset: [0.0; 2],
+            angle_0: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for Fixed {
@@ -90,12 +102,7 @@ impl Constraint for Fixed {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s_i = reader.point()?;
         let s_j = reader.point()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            offset: [0.0; 2],
-            angle_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

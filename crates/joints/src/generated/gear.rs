@@ -18,7 +18,14 @@ pub struct Gear {
     /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh. Unit: [`Unit::Ratio`].
     pub ratio: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub phase: f64,
+    phase: f64,
+}
+impl Gear {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(ratio: f64) -> Self {
+        Self { ratio, phase: 0.0 }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for Gear {
@@ -70,7 +77,7 @@ impl Constraint for Gear {
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let [ratio] = reader.numbers()?;
-        Ok(Self { ratio, phase: 0.0 })
+        Ok(Self::new(ratio))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

@@ -19,6 +19,13 @@ pub struct KnifeEdge {
     /// Direction across the edge, in which the point cannot move. Unit vector in the frame of the body.
     pub normal: Direction,
 }
+impl KnifeEdge {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 2], normal: Direction) -> Self {
+        Self { s, normal }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint for KnifeEdge {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -65,7 +72,7 @@ impl Constraint for KnifeEdge {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s = reader.point()?;
         let normal = reader.direction()?;
-        Ok(Self { s, normal })
+        Ok(Self::new(s, normal))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

@@ -26,17 +26,42 @@ pub struct Mesh {
     /// Angle by which the line of action is turned from the perpendicular of the centre line; 0 if it is not given. Its sign tells the flanks that touch. Unit: [`Unit::Angle`].
     pub pressure_angle: Option<f64>,
     /// `pressure_angle`, or its value at the assembled start; set by `initialise`.
-    pub pressure_angle_0: f64,
+    pressure_angle_0: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub share: f64,
+    share: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub centres: [f64; 2],
+    centres: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub line: [f64; 2],
+    line: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub inverse: f64,
+    inverse: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub phase: f64,
+    phase: f64,
+}
+impl Mesh {
+    /// From the parameters that have no default, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2], ratio: f64) -> Self {
+        Self {
+            s_i,
+            s_j,
+            ratio,
+            pressure_angle: None,
+            pressure_angle_0: 0.0,
+            share: 0.0,
+            centres: [0.0; 2],
+            line: [0.0; 2],
+            inverse: 0.0,
+            phase: 0.0,
+        }
+    }
+    /// The same, with `pressure_angle`.
+    #[must_use]
+    #[allow(dead_code)]
+    pub const fn with_pressure_angle(mut self, pressure_angle: f64) -> Self {
+        self.pressure_angle = Some(pressure_angle);
+        self
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for Mesh {
@@ -131,16 +156,8 @@ impl Constraint for Mesh {
         let [ratio] = reader.numbers()?;
         let pressure_angle = reader.optional_number()?;
         Ok(Self {
-            s_i,
-            s_j,
-            ratio,
             pressure_angle,
-            pressure_angle_0: 0.0,
-            share: 0.0,
-            centres: [0.0; 2],
-            line: [0.0; 2],
-            inverse: 0.0,
-            phase: 0.0,
+            ..Self::new(s_i, s_j, ratio)
         })
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}

@@ -22,6 +22,13 @@ pub struct PinInSlot {
     pub axis: Direction,
 }
 impl PinInSlot {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2], axis: Direction) -> Self {
+        Self { s_i, s_j, axis }
+    }
+}
+impl PinInSlot {
     /// The drive of its displacement, with the same parameters.
     #[must_use]
     pub fn displacement_drive(&self) -> PinInSlotDisplacementDrive {
@@ -123,7 +130,7 @@ impl Constraint for PinInSlot {
         let s_i = reader.point()?;
         let s_j = reader.point()?;
         let axis = reader.direction()?;
-        Ok(Self { s_i, s_j, axis })
+        Ok(Self::new(s_i, s_j, axis))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {
         visitor.drive::<PinInSlotDisplacementDrive>();
@@ -612,7 +619,19 @@ pub struct PinInSlotDisplacementDrive {
     /// Direction of the slot. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Value of the measure at the assembled start; set by `initialise`.
-    pub measure_0: f64,
+    measure_0: f64,
+}
+impl PinInSlotDisplacementDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2], axis: Direction) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            measure_0: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for PinInSlotDisplacementDrive {
@@ -698,12 +717,7 @@ impl Constraint for PinInSlotDisplacementDrive {
         let s_j = reader.point()?;
         let axis = reader.direction()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            measure_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {
@@ -1229,7 +1243,19 @@ pub struct PinInSlotAngleDrive {
     /// Direction of the slot. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Value of the measure at the assembled start; set by `initialise`.
-    pub measure_0: f64,
+    measure_0: f64,
+}
+impl PinInSlotAngleDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2], axis: Direction) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            measure_0: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for PinInSlotAngleDrive {
@@ -1295,12 +1321,7 @@ impl Constraint for PinInSlotAngleDrive {
         let s_j = reader.point()?;
         let axis = reader.direction()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            measure_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

@@ -19,6 +19,13 @@ pub struct PointOnLine {
     /// The line. Line of the ground.
     pub line: Line,
 }
+impl PointOnLine {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 2], line: Line) -> Self {
+        Self { s, line }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint for PointOnLine {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -69,7 +76,7 @@ impl Constraint for PointOnLine {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s = reader.point()?;
         let line = reader.line()?;
-        Ok(Self { s, line })
+        Ok(Self::new(s, line))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

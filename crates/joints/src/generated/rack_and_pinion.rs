@@ -24,9 +24,22 @@ pub struct RackAndPinion {
     /// Radius of the pinion; negative: it rolls on the other side of the rack. Unit: [`Unit::Length`].
     pub radius: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub phase: f64,
+    phase: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub centre: [f64; 2],
+    centre: [f64; 2],
+}
+impl RackAndPinion {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_j: [f64; 2], axis: Direction, radius: f64) -> Self {
+        Self {
+            s_j,
+            axis,
+            radius,
+            phase: 0.0,
+            centre: [0.0; 2],
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for RackAndPinion {
@@ -109,13 +122,7 @@ impl Constraint for RackAndPinion {
         let s_j = reader.point()?;
         let axis = reader.direction()?;
         let [radius] = reader.numbers()?;
-        Ok(Self {
-            s_j,
-            axis,
-            radius,
-            phase: 0.0,
-            centre: [0.0; 2],
-        })
+        Ok(Self::new(s_j, axis, radius))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

@@ -20,6 +20,13 @@ pub struct Revolute {
     pub s_j: [f64; 2],
 }
 impl Revolute {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2]) -> Self {
+        Self { s_i, s_j }
+    }
+}
+impl Revolute {
     /// The drive of its angle, with the same parameters.
     #[must_use]
     pub fn angle_drive(&self) -> RevoluteAngleDrive {
@@ -89,7 +96,7 @@ impl Constraint for Revolute {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s_i = reader.point()?;
         let s_j = reader.point()?;
-        Ok(Self { s_i, s_j })
+        Ok(Self::new(s_i, s_j))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {
         visitor.drive::<RevoluteAngleDrive>();
@@ -381,7 +388,14 @@ pub struct RevoluteAngleDrive {
     /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
     /// Value of the measure at the assembled start; set by `initialise`.
-    pub measure_0: f64,
+    measure_0: f64,
+}
+impl RevoluteAngleDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2]) -> Self {
+        Self { s_i, s_j, measure_0: 0.0 }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for RevoluteAngleDrive {
@@ -440,7 +454,7 @@ impl Constraint for RevoluteAngleDrive {
         let s_i = reader.point()?;
         let s_j = reader.point()?;
         reader.skip();
-        Ok(Self { s_i, s_j, measure_0: 0.0 })
+        Ok(Self::new(s_i, s_j))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

@@ -22,6 +22,13 @@ pub struct Rolling {
     /// Radius of the spinner, not zero; negative: it turns the other way. Unit: [`Unit::Length`].
     pub radius: f64,
 }
+impl Rolling {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 2], direction: Direction, radius: f64) -> Self {
+        Self { s, direction, radius }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint for Rolling {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -84,7 +91,7 @@ impl Constraint for Rolling {
         let s = reader.point()?;
         let direction = reader.direction()?;
         let [radius] = reader.numbers()?;
-        Ok(Self { s, direction, radius })
+        Ok(Self::new(s, direction, radius))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

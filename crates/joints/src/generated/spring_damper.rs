@@ -22,7 +22,33 @@ pub struct SpringDamper {
     /// Length without tension at rest, l0. Unit: [`Unit::Length`].
     pub free_length: Option<f64>,
     /// `free_length`, or its value at the assembled start; set by `initialise`.
-    pub free_length_0: f64,
+    free_length_0: f64,
+}
+impl SpringDamper {
+    /// From the parameters that have no default, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 2],
+        s_j: [f64; 2],
+        stiffness: f64,
+        damping: f64,
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            stiffness,
+            damping,
+            free_length: None,
+            free_length_0: 0.0,
+        }
+    }
+    /// The same, with `free_length`.
+    #[must_use]
+    #[allow(dead_code)]
+    pub const fn with_free_length(mut self, free_length: f64) -> Self {
+        self.free_length = Some(free_length);
+        self
+    }
 }
 impl Force for SpringDamper {
     const SPEC: ForceSpec = ForceSpec {
@@ -145,12 +171,8 @@ impl Force for SpringDamper {
         let [damping] = reader.numbers()?;
         let free_length = reader.optional_number()?;
         Ok(Self {
-            s_i,
-            s_j,
-            stiffness,
-            damping,
             free_length,
-            free_length_0: 0.0,
+            ..Self::new(s_i, s_j, stiffness, damping)
         })
     }
     fn element<T: Real>(&self) -> &dyn ForceElement<T> {

@@ -11,6 +11,14 @@ use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
 /// A torque on one body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Torque {}
+impl Torque {
+    /// It has no parameters that must be given.
+    #[must_use]
+    #[allow(clippy::new_without_default)]
+    pub const fn new() -> Self {
+        Self {}
+    }
+}
 impl Force for Torque {
     const SPEC: ForceSpec = ForceSpec {
         common: Spec {
@@ -41,7 +49,7 @@ impl Force for Torque {
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         reader.skip();
-        Ok(Self {})
+        Ok(Self::new())
     }
     fn element<T: Real>(&self) -> &dyn ForceElement<T> {
         self

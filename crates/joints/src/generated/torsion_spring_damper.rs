@@ -18,7 +18,26 @@ pub struct TorsionSpringDamper {
     /// Relative angle φ_j − φ_i without torque at rest, φ0. Unit: [`Unit::Angle`].
     pub free_angle: Option<f64>,
     /// `free_angle`, or its value at the assembled start; set by `initialise`.
-    pub free_angle_0: f64,
+    free_angle_0: f64,
+}
+impl TorsionSpringDamper {
+    /// From the parameters that have no default, in the order of its fields.
+    #[must_use]
+    pub const fn new(stiffness: f64, damping: f64) -> Self {
+        Self {
+            stiffness,
+            damping,
+            free_angle: None,
+            free_angle_0: 0.0,
+        }
+    }
+    /// The same, with `free_angle`.
+    #[must_use]
+    #[allow(dead_code)]
+    pub const fn with_free_angle(mut self, free_angle: f64) -> Self {
+        self.free_angle = Some(free_angle);
+        self
+    }
 }
 impl Force for TorsionSpringDamper {
     const SPEC: ForceSpec = ForceSpec {
@@ -63,10 +82,8 @@ impl Force for TorsionSpringDamper {
         let [damping] = reader.numbers()?;
         let free_angle = reader.optional_number()?;
         Ok(Self {
-            stiffness,
-            damping,
             free_angle,
-            free_angle_0: 0.0,
+            ..Self::new(stiffness, damping)
         })
     }
     fn element<T: Real>(&self) -> &dyn ForceElement<T> {

@@ -22,7 +22,19 @@ pub struct Translational {
     /// Direction of the line. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Kept from the assembled start; set by `initialise`.
-    pub angle_0: f64,
+    angle_0: f64,
+}
+impl Translational {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2], axis: Direction) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            angle_0: 0.0,
+        }
+    }
 }
 impl Translational {
     /// The drive of its displacement, with the same parameters.
@@ -117,12 +129,7 @@ impl Constraint for Translational {
         let s_i = reader.point()?;
         let s_j = reader.point()?;
         let axis = reader.direction()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            angle_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {
         visitor.drive::<TranslationalDisplacementDrive>();
@@ -633,9 +640,22 @@ pub struct TranslationalDisplacementDrive {
     /// Direction of the line. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Kept from the assembled start; set by `initialise`.
-    pub angle_0: f64,
+    angle_0: f64,
     /// Value of the measure at the assembled start; set by `initialise`.
-    pub measure_0: f64,
+    measure_0: f64,
+}
+impl TranslationalDisplacementDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 2], s_j: [f64; 2], axis: Direction) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            angle_0: 0.0,
+            measure_0: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint for TranslationalDisplacementDrive {
@@ -722,13 +742,7 @@ impl Constraint for TranslationalDisplacementDrive {
         let s_j = reader.point()?;
         let axis = reader.direction()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            angle_0: 0.0,
-            measure_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

@@ -23,7 +23,27 @@ pub struct Tyre {
     /// Speed v_0 below which the force fades; 0.1 m/s if it is not given. Unit: [`Unit::Velocity`].
     pub low_speed: Option<f64>,
     /// `low_speed`, or its value at the assembled start; set by `initialise`.
-    pub low_speed_0: f64,
+    low_speed_0: f64,
+}
+impl Tyre {
+    /// From the parameters that have no default, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 2], normal: Direction, stiffness: f64) -> Self {
+        Self {
+            s,
+            normal,
+            stiffness,
+            low_speed: None,
+            low_speed_0: 0.0,
+        }
+    }
+    /// The same, with `low_speed`.
+    #[must_use]
+    #[allow(dead_code)]
+    pub const fn with_low_speed(mut self, low_speed: f64) -> Self {
+        self.low_speed = Some(low_speed);
+        self
+    }
 }
 impl Force for Tyre {
     const SPEC: ForceSpec = ForceSpec {
@@ -70,11 +90,8 @@ impl Force for Tyre {
         let [stiffness] = reader.numbers()?;
         let low_speed = reader.optional_number()?;
         Ok(Self {
-            s,
-            normal,
-            stiffness,
             low_speed,
-            low_speed_0: 0.0,
+            ..Self::new(s, normal, stiffness)
         })
     }
     fn element<T: Real>(&self) -> &dyn ForceElement<T> {

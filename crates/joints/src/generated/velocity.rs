@@ -19,6 +19,13 @@ pub struct Velocity {
     /// Direction of the prescribed velocity. Unit vector in the frame of the body.
     pub direction: Direction,
 }
+impl Velocity {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 2], direction: Direction) -> Self {
+        Self { s, direction }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint for Velocity {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -75,7 +82,7 @@ impl Constraint for Velocity {
         let s = reader.point()?;
         let direction = reader.direction()?;
         reader.skip();
-        Ok(Self { s, direction })
+        Ok(Self::new(s, direction))
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T> {

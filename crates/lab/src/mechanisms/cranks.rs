@@ -58,11 +58,7 @@ pub fn cranks_at(origin: [f64; 2], pivots: &[f64], length: f64, theta: f64) -> D
 /// A drive of the angle of body k.
 pub fn motor(name: &str, k: usize, motion: Function) -> Drive {
     // The angle needs no points.
-    let element = RevoluteAngleDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let element = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
     Drive {
         name: name.into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(k)],

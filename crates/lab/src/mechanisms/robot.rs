@@ -90,12 +90,7 @@ pub fn robot_of_size(size: f64, motion: Function) -> Description {
     let (platform, slider) = (0, 5);
     let (s_i, s_j) = (local(platform, [0.0, -0.2]), local(slider, [0.0, -0.2]));
     let pair = [body(platform), body(slider)];
-    let element = Translational {
-        s_i,
-        s_j,
-        axis: Direction::Y,
-        angle_0: 0.0,
-    };
+    let element = Translational::new(s_i, s_j, Direction::Y);
     joints.push(Joint::new("H", &pair, element));
     for (name, i, at) in EDGES {
         joints.push(Joint::new(
@@ -107,13 +102,7 @@ pub fn robot_of_size(size: f64, motion: Function) -> Description {
             },
         ));
     }
-    let element = TranslationalDisplacementDrive {
-        s_i,
-        s_j,
-        axis: Direction::Y,
-        angle_0: 0.0,
-        measure_0: 0.0,
-    };
+    let element = TranslationalDisplacementDrive::new(s_i, s_j, Direction::Y);
     let drive = Drive {
         name: "steering".into(),
         bodies: pair.to_vec(),

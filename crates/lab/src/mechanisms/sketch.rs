@@ -201,38 +201,23 @@ impl Sketch {
                 s_i: point(0, at),
                 s_j: point(1, at),
             }),
-            Tie::Translational { from, at, axis } => Box::new(Translational {
-                s_i: point(0, from),
-                s_j: point(1, at),
-                axis: direction(0, axis),
-                angle_0: 0.0,
-            }),
-            Tie::Fixed { at } => Box::new(Fixed {
-                s_i: point(0, at),
-                s_j: point(1, at),
-                offset: [0.0; 2],
-                angle_0: 0.0,
-            }),
+            Tie::Translational { from, at, axis } => Box::new(Translational::new(
+                point(0, from),
+                point(1, at),
+                direction(0, axis),
+            )),
+            Tie::Fixed { at } => Box::new(Fixed::new(point(0, at), point(1, at))),
             Tie::PinInSlot { from, at, axis } => Box::new(PinInSlot {
                 s_i: point(0, from),
                 s_j: point(1, at),
                 axis: direction(0, axis),
             }),
-            Tie::Distance { from, at } => Box::new(Distance {
-                s_i: point(0, from),
-                s_j: point(1, at),
-                length: 0.0,
-                half_inverse: 0.0,
-            }),
-            Tie::Angle => Box::new(Angle { angle_0: 0.0 }),
-            Tie::Gear { ratio } => Box::new(Gear { ratio, phase: 0.0 }),
-            Tie::RackAndPinion { at, axis, radius } => Box::new(RackAndPinion {
-                s_j: point(1, at),
-                axis: direction(0, axis),
-                radius,
-                phase: 0.0,
-                centre: [0.0; 2],
-            }),
+            Tie::Distance { from, at } => Box::new(Distance::new(point(0, from), point(1, at))),
+            Tie::Angle => Box::new(Angle::new()),
+            Tie::Gear { ratio } => Box::new(Gear::new(ratio)),
+            Tie::RackAndPinion { at, axis, radius } => {
+                Box::new(RackAndPinion::new(point(1, at), direction(0, axis), radius))
+            }
             Tie::KnifeEdge { at, normal } => Box::new(KnifeEdge {
                 s: point(0, at),
                 normal: direction(0, normal),
@@ -246,18 +231,14 @@ impl Sketch {
                 direction: direction(0, along),
                 radius,
             }),
-            Tie::AngleDrive => Box::new(RevoluteAngleDrive {
-                s_i: [0.0; 2],
-                s_j: [0.0; 2],
-                measure_0: 0.0,
-            }),
-            Tie::DisplacementDrive { from, at, axis } => Box::new(TranslationalDisplacementDrive {
-                s_i: point(0, from),
-                s_j: point(1, at),
-                axis: direction(0, axis),
-                angle_0: 0.0,
-                measure_0: 0.0,
-            }),
+            Tie::AngleDrive => Box::new(RevoluteAngleDrive::new([0.0; 2], [0.0; 2])),
+            Tie::DisplacementDrive { from, at, axis } => {
+                Box::new(TranslationalDisplacementDrive::new(
+                    point(0, from),
+                    point(1, at),
+                    direction(0, axis),
+                ))
+            }
         }
     }
 }

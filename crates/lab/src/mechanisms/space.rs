@@ -168,15 +168,7 @@ impl RollingDisk {
             angular_velocity: Some(omega),
             ..SpatialBody::new("disk", Self::MASS, diagonal([a, a, c]))
         });
-        let edge = Wheel {
-            s: [0.0; 3],
-            axis: Direction::Z,
-            radius: Self::RADIUS,
-            tube: None,
-            tube_0: 0.0,
-            plane: GroundPlane::Z,
-            inverse: 0.0,
-        };
+        let edge = Wheel::new([0.0; 3], Direction::Z, Self::RADIUS, GroundPlane::Z);
         d.joint("edge", &[disk], edge);
         d
     }

@@ -55,14 +55,7 @@ fn generalized_alpha_steps_over_the_oscillations_of_a_stiff_spring() {
         body.velocity = Some([0.0; 2]);
         body.angular_velocity = Some(0.0);
     }
-    let spring = SpringDamper {
-        s_i: [0.3, 2.0],
-        s_j: [0.2, 0.1],
-        stiffness: 1e10,
-        damping: 1e3,
-        free_length: None,
-        free_length_0: 0.0,
-    };
+    let spring = SpringDamper::new([0.3, 2.0], [0.2, 0.1], 1e10, 1e3);
     held.forces = vec![Force {
         name: "spring".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(3)],

@@ -49,7 +49,7 @@ impl Mechanism {
     /// let crank = d.body(Body::new("crank", 1.0, 1.0));
     /// let (bodies, s) = ([BodyRef::Ground, crank], [0.0, 0.0]);
     /// d.joint("pin", &bodies, Revolute { s_i: s, s_j: s });
-    /// let motor = RevoluteAngleDrive { s_i: s, s_j: s, measure_0: 0.0 };
+    /// let motor = RevoluteAngleDrive::new(s, s);
     /// d.drive("motor", &bodies, motor, Function::constant_rate(1.0).unwrap());
     /// let mechanism = Mechanism::build(&d).unwrap();
     /// assert_eq!(mechanism.driven(ConstraintId(1)), Some((ConstraintId(0), "angle")));

@@ -74,7 +74,7 @@ impl Mechanism {
     ///     let pin = Revolute { s_i: [0.0; 2], s_j: [0.0; 2] };
     ///     d.joint(&format!("{body:?}"), &[BodyRef::Ground, body], pin);
     /// }
-    /// let spring = TorsionSpringDamper { stiffness: 1.0, damping: 0.0, free_angle: None, free_angle_0: 0.0 };
+    /// let spring = TorsionSpringDamper::new(1.0, 0.0);
     /// d.force("spring", &[a, b], spring);
     /// let mechanism = Mechanism::build(&d).unwrap();
     /// assert_eq!(mechanism.components(), [vec![0, 1]]);

@@ -32,7 +32,7 @@ impl Work {
     /// use joints::{Direction, Translational};
     /// use model::{Body, BodyRef, Description, Joint, Mechanism, Work};
     /// // A slider on the ground along x does not rotate, because of its row `angle`.
-    /// let guide = Translational { s_i: [0.0; 2], s_j: [0.0; 2], axis: Direction::X, angle_0: 0.0 };
+    /// let guide = Translational::new([0.0; 2], [0.0; 2], Direction::X);
     /// let d = Description {
     ///     bodies: vec![Body { name: "slider".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
     ///     joints: vec![Joint::new("guide", &[BodyRef::Ground, BodyRef::Body(0)], guide)],

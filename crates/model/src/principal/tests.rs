@@ -49,14 +49,7 @@ fn described(between: [f64; 4]) -> Mechanism {
     d.joint("hinge", &[BodyRef::Ground, body], hinge);
     let [s_i, s_j] = [(BodyRef::Ground, [1.0, 2.0, 0.0]), (body, [0.6, -0.2, 0.4])]
         .map(|(of, p)| d.local(of, p));
-    let spring = SpringDamper {
-        s_i,
-        s_j,
-        stiffness: 3.0,
-        damping: 0.5,
-        free_length: Some(0.7),
-        free_length_0: 0.7,
-    };
+    let spring = SpringDamper::new(s_i, s_j, 3.0, 0.5).with_free_length(0.7);
     d.force("spring", &[BodyRef::Ground, body], spring);
     // A thrust of 5 N along a direction of the body.
     let push = BodyPointForce {

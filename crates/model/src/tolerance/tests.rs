@@ -26,21 +26,14 @@ fn description() -> Description {
     d.joint("pin", &[i, j], Revolute { s_i, s_j });
     let line = Line::new([0.0, 0.0], [1.0, 0.0]).expect("two points");
     d.joint("roller", &[j], PointOnLine { s: [0.0; 2], line });
-    let gear = Gear {
-        ratio: -2.0,
-        phase: 0.0,
-    };
+    let gear = Gear::new(-2.0);
     d.joint("mesh", &[i, j, BodyRef::Ground], gear);
     let edge = KnifeEdge {
         s: s_j,
         normal: Direction::Y,
     };
     d.joint("edge", &[j], edge);
-    let motor = RevoluteAngleDrive {
-        s_i,
-        s_j,
-        measure_0: 0.0,
-    };
+    let motor = RevoluteAngleDrive::new(s_i, s_j);
     let rest = Function::constant(0.0).expect("finite");
     d.drive("motor", &[i, j], motor, rest);
     d

@@ -503,12 +503,7 @@ fn freedoms_are_told_with_the_drives_and_without() {
     assert_eq!(squeezed(&json(&free)), squeezed(&expected));
     assert_eq!(free.sentences().len(), 1);
 
-    let measure_0 = 0.0;
-    let motor = RevoluteAngleDrive {
-        s_i,
-        s_j,
-        measure_0,
-    };
+    let motor = RevoluteAngleDrive::new(s_i, s_j);
     let rate = Function::constant_rate(1.0).expect("finite");
     d.drive("motor", &bodies, motor, rate);
     let (summary, driven) = told(&d);

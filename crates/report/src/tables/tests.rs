@@ -16,11 +16,7 @@ fn carrier() -> Mechanism {
     };
     let pair = [BodyRef::Body(0), BodyRef::Body(1)];
     let at = [0.0, 0.0];
-    let drive = RevoluteAngleDrive {
-        s_i: at,
-        s_j: at,
-        measure_0: 0.0,
-    };
+    let drive = RevoluteAngleDrive::new(at, at);
     let blade = KnifeEdge {
         s: at,
         normal: Direction::Y,

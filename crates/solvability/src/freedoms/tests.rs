@@ -34,12 +34,7 @@ fn pin(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2]) {
 
 fn motor(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2]) {
     let [s_i, s_j] = bodies.map(|b| d.local(b, place));
-    let measure_0 = 0.0;
-    let drive = RevoluteAngleDrive {
-        s_i,
-        s_j,
-        measure_0,
-    };
+    let drive = RevoluteAngleDrive::new(s_i, s_j);
     d.drive(
         name,
         &bodies,
@@ -51,25 +46,13 @@ fn motor(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2])
 /// A guide along an axis (global direction; bodies have angle 0).
 fn rail(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2], axis: Direction) {
     let [s_i, s_j] = bodies.map(|b| d.local(b, place));
-    let angle_0 = 0.0;
-    let rail = Translational {
-        s_i,
-        s_j,
-        axis,
-        angle_0,
-    };
+    let rail = Translational::new(s_i, s_j, axis);
     d.joint(name, &bodies, rail);
 }
 
 fn pusher(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2], axis: Direction) {
     let [s_i, s_j] = bodies.map(|b| d.local(b, place));
-    let drive = TranslationalDisplacementDrive {
-        s_i,
-        s_j,
-        axis,
-        angle_0: 0.0,
-        measure_0: 0.0,
-    };
+    let drive = TranslationalDisplacementDrive::new(s_i, s_j, axis);
     d.drive(
         name,
         &bodies,
@@ -359,7 +342,7 @@ fn wheels_of_a_planetary_gear_turn_together() {
         ("outer", [sun, planet, carrier], -2.0),
         ("inner", [planet, GROUND, carrier], 0.25),
     ] {
-        d.joint(name, &bodies, Gear { ratio, phase: 0.0 });
+        d.joint(name, &bodies, Gear::new(ratio));
     }
     let free = freedoms(&d);
     let words = "`sun` turns about `sun-bearing`; with it `carrier` and `planet` turn";

@@ -48,16 +48,7 @@ fn points_of_a_line_are_the_nearest() {
     };
     d.joint("weld", &pair, weld);
     let (s_i, s_j) = ([1.0, 3.0, 0.0], [1.0, 1.0, 0.0]);
-    d.joint(
-        "bar",
-        &pair,
-        Distance {
-            s_i,
-            s_j,
-            length: 0.0,
-            half_inverse: 0.0,
-        },
-    );
+    d.joint("bar", &pair, Distance::new(s_i, s_j));
     asked(&d, |configuration| {
         let weld = ConstraintId(0);
         let centre = configuration.centre_of_moments(weld).expect("a reaction");

@@ -73,12 +73,7 @@ fn held_four_bar(angle: f64) -> Description {
     d.joint("D", &[BodyRef::Ground, rocker], pin(g, -c / 2.0));
     let along = (knee[1]).atan2(knee[0] - g);
     let far = [knee[0] - 2.0 * along.sin(), knee[1] + 2.0 * along.cos()];
-    let strut = Distance {
-        s_i: [c / 2.0, 0.0],
-        s_j: far,
-        length: 0.0,
-        half_inverse: 0.0,
-    };
+    let strut = Distance::new([c / 2.0, 0.0], far);
     d.joint("strut", &[rocker, BodyRef::Ground], strut);
     d
 }
@@ -206,12 +201,7 @@ fn rows_that_are_nearly_redundant_at_a_pose_are_left_out_together() {
             (hinge, (BodyRef::Ground, [3.6, -0.2])),
         ];
         for (k, ((i, s_i), (j, s_j))) in struts.into_iter().enumerate() {
-            let strut = Distance {
-                s_i,
-                s_j,
-                length: 0.0,
-                half_inverse: 0.0,
-            };
+            let strut = Distance::new(s_i, s_j);
             d.joint(&format!("bar {k}"), &[i, j], strut);
         }
         d
@@ -285,12 +275,7 @@ fn cylinders(digits: Option<i32>) -> Description {
             s_j: local(foot, at(0.4)),
         };
         d.joint(&format!("A{k}"), &[BodyRef::Ground, tube], pin);
-        let slide = joints::Translational {
-            s_i: [0.0; 2],
-            s_j: [0.0; 2],
-            axis,
-            angle_0: 0.0,
-        };
+        let slide = joints::Translational::new([0.0; 2], [0.0; 2], axis);
         let drive = slide.displacement_drive();
         d.joint(&format!("S{k}"), &[tube, rod], slide);
         d.drive(
@@ -380,12 +365,7 @@ fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
         let mut d = Description::new("slides");
         let body = d.body(Body::new("slide", 10.0, 1.0));
         for (name, ground, x) in [("A", -1.0, 0.0), ("B", 1.0, apart)] {
-            let slide = joints::Translational {
-                s_i: [ground, 0.0],
-                s_j: [x, 0.0],
-                axis: joints::Direction::X,
-                angle_0: 0.0,
-            };
+            let slide = joints::Translational::new([ground, 0.0], [x, 0.0], joints::Direction::X);
             d.joint(name, &[BodyRef::Ground, body], slide);
         }
         d.tolerance.length = Some(tolerance);
@@ -417,12 +397,7 @@ fn a_component_that_is_none_within_the_tolerance_says_so() {
             ..Body::new("weight", 10.0, 1.0)
         });
         for name in ["A", "B"] {
-            let bar = Distance {
-                s_i: [0.0; 2],
-                s_j: [0.0; 2],
-                length: 0.0,
-                half_inverse: 0.0,
-            };
+            let bar = Distance::new([0.0; 2], [0.0; 2]);
             d.joint(name, &[BodyRef::Ground, body], bar);
         }
         d.tolerance.length = Some(tolerance);

@@ -103,11 +103,7 @@ fn slider_crank(points: [[f64; 2]; 6], line: f64, turned: f64) -> Mechanism {
     let [x, y] = points[5];
     let line = Line::new([x, y], [x + line.cos(), y + line.sin()]).expect("a line");
     d.joint("end", &[rod], PointOnLine { s: points[4], line });
-    let motor = RevoluteAngleDrive {
-        s_i: points[0],
-        s_j: points[1],
-        measure_0: 0.0,
-    };
+    let motor = RevoluteAngleDrive::new(points[0], points[1]);
     let motion = Function::polynomial(&[turned, 3.0, 4.0]).expect("numbers");
     d.drive("motor", &[BodyRef::Ground, crank], motor, motion);
     Mechanism::build(&d).expect("it builds")

@@ -15,12 +15,7 @@ fn yoke(d: &mut Description) {
         s_i: [0.0; 2],
         s_j: [0.0; 2],
     };
-    let rail = Translational {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        axis: Direction::X,
-        angle_0: 0.0,
-    };
+    let rail = Translational::new([0.0; 2], [0.0; 2], Direction::X);
     let slot = PinInSlot {
         s_i: [0.0; 2],
         s_j: [RADIUS, 0.0],
@@ -34,22 +29,11 @@ fn yoke(d: &mut Description) {
     d.drives.push(Drive {
         name: "motor".into(),
         bodies: vec![GROUND, crank],
-        element: Box::new(RevoluteAngleDrive {
-            s_i: [0.0; 2],
-            s_j: [0.0; 2],
-            measure_0: 0.0,
-        }),
+        element: Box::new(RevoluteAngleDrive::new([0.0; 2], [0.0; 2])),
         motion: Function::constant_rate(RATE).expect("finite"),
         tolerance: None,
     });
-    let damper = SpringDamper {
-        s_i: [-3.0, 0.0],
-        s_j: [0.0; 2],
-        stiffness: 0.0,
-        damping: 1e9,
-        free_length: None,
-        free_length_0: 1.0,
-    };
+    let damper = SpringDamper::new([-3.0, 0.0], [0.0; 2], 0.0, 1e9);
     d.forces.push(Force {
         name: "damper".into(),
         bodies: vec![GROUND, slider],

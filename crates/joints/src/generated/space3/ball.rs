@@ -22,6 +22,13 @@ pub struct Ball {
     /// The plane, its normal towards the side of the ball. Longitudinal is the coordinate axis that lies least along the normal, made orthogonal to it, and lateral = normal × longitudinal: x and y on the plane z = 0. Plane of the ground, z = 0 unless it is given.
     pub plane: GroundPlane,
 }
+impl Ball {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 3], radius: f64, plane: GroundPlane) -> Self {
+        Self { s, radius, plane }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for Ball {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -152,7 +159,7 @@ impl Constraint<Space3> for Ball {
         let s = reader.point3()?;
         let [radius] = reader.numbers()?;
         let plane = reader.ground_plane()?;
-        Ok(Self { s, radius, plane })
+        Ok(Self::new(s, radius, plane))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

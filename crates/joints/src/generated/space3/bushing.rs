@@ -24,13 +24,34 @@ pub struct Bushing {
     /// Along x, y and z of the frame of body i, and about them. Units: [`Unit::Damping`], [`Unit::Damping`], [`Unit::Damping`], [`Unit::TorsionDamping`], [`Unit::TorsionDamping`], [`Unit::TorsionDamping`].
     pub damping: [f64; 6],
     /// Kept from the assembled start; set by `initialise`.
-    pub offset: [f64; 3],
+    offset: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub x_0: [f64; 3],
+    x_0: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub y_0: [f64; 3],
+    y_0: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub z_0: [f64; 3],
+    z_0: [f64; 3],
+}
+impl Bushing {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        stiffness: [f64; 6],
+        damping: [f64; 6],
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            stiffness,
+            damping,
+            offset: [0.0; 3],
+            x_0: [0.0; 3],
+            y_0: [0.0; 3],
+            z_0: [0.0; 3],
+        }
+    }
 }
 impl Force<Space3> for Bushing {
     const SPEC: ForceSpec = ForceSpec {
@@ -384,16 +405,7 @@ impl Force<Space3> for Bushing {
         let s_j = reader.point3()?;
         let stiffness = reader.numbers()?;
         let damping = reader.numbers()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            stiffness,
-            damping,
-            offset: [0.0; 3],
-            x_0: [0.0; 3],
-            y_0: [0.0; 3],
-            z_0: [0.0; 3],
-        })
+        Ok(Self::new(s_i, s_j, stiffness, damping))
     }
     fn element<T: Real>(&self) -> &dyn ForceElement<T, Space3> {
         self

@@ -26,9 +26,23 @@ pub struct ConstantVelocity {
     /// The axis of body j, which need not be parallel to it. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
     /// Kept from the assembled start; set by `initialise`.
-    pub cosine: f64,
+    cosine: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub sine: f64,
+    sine: f64,
+}
+impl ConstantVelocity {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes, axis_j: Axes) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            axis_j,
+            cosine: 0.0,
+            sine: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for ConstantVelocity {
@@ -247,14 +261,7 @@ impl Constraint<Space3> for ConstantVelocity {
         let s_j = reader.point3()?;
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            axis_j,
-            cosine: 0.0,
-            sine: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

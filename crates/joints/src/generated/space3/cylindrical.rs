@@ -25,6 +25,13 @@ pub struct Cylindrical {
     pub axis_j: Axes,
 }
 impl Cylindrical {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes, axis_j: Axes) -> Self {
+        Self { s_i, s_j, axis, axis_j }
+    }
+}
+impl Cylindrical {
     /// The drive of its displacement, with the same parameters.
     #[must_use]
     pub fn displacement_drive(&self) -> CylindricalDisplacementDrive {
@@ -363,7 +370,7 @@ impl Constraint<Space3> for Cylindrical {
         let s_j = reader.point3()?;
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
-        Ok(Self { s_i, s_j, axis, axis_j })
+        Ok(Self::new(s_i, s_j, axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {
         visitor.drive::<CylindricalDisplacementDrive>();
@@ -2602,7 +2609,20 @@ pub struct CylindricalDisplacementDrive {
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
     /// Value of the measure at the assembled start; set by `initialise`.
-    pub measure_0: f64,
+    measure_0: f64,
+}
+impl CylindricalDisplacementDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes, axis_j: Axes) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            axis_j,
+            measure_0: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for CylindricalDisplacementDrive {
@@ -2803,13 +2823,7 @@ impl Constraint<Space3> for CylindricalDisplacementDrive {
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            axis_j,
-            measure_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {
@@ -4162,7 +4176,20 @@ pub struct CylindricalAngleDrive {
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
     /// Cosine and sine of the measure at the assembled start; set by `initialise`.
-    pub measure_0: [f64; 2],
+    measure_0: [f64; 2],
+}
+impl CylindricalAngleDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes, axis_j: Axes) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            axis_j,
+            measure_0: [1.0, 0.0],
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for CylindricalAngleDrive {
@@ -4282,13 +4309,7 @@ impl Constraint<Space3> for CylindricalAngleDrive {
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            axis_j,
-            measure_0: [1.0, 0.0],
-        })
+        Ok(Self::new(s_i, s_j, axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -20,9 +20,21 @@ pub struct Distance {
     /// End on body j. Point in the frame of body j (m).
     pub s_j: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub length: f64,
+    length: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub half_inverse: f64,
+    half_inverse: f64,
+}
+impl Distance {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3]) -> Self {
+        Self {
+            s_i,
+            s_j,
+            length: 0.0,
+            half_inverse: 0.0,
+        }
+    }
 }
 impl Distance {
     /// The drive of its length, with the same parameters.
@@ -252,12 +264,7 @@ impl Constraint<Space3> for Distance {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s_i = reader.point3()?;
         let s_j = reader.point3()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            length: 0.0,
-            half_inverse: 0.0,
-        })
+        Ok(Self::new(s_i, s_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {
         visitor.drive::<DistanceLengthDrive>();
@@ -1721,9 +1728,21 @@ pub struct DistanceLengthDrive {
     /// End on body j. Point in the frame of body j (m).
     pub s_j: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub length: f64,
+    length: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub half_inverse: f64,
+    half_inverse: f64,
+}
+impl DistanceLengthDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3]) -> Self {
+        Self {
+            s_i,
+            s_j,
+            length: 0.0,
+            half_inverse: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for DistanceLengthDrive {
@@ -1947,12 +1966,7 @@ impl Constraint<Space3> for DistanceLengthDrive {
         let s_i = reader.point3()?;
         let s_j = reader.point3()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            length: 0.0,
-            half_inverse: 0.0,
-        })
+        Ok(Self::new(s_i, s_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -23,6 +23,13 @@ pub struct Fixed {
     /// The axes of body j that are parallel to them. Axis, and directions across it, in the frame of body j.
     pub axes_j: Axes,
 }
+impl Fixed {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axes: Axes, axes_j: Axes) -> Self {
+        Self { s_i, s_j, axes, axes_j }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for Fixed {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -301,7 +308,7 @@ impl Constraint<Space3> for Fixed {
         let s_j = reader.point3()?;
         let axes = reader.axes()?;
         let axes_j = reader.axes()?;
-        Ok(Self { s_i, s_j, axes, axes_j })
+        Ok(Self::new(s_i, s_j, axes, axes_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -19,6 +19,13 @@ pub struct KnifeEdge {
     /// Direction across the edge, in which the point cannot move. Unit vector in the frame of the body.
     pub normal: Direction,
 }
+impl KnifeEdge {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 3], normal: Direction) -> Self {
+        Self { s, normal }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for KnifeEdge {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -82,7 +89,7 @@ impl Constraint<Space3> for KnifeEdge {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s = reader.point3()?;
         let normal = reader.direction3()?;
-        Ok(Self { s, normal })
+        Ok(Self::new(s, normal))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

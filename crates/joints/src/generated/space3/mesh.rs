@@ -39,23 +39,62 @@ pub struct Mesh {
     /// The line of action. Unit vector in the frame of body carrier.
     pub line: Direction,
     /// Kept from the assembled start; set by `initialise`.
-    pub lever_i: f64,
+    lever_i: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub lever_j: f64,
+    lever_j: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub arm_i: [f64; 3],
+    arm_i: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub arm_j: [f64; 3],
+    arm_j: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub across_i: [f64; 3],
+    across_i: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub across_j: [f64; 3],
+    across_j: [f64; 3],
     /// Cosine and sine of the angle at the assembled start; set by `initialise`.
-    pub turn_i_0: [f64; 2],
+    turn_i_0: [f64; 2],
     /// Cosine and sine of the angle at the assembled start; set by `initialise`.
-    pub turn_j_0: [f64; 2],
+    turn_j_0: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub phase: f64,
+    phase: f64,
+}
+impl Mesh {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    #[allow(clippy::too_many_arguments)]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        p_i: [f64; 3],
+        p_j: [f64; 3],
+        pitch: [f64; 3],
+        axis_i: Axes,
+        axis_j: Axes,
+        own_i: Axes,
+        own_j: Axes,
+        line: Direction,
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            p_i,
+            p_j,
+            pitch,
+            axis_i,
+            axis_j,
+            own_i,
+            own_j,
+            line,
+            lever_i: 0.0,
+            lever_j: 0.0,
+            arm_i: [0.0; 3],
+            arm_j: [0.0; 3],
+            across_i: [0.0; 3],
+            across_j: [0.0; 3],
+            turn_i_0: [1.0, 0.0],
+            turn_j_0: [1.0, 0.0],
+            phase: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for Mesh {
@@ -442,27 +481,7 @@ impl Constraint<Space3> for Mesh {
         let own_i = reader.axes()?;
         let own_j = reader.axes()?;
         let line = reader.direction3()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            p_i,
-            p_j,
-            pitch,
-            axis_i,
-            axis_j,
-            own_i,
-            own_j,
-            line,
-            lever_i: 0.0,
-            lever_j: 0.0,
-            arm_i: [0.0; 3],
-            arm_j: [0.0; 3],
-            across_i: [0.0; 3],
-            across_j: [0.0; 3],
-            turn_i_0: [1.0, 0.0],
-            turn_j_0: [1.0, 0.0],
-            phase: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, p_i, p_j, pitch, axis_i, axis_j, own_i, own_j, line))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -19,6 +19,13 @@ pub struct Orientation {
     /// The axes of body j that are parallel to them. Axis, and directions across it, in the frame of body j.
     pub axes_j: Axes,
 }
+impl Orientation {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(axes: Axes, axes_j: Axes) -> Self {
+        Self { axes, axes_j }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for Orientation {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -199,7 +206,7 @@ impl Constraint<Space3> for Orientation {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let axes = reader.axes()?;
         let axes_j = reader.axes()?;
-        Ok(Self { axes, axes_j })
+        Ok(Self::new(axes, axes_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -19,6 +19,13 @@ pub struct Parallel {
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
 }
+impl Parallel {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(axis: Axes, axis_j: Axes) -> Self {
+        Self { axis, axis_j }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for Parallel {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -161,7 +168,7 @@ impl Constraint<Space3> for Parallel {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
-        Ok(Self { axis, axis_j })
+        Ok(Self::new(axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -19,6 +19,13 @@ pub struct Perpendicular {
     /// The axis on body j. Unit vector in the frame of body j.
     pub cross: Direction,
 }
+impl Perpendicular {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(axis: Direction, cross: Direction) -> Self {
+        Self { axis, cross }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for Perpendicular {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -113,7 +120,7 @@ impl Constraint<Space3> for Perpendicular {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let axis = reader.direction3()?;
         let cross = reader.direction3()?;
-        Ok(Self { axis, cross })
+        Ok(Self::new(axis, cross))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

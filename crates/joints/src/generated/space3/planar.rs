@@ -24,6 +24,18 @@ pub struct Planar {
     /// The normal on body j. Axis, and directions across it, in the frame of body j.
     pub normal_j: Axes,
 }
+impl Planar {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        normal: Axes,
+        normal_j: Axes,
+    ) -> Self {
+        Self { s_i, s_j, normal, normal_j }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for Planar {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -281,7 +293,7 @@ impl Constraint<Space3> for Planar {
         let s_j = reader.point3()?;
         let normal = reader.axes()?;
         let normal_j = reader.axes()?;
-        Ok(Self { s_i, s_j, normal, normal_j })
+        Ok(Self::new(s_i, s_j, normal, normal_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -14,6 +14,13 @@ pub struct PointForce {
     /// Point of application. Point in the frame of the body (m).
     pub s: [f64; 3],
 }
+impl PointForce {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 3]) -> Self {
+        Self { s }
+    }
+}
 impl Force<Space3> for PointForce {
     const SPEC: ForceSpec = ForceSpec {
         common: Spec {
@@ -54,7 +61,7 @@ impl Force<Space3> for PointForce {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s = reader.point3()?;
         reader.skip();
-        Ok(Self { s })
+        Ok(Self::new(s))
     }
     fn element<T: Real>(&self) -> &dyn ForceElement<T, Space3> {
         self

@@ -21,6 +21,13 @@ pub struct PointOnLine {
     /// The line in body i. Axis, and directions across it, in the frame of body i.
     pub axis: Axes,
 }
+impl PointOnLine {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes) -> Self {
+        Self { s_i, s_j, axis }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for PointOnLine {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -264,7 +271,7 @@ impl Constraint<Space3> for PointOnLine {
         let s_i = reader.point3()?;
         let s_j = reader.point3()?;
         let axis = reader.axes()?;
-        Ok(Self { s_i, s_j, axis })
+        Ok(Self::new(s_i, s_j, axis))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -21,6 +21,13 @@ pub struct PointOnPlane {
     /// The normal of the plane in body i. Unit vector in the frame of body i.
     pub normal: Direction,
 }
+impl PointOnPlane {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], normal: Direction) -> Self {
+        Self { s_i, s_j, normal }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for PointOnPlane {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -203,7 +210,7 @@ impl Constraint<Space3> for PointOnPlane {
         let s_i = reader.point3()?;
         let s_j = reader.point3()?;
         let normal = reader.direction3()?;
-        Ok(Self { s_i, s_j, normal })
+        Ok(Self::new(s_i, s_j, normal))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

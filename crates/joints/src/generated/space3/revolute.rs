@@ -24,6 +24,13 @@ pub struct Revolute {
     pub axis_j: Axes,
 }
 impl Revolute {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes, axis_j: Axes) -> Self {
+        Self { s_i, s_j, axis, axis_j }
+    }
+}
+impl Revolute {
     /// The drive of its angle, with the same parameters.
     #[must_use]
     pub fn angle_drive(&self) -> RevoluteAngleDrive {
@@ -286,7 +293,7 @@ impl Constraint<Space3> for Revolute {
         let s_j = reader.point3()?;
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
-        Ok(Self { s_i, s_j, axis, axis_j })
+        Ok(Self::new(s_i, s_j, axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {
         visitor.drive::<RevoluteAngleDrive>();
@@ -1886,7 +1893,20 @@ pub struct RevoluteAngleDrive {
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
     /// Cosine and sine of the measure at the assembled start; set by `initialise`.
-    pub measure_0: [f64; 2],
+    measure_0: [f64; 2],
+}
+impl RevoluteAngleDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes, axis_j: Axes) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            axis_j,
+            measure_0: [1.0, 0.0],
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for RevoluteAngleDrive {
@@ -2006,13 +2026,7 @@ impl Constraint<Space3> for RevoluteAngleDrive {
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            axis_j,
-            measure_0: [1.0, 0.0],
-        })
+        Ok(Self::new(s_i, s_j, axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

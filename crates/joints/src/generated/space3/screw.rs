@@ -26,9 +26,30 @@ pub struct Screw {
     /// Advance along the axis at one turn, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
     pub pitch: f64,
     /// Cosine and sine of the angle at the assembled start; set by `initialise`.
-    pub turn_0: [f64; 2],
+    turn_0: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub along_0: f64,
+    along_0: f64,
+}
+impl Screw {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        axis: Axes,
+        axis_j: Axes,
+        pitch: f64,
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            axis_j,
+            pitch,
+            turn_0: [1.0, 0.0],
+            along_0: 0.0,
+        }
+    }
 }
 impl Screw {
     /// The drive of its displacement, with the same parameters.
@@ -439,15 +460,7 @@ impl Constraint<Space3> for Screw {
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
         let [pitch] = reader.numbers()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            axis_j,
-            pitch,
-            turn_0: [1.0, 0.0],
-            along_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis, axis_j, pitch))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {
         visitor.drive::<ScrewDisplacementDrive>();
@@ -4796,11 +4809,33 @@ pub struct ScrewDisplacementDrive {
     /// Advance along the axis at one turn, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
     pub pitch: f64,
     /// Cosine and sine of the angle at the assembled start; set by `initialise`.
-    pub turn_0: [f64; 2],
+    turn_0: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub along_0: f64,
+    along_0: f64,
     /// Value of the measure at the assembled start; set by `initialise`.
-    pub measure_0: f64,
+    measure_0: f64,
+}
+impl ScrewDisplacementDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        axis: Axes,
+        axis_j: Axes,
+        pitch: f64,
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            axis_j,
+            pitch,
+            turn_0: [1.0, 0.0],
+            along_0: 0.0,
+            measure_0: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for ScrewDisplacementDrive {
@@ -5010,16 +5045,7 @@ impl Constraint<Space3> for ScrewDisplacementDrive {
         let axis_j = reader.axes()?;
         let [pitch] = reader.numbers()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            axis_j,
-            pitch,
-            turn_0: [1.0, 0.0],
-            along_0: 0.0,
-            measure_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis, axis_j, pitch))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {
@@ -6481,11 +6507,33 @@ pub struct ScrewAngleDrive {
     /// Advance along the axis at one turn, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
     pub pitch: f64,
     /// Cosine and sine of the angle at the assembled start; set by `initialise`.
-    pub turn_0: [f64; 2],
+    turn_0: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
-    pub along_0: f64,
+    along_0: f64,
     /// Cosine and sine of the measure at the assembled start; set by `initialise`.
-    pub measure_0: [f64; 2],
+    measure_0: [f64; 2],
+}
+impl ScrewAngleDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        axis: Axes,
+        axis_j: Axes,
+        pitch: f64,
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            axis_j,
+            pitch,
+            turn_0: [1.0, 0.0],
+            along_0: 0.0,
+            measure_0: [1.0, 0.0],
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for ScrewAngleDrive {
@@ -6614,16 +6662,7 @@ impl Constraint<Space3> for ScrewAngleDrive {
         let axis_j = reader.axes()?;
         let [pitch] = reader.numbers()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            axis_j,
-            pitch,
-            turn_0: [1.0, 0.0],
-            along_0: 0.0,
-            measure_0: [1.0, 0.0],
-        })
+        Ok(Self::new(s_i, s_j, axis, axis_j, pitch))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -19,6 +19,13 @@ pub struct Spherical {
     /// The centre of the ball on body j. Point in the frame of body j (m).
     pub s_j: [f64; 3],
 }
+impl Spherical {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3]) -> Self {
+        Self { s_i, s_j }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for Spherical {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -174,7 +181,7 @@ impl Constraint<Space3> for Spherical {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
         let s_i = reader.point3()?;
         let s_j = reader.point3()?;
-        Ok(Self { s_i, s_j })
+        Ok(Self::new(s_i, s_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -25,6 +25,13 @@ pub struct Translational {
     pub axis_j: Axes,
 }
 impl Translational {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes, axis_j: Axes) -> Self {
+        Self { s_i, s_j, axis, axis_j }
+    }
+}
+impl Translational {
     /// The drive of its displacement, with the same parameters.
     #[must_use]
     pub fn displacement_drive(&self) -> TranslationalDisplacementDrive {
@@ -377,7 +384,7 @@ impl Constraint<Space3> for Translational {
         let s_j = reader.point3()?;
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
-        Ok(Self { s_i, s_j, axis, axis_j })
+        Ok(Self::new(s_i, s_j, axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {
         visitor.drive::<TranslationalDisplacementDrive>();
@@ -2999,7 +3006,20 @@ pub struct TranslationalDisplacementDrive {
     /// The axes of body j that stay parallel to those of body i. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
     /// Value of the measure at the assembled start; set by `initialise`.
-    pub measure_0: f64,
+    measure_0: f64,
+}
+impl TranslationalDisplacementDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s_i: [f64; 3], s_j: [f64; 3], axis: Axes, axis_j: Axes) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            axis_j,
+            measure_0: 0.0,
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for TranslationalDisplacementDrive {
@@ -3200,13 +3220,7 @@ impl Constraint<Space3> for TranslationalDisplacementDrive {
         let axis = reader.axes()?;
         let axis_j = reader.axes()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            axis_j,
-            measure_0: 0.0,
-        })
+        Ok(Self::new(s_i, s_j, axis, axis_j))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

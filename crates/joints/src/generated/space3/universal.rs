@@ -24,9 +24,28 @@ pub struct Universal {
     /// The axis of the cross that is fixed in body j. Unit vector in the frame of body j.
     pub cross: Direction,
     /// Kept from the assembled start; set by `initialise`.
-    pub b_in_i: [f64; 3],
+    b_in_i: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub a_in_j: [f64; 3],
+    a_in_j: [f64; 3],
+}
+impl Universal {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        axis: Direction,
+        cross: Direction,
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            cross,
+            b_in_i: [0.0; 3],
+            a_in_j: [0.0; 3],
+        }
+    }
 }
 impl Universal {
     /// The drive of its first, with the same parameters.
@@ -273,14 +292,7 @@ impl Constraint<Space3> for Universal {
         let s_j = reader.point3()?;
         let axis = reader.direction3()?;
         let cross = reader.direction3()?;
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            cross,
-            b_in_i: [0.0; 3],
-            a_in_j: [0.0; 3],
-        })
+        Ok(Self::new(s_i, s_j, axis, cross))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {
         visitor.drive::<UniversalFirstDrive>();
@@ -1614,11 +1626,31 @@ pub struct UniversalFirstDrive {
     /// The axis of the cross that is fixed in body j. Unit vector in the frame of body j.
     pub cross: Direction,
     /// Kept from the assembled start; set by `initialise`.
-    pub b_in_i: [f64; 3],
+    b_in_i: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub a_in_j: [f64; 3],
+    a_in_j: [f64; 3],
     /// Cosine and sine of the measure at the assembled start; set by `initialise`.
-    pub measure_0: [f64; 2],
+    measure_0: [f64; 2],
+}
+impl UniversalFirstDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        axis: Direction,
+        cross: Direction,
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            cross,
+            b_in_i: [0.0; 3],
+            a_in_j: [0.0; 3],
+            measure_0: [1.0, 0.0],
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for UniversalFirstDrive {
@@ -1737,15 +1769,7 @@ impl Constraint<Space3> for UniversalFirstDrive {
         let axis = reader.direction3()?;
         let cross = reader.direction3()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            cross,
-            b_in_i: [0.0; 3],
-            a_in_j: [0.0; 3],
-            measure_0: [1.0, 0.0],
-        })
+        Ok(Self::new(s_i, s_j, axis, cross))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {
@@ -4637,11 +4661,31 @@ pub struct UniversalSecondDrive {
     /// The axis of the cross that is fixed in body j. Unit vector in the frame of body j.
     pub cross: Direction,
     /// Kept from the assembled start; set by `initialise`.
-    pub b_in_i: [f64; 3],
+    b_in_i: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
-    pub a_in_j: [f64; 3],
+    a_in_j: [f64; 3],
     /// Cosine and sine of the measure at the assembled start; set by `initialise`.
-    pub measure_0: [f64; 2],
+    measure_0: [f64; 2],
+}
+impl UniversalSecondDrive {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s_i: [f64; 3],
+        s_j: [f64; 3],
+        axis: Direction,
+        cross: Direction,
+    ) -> Self {
+        Self {
+            s_i,
+            s_j,
+            axis,
+            cross,
+            b_in_i: [0.0; 3],
+            a_in_j: [0.0; 3],
+            measure_0: [1.0, 0.0],
+        }
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for UniversalSecondDrive {
@@ -4760,15 +4804,7 @@ impl Constraint<Space3> for UniversalSecondDrive {
         let axis = reader.direction3()?;
         let cross = reader.direction3()?;
         reader.skip();
-        Ok(Self {
-            s_i,
-            s_j,
-            axis,
-            cross,
-            b_in_i: [0.0; 3],
-            a_in_j: [0.0; 3],
-            measure_0: [1.0, 0.0],
-        })
+        Ok(Self::new(s_i, s_j, axis, cross))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -19,6 +19,13 @@ pub struct Velocity {
     /// Direction of the prescribed velocity. Unit vector in the frame of the body.
     pub direction: Direction,
 }
+impl Velocity {
+    /// From its parameters, in the order of its fields.
+    #[must_use]
+    pub const fn new(s: [f64; 3], direction: Direction) -> Self {
+        Self { s, direction }
+    }
+}
 #[allow(unused_variables)]
 impl Constraint<Space3> for Velocity {
     const SPEC: ConstraintSpec = ConstraintSpec {
@@ -92,7 +99,7 @@ impl Constraint<Space3> for Velocity {
         let s = reader.point3()?;
         let direction = reader.direction3()?;
         reader.skip();
-        Ok(Self { s, direction })
+        Ok(Self::new(s, direction))
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}
     fn element<T: Ring>(&self) -> &dyn Element<T, Space3> {

@@ -30,9 +30,36 @@ pub struct Wheel {
     /// The plane, its normal towards the side of the wheel. Plane of the ground, z = 0 unless it is given.
     pub plane: GroundPlane,
     /// `tube`, or its value at the assembled start; set by `initialise`.
-    pub tube_0: f64,
+    tube_0: f64,
     /// Kept from the assembled start; set by `initialise`.
-    pub inverse: f64,
+    inverse: f64,
+}
+impl Wheel {
+    /// From the parameters that have no default, in the order of its fields.
+    #[must_use]
+    pub const fn new(
+        s: [f64; 3],
+        axis: Direction,
+        radius: f64,
+        plane: GroundPlane,
+    ) -> Self {
+        Self {
+            s,
+            axis,
+            radius,
+            tube: None,
+            plane,
+            tube_0: 0.0,
+            inverse: 0.0,
+        }
+    }
+    /// The same, with `tube`.
+    #[must_use]
+    #[allow(dead_code)]
+    pub const fn with_tube(mut self, tube: f64) -> Self {
+        self.tube = Some(tube);
+        self
+    }
 }
 #[allow(unused_variables)]
 impl Constraint<Space3> for Wheel {
@@ -246,13 +273,8 @@ impl Constraint<Space3> for Wheel {
         let tube = reader.optional_number()?;
         let plane = reader.ground_plane()?;
         Ok(Self {
-            s,
-            axis,
-            radius,
             tube,
-            plane,
-            tube_0: 0.0,
-            inverse: 0.0,
+            ..Self::new(s, axis, radius, plane)
         })
     }
     fn visit_drives<V: Visitor<Space3>>(visitor: &mut V) {}

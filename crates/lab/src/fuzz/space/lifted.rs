@@ -255,12 +255,7 @@ impl Lift {
                 self.space.joint(&format!("{name}{SLOT}"), &[i, j], element);
             }
             "Distance" => {
-                let element = Distance {
-                    s_i,
-                    s_j,
-                    length: 0.0,
-                    half_inverse: 0.0,
-                };
+                let element = Distance::new(s_i, s_j);
                 self.space.joint(name, &[i, j], element);
             }
             _ => return None,
@@ -313,24 +308,18 @@ impl Lift {
         let (s_i, s_j) = (found.vector("s_i")?, found.vector("s_j")?);
         match found.name {
             "RevoluteAngleDrive" => {
-                let element = RevoluteAngleDrive {
+                let element = RevoluteAngleDrive::new(
                     s_i,
                     s_j,
-                    axis: Axes::FRAME,
-                    axis_j: self.carried([i, j], Axes::FRAME),
-                    measure_0: [1.0, 0.0],
-                };
+                    Axes::FRAME,
+                    self.carried([i, j], Axes::FRAME),
+                );
                 self.space.drive(name, &[i, j], element, motion);
             }
             "TranslationalDisplacementDrive" => {
                 let axis = Axes::new(found.vector("axis")?, Some([0.0, 0.0, 1.0]))?;
-                let element = TranslationalDisplacementDrive {
-                    s_i,
-                    s_j,
-                    axis,
-                    axis_j: self.carried([i, j], axis),
-                    measure_0: 0.0,
-                };
+                let element =
+                    TranslationalDisplacementDrive::new(s_i, s_j, axis, self.carried([i, j], axis));
                 self.space.drive(name, &[i, j], element, motion);
             }
             _ => return None,

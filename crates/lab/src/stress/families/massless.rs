@@ -52,12 +52,7 @@ fn cases() -> Vec<Case> {
         }
         let right = Expected::answer(0.0, "it cannot move");
         let mut d = stone(0.0, 0.0);
-        let weld = Fixed {
-            s_i: [0.0; 2],
-            s_j: [0.0; 2],
-            offset: [0.0; 2],
-            angle_0: 0.0,
-        };
+        let weld = Fixed::new([0.0; 2], [0.0; 2]);
         d.joints = vec![Joint::new(
             "weld",
             &[BodyRef::Ground, BodyRef::Body(0)],

@@ -91,11 +91,7 @@ fn driven(pivots: &[f64], offset: f64) -> Description {
     d.drives.extend(motion.ok().map(|motion| Drive {
         name: "motor".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
-        element: Box::new(RevoluteAngleDrive {
-            s_i: [0.0; 2],
-            s_j: [0.0; 2],
-            measure_0: 0.0,
-        }),
+        element: Box::new(RevoluteAngleDrive::new([0.0; 2], [0.0; 2])),
         motion,
         tolerance: None,
     }));

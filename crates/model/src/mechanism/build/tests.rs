@@ -23,11 +23,7 @@ fn joints_and_drives_stand_in_their_own_lists() {
         s_i: [0.0; 2],
         s_j: [0.0; 2],
     };
-    let motor = RevoluteAngleDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let motor = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
     let motion = Function::constant(0.0).expect("finite");
     let mut joint = Joint::new("motor", &PAIR, motor);
     joint.functions.push(motion.clone());

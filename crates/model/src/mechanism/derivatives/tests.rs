@@ -44,18 +44,8 @@ fn mechanism() -> Mechanism {
         s_i: [0.1, 0.2],
         s_j: [-0.3, 0.5],
     };
-    let slide = Translational {
-        s_i: [0.2, -0.1],
-        s_j: [0.4, 0.3],
-        axis,
-        angle_0: 0.0,
-    };
-    let rod = Distance {
-        s_i: [0.3, 0.0],
-        s_j: [0.0, -0.2],
-        length: 0.0,
-        half_inverse: 0.0,
-    };
+    let slide = Translational::new([0.2, -0.1], [0.4, 0.3], axis);
+    let rod = Distance::new([0.3, 0.0], [0.0, -0.2]);
     let edge = KnifeEdge {
         s: [0.5, 0.1],
         normal: axis,
@@ -77,36 +67,13 @@ fn mechanism() -> Mechanism {
     let drive = Drive {
         name: "drive".into(),
         bodies: vec![G, b(0)],
-        element: Box::new(RevoluteAngleDrive {
-            s_i: [0.1, 0.2],
-            s_j: [-0.3, 0.5],
-            measure_0: 0.0,
-        }),
+        element: Box::new(RevoluteAngleDrive::new([0.1, 0.2], [-0.3, 0.5])),
         motion: swing,
         tolerance: None,
     };
-    let spring = SpringDamper {
-        s_i: [0.2, 0.1],
-        s_j: [-0.2, 0.3],
-        stiffness: 7.0,
-        damping: 0.9,
-        free_length: None,
-        free_length_0: 0.0,
-    };
-    let torsion = TorsionSpringDamper {
-        stiffness: 3.0,
-        damping: 0.4,
-        free_angle: None,
-        free_angle_0: 0.0,
-    };
-    let bushing = Bushing {
-        s_i: [0.3, 0.2],
-        s_j: [0.1, 0.1],
-        stiffness: [5.0, 4.0, 3.0],
-        damping: [0.5, 0.4, 0.3],
-        offset: [0.0; 2],
-        angle_0: 0.0,
-    };
+    let spring = SpringDamper::new([0.2, 0.1], [-0.2, 0.3], 7.0, 0.9);
+    let torsion = TorsionSpringDamper::new(3.0, 0.4);
+    let bushing = Bushing::new([0.3, 0.2], [0.1, 0.1], [5.0, 4.0, 3.0], [0.5, 0.4, 0.3]);
     let d = Description {
         gravity: [0.3, -9.81],
         bodies,

@@ -32,25 +32,14 @@ fn body(name: &str) -> Body {
 const GROUND: BodyRef = BodyRef::Ground;
 
 fn guide() -> Translational {
-    Translational {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        axis: Direction::X,
-        angle_0: 0.0,
-    }
+    Translational::new([0.0; 2], [0.0; 2], Direction::X)
 }
 
 /// A driven slider on the ground, a second body held against its rotation, and a pendulum on the
 /// slider.
 fn trolley() -> Mechanism {
     let [slider, held, bob] = [0, 1, 2].map(BodyRef::Body);
-    let drive = TranslationalDisplacementDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        axis: Direction::X,
-        angle_0: 0.0,
-        measure_0: 0.0,
-    };
+    let drive = TranslationalDisplacementDrive::new([0.0; 2], [0.0; 2], Direction::X);
     let pin = Revolute {
         s_i: [0.0; 2],
         s_j: [0.0, 1.0],
@@ -59,7 +48,7 @@ fn trolley() -> Mechanism {
         bodies: vec![body("slider"), body("held"), body("bob")],
         joints: vec![
             // Listed before the guide from which it follows that nothing rotates.
-            Joint::new("hold", &[slider, held], Angle { angle_0: 0.0 }),
+            Joint::new("hold", &[slider, held], Angle::new()),
             Joint::new("guide", &[GROUND, slider], guide()),
             Joint::new("pin", &[slider, bob], pin),
         ],

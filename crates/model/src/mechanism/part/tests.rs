@@ -24,23 +24,12 @@ fn scattered() -> Mechanism {
         s_i: [0.0, 0.5],
         s_j: [0.0; 2],
     };
-    let motor = RevoluteAngleDrive {
-        s_i: [0.0, 0.5],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let motor = RevoluteAngleDrive::new([0.0, 0.5], [0.0; 2]);
     let edge = KnifeEdge {
         s: [0.1, 0.0],
         normal: joints::Direction::Y,
     };
-    let spring = SpringDamper {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        stiffness: 10.0,
-        damping: 1.0,
-        free_length: Some(0.5),
-        free_length_0: 0.0,
-    };
+    let spring = SpringDamper::new([0.0; 2], [0.0; 2], 10.0, 1.0).with_free_length(0.5);
     let d = Description {
         gravity: [0.0, -9.81],
         bodies: vec![

@@ -104,21 +104,9 @@ const S_I: [f64; 2] = [0.3, -0.2];
 
 #[test]
 fn symbols_follow_from_rows() {
-    let fixed = Fixed {
-        s_i: S_I,
-        s_j: [0.0, 0.1],
-        offset: [0.0; 2],
-        angle_0: 0.0,
-    };
-    let gear = Gear {
-        ratio: -2.0,
-        phase: 0.0,
-    };
-    let turn = RevoluteAngleDrive {
-        s_i: S_I,
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
+    let fixed = Fixed::new(S_I, [0.0, 0.1]);
+    let gear = Gear::new(-2.0);
+    let turn = RevoluteAngleDrive::new(S_I, [0.0; 2]);
     let pin = Revolute {
         s_i: S_I,
         s_j: [0.0; 2],
@@ -126,14 +114,14 @@ fn symbols_follow_from_rows() {
     assert_eq!(site(pin, false).symbol, Symbol::Pin);
     assert_eq!(site(fixed, false).symbol, Symbol::Weld);
     assert_eq!(site(gear, false).symbol, Symbol::Rotation);
-    assert_eq!(site(Angle { angle_0: 0.0 }, false).symbol, Symbol::Rotation);
+    assert_eq!(site(Angle::new(), false).symbol, Symbol::Rotation);
     assert_eq!(site(turn, true).symbol, Symbol::Drive { axis: None });
 }
 
 /// The centres are at (0, 0) and (2, 1), √5 apart.
 #[test]
 fn wheels_touch_where_their_speeds_agree() {
-    let gear = |ratio: f64| site(Gear { ratio, phase: 0.0 }, false);
+    let gear = |ratio: f64| site(Gear::new(ratio), false);
     for (ratio, point, radii) in [
         // External contact: twice as fast, half as large.
         (-2.0, [4.0 / 3.0, 2.0 / 3.0], [2.0 / 3.0, 1.0 / 3.0]),
@@ -154,21 +142,9 @@ fn wheels_touch_where_their_speeds_agree() {
 #[test]
 fn teeth_are_at_the_pitch_point() {
     for pressure_angle in [None, Some(0.35), Some(-0.2)] {
-        let mesh = site(
-            Mesh {
-                s_i: [0.0; 2],
-                s_j: [0.0; 2],
-                ratio: -2.0,
-                pressure_angle,
-                pressure_angle_0: 0.0,
-                share: 0.0,
-                centres: [0.0; 2],
-                line: [0.0; 2],
-                inverse: 0.0,
-                phase: 0.0,
-            },
-            false,
-        );
+        let mut teeth = Mesh::new([0.0; 2], [0.0; 2], -2.0);
+        teeth.pressure_angle = pressure_angle;
+        let mesh = site(teeth, false);
         assert_eq!(mesh.symbol, Symbol::Rotation);
         assert!(
             near(flat(mesh.place), [4.0 / 3.0, 2.0 / 3.0]),
@@ -187,12 +163,7 @@ fn teeth_are_at_the_pitch_point() {
 #[test]
 fn the_far_end_of_a_rod_is_found_from_gamma() {
     let s_j = [-0.4, 0.25];
-    let rod = Distance {
-        s_i: S_I,
-        s_j,
-        length: 0.0,
-        half_inverse: 0.0,
-    };
+    let rod = Distance::new(S_I, s_j);
     let found = site(rod.clone(), false);
     assert_eq!(found.symbol, Symbol::Rod);
     assert!(near(flat(found.place), first(S_I)));
@@ -207,24 +178,13 @@ fn a_slider_holds_the_second_body_on_its_axis() {
     let on_axis = [0, 1].map(|k| first(S_I)[k] + 1.7 * axis[k]);
     let s_j = joints::Pose::new(2.0, 1.0, -0.7).to_local(on_axis);
     let local = Direction::new([0.6, 0.8]).expect("a direction");
-    let slider = Translational {
-        s_i: S_I,
-        s_j,
-        axis: local,
-        angle_0: 0.0,
-    };
+    let slider = Translational::new(S_I, s_j, local);
     let slot = PinInSlot {
         s_i: S_I,
         s_j,
         axis: local,
     };
-    let drive = TranslationalDisplacementDrive {
-        s_i: S_I,
-        s_j,
-        axis: local,
-        angle_0: 0.0,
-        measure_0: 0.0,
-    };
+    let drive = TranslationalDisplacementDrive::new(S_I, s_j, local);
     let found = site(slider, false);
     assert!(matches!(found.symbol, Symbol::Block { axis: a } if parallel(flat(a), axis)));
     assert!(near(flat(found.end), on_axis), "{found:?}");

@@ -19,11 +19,7 @@ fn pin(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2]) {
 }
 
 fn motor(d: &mut Description, name: &str, body: BodyRef, place: [f64; 2], motion: Function) {
-    let drive = RevoluteAngleDrive {
-        s_i: place,
-        s_j: d.local(body, place),
-        measure_0: 0.0,
-    };
+    let drive = RevoluteAngleDrive::new(place, d.local(body, place));
     d.drive(name, &[GROUND, body], drive, motion);
 }
 
@@ -35,22 +31,10 @@ fn gantry(motions: [Function; 2]) -> Description {
     let axis = Direction::X;
     for (k, motion) in motions.into_iter().enumerate() {
         let s = [0.0, [1.0, -1.0][k]];
-        let (s_i, s_j, angle_0) = (s, s, 0.0);
-        let rail = Translational {
-            s_i,
-            s_j,
-            axis,
-            angle_0,
-        };
+        let (s_i, s_j) = (s, s);
+        let rail = Translational::new(s_i, s_j, axis);
         d.joint(["rail-left", "rail-right"][k], &bodies, rail);
-        let measure_0 = 0.0;
-        let drive = TranslationalDisplacementDrive {
-            s_i,
-            s_j,
-            axis,
-            angle_0,
-            measure_0,
-        };
+        let drive = TranslationalDisplacementDrive::new(s_i, s_j, axis);
         d.drive(["left", "right"][k], &bodies, drive, motion);
     }
     d
@@ -320,22 +304,10 @@ fn a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later() {
     pin(&mut d, "A", [GROUND, crank], [0.0, 0.0]);
     pin(&mut d, "B", [crank, rod], [1.0, 0.0]);
     pin(&mut d, "C", [rod, slider], [3.0, 0.0]);
-    let (s_i, s_j, axis, angle_0) = ([3.0, 0.0], [0.0, 0.0], Direction::X, 0.0);
-    let guide = Translational {
-        s_i,
-        s_j,
-        axis,
-        angle_0,
-    };
+    let (s_i, s_j, axis) = ([3.0, 0.0], [0.0, 0.0], Direction::X);
+    let guide = Translational::new(s_i, s_j, axis);
     d.joint("D", &[GROUND, slider], guide);
-    let measure_0 = 0.0;
-    let drive = TranslationalDisplacementDrive {
-        s_i,
-        s_j,
-        axis,
-        angle_0,
-        measure_0,
-    };
+    let drive = TranslationalDisplacementDrive::new(s_i, s_j, axis);
     let law = Function::polynomial(&[0.0, 0.0, 0.0, -1.0]).expect("finite");
     d.drive("motor", &[GROUND, slider], drive, law);
     assert_eq!(along(&d, 1.0), None);

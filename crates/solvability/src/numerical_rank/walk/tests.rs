@@ -44,12 +44,7 @@ fn a_long_arm_of_a_light_body_is_no_obstacle() {
         ..Body::new("rod", 1e-3, 1e-9)
     });
     for (name, slider, axis) in [("X", along, Direction::X), ("Y", up, Direction::Y)] {
-        let guide = Translational {
-            s_i: [0.0; 2],
-            s_j: [0.0; 2],
-            axis,
-            angle_0: 0.0,
-        };
+        let guide = Translational::new([0.0; 2], [0.0; 2], axis);
         d.joint(name, &[BodyRef::Ground, slider], guide);
     }
     for (name, slider, end) in [("A", along, length / 2.0), ("B", up, -length / 2.0)] {

@@ -39,11 +39,7 @@ fn add_machine(d: &mut Description, name: &str, [x, y]: [f64; 2], motion: &[f64]
         line,
     };
     d.joint(&format!("{name}.end"), &[rod], end);
-    let motor = RevoluteAngleDrive {
-        s_i: foot.s_i,
-        s_j: foot.s_j,
-        measure_0: 0.0,
-    };
+    let motor = RevoluteAngleDrive::new(foot.s_i, foot.s_j);
     let motion = Function::polynomial(motion).expect("numbers");
     d.drive(
         &format!("{name}.motor"),
@@ -56,14 +52,7 @@ fn add_machine(d: &mut Description, name: &str, [x, y]: [f64; 2], motion: &[f64]
 
 /// A spring between points of two bodies.
 fn spring(s_i: [f64; 2], s_j: [f64; 2]) -> SpringDamper {
-    SpringDamper {
-        s_i,
-        s_j,
-        stiffness: 500.0,
-        damping: 20.0,
-        free_length: Some(1.0),
-        free_length_0: 0.0,
-    }
+    SpringDamper::new(s_i, s_j, 500.0, 20.0).with_free_length(1.0)
 }
 
 /// The mechanism with coordinates and velocities at its start.

@@ -162,15 +162,7 @@ fn other_joints_have_no_axis() {
     let [u, _, w] = axes.uvw();
     let [cross, axis] = [u, w].map(|d| Direction::new(d).expect("a direction"));
     assert_eq!(
-        of(Universal {
-            s_i,
-            s_j,
-            axis,
-            cross,
-            b_in_i: [0.0; 3],
-            a_in_j: [0.0; 3],
-        })
-        .symbol,
+        of(Universal::new(s_i, s_j, axis, cross)).symbol,
         Symbol::Pin
     );
     assert_eq!(

@@ -1,0 +1,11 @@
+use joint_macro::joint;
+
+joint! { plane Wrong(i, j) {
+    /// One wrong thing.
+    params { s_i: Point in i, s_j: Point in j }
+    rows: [x];
+    phi: dot(s_i, s_i) - dot(point(j, s_j), point(j, s_j));
+    place: point(i, s_i);
+} }
+
+fn main() {}
