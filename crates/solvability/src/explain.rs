@@ -12,7 +12,7 @@ use crate::limits::VISIBLE;
 use model::codes::Code;
 use model::space::norm;
 use model::start::scene_size;
-use model::{BodyRef, ConstraintId, Mechanism, Scratch, SpaceKind, System};
+use model::{BodyRef, ConstraintId, Layout, Mechanism, Scratch, SpaceKind, System};
 use rank::{Circuit, Settled};
 
 use crate::directions::readable;
@@ -70,6 +70,9 @@ pub struct FreeDirection {
     pub force: [f64; 3],
     /// Torque (N·m) about the place, ground axes.
     pub torque: [f64; 3],
+    /// The named component of its definition: `N` of a knife edge (N), `drive` of a drive (N or
+    /// N·m).
+    pub component: Option<f64>,
 }
 
 /// Joints and drives whose reactions are coupled by dependencies.
@@ -403,6 +406,7 @@ fn stress(
             place: mechanism.reactions(s).place(id),
             force: reaction.force,
             torque: reaction.torque,
+            component: reaction.component,
         })
     };
     let mut directions: Vec<FreeDirection> = mechanism
@@ -411,12 +415,12 @@ fn stress(
         .filter_map(carries)
         .collect();
     let size = scene_size(mechanism, q);
-    normalise(&mut directions, size);
+    normalise(layout, &mut directions, size);
     let ids: Vec<ConstraintId> = directions.iter().map(|d| d.joint).collect();
     let multipliers = linalg::Matrix::from_fn(lambda.len(), 1, |i, _| lambda[i]);
     let told = loads::tell(mechanism, s, size, &ids, &multipliers);
     SelfStress {
-        text: sentence::of_stress(mechanism, solvability, &circuit, &directions, told),
+        text: sentence::of_stress(mechanism, s, solvability, &circuit, &directions, told),
         left_out: circuit.left_out,
         rows: circuit.rows,
         coefficients: circuit.coefficients,
@@ -425,8 +429,8 @@ fn stress(
 }
 
 /// Scales the loads to largest force 1, or to largest torque 1 if all forces are rounding relative
-/// to the torques divided by the size. Rounding is set to zero.
-fn normalise(directions: &mut [FreeDirection], size: f64) {
+/// to the torques divided by the size; the first number is positive. Rounding is set to zero.
+fn normalise(layout: &Layout, directions: &mut [FreeDirection], size: f64) {
     let force = |d: &FreeDirection| norm(&d.force);
     let force = directions.iter().map(force).fold(0.0, f64::max);
     let torque = directions
@@ -441,14 +445,23 @@ fn normalise(directions: &mut [FreeDirection], size: f64) {
     if unit == 0.0 {
         return;
     }
+    // The first number that is told is positive.
+    let first = directions.first().and_then(|d| {
+        let numbers = d.component.into_iter().chain(d.force).chain(d.torque);
+        numbers.into_iter().find(|x| x.abs() > VISIBLE * unit)
+    });
+    let unit = unit * first.map_or(1.0, f64::signum);
     let largest = force.max(torque / size);
     for d in directions {
-        for (x, scale) in d
-            .force
-            .iter_mut()
-            .map(|x| (x, 1.0))
-            .chain(d.torque.iter_mut().map(|x| (x, size)))
-        {
+        let arm = if is_turned(layout, d.joint) {
+            size
+        } else {
+            1.0
+        };
+        let forces = d.force.iter_mut().map(|x| (x, 1.0));
+        let torques = d.torque.iter_mut().map(|x| (x, size));
+        let named = d.component.iter_mut().map(|x| (x, arm));
+        for (x, scale) in forces.chain(torques).chain(named) {
             *x = if x.abs() <= VISIBLE * largest * scale {
                 0.0
             } else {
@@ -456,6 +469,12 @@ fn normalise(directions: &mut [FreeDirection], size: f64) {
             };
         }
     }
+}
+
+/// Whether the named component of a joint or drive is a torque.
+fn is_turned(layout: &Layout, id: ConstraintId) -> bool {
+    let rows = &layout.groups[id.0].rows;
+    rows.iter().all(|row| layout.is_angular(row))
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! Dependencies as sentences.
 
-use model::{BodyRef, ConstraintId, Layout, Mechanism, System};
+use model::{BodyRef, ConstraintId, Layout, Mechanism, Reaction, Scratch, System};
 use rank::Circuit;
 
-use super::FreeDirection;
+use super::{FreeDirection, is_turned};
 use crate::limits::TELLABLE;
 use crate::loads::Told;
 use crate::matrices::Solvability;
@@ -11,9 +11,11 @@ use crate::verdict::Verdict;
 use crate::words::{list, names, short};
 
 /// Describes a self-stress in terms of joints and bodies if its geometry allows it, otherwise in
-/// terms of rows. In space, `told` are the loads on the joints.
+/// terms of rows. In space, `told` are the loads on the joints. Numbers are those of the reactions
+/// as all outputs tell them: on the first body of each joint, or the named component.
 pub(super) fn of_stress(
     mechanism: &Mechanism,
+    s: &Scratch,
     solvability: &Solvability,
     circuit: &Circuit,
     directions: &[FreeDirection],
@@ -35,10 +37,11 @@ pub(super) fn of_stress(
             Told::Various(loads) => format!("{names} can load each other ({loads}) {shared}"),
         };
     }
-    match (ids.as_slice(), bodies.as_slice()) {
-        ([_, _], [a, b]) if a == b => {
+    let cancel = || list(&terms(layout, directions));
+    match (directions, bodies.as_slice()) {
+        ([x, y], [a, b]) if a == b => {
             let [i, j] = [0, 1].map(|k| format!("`{}`", layout.groups[ids[k].0].name));
-            let action = match (drives, directions[0].force) {
+            let action = match (drives, x.force) {
                 (true, _) => format!("{i} and {j} both prescribe the same motion of {}", list(a)),
                 (false, [0.0, 0.0, 0.0]) => {
                     format!("{i} and {j} both stop {} from turning", against(a))
@@ -52,8 +55,9 @@ pub(super) fn of_stress(
                 (false, _) => format!("{i} and {j} both hold {} along the same line", against(a)),
             };
             format!(
-                "{action}; how the load is shared between them is not determined{}",
-                sum(mechanism, solvability, circuit)
+                "{action}; how the load is shared between them is not determined; {} cancel{}",
+                cancel(),
+                sum(mechanism, s, solvability, [x, y]).unwrap_or_default()
             )
         }
         ([_, _, _, ..], _) if circuit.rows.len() > TELLABLE => format!(
@@ -63,7 +67,7 @@ pub(super) fn of_stress(
             Loads::of(mechanism, circuit).act(),
             circuit.rows.len()
         ),
-        ([_, _, _, ..], _) => {
+        ([_, _, ..], _) => {
             let rows: Vec<String> = circuit
                 .rows
                 .iter()
@@ -71,12 +75,12 @@ pub(super) fn of_stress(
                 .collect();
             format!(
                 "{} can {} without any load: of the rows {}, any {} imply the remaining one; how a load is \
-                 shared among them is not determined ({} cancel out)",
+                 shared among them is not determined ({} cancel)",
                 list(&names(layout, &ids)),
                 Loads::of(mechanism, circuit).act(),
                 rows.join(", "),
                 rows.len() - 1,
-                in_ratio(mechanism, circuit)
+                cancel()
             )
         }
         _ => describe(mechanism, circuit),
@@ -113,32 +117,97 @@ fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     })
 }
 
-/// Describes what two rows share: forces that cancel, and whether the combination that this circuit
-/// leaves unchanged is determined.
-fn sum(mechanism: &Mechanism, solvability: &Solvability, circuit: &Circuit) -> String {
-    let loads = Loads::of(mechanism, circuit).word();
-    let cancel = format!("; {loads} {} on them cancel", ratio(mechanism, circuit));
-    let ([i, j], [a, b]) = (circuit.rows.as_slice(), circuit.coefficients.as_slice()) else {
-        return cancel;
+/// The component of a load by which it is told: the named one if the joint has a single row,
+/// otherwise each that is not zero. With its value.
+fn told_components(layout: &Layout, load: &FreeDirection) -> Vec<(&'static str, f64)> {
+    let group = &layout.groups[load.joint.0];
+    if let (Some(name), Some(value), 1) = (group.spec.component, load.component, group.rows.len()) {
+        return vec![(name, value)];
+    }
+    let space = layout.space;
+    let wrench = Reaction {
+        force: load.force,
+        torque: load.torque,
+        component: None,
     };
+    let named = space.components().iter().copied();
+    let all = named.zip(wrench.components(space));
+    all.filter(|(_, value)| *value != 0.0).collect()
+}
+
+/// The loads on joints, as "`a.Fx` = 1 N" without the quotes.
+fn terms(layout: &Layout, loads: &[FreeDirection]) -> Vec<String> {
+    let space = layout.space;
+    let of = |load: &FreeDirection| -> Vec<String> {
+        let name = &layout.groups[load.joint.0].name;
+        let unit = |component: &str| {
+            let is_torque = match space.component(component) {
+                Some(k) => !space.forces().contains(&k),
+                None => is_turned(layout, load.joint),
+            };
+            if is_torque { "N·m" } else { "N" }
+        };
+        let told = told_components(layout, load).into_iter();
+        told.map(|(c, value)| format!("`{name}.{c}` = {} {}", short(value), unit(c)))
+            .collect()
+    };
+    loads.iter().flat_map(of).collect()
+}
+
+/// The combination of two reactions that their loads leave as it is, and whether it is determined;
+/// nothing if one of the two loads has both a force and a torque, or no number.
+fn sum(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    solvability: &Solvability,
+    loads: [&FreeDirection; 2],
+) -> Option<String> {
+    let layout = mechanism.layout();
+    // Forces along one line have the same largest component.
+    let told = loads.map(|load| {
+        let is_mixed = load.force != [0.0; 3] && load.torque != [0.0; 3];
+        let components = told_components(layout, load);
+        let largest = components.into_iter().max_by(|a, b| {
+            let difference = a.1.abs() - b.1.abs();
+            difference.total_cmp(&0.0)
+        });
+        largest.filter(|_| !is_mixed)
+    });
+    let [(c, x), (d, y)] = [told[0]?, told[1]?];
+    let weight = -x / y;
     let decision = solvability.decision();
     let mut l = vec![0.0; decision.rank + decision.redundancy];
-    (l[*i], l[*j]) = (*b, -*a);
-    let combined = Circuit {
-        left_out: circuit.left_out,
-        rows: circuit.rows.clone(),
-        coefficients: vec![*b, -*a],
-    };
-    match solvability.combination(&l).map(|judged| judged.verdict) {
-        Ok(Verdict::Unique) => format!(
-            "{cancel}, their sum with weights {} is determined",
-            ratio(mechanism, &combined)
-        ),
-        Ok(Verdict::NotUnique) => {
-            format!("{cancel}, and their sum depends on other reactions that are not determined")
+    for (load, component, weight) in [(loads[0], c, 1.0), (loads[1], d, weight)] {
+        let id = load.joint;
+        let coefficients = mechanism
+            .reactions(s)
+            .component_coefficients(id, component)?;
+        for (row, coefficient) in layout.groups[id.0].rows.iter().zip(coefficients) {
+            l[row] += weight * coefficient;
         }
-        _ => cancel,
     }
+    let [i, j] = loads.map(|load| &layout.groups[load.joint.0].name);
+    let factor = match digits(weight.abs()).as_str() {
+        "1" => String::new(),
+        weight => format!("{weight}*"),
+    };
+    let sign = if weight < 0.0 { '-' } else { '+' };
+    // As `--combine` reads it.
+    let combination = format!("`{i}.{c} {sign} {factor}{j}.{d}`");
+    match solvability.combination(&l).map(|judged| judged.verdict) {
+        Ok(Verdict::Unique) => Some(format!(", {combination} is determined")),
+        Ok(Verdict::NotUnique) => Some(format!(
+            ", and {combination} depends on other reactions that are not determined"
+        )),
+        _ => None,
+    }
+}
+
+/// A positive number with as few digits as tell it to twelve.
+fn digits(x: f64) -> String {
+    let told = |digits: usize| format!("{x:.digits$e}").parse().unwrap_or(x);
+    let short = (0..12).map(told).find(|y: &f64| (y - x).abs() <= 1e-12 * x);
+    format!("{}", short.unwrap_or_else(|| told(12)))
 }
 
 /// Explains the meaning of a circuit to the reader. Sums that might be unique are not mentioned,
@@ -154,15 +223,15 @@ pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
         [row] => format!("row {row} constrains nothing here: its multiplier is not determined"),
         [a, b] => format!(
             "rows {a} and {b} forbid the same motion: how a load is shared between them is not determined \
-             ({} cancel out)",
-            in_ratio(mechanism, circuit)
+             (multipliers in the ratio {} cancel)",
+            ratio(mechanism, circuit)
         ),
         rows => format!(
             "of the rows {}, any {} imply the remaining one: how a load is shared among them is not determined \
-             ({} cancel out)",
+             (multipliers in the ratio {} cancel)",
             rows.join(", "),
             rows.len() - 1,
-            in_ratio(mechanism, circuit)
+            ratio(mechanism, circuit)
         ),
     }
 }
@@ -188,14 +257,6 @@ impl Loads {
         }
     }
 
-    fn word(self) -> &'static str {
-        match self {
-            Self::Forces => "forces",
-            Self::Torques => "torques",
-            Self::Both => "forces and torques",
-        }
-    }
-
     /// The verb for the action of joints on each other by these loads.
     fn act(self) -> &'static str {
         match self {
@@ -204,11 +265,6 @@ impl Loads {
             Self::Both => "press and turn against each other",
         }
     }
-}
-
-fn in_ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
-    let loads = Loads::of(mechanism, circuit).word();
-    format!("{loads} in the ratio {}", ratio(mechanism, circuit))
 }
 
 /// Coefficients without trailing zeros, with the sign for which most are positive; with units if

@@ -194,3 +194,82 @@ fn what_is_determined_is_told_in_components() {
     );
     assert_eq!(found[3], "determined is Fx and Fy");
 }
+
+/// The sentences on the dependencies of a planar mechanism at its start.
+fn dependencies(d: &model::Description) -> Vec<String> {
+    let mechanism = Mechanism::build(d).expect("builds");
+    let (q, _) = mechanism.described_state();
+    let s = evaluated(&mechanism, 0.0, &q);
+    let solvability = Solvability::of_exact(&dimensionless(&mechanism, &s, 1.0)).expect("finite");
+    let told = explain(&mechanism, &s, &q, &solvability).expect("decided");
+    told.stresses.into_iter().map(|s| s.text).collect()
+}
+
+/// A body on the ground, held by two joints or drives, with its frame at (1, 0).
+fn held(build: impl Fn(&mut model::Description, [BodyRef; 2])) -> String {
+    let mut d = model::Description::new("held");
+    let body = model::Body::new("b", 1.0, 1.0);
+    let b = d.body(model::Body {
+        position: [1.0, 0.0],
+        ..body
+    });
+    build(&mut d, [GROUND, b]);
+    let [one] = <[String; 1]>::try_from(dependencies(&d)).expect("one dependency");
+    one
+}
+
+/// Numbers are those of the reactions: on the first body of each joint, which is the ground for
+/// some of them and the body for others. Worked out by hand: the ground pushes the body up by 1 N
+/// at the one joint and down at the other.
+#[test]
+fn loads_that_cancel_are_told_as_reactions_are() {
+    use joints::{Direction, Fixed, Gear, Line, PinInSlot, PointOnLine};
+
+    let roller = |s| PointOnLine::new(s, Line::new([0.0, 0.0], [1.0, 0.0]).expect("a line"));
+    // The slot's force is that on the ground, the roller's that on the body.
+    let found = held(|d, pair| {
+        d.joint(
+            "slot",
+            &pair,
+            PinInSlot::new([1.0, 0.0], [0.0; 2], Direction::X),
+        );
+        d.joint("roller", &pair[1..], roller([0.0; 2]));
+    });
+    let words = "`slot.Fy` = 1 N and `roller.Fy` = 1 N cancel, `slot.Fy - roller.Fy` is determined";
+    assert!(found.ends_with(words), "{found}");
+
+    // A force at an arm of 1 m has a moment, which the clamp takes.
+    let found = held(|d, pair| {
+        d.joint("clamp", &pair, Fixed::new([0.0; 2], [-1.0, 0.0]));
+        d.joint("roller", &pair[1..], roller([0.0; 2]));
+    });
+    let words = "`clamp.Fy` = 1 N, `clamp.T` = 1 N·m and `roller.Fy` = 1 N cancel";
+    assert!(found.ends_with(words), "{found}");
+
+    // Guide and drive: a drive is told by the load along its measure, here on the ground.
+    let found = held(|d, pair| {
+        let guide = joints::Translational::new([1.0, 0.0], [0.0; 2], Direction::Y);
+        let motion = model::Function::constant_rate(0.0).expect("finite");
+        d.drive("m", &pair, guide.displacement_drive(), motion);
+        d.joint("roller", &pair[1..], roller([0.0; 2]));
+    });
+    let words = "`roller.Fy` = 1 N and `m.drive` = 1 N cancel, `roller.Fy - m.drive` is determined";
+    assert!(found.ends_with(words), "{found}");
+
+    // Wheels of ratio −2, twice: the second gear is turned round. λ on `one` is balanced by λ/−2
+    // of the other, whose first body is `two`.
+    let mut d = model::Description::new("gears");
+    let [one, two] = ["one", "two"].map(|name| d.body(model::Body::new(name, 1.0, 1.0)));
+    for (name, body) in [("A", one), ("B", two)] {
+        d.joint(
+            name,
+            &[GROUND, body],
+            joints::Revolute::new([0.0; 2], [0.0; 2]),
+        );
+    }
+    d.joint("m12", &[one, two, GROUND], Gear::new(-2.0));
+    d.joint("m21", &[two, one, GROUND], Gear::new(-0.5));
+    let words = "`m12.T` = 1 N·m and `m21.T` = −0.5 N·m cancel, `m12.T + 2*m21.T` is determined";
+    let found = dependencies(&d);
+    assert!(found.iter().any(|text| text.ends_with(words)), "{found:?}");
+}
