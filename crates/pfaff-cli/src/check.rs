@@ -133,6 +133,7 @@ impl Checked {
             scene: &self.scene,
             bodies: self.bodies,
             coordinates: self.layout.n_q - self.layout.turns,
+            velocities: self.layout.n_v,
             holonomic_rows: self.layout.m,
             nonholonomic_rows: self.layout.h,
             start_correction: self.position,

@@ -9,7 +9,7 @@
 use crate::limits::{HYPERPLANES_MAX, PIVOT_MIN};
 use std::cmp::Ordering;
 
-use crate::decision::{Size, size};
+use crate::decision::Size;
 use crate::dual::{Dual, binomial, eliminate, rank, subsets};
 use crate::null_space::Support;
 use crate::{RankDecision, components};
@@ -145,11 +145,12 @@ fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse
     let largest = kernels::max_abs(&y);
     y.iter_mut().for_each(|y| *y /= largest);
     // An error of the vectors changes y by that error divided by the smallest pivot.
-    let noise = dual.noise * p as f64 * (1.0 + hyperplane.smallest.recip());
+    let growth = p as f64 * (1.0 + hyperplane.smallest.recip());
+    let noise = dual.noise.times(growth);
     let mut circuit = Sparse::new();
     for (&row, vector) in dual.rows.iter().zip(&dual.vectors) {
         let z = kernels::dot(vector, &y);
-        match size(z, noise) {
+        match noise.size(z) {
             Size::Zero => {}
             Size::Unclear => return None,
             Size::NonZero => circuit.push((row, z)),

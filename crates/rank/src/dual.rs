@@ -9,7 +9,7 @@
 //! multipliers are at most one, so the noise of all entries stays that of the decision. An entry
 //! between "zero" and "certainly not zero" is an error, not a guess.
 
-use crate::decision::{Size, size};
+use crate::decision::{CoefficientReading, Readings, Size, size};
 use crate::null_space::Support;
 use crate::{RankDecision, support_tolerance};
 
@@ -20,6 +20,40 @@ pub(crate) struct Unclear {
     pub(crate) noise: f64,
 }
 
+/// What numbers are known to, and how those that are not zero are told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Noise {
+    pub(crate) value: f64,
+    /// The rules of a stated tolerance, which verdicts follow as well; `None` for rounding.
+    stated: Option<Readings>,
+}
+
+impl Noise {
+    fn of(decision: &RankDecision) -> Self {
+        Self {
+            value: support_tolerance(decision),
+            stated: decision.has_tolerance().then(|| decision.readings()),
+        }
+    }
+
+    /// That of numbers known to this multiple.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self {
+            value: factor * self.value,
+            ..self
+        }
+    }
+
+    pub(crate) fn size(self, x: f64) -> Size {
+        match self.stated.map(|rules| rules.read(x.abs(), self.value)) {
+            None => size(x, self.value),
+            Some(CoefficientReading::Zero) => Size::Zero,
+            Some(CoefficientReading::NonZero) => Size::NonZero,
+            Some(CoefficientReading::Unclear { .. }) => Size::Unclear,
+        }
+    }
+}
+
 /// Rows of Z̃, restricted to the rows and coordinates of a set of components.
 #[derive(Debug, Clone)]
 pub(crate) struct Dual {
@@ -28,7 +62,7 @@ pub(crate) struct Dual {
     /// Their vectors, in the same order.
     pub(crate) vectors: Vec<Vec<f64>>,
     /// Noise of the entries, the largest of which is about one.
-    pub(crate) noise: f64,
+    pub(crate) noise: Noise,
 }
 
 impl Dual {
@@ -53,7 +87,7 @@ impl Dual {
         Self {
             rows: rows.to_vec(),
             vectors: rows.iter().map(|&row| vector(row)).collect(),
-            noise: support_tolerance(decision),
+            noise: Noise::of(decision),
         }
     }
 
@@ -88,7 +122,7 @@ impl Dual {
 }
 
 /// Rank of vectors whose entries have the given noise.
-pub(crate) fn rank(vectors: Vec<Vec<f64>>, noise: f64) -> Result<usize, Unclear> {
+pub(crate) fn rank(vectors: Vec<Vec<f64>>, noise: Noise) -> Result<usize, Unclear> {
     Ok(eliminate(vectors, noise)?.pivots.len())
 }
 
@@ -102,7 +136,7 @@ pub(crate) struct Eliminated {
 }
 
 /// Gaussian elimination with complete pivoting.
-pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: f64) -> Result<Eliminated, Unclear> {
+pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: Noise) -> Result<Eliminated, Unclear> {
     let mut pivots = Vec::new();
     let mut smallest = f64::INFINITY;
     let dimension = vectors.first().map_or(0, Vec::len);
@@ -115,10 +149,13 @@ pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: f64) -> Result<Elimin
                 }
             }
         }
-        let noise = noise * (step + 1) as f64;
-        match size(value, noise) {
+        let noise = noise.times((step + 1) as f64);
+        match noise.size(value) {
             Size::Zero => break,
-            Size::Unclear => return Err(Unclear { value, noise }),
+            Size::Unclear => {
+                let noise = noise.value;
+                return Err(Unclear { value, noise });
+            }
             Size::NonZero => {}
         }
         vectors.swap(step, at.0);
@@ -187,8 +224,30 @@ mod tests {
     #[test]
     fn a_pivot_in_the_noise_is_an_error_only_where_it_decides() {
         let vectors = |x: f64| vec![vec![1.0, 1.0], vec![1.0, 1.0 + x]];
-        assert_eq!(rank(vectors(1e-13), 1e-12).ok(), Some(1));
-        assert_eq!(rank(vectors(1e-6), 1e-12).ok(), Some(2));
-        assert!(rank(vectors(1e-10), 1e-12).is_err());
+        let noise = Noise {
+            value: 1e-12,
+            stated: None,
+        };
+        assert_eq!(rank(vectors(1e-13), noise).ok(), Some(1));
+        assert_eq!(rank(vectors(1e-6), noise).ok(), Some(2));
+        assert!(rank(vectors(1e-10), noise).is_err());
+    }
+
+    /// Data known to a thousandth of the size do not hide whether a coefficient of one is zero.
+    #[test]
+    fn within_a_tolerance_a_pivot_clears_what_the_data_move_it_by() {
+        let rules = Readings {
+            is_certified: true,
+            has_tolerance: true,
+            smallest: f64::INFINITY,
+        };
+        let noise = Noise {
+            value: 5e-3,
+            stated: Some(rules),
+        };
+        let vectors = |x: f64| vec![vec![1.0, 1.0], vec![1.0, 1.0 + x]];
+        assert_eq!(rank(vectors(1e-4), noise).ok(), Some(1));
+        assert_eq!(rank(vectors(0.5), noise).ok(), Some(2));
+        assert!(rank(vectors(0.02), noise).is_err());
     }
 }

@@ -3,7 +3,7 @@
 //! Deleting rows makes the others unique by decision: the designer assumes that these rows carry no
 //! load; it is not a result of the model. The rule for proposals: any row may be relaxed as long as
 //! its joint keeps one row (a revolute becomes a pin in a slot), and a joint or drive with a single
-//! row may be deleted.
+//! row may be deleted. If nothing of this kind is enough, whole joints may go as well.
 
 use linalg::Matrix;
 use model::{ConstraintId, ConstraintKind, Layout, Mechanism, RowRanges, System};
@@ -14,7 +14,8 @@ use crate::matrices::Solvability;
 /// Rows that may be proposed for deletion.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Allowed {
-    /// Single rows, but never all rows of a joint with several rows.
+    /// Single rows, but never all rows of a joint with several rows; any rows if that is not
+    /// enough.
     #[default]
     Sensible,
     /// Whole joints and drives.
@@ -42,6 +43,9 @@ pub struct Proposals {
     pub ways: Vec<Proposal>,
     /// Whether all proposals of that size are listed.
     pub complete: bool,
+    /// Whether joints of several rows lose all of them, since nothing is enough that leaves them
+    /// one.
+    pub whole: bool,
 }
 
 /// Finds the smallest deletions that make the wrench of a joint or drive unique without a change of
@@ -76,7 +80,11 @@ pub fn make_unique(
     };
     let target = solvability.wrench_combinations(&layout.groups[id.0].rows);
     let decision = solvability.decision();
-    let found = rank::making_unique(decision, &target, &candidates, admits, limits)?;
+    let mut found = rank::making_unique(decision, &target, &candidates, admits, limits)?;
+    let whole = *allowed == Allowed::Sensible && found.sets.is_empty();
+    if whole {
+        found = rank::making_unique(decision, &target, &candidates, |_| true, limits)?;
+    }
     let proposal = |set: &Vec<usize>| {
         let mut rows: Vec<usize> = set.iter().flat_map(|&k| candidates[k].clone()).collect();
         rows.sort_unstable();
@@ -89,6 +97,7 @@ pub fn make_unique(
     Ok(Proposals {
         ways: found.sets.iter().map(proposal).collect(),
         complete: found.complete,
+        whole,
     })
 }
 

@@ -33,6 +33,8 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
             wanted.reaction,
             match wanted.allowed {
                 "sensible" => "no joint of several rows loses all of them",
+                "sensible, whole" =>
+                    "joints of several rows would have to keep one; that is not enough",
                 "whole" => "joints and drives as a whole",
                 _ => "of the rows allowed",
             }
@@ -93,10 +95,6 @@ fn ways(found: &MakeUniqueDocument, most: usize) -> String {
         .collect();
     let more = found.ways.len() - texts.len();
     match (texts.as_slice(), found.complete) {
-        ([], true) if found.allowed == "sensible" => format!(
-            "nothing that leaves each joint a row; for whole joints, `--make-unique \"{}\" --allow whole`",
-            found.reaction
-        ),
         ([], true) => "nothing that is allowed to be deleted makes it so".to_owned(),
         ([], false) => "nothing was found in the sets that were tried".to_owned(),
         (texts, _) if more == 0 => texts.join("; or "),

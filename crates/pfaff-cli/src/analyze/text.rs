@@ -63,8 +63,14 @@ pub(super) fn notes(d: &AnalysisDocument) -> String {
 
 /// The name and the size of the analysed mechanism.
 fn heading(d: &AnalysisDocument) -> String {
+    let c = &d.configuration;
+    let velocities = match c.velocities {
+        // In the plane both are three for each body.
+        n if n == c.coordinates => String::new(),
+        n => format!(", {n} velocities"),
+    };
     format!(
-        "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",
+        "{} at t = {} s\n{}, {}{velocities}, {}: {} holonomic, {} nonholonomic\n",
         d.configuration.scene,
         d.configuration.time,
         count(d.configuration.bodies, "body", "bodies"),

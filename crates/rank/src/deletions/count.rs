@@ -3,7 +3,7 @@
 
 use super::{DeletionError, duals};
 use crate::RankDecision;
-use crate::dual::{Dual, Unclear, rank};
+use crate::dual::{Dual, Noise, Unclear, rank};
 use crate::limits::COUNT_STEPS;
 
 /// The number of admissible sets of p rows, as a product over all components (coupled rows).
@@ -47,7 +47,7 @@ fn weighted(dual: &Dual) -> Vec<Class> {
 /// 128 bits are too few.
 fn count(
     classes: Vec<Class>,
-    noise: f64,
+    noise: Noise,
     p: usize,
     steps: &mut usize,
 ) -> Result<Option<u128>, Unclear> {
@@ -77,7 +77,7 @@ fn count(
     let taken = classes.swap_remove(at);
     let with = count(
         contracted(&classes, &taken.vector),
-        2.0 * noise,
+        noise.times(2.0),
         p - 1,
         steps,
     )?;
@@ -89,7 +89,7 @@ fn count(
 }
 
 /// Merges classes with parallel vectors and removes zero vectors.
-fn merged(classes: Vec<Class>, noise: f64) -> Result<Vec<Class>, Unclear> {
+fn merged(classes: Vec<Class>, noise: Noise) -> Result<Vec<Class>, Unclear> {
     let mut distinct: Vec<Class> = Vec::new();
     'classes: for class in classes {
         if rank(vec![class.vector.clone()], noise)? == 0 {

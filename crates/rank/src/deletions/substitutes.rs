@@ -1,7 +1,7 @@
 //! Smallest deletions that make given combinations of multipliers unique.
 
 use super::{DeletionError, require_rank};
-use crate::dual::{Dual, Unclear, binomial, rank, subsets};
+use crate::dual::{Dual, Noise, Unclear, binomial, rank, subsets};
 use crate::null_space::Support;
 use crate::{RankDecision, components};
 use linalg::{Matrix, kernels};
@@ -163,7 +163,7 @@ fn whole(decision: &RankDecision) -> Dual {
 /// The rows `ℓᵀ·Z̃` of a target, relative to the longest ℓ.
 struct Directions {
     vectors: Vec<Vec<f64>>,
-    noise: f64,
+    noise: Noise,
 }
 
 impl Directions {
@@ -187,7 +187,7 @@ impl Directions {
         Self {
             vectors: (0..scaled.nrows()).map(direction).collect(),
             // A sum of m terms with unit norm adds the noise of each.
-            noise: dual.noise * (m as f64).sqrt(),
+            noise: dual.noise.times((m as f64).sqrt()),
         }
     }
 }

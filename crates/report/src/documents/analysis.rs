@@ -83,6 +83,8 @@ pub struct ConfigurationDocument {
     pub bodies: usize,
     /// Number of coordinates n_q.
     pub coordinates: usize,
+    /// Number of velocities n_v: mobility is n_v − rank.
+    pub velocities: usize,
     /// Number of rows m + h.
     pub rows: usize,
     /// Number of holonomic rows m.
@@ -213,6 +215,7 @@ impl AnalysisDocument {
                 time: analysis.time,
                 bodies: analysis.bodies,
                 coordinates: analysis.coordinates,
+                velocities: analysis.velocities,
                 rows: analysis.holonomic_rows + analysis.nonholonomic_rows,
                 holonomic_rows: analysis.holonomic_rows,
                 nonholonomic_rows: analysis.nonholonomic_rows,

@@ -90,6 +90,8 @@ pub struct CheckDocument<'a, P> {
     pub bodies: usize,
     /// Number of coordinates n_q.
     pub coordinates: usize,
+    /// Number of velocities n_v.
+    pub velocities: usize,
     /// Number of holonomic rows m.
     pub holonomic_rows: usize,
     /// Number of nonholonomic rows h.

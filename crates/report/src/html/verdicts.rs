@@ -147,16 +147,19 @@ fn why(out: &mut String, page: &RunPage<'_>) {
 
 /// What would make reactions unique: those with the same ways in one sentence.
 fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
-    let mut grouped: Vec<(Vec<String>, Vec<&str>)> = Vec::new();
+    let mut grouped: Vec<(Vec<String>, Vec<String>)> = Vec::new();
     for hint in hints {
-        let ways: Vec<&str> = hint.ways.iter().map(|w| w.text.as_str()).collect();
+        let ways = match &hint.reason {
+            Some(reason) => vec![format!("not known: {reason}")],
+            None => hint.ways.iter().map(|w| w.text.clone()).collect(),
+        };
         let reaction = format!("`{}`", hint.reaction);
         match grouped.iter_mut().find(|(_, known)| *known == ways) {
             Some((reactions, _)) => reactions.push(reaction),
             None => grouped.push((vec![reaction], ways)),
         }
     }
-    let sentence = |(reactions, ways): (Vec<String>, Vec<&str>)| {
+    let sentence = |(reactions, ways): (Vec<String>, Vec<String>)| {
         let reactions = match reactions.split_last() {
             Some((last, first)) if !first.is_empty() => {
                 format!("each of {} and {last}", first.join(", "))

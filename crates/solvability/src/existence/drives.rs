@@ -7,8 +7,8 @@ use std::cell::OnceCell;
 
 use crate::error::AnalysisError;
 use crate::limits::{DRIVE_HALVINGS, DRIVE_POSITIONS, DRIVE_STEPS, ONE_PART, RUNS_NOTICE, STRIDE};
-use crate::pose::{dimensionless, uncertainty};
-use linalg::Matrix;
+use crate::pose::{dimensionless, uncertainty, velocity_units};
+use linalg::{KeptRowSaddle, Matrix};
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
 use rank::{RankDecision, circuits, components, decide_keeping};
@@ -243,7 +243,7 @@ fn compared(
     if let Some(positions) = JointsFirst::of_positions(mechanism, t, q)? {
         let terms = |i| mechanism.scales(&positions.s).position(i);
         let level = ConstraintLevel::Position;
-        add(positions.contradictions(mechanism, level, &terms, share));
+        add(positions.contradictions(mechanism, (level, None), &terms, share));
     }
     if let Some(all) = JointsFirst::of_velocities(mechanism, t, q)? {
         // Different rates count as equal if the positions differ by less than a run notices at its
@@ -251,7 +251,11 @@ fn compared(
         let slow = |i| per_second * mechanism.scales(&all.s).position(i);
         let terms = |i| mechanism.scales(&all.s).prescribed(i) + slow(i);
         let level = ConstraintLevel::Velocity;
-        add(all.contradictions(mechanism, level, &terms, share));
+        let v = mechanism
+            .has_tolerances()
+            .then(|| all.slowest(mechanism, q));
+        let v = v.flatten();
+        add(all.contradictions(mechanism, (level, v.as_deref()), &terms, share));
     }
     Ok(found)
 }
@@ -345,11 +349,27 @@ impl JointsFirst {
         dropped.any(|row| drives.binary_search(row).is_ok())
     }
 
+    /// The smallest velocities that satisfy the kept rows, which data within a tolerance change;
+    /// `None` if they cannot be computed.
+    fn slowest(&self, mechanism: &Mechanism, q: &[f64]) -> Option<Vec<f64>> {
+        let (layout, kept) = (mechanism.layout(), &self.decision.kept);
+        let c = layout.dense(&self.s);
+        let units = velocity_units(mechanism, scene_size(mechanism, q));
+        let weights: Vec<f64> = units.iter().map(|unit| unit.powi(-2)).collect();
+        let b: Vec<f64> = kept.iter().map(|&row| self.s.b[row]).collect();
+        let n = units.len();
+        let (mut v, mut lambda) = (vec![0.0; n], vec![0.0; kept.len()]);
+        let mut saddle = KeptRowSaddle::new(n, kept.len()).ok()?;
+        saddle.factor(|k| c.row(kept[k]), &weights).ok()?;
+        saddle.solve(&vec![0.0; n], &b, &mut v, &mut lambda).ok()?;
+        Some(v)
+    }
+
     /// Residuals of redundant drives that are larger than a fraction of the terms of their rows.
     fn contradictions(
         &self,
         mechanism: &Mechanism,
-        level: ConstraintLevel,
+        (level, v): (ConstraintLevel, Option<&[f64]>),
         terms: &dyn Fn(usize) -> f64,
         share: f64,
     ) -> Vec<Contradiction> {
@@ -368,7 +388,7 @@ impl JointsFirst {
                 _ => &self.s.b,
             },
             scale: terms,
-            v: None,
+            v,
             share,
         };
         comparison.among(of_drives, mechanism, self.s.t)

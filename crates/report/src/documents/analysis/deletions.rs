@@ -26,7 +26,8 @@ pub struct EliminationsDocument {
 pub struct MakeUniqueDocument {
     /// Name of the joint or drive.
     pub reaction: String,
-    /// Kind of allowed deletions: `sensible`, `whole` or `rows`.
+    /// Kind of allowed deletions: `sensible`, `sensible, whole` where only whole joints are enough,
+    /// `whole` or `rows`.
     pub allowed: &'static str,
     /// Each is sufficient by itself, and none of its rows can be omitted; one without rows if no
     /// deletion is needed.
@@ -80,7 +81,9 @@ impl MakeUniqueDocument {
         allowed: &Allowed,
         found: Result<Proposals, EliminationError>,
     ) -> Self {
+        let is_whole = found.as_ref().is_ok_and(|found| found.whole);
         let allowed = match allowed {
+            Allowed::Sensible if is_whole => "sensible, whole",
             Allowed::Sensible => "sensible",
             Allowed::Whole => "whole",
             Allowed::Rows(_) => "rows",
