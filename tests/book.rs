@@ -5,6 +5,10 @@
 mod introduction {}
 #[doc = include_str!("../docs/book/getting-started.md")]
 mod getting_started {}
+#[doc = include_str!("../docs/book/from-a-drawing.md")]
+mod from_a_drawing {}
+#[doc = include_str!("../docs/book/coming-from.md")]
+mod coming_from {}
 #[doc = include_str!("../docs/book/by-hand.md")]
 mod by_hand {}
 #[doc = include_str!("../docs/book/equations.md")]
@@ -21,6 +25,10 @@ mod large {}
 mod verdict {}
 #[doc = include_str!("../docs/book/not-unique.md")]
 mod not_unique {}
+#[doc = include_str!("../docs/book/space.md")]
+mod in_space {}
+#[doc = include_str!("../docs/book/gears.md")]
+mod gears {}
 #[doc = include_str!("../docs/book/own-joint.md")]
 mod own_joint {}
 #[doc = include_str!("../docs/book/import.md")]

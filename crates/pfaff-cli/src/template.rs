@@ -19,7 +19,7 @@ macro_rules! examples {
     };
 }
 
-/// From simple to rich, as in `examples/README.md`.
+/// From simple to rich; `examples/README.md` has them by kind.
 const EXAMPLES: [Template; 33] = examples!(
     "door" "carriage" "truss" "four-bar" "slider-crank" "knife-edge" "sleigh" "towed-cart" "scotch-yoke" "three-cranks" "gear-train" "planetary-gear"
     "sweeper" "car" "truck" "snakeboard" "pantograph" "peaucellier" "chebyshev" "five-bar" "scissor-lift" "andrews"

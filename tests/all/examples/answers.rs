@@ -188,9 +188,10 @@ fn every_example_has_a_scene_a_page_and_a_row() {
     assert_eq!(files(".md"), answers, "pages and answers of the test");
 }
 
-/// Rows of the table: link, rank, redundancy, mobility, reactions that are not unique, purpose.
+/// Rows of the tables: link, rank, redundancy, mobility, reactions that are not unique, difficulty,
+/// purpose, picture.
 #[test]
-fn the_table_says_what_is_expected() {
+fn the_tables_say_what_is_expected() {
     let text = read(&root().join("examples/README.md"));
     let rows: Vec<Vec<&str>> = text
         .lines()
@@ -198,7 +199,7 @@ fn the_table_says_what_is_expected() {
         .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
         .collect();
     assert_eq!(rows.len(), ANSWERS.len());
-    for (row, expected) in rows.iter().zip(&ANSWERS) {
+    for expected in &ANSWERS {
         let name = expected.name;
         let numbers = [expected.rank, expected.redundancy, expected.mobility];
         let [rank, redundancy, mobility] = numbers.map(|n| n.to_string());
@@ -207,9 +208,16 @@ fn the_table_says_what_is_expected() {
             names => names.join(", "),
         };
         let link = format!("[{name}]({name}.md)");
+        let row = rows.iter().find(|row| row[0] == link);
+        let row = row.unwrap_or_else(|| panic!("{name} has no row"));
         let cells = [link, rank, redundancy, mobility, not_unique];
         assert_eq!(row[..5], cells.each_ref().map(String::as_str), "{name}");
-        assert!(row.len() == 6 && !row[5].is_empty(), "{name} teaches");
+        let picture = format!(
+            "<img src=\"../docs/images/examples/{name}.svg\" width=\"160\" alt=\"{name}\">"
+        );
+        assert_eq!(row[7..], [picture.as_str()], "{name}");
+        assert!(["●", "●●", "●●●"].contains(&row[5]), "{name}: {}", row[5]);
+        assert!(!row[6].is_empty(), "{name} teaches");
     }
 }
 

@@ -1,4 +1,5 @@
-//! The figures of the book, from the scenes in its text and from the reports.
+//! The figures of the book that the program draws, from the scenes in its text and from the
+//! reports.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -6,7 +7,8 @@ use std::path::Path as File;
 
 use pfaff::dynamics::MotionOptions;
 use pfaff::model::{Mechanism, Reaction, Registry, System};
-use pfaff::report::figures::{self, Marking, Path, PathRecorder, Pattern, Style, histories, paths};
+use pfaff::report::figures::{self, Labels, Marking};
+use pfaff::report::figures::{Path, PathRecorder, Pattern, Style, histories, paths};
 use pfaff::report::work_precision::{
     CurveName, ReferenceDocument, WorkPrecisionRow, WorkPrecisionScene,
 };
@@ -37,6 +39,20 @@ pub(crate) fn all(root: &File) -> Fallible<Vec<(&'static str, String)>> {
             work_precision(&std::fs::read_to_string(
                 root.join("docs/reports/work-precision/work_precision.csv"),
             )?)?,
+        ),
+        (
+            "tipper.svg",
+            viewed(&page("from-a-drawing.md", "tipper.toml")?)?,
+        ),
+        (
+            "four-hinges.svg",
+            viewed(&page("space.md", "four-hinges.toml")?)?,
+        ),
+        ("gate.svg", viewed(&page("space.md", "gate.toml")?)?),
+        ("planets.svg", viewed(&page("gears.md", "planets.toml")?)?),
+        (
+            "differential.svg",
+            viewed(&page("gears.md", "differential.toml")?)?,
         ),
     ])
 }
@@ -109,6 +125,19 @@ fn leaning(text: &str, t: f64) -> Fallible<String> {
         t,
         &configuration.state.q,
         Marking::Verdicts(&configuration.analysis.reactions),
+    )?)
+}
+
+/// A mechanism at its start, as `pfaff view` draws it.
+fn viewed(text: &str) -> Fallible<String> {
+    let study = read(text, &Overrides::default())?;
+    let start = study.analyse(0.0, None)?;
+    Ok(figures::labelled_mechanism(
+        start.mechanism,
+        0.0,
+        &start.state.q,
+        Marking::Verdicts(&start.analysis.reactions),
+        Labels::NamesAndRows,
     )?)
 }
 

@@ -2,6 +2,7 @@
 
 use lab::generate::Kind;
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
@@ -121,5 +122,33 @@ fn wrong_places_and_wrong_scenes_are_refused() {
             stderr(&output)
         );
         assert_eq!(stderr(&output).lines().count(), 1, "{}", stderr(&output));
+    }
+}
+
+/// The pictures in the tables of `examples/README.md`.
+#[test]
+fn the_pictures_of_the_examples_are_those_of_the_command() {
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let folder = place("view-examples");
+    let entries = fs::read_dir(root.join("examples")).expect("examples/ exists");
+    let mut scenes: Vec<PathBuf> = entries
+        .flatten()
+        .map(|e| e.path())
+        .filter(|p| p.extension().is_some_and(|e| e == "toml"))
+        .collect();
+    scenes.push(ROBOT.into());
+    let pictures = fs::read_dir(root.join("docs/images/examples")).expect("pictures");
+    assert_eq!(pictures.count(), scenes.len());
+    for scene in scenes {
+        let stem = scene.file_stem().expect("a name").to_string_lossy();
+        let (name, scene) = (format!("{stem}.svg"), scene.display().to_string());
+        let path = format!("{}/{name}", folder.text());
+        let output = pfaff(&["view", &scene, "--out", &path, "--no-open"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let kept = fs::read_to_string(root.join("docs/images/examples").join(&name));
+        assert!(
+            kept.is_ok_and(|kept| kept == folder.read(&name)),
+            "old: pfaff view {scene} --out docs/images/examples/{name} --no-open"
+        );
     }
 }
