@@ -88,7 +88,9 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     check_requirements(mechanism, &q)?;
     let mut correction = mechanism.difference_of(&q, &described);
     if options.correction == CorrectionLimit::Small {
-        check_correction(mechanism, &correction, size)?;
+        check_correction(mechanism, &correction, size, || {
+            missing(mechanism, &described, &rows)
+        })?;
     }
     if !options.poses.is_empty() {
         let posed = posed(mechanism, &options.poses, &q)?;
@@ -107,7 +109,9 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
             }
         }
         if options.correction == CorrectionLimit::Small {
-            check_correction(mechanism, &correction, size)?;
+            check_correction(mechanism, &correction, size, || {
+                missing(mechanism, &posed, &rows)
+            })?;
         }
     }
     mechanism.pose(0.0, &q, &mut s);
@@ -341,10 +345,19 @@ fn nearest(
     unreachable!("the last iteration returns")
 }
 
+/// The joints and drives that miss at coordinates q, the worst first.
+fn missing(mechanism: &Mechanism, q: &[f64], rows: &[usize]) -> Vec<Misfit> {
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    mechanism.phi(&mut s);
+    approach::misfits(mechanism, &s, rows)
+}
+
 fn check_correction(
     mechanism: &Mechanism,
     correction: &[f64],
     size: f64,
+    misfits: impl FnOnce() -> Vec<Misfit>,
 ) -> Result<(), StartError> {
     let limit = |j: usize| SMALL_CORRECTION * mechanism.space().unit(j, size);
     let excess = |j: usize| correction[j].abs() / limit(j);
@@ -358,5 +371,11 @@ fn check_correction(
         coordinate,
         correction: correction[worst].abs(),
         limit: limit(worst),
+        unit: if mechanism.space().is_rotation(worst) {
+            "rad"
+        } else {
+            "m"
+        },
+        misfits: misfits(),
     })
 }

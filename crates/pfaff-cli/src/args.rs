@@ -17,7 +17,7 @@ use pfaff::dynamics::{Method, Stabilisation};
 use pfaff::import::Base;
 use pfaff::sweep::{Axis, Shard};
 
-pub(crate) use known::{Known, Settings};
+pub(crate) use known::{Known, Settings, in_si};
 
 use crate::input::rows_from_zero;
 use crate::output::{Answer, Failure};

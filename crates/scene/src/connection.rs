@@ -9,7 +9,7 @@ use crate::body::BodyNames;
 use crate::direction;
 use crate::findings::Findings;
 use crate::mistake::Mistake;
-use crate::nearest::{did_you_mean, list};
+use crate::nearest::{did_you_mean, list, meant};
 use crate::source_map::PLACE_KEYS;
 use crate::table::Table;
 
@@ -85,11 +85,15 @@ pub(crate) fn named(
             )
         }
         (None, Some(two)) => {
-            findings.error(
+            let name = specs.first().map_or("", |spec| spec.scene_type);
+            findings.error_with_help(
                 Mistake::BodyCount,
                 two.span(),
                 wrong("bodies"),
                 format!("expected {expected}"),
+                meant(name).map(|other| {
+                    format!("`{name}` has one body; what others call `{name}` is `{other}` here")
+                }),
             );
             None
         }

@@ -16,7 +16,7 @@ use crate::findings::Findings;
 use crate::function::Domain;
 use crate::key::TYPE;
 use crate::mistake::Mistake;
-use crate::nearest::{list, nearest};
+use crate::nearest::{list, meant, nearest};
 use crate::place::{self, Place};
 use crate::section;
 use crate::space::{self, SceneSpace};
@@ -144,7 +144,13 @@ pub(crate) fn scene_type<S: SceneSpace>(
             format!("this is part of `{}` now", former.now),
             Some(former.advice.to_owned()),
         ),
-        (None, Some(space), _) => (belongs(name, space), None),
+        (None, Some(space), near) => {
+            let near = near.filter(|near| meant(name) == Some(*near));
+            (
+                belongs(name, space),
+                near.map(|near| format!("here it is `{near}`")),
+            )
+        }
         (None, None, Some(near)) => (format!("did you mean `{near}`?"), None),
         (None, None, None) if others.contains(&name) => (
             format!("`{name}` is a {kind}"),

@@ -226,6 +226,7 @@ impl<'t> Field<'t> {
         if let Problem::UnknownName { name } | Problem::UnknownFunction { name } = &problem {
             match findings.suggest(name, language.names()) {
                 Some(near) => label = format!("did you mean `{near}`?"),
+                None if help.is_some() => {}
                 None => help = nearest::all("parameters", language.own_names()),
             }
         }

@@ -128,10 +128,15 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
         }
         StartError::NoVelocity { worst, .. } => (row(map, worst), "misses most"),
         StartError::Velocities(conflict) => return velocities(map, conflict, error),
-        StartError::LargeCorrection { body, .. } => {
+        StartError::LargeCorrection { body, misfits, .. } => {
+            let joints = misfits.iter().map(|m| m.joint.as_str());
+            let marks = ["misses as described", "misses too"];
             let entry = map.body(body);
-            let span = entry.map(|entry| entry.first_of(&["start", "position", "angle"]));
-            (span.unwrap_or(0..0), "moves most")
+            let told = at_joints(map, joints, error, marks);
+            return match entry.map(|entry| entry.first_of(&["start", "position", "angle"])) {
+                Some(span) => told.and(map.text.label(span, "would have to move most")),
+                None => told,
+            };
         }
         StartError::Requirement { name, .. } => {
             (element_key(map, name, &PLACE_KEYS), "required here")

@@ -12,6 +12,22 @@ pub const ELSEWHERE: &[(&str, &str)] = &[
     ("rotational", "revolute"),
     ("continuous", "revolute"),
     ("prismatic", "translational"),
+    ("ball", "spherical"),
+    ("ball-joint", "spherical"),
+    ("ball joint", "spherical"),
+    ("ball-and-socket", "spherical"),
+    ("socket", "spherical"),
+    ("sphere", "spherical"),
+    ("cardan", "universal"),
+    ("hooke", "universal"),
+    ("u-joint", "universal"),
+    ("gimbal", "universal"),
+    ("cylinder", "cylindrical"),
+    ("sleeve", "cylindrical"),
+    ("gear", "mesh"),
+    ("belt", "coupling"),
+    ("chain", "coupling"),
+    ("mimic", "coupling"),
     ("slider", "translational"),
     ("slide", "translational"),
     ("slot", "pin-in-slot"),
@@ -51,6 +67,13 @@ pub const ELSEWHERE: &[(&str, &str)] = &[
     ("dt", "output_step"),
     ("step", "output_step"),
     ("duration", "t_end"),
+    ("end_time", "t_end"),
+    ("stop_time", "t_end"),
+    ("tend", "t_end"),
+    ("axes", "axis"),
+    ("3d", "spatial"),
+    ("space", "spatial"),
+    ("2d", "plane"),
     ("integrator", "method"),
     ("solver", "method"),
     ("abstol", "atol"),
@@ -118,6 +141,12 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         }
     }
     best.map(|(_, candidate)| candidate)
+}
+
+/// What other programs and books call by this name, and is called otherwise here.
+pub(crate) fn meant(name: &str) -> Option<&'static str> {
+    let mut known = ELSEWHERE.iter();
+    known.find_map(|(said, here)| name.eq_ignore_ascii_case(said).then_some(*here))
 }
 
 /// The advice `did you mean …?`, if a candidate is similar enough.

@@ -4,7 +4,7 @@ mod syntax;
 
 use std::collections::{BTreeMap, HashMap};
 
-use joints::{Plane, Space3};
+use joints::{Plane, Space, Space3};
 use model::{
     AnyDescription, BuildError, Described, Mechanism, Observed, Registry, StartOptions, Stated,
     Tolerance,
@@ -29,7 +29,7 @@ use crate::marker::Markers;
 use crate::measure::Measures;
 use crate::mistake::Mistake;
 use crate::names::{Names, Use};
-use crate::nearest::{did_you_mean, list};
+use crate::nearest::{did_you_mean, list, nearest};
 use crate::plausible;
 use crate::reactions::{self, GroupRequest, components};
 use crate::scene::Scene;
@@ -146,11 +146,23 @@ fn say(fault: syntax::Fault, findings: &mut Findings) {
     findings.error_with_help(Mistake::NotToml, span, message, label, help);
 }
 
-/// Whether the scene says that its bodies move in space.
+/// Whether the scene says that its bodies move in space, or in another word means it. Where it says
+/// nothing, the first position or point of three numbers does.
 fn is_spatial(root: &DeTable) -> bool {
     let heading = root.get(section::SCENE.name);
     let space = heading.and_then(|heading| heading.get_ref().get(SPACE.name));
-    space.and_then(|space| space.get_ref().as_str()) == Some(Space3::NAME)
+    if let Some(space) = space.and_then(|space| space.get_ref().as_str()) {
+        return nearest(space, spaces()) == Some(Space3::NAME);
+    }
+    let placed = [("body", "position"), ("joint", "at")];
+    placed.into_iter().any(|(section, key)| {
+        let entries = root.get(section).and_then(|all| all.get_ref().as_array());
+        let points = entries.into_iter().flatten();
+        let mut points = points.filter_map(|entry| entry.get_ref().get(key)?.get_ref().as_array());
+        points
+            .next()
+            .is_some_and(|point| point.len() == Space3::DIM)
+    })
 }
 
 /// Reads all sections. The result may be used only if no problem was found.
@@ -420,12 +432,11 @@ impl<S: SceneSpace> Heading<S> {
             && space != S::NAME
         {
             let known = list(spaces());
-            findings.error_with_help(
+            findings.error(
                 Mistake::UnknownChoice,
                 field.span(),
                 format!("`[scene]`: `space` is \"{space}\", there are {known}"),
-                "no such space",
-                did_you_mean(space, spaces()),
+                did_you_mean(space, spaces()).unwrap_or_else(|| "no such space".to_owned()),
             );
         }
         let gravity = table.optional(&S::GRAVITY).and_then(|field| {

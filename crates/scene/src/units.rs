@@ -8,7 +8,7 @@ use crate::expression::evaluate;
 use crate::language::Language;
 
 /// Units that expressions do not have, in theirs.
-const OTHERS: [(&str, &str); 12] = [
+const OTHERS: [(&str, &str); 14] = [
     ("km", "1e3 m"),
     ("t", "1e3 kg"),
     ("km/h", "1e3 m/(60 min)"),
@@ -19,9 +19,17 @@ const OTHERS: [(&str, &str); 12] = [
     ("%", "1/100"),
     ("degree", "deg"),
     ("degrees", "deg"),
+    ("Hz", "1/s"),
+    ("h", "60 min"),
     ("rpm", "2*pi/min"),
     ("1/min", "2*pi/min"),
 ];
+
+/// A unit that expressions do not have, in theirs.
+pub(crate) fn here(unit: &str) -> Option<&'static str> {
+    let mut known = OTHERS.iter();
+    known.find_map(|(name, here)| (*name == unit).then_some(*here))
+}
 
 /// A number with a unit, as `300 mm`.
 #[derive(Clone, Copy, Debug, PartialEq)]

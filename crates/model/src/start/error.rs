@@ -28,8 +28,9 @@ pub enum StartError {
     },
     /// The closest consistent configuration is far from the described one.
     #[error(
-        "the start must be corrected by {correction:.3e} ({coordinate} of body `{body}`), more than the allowed {limit:.3e}; \
-         correct the scene, or set `allow_correction = true` in `[start]`"
+        "the start must be corrected by {correction:.3e} {unit} ({coordinate} of body `{body}`), more than the allowed {limit:.3e}: \
+         as described, these miss: {}; correct the scene, or set `allow_correction = true` in `[start]`",
+        few(misfits)
     )]
     LargeCorrection {
         /// The body that moves most.
@@ -40,6 +41,10 @@ pub enum StartError {
         correction: f64,
         /// The largest correction allowed.
         limit: f64,
+        /// Unit of both: m or rad.
+        unit: &'static str,
+        /// The joints and drives that miss in the described configuration, the worst first.
+        misfits: Vec<Misfit>,
     },
     /// The given velocities, or those held by `keep`, are impossible.
     #[error(transparent)]
@@ -189,9 +194,17 @@ fn needed(body: &str, level: KeepLevel, rotation: &str) -> String {
 }
 
 fn list(misfits: &[Misfit]) -> String {
-    let parts = misfits.iter().take(NAMED).map(Misfit::to_string);
+    first(misfits, NAMED)
+}
+
+fn few(misfits: &[Misfit]) -> String {
+    first(misfits, FEW)
+}
+
+fn first(misfits: &[Misfit], most: usize) -> String {
+    let parts = misfits.iter().take(most).map(Misfit::to_string);
     let named = parts.collect::<Vec<_>>().join(", ");
-    match misfits.len().saturating_sub(NAMED) {
+    match misfits.len().saturating_sub(most) {
         0 => named,
         more => format!("{named}, and {more} more"),
     }
@@ -199,3 +212,6 @@ fn list(misfits: &[Misfit]) -> String {
 
 /// Largest number of joints named in a message.
 const NAMED: usize = 20;
+
+/// Largest number of joints named beside a correction.
+const FEW: usize = 4;

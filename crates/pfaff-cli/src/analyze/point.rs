@@ -3,6 +3,7 @@
 use pfaff::ConfigurationAnalysis;
 use pfaff::model::System;
 
+use crate::args::in_si;
 use crate::output::Failure;
 
 /// The point of `--about`: coordinates, or the place of a marker.
@@ -14,17 +15,17 @@ pub(super) fn point(
         return Ok(place);
     }
     let n = configuration.mechanism.layout().space.n_translations();
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|x| x.trim().parse()).collect();
+    let numbers: Option<Vec<f64>> = text.split(',').map(|x| in_si(x, "1 m")).collect();
     let mut point = [0.0; 3];
     match numbers {
-        Ok(numbers) if numbers.len() == n && numbers.iter().all(|x| x.is_finite()) => {
+        Some(numbers) if numbers.len() == n => {
             point[..n].copy_from_slice(&numbers);
             Ok(point)
         }
         _ => {
             let form = ["X", "Y", "Z"][..n].join(",");
             Err(Failure::input(format!(
-                "--about is `{text}`, need {n} numbers as {form} (m), or the name of a marker"
+                "--about is `{text}`, need {n} numbers as {form} (m, or with units, as 310mm), or the name of a marker"
             )))
         }
     }

@@ -258,7 +258,7 @@ fn moments(d: &AnalysisDocument) -> String {
             table.push(vec![r.name.clone(), each(&moment.components)]);
         }
         let about = coordinates(&moment.about);
-        out.push_str(&format!("\nMoments about {about}:\n{}", columns(&table)));
+        out.push_str(&format!("\nMoments about {about} m:\n{}", columns(&table)));
     }
     let mut centres: Vec<(String, Vec<&str>)> = Vec::new();
     for r in &d.reactions {

@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use pfaff::model::Tolerance;
+use pfaff::scene::WithUnit;
 
 /// Other numbers in a scene.
 #[derive(Args, Clone, Default)]
@@ -40,10 +41,10 @@ impl FromStr for Setting {
 pub(crate) struct Known {
     #[command(flatten)]
     pub(crate) settings: Settings,
-    /// Tolerance of points and lengths of the scene (m), in place of its `tolerance`
+    /// Tolerance of points and lengths of the scene (m, or as 0.1mm), in place of its `tolerance`
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = length)]
     pub(crate) tolerance: Option<f64>,
-    /// Tolerance of directions, angles and ratios (rad), in place of `angle_tolerance`; if neither
+    /// Tolerance of directions, angles and ratios (rad, or as 0.01deg), in place of `angle_tolerance`; if neither
     /// is given: LENGTH divided by the mechanism's size
     #[arg(long, value_name = "RAD", allow_hyphen_values = true, value_parser = angle)]
     pub(crate) angle_tolerance: Option<f64>,
@@ -59,17 +60,38 @@ impl From<&Known> for Tolerance {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    positive(text, "a length in m > 0, as 1e-4")
+    positive(
+        text,
+        "1 m",
+        "a length > 0 in m, as 1e-4, or with its unit, as 0.1mm",
+    )
 }
 
 fn angle(text: &str) -> Result<f64, String> {
-    positive(text, "an angle in rad > 0, as 1e-5")
+    positive(
+        text,
+        "1 rad",
+        "an angle > 0 in rad, as 1e-5, or with its unit, as 0.01deg",
+    )
 }
 
-fn positive(text: &str, expected: &str) -> Result<f64, String> {
-    let number: Option<f64> = text.trim().parse().ok();
-    let positive = number.filter(|x| x.is_finite() && *x > 0.0);
+fn positive(text: &str, unit: &str, expected: &str) -> Result<f64, String> {
+    let positive = in_si(text, unit).filter(|x| *x > 0.0);
     positive.ok_or_else(|| format!("need {expected}"))
+}
+
+/// A finite number in SI, or one with a unit that is like this one.
+pub(crate) fn in_si(text: &str, like: &str) -> Option<f64> {
+    let text = text.trim();
+    let number = match text.parse() {
+        Ok(number) => number,
+        Err(_) => {
+            let with_unit = WithUnit::read(text)?;
+            let is_like = WithUnit::read(like).is_some_and(|unit| unit.is_like(&with_unit));
+            with_unit.in_si(is_like.then_some(with_unit.number)?)
+        }
+    };
+    Some(number).filter(|x: &f64| x.is_finite())
 }
 
 #[cfg(test)]
@@ -91,9 +113,14 @@ mod tests {
     fn numbers_above_zero_are_tolerances() {
         assert_eq!(length("1e-4"), Ok(1e-4));
         assert_eq!(angle(" 2 "), Ok(2.0));
-        for wrong in ["0", "-1e-4", "nan", "inf", "1e-400", "0.1mm", ""] {
-            let refused = length(wrong);
-            assert_eq!(refused, Err("need a length in m > 0, as 1e-4".to_owned()));
+        assert_eq!(length("0.1mm"), Ok(1e-4));
+        assert_eq!(length("0.1 mm"), Ok(1e-4));
+        assert_eq!(angle("180deg"), Ok(std::f64::consts::PI));
+        for wrong in [
+            "0", "-1e-4", "nan", "inf", "1e-400", "0.1deg", "0.1 kg", "-1mm", "",
+        ] {
+            let refused = length(wrong).expect_err(wrong);
+            assert!(refused.starts_with("need a length > 0 in m"), "{refused}");
         }
     }
 }

@@ -163,8 +163,9 @@ fn moments_are_judged_about_any_point() {
     for wrong in ["0,0", "0,0,x", "0,0,inf", "nowhere"] {
         let output = asked(wrong);
         assert_eq!(output.status.code(), Some(2), "{wrong}");
-        let told =
-            format!("--about is `{wrong}`, need 3 numbers as X,Y,Z (m), or the name of a marker");
+        let told = format!(
+            "--about is `{wrong}`, need 3 numbers as X,Y,Z (m, or with units, as 310mm), or the name of a marker"
+        );
         assert!(
             stderr(&output).contains(&told) || stdout(&output).contains(&told),
             "{wrong}"

@@ -95,13 +95,13 @@ fn every_command_that_judges_takes_them() {
     ];
     for command in commands {
         for (flag, value, expected) in [
-            ("--tolerance", "0", "need a length in m > 0, as 1e-4"),
-            ("--tolerance", "-1e-4", "need a length in m > 0, as 1e-4"),
-            ("--tolerance", "0.1mm", "need a length in m > 0, as 1e-4"),
+            ("--tolerance", "0", "need a length > 0 in m, as 1e-4"),
+            ("--tolerance", "-1e-4", "need a length > 0 in m, as 1e-4"),
+            ("--tolerance", "0.1kg", "need a length > 0 in m, as 1e-4"),
             (
                 "--angle-tolerance",
                 "inf",
-                "need an angle in rad > 0, as 1e-5",
+                "need an angle > 0 in rad, as 1e-5",
             ),
         ] {
             let output = pfaff(&[command, &[flag, value]].concat());

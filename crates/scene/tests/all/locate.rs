@@ -41,7 +41,7 @@ fn a_requirement_points_at_the_place_of_the_joint() {
 }
 
 #[test]
-fn a_large_correction_points_at_the_position_of_the_body() {
+fn a_large_correction_points_at_the_joint_that_misses() {
     let text = "[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"b\"]\n\
                 points = { ground = [0, 0], b = [0, 0] }\n";
     let scene = read_more(text);
@@ -52,7 +52,12 @@ fn a_large_correction_points_at_the_position_of_the_body() {
         "{error}"
     );
     let d = scene.locate_start(&error).expect("a place");
-    assert_eq!(&text_of(&scene)[d.primary.span.clone()], "[3.0, 2.0]");
+    assert_eq!(&text_of(&scene)[d.primary.span.clone()], "A");
+    // √(3² + 2²)
+    assert!(
+        error.to_string().contains("these miss: `A` by 3.606 m;"),
+        "{error}"
+    );
 }
 
 #[test]
