@@ -146,23 +146,26 @@ fn say(fault: syntax::Fault, findings: &mut Findings) {
     findings.error_with_help(Mistake::NotToml, span, message, label, help);
 }
 
-/// Whether the scene says that its bodies move in space, or in another word means it. Where it says
-/// nothing, the first position or point of three numbers does.
+/// Whether the scene says that its bodies move in space. Where it says nothing or another word, the
+/// first position or point tells by its numbers, so that one mistake is not followed by many; and
+/// without one, what the word may mean.
 fn is_spatial(root: &DeTable) -> bool {
     let heading = root.get(section::SCENE.name);
     let space = heading.and_then(|heading| heading.get_ref().get(SPACE.name));
-    if let Some(space) = space.and_then(|space| space.get_ref().as_str()) {
-        return nearest(space, spaces()) == Some(Space3::NAME);
+    let space = space.and_then(|space| space.get_ref().as_str());
+    if let Some(known) = spaces().into_iter().find(|known| space == Some(*known)) {
+        return known == Space3::NAME;
     }
-    let placed = [("body", "position"), ("joint", "at")];
-    placed.into_iter().any(|(section, key)| {
+    let points = [("body", "position"), ("joint", "at")].map(|(section, key)| {
         let entries = root.get(section).and_then(|all| all.get_ref().as_array());
         let points = entries.into_iter().flatten();
         let mut points = points.filter_map(|entry| entry.get_ref().get(key)?.get_ref().as_array());
-        points
-            .next()
-            .is_some_and(|point| point.len() == Space3::DIM)
-    })
+        points.next().map(|point| point.len())
+    });
+    match points.into_iter().flatten().next() {
+        Some(numbers) => numbers == Space3::DIM,
+        None => space.and_then(|space| nearest(space, spaces())) == Some(Space3::NAME),
+    }
 }
 
 /// Reads all sections. The result may be used only if no problem was found.

@@ -129,6 +129,12 @@ fn proof(d: &AnalysisDocument) -> String {
              within the rounding of the data",
             r + 1
         ),
+        // The bound of `rank` for what vanishes.
+        _ if next <= 1e-26 => format!(
+            "rank {r} proved; σ_{} vanishes in doubled precision (below 1e-26), with forces and lever arms that are rounding of the data taken \
+             as zero: {others} redundant to within that rounding",
+            r + 1
+        ),
         _ => format!(
             "rank {r} proved; σ_{} = {next:.1e} stays in doubled precision, but is below the {:.1e} that the rounding of the data \
              leaves open: {others} redundant to within the rounding of the data",
