@@ -117,7 +117,7 @@ impl KeptRows {
             Some(partition) => partition.0 = pivot,
             None => {
                 self.reference_pivot = pivot;
-                self.solver.keep_shares();
+                self.solver.keep_shares(&self.mass);
             }
         }
         Ok(())

@@ -4,9 +4,13 @@
 //! The first one eliminates C itself, solves for the coordinates that its rows determine best,
 //! computes the sign of a bordered determinant, supports independent coordinates, and allows zero
 //! masses. Its work grows with the number of free motions times that of the entries. The second one
-//! is for large mechanisms with many free motions: chains, trains of vehicles.
+//! is for large mechanisms with many free motions: chains, trains of vehicles. Where many rows of a
+//! large mechanism of few motions are skipped for an instant, it takes the place of the first one.
 
-use linalg::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, SchurSaddle, SchurStructure};
+use linalg::{
+    GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, SchurSaddle, SchurStructure,
+    SparseMatrix,
+};
 use model::{Mechanism, System};
 
 use super::matrix::{KeptMatrix, pattern_of};
@@ -31,17 +35,34 @@ enum Factors {
 struct NullSpace {
     saddle: KeptRowSaddle,
     refinement: Refinement,
+    /// For instants at which many motions are free; `None` for small mechanisms, and where the
+    /// Schur complement is not accurate enough.
+    many: Option<Box<Many>>,
 }
 
-/// Calls the same method of either solver.
-macro_rules! each {
-    ($factors:expr, $it:ident => $value:expr) => {
+/// The Schur complement in place of the null space.
+#[derive(Clone)]
+struct Many {
+    saddle: SchurSaddle,
+    /// The smallest relative pivot of its reference over that of the null space; 0 before it is
+    /// known.
+    share: f64,
+    /// Whether the last factorisation is its own, with this floor and these masses.
+    is_used: bool,
+    floor: f64,
+    mass: Vec<f64>,
+}
+
+/// One value from the solver in the null space that made the last factorisation, or another from
+/// the Schur complement.
+macro_rules! either {
+    ($factors:expr, $null_space:ident => $a:expr, $schur:ident => $b:expr) => {
         match $factors {
-            Factors::NullSpace(null_space) => {
-                let $it = &null_space.saddle;
-                $value
-            }
-            Factors::Schur($it) => $value,
+            Factors::NullSpace($null_space) => match $null_space.used() {
+                None => $a,
+                Some($schur) => $b,
+            },
+            Factors::Schur($schur) => $b,
         }
     };
 }
@@ -51,9 +72,14 @@ macro_rules! each {
 /// motions free, every coordinate has a mass, and solutions need no refinement because of different
 /// masses; or if there is too much of both for the null space.
 pub(crate) fn is_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
+    mechanism.layout().n_v.saturating_sub(rows) > FREE_MOST && allows_schur(mechanism, size, rows)
+}
+
+/// Whether the Schur complement is accurate enough for this number of rows of a mechanism of this
+/// size (m), and worth its memory.
+fn allows_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     let is_graded = || mass_spread(mechanism, size) >= GRADED_MASSES;
     rows >= SCHUR_FROM
-        && mechanism.layout().n_v.saturating_sub(rows) > FREE_MOST
         && mechanism.mass().iter().all(|&m| m > 0.0)
         && (rows > REFINED_MOST || !is_graded())
 }
@@ -64,18 +90,21 @@ pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) ->
     let layout = mechanism.layout();
     let of_level = |kept: &[usize]| {
         let c = pattern_of(mechanism, kept);
-        let factors = if is_schur(mechanism, size, levels[0].len()) {
-            structure(mechanism, &c).bytes()
-        } else {
-            KeptRowSaddle::bytes(&c)
-        };
+        let rows = levels[0].len();
+        let mut factors = 0;
+        if allows_schur(mechanism, size, rows) {
+            factors += structure(mechanism, &c).bytes();
+        }
+        if !is_schur(mechanism, size, rows) {
+            factors += KeptRowSaddle::bytes(&c);
+        }
         factors + KeptMatrix::bytes(c.nnz())
     };
     let vectors = VECTORS * size_of::<f64>() * (layout.n_q + layout.n_v + layout.rows());
     levels.into_iter().map(of_level).sum::<usize>() + vectors
 }
 
-fn structure(mechanism: &Mechanism, c: &linalg::SparseMatrix) -> SchurStructure {
+fn structure(mechanism: &Mechanism, c: &SparseMatrix) -> SchurStructure {
     let bodies = 0..mechanism.bodies().len();
     let blocks: Vec<_> = bodies.map(|b| mechanism.layout().columns(b)).collect();
     SchurStructure::new(c, &blocks)
@@ -102,10 +131,20 @@ impl Solver {
             return Err(SaddleError::ZeroMass { index, value });
         }
         let columns: Vec<Vec<usize>> = (0..r).map(|k| rows.c.row(k).0.to_vec()).collect();
+        let many = allows_schur(mechanism, size, of_c).then(|| {
+            Box::new(Many {
+                saddle: SchurSaddle::new(structure(mechanism, &rows.c)),
+                share: 0.0,
+                is_used: false,
+                floor: 0.0,
+                mass: Vec::new(),
+            })
+        });
         let factors = Factors::NullSpace(Box::new(NullSpace {
             saddle: KeptRowSaddle::with_columns(n, &columns)?
                 .graded_by(mass_spread(mechanism, size)),
             refinement: Refinement::new(n, r),
+            many,
         }));
         Ok(Self { rows, factors })
     }
@@ -121,7 +160,7 @@ impl Solver {
         self.rows.take(entries);
         let c = &self.rows.c;
         match &mut self.factors {
-            Factors::NullSpace(it) => it.saddle.factor_above(floor, |k| c.row(k).1, mass),
+            Factors::NullSpace(it) => it.factor_above(floor, c, mass),
             Factors::Schur(it) => it.factor_above(floor, c, mass),
         }
     }
@@ -134,10 +173,9 @@ impl Solver {
         x: &mut [f64],
         lambda: &mut [f64],
     ) -> Result<(), SaddleError> {
-        match &mut self.factors {
-            Factors::NullSpace(it) => it.saddle.motion(force, rhs, x),
-            Factors::Schur(it) => it.solve(&self.rows.c, force, rhs, x, lambda),
-        }
+        either!(&mut self.factors,
+            it => it.saddle.motion(force, rhs, x),
+            schur => schur.solve(&self.rows.c, force, rhs, x, lambda))
     }
 
     /// Like [`Self::motion`], with λ, refined in double-double if possible.
@@ -149,13 +187,12 @@ impl Solver {
         lambda: &mut [f64],
     ) -> Result<(), SaddleError> {
         let c = &self.rows.c;
-        match &mut self.factors {
-            Factors::NullSpace(it) => {
-                let NullSpace { saddle, refinement } = it.as_mut();
+        either!(&mut self.factors,
+            it => {
+                let NullSpace { saddle, refinement, .. } = it.as_mut();
                 saddle.solve_refined(refinement, |k| c.row(k).1, force, rhs, x, lambda)
-            }
-            Factors::Schur(it) => it.solve(c, force, rhs, x, lambda),
-        }
+            },
+            schur => schur.solve(c, force, rhs, x, lambda))
     }
 
     /// Computes λ of a motion x.
@@ -165,56 +202,87 @@ impl Solver {
         x: &[f64],
         lambda: &mut [f64],
     ) -> Result<(), SaddleError> {
-        match &mut self.factors {
-            Factors::NullSpace(it) => it.saddle.multipliers(force, x, lambda),
-            Factors::Schur(it) => it.multipliers(&self.rows.c, force, x, lambda),
+        either!(&mut self.factors,
+            it => it.saddle.multipliers(force, x, lambda),
+            schur => schur.multipliers(&self.rows.c, force, x, lambda))
+    }
+
+    /// The Schur complement, if the last factorisation is its own.
+    fn schur(&self) -> Option<&SchurSaddle> {
+        match &self.factors {
+            Factors::NullSpace(it) => {
+                let many = it.many.as_ref().filter(|many| many.is_used);
+                many.map(|many| &many.saddle)
+            }
+            Factors::Schur(it) => Some(it),
+        }
+    }
+
+    /// The solver in the null space, if the last factorisation is its own.
+    fn own(&self) -> Option<&NullSpace> {
+        match &self.factors {
+            Factors::NullSpace(it) if self.schur().is_none() => Some(it),
+            _ => None,
         }
     }
 
     /// Whether solutions include their multipliers.
     pub(super) fn brings_multipliers(&self) -> bool {
-        matches!(self.factors, Factors::Schur(_))
+        self.schur().is_some()
     }
 
     pub(super) fn wants_refinement(&self) -> bool {
-        matches!(&self.factors, Factors::NullSpace(it) if it.saddle.wants_refinement())
+        self.own().is_some_and(|it| it.saddle.wants_refinement())
     }
 
     pub(super) fn pivot_ratio(&self) -> f64 {
-        each!(&self.factors, it => it.pivot_ratio())
+        match (&self.factors, self.schur()) {
+            (Factors::NullSpace(it), Some(schur)) => {
+                let share = it.many.as_ref().map_or(1.0, |many| many.share);
+                schur.pivot_ratio() / share
+            }
+            (Factors::NullSpace(it), None) => it.saddle.pivot_ratio(),
+            (Factors::Schur(it), _) => it.pivot_ratio(),
+        }
     }
 
     pub(super) fn n_left_out(&self) -> usize {
-        each!(&self.factors, it => it.n_left_out())
+        match (self.own(), self.schur()) {
+            (Some(it), _) => it.saddle.n_left_out(),
+            (None, schur) => schur.map_or(0, SchurSaddle::n_left_out),
+        }
     }
 
     pub(super) fn uses(&self, k: usize) -> bool {
-        each!(&self.factors, it => it.uses(k))
+        match (self.own(), self.schur()) {
+            (Some(it), _) => it.saddle.uses(k),
+            (None, schur) => schur.is_some_and(|it| it.uses(k)),
+        }
     }
 
     /// Compares the rows of the next factorisations with what this one has left of them.
-    pub(super) fn keep_shares(&mut self) {
-        if let Factors::Schur(it) = &mut self.factors {
-            it.keep_shares();
+    pub(super) fn keep_shares(&mut self, mass: &[f64]) {
+        match &mut self.factors {
+            Factors::Schur(it) => it.keep_shares(),
+            Factors::NullSpace(it) => it.keep_shares(&self.rows.c, mass),
         }
     }
 
     /// The rows and the solver in their null space, which alone supports independent coordinates.
     pub(super) fn null_space(
         &mut self,
-    ) -> Result<(&linalg::SparseMatrix, &mut KeptRowSaddle), SaddleError> {
+    ) -> Result<(&SparseMatrix, &mut KeptRowSaddle), SaddleError> {
+        let c = &self.rows.c;
         match &mut self.factors {
-            Factors::NullSpace(it) => Ok((&self.rows.c, &mut it.saddle)),
-            Factors::Schur(_) => Err(SaddleError::Large {
-                rows: self.rows.c.nrows(),
-            }),
+            Factors::NullSpace(it) => Ok((c, it.factored(c)?)),
+            Factors::Schur(_) => Err(SaddleError::Large { rows: c.nrows() }),
         }
     }
 
     /// Writes a basis of the motions that the factored rows allow; empty for the Schur complement.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
         frame.clear();
-        if let Factors::NullSpace(it) = &self.factors {
+        if let Some(it) = self.own() {
             frame.resize(it.frame(), 0.0);
             it.saddle.null_frame(frame);
         }
@@ -223,14 +291,68 @@ impl Solver {
     /// Sign of the determinant of the factored rows bordered by a basis of motions; 0 for a basis
     /// of another size and for the Schur complement.
     pub(super) fn orientation(&mut self, frame: &[f64]) -> f64 {
+        let is_own = self.own().is_some_and(|it| frame.len() == it.frame());
         match &mut self.factors {
-            Factors::NullSpace(it) if frame.len() == it.frame() => it.saddle.orientation(frame),
+            Factors::NullSpace(it) if is_own => it.saddle.orientation(frame),
             _ => 0.0,
         }
     }
 }
 
 impl NullSpace {
+    /// The Schur complement, if the last factorisation is its own.
+    fn used(&mut self) -> Option<&mut SchurSaddle> {
+        let many = self.many.as_mut().filter(|many| many.is_used);
+        many.map(|many| &mut many.saddle)
+    }
+
+    fn factor_above(
+        &mut self,
+        floor: f64,
+        c: &SparseMatrix,
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
+        let Some(many) = self.many.as_mut().filter(|many| many.share > 0.0) else {
+            return self.saddle.factor_above(floor, |k| c.row(k).1, mass);
+        };
+        many.is_used = false;
+        match self
+            .saddle
+            .factor_up_to(FREE_MOST, floor, |k| c.row(k).1, mass)
+        {
+            Err(SaddleError::ManyFree { .. }) => {
+                (many.is_used, many.floor) = (true, floor);
+                many.mass.clear();
+                many.mass.extend_from_slice(mass);
+                many.saddle.factor_above(floor * many.share, c, mass)
+            }
+            factored => factored,
+        }
+    }
+
+    /// The solver itself, with the factors of these rows even where the Schur complement is used.
+    fn factored(&mut self, c: &SparseMatrix) -> Result<&mut KeptRowSaddle, SaddleError> {
+        if let Some(many) = self.many.as_mut().filter(|many| many.is_used) {
+            many.is_used = false;
+            let (floor, mass) = (many.floor, &many.mass);
+            self.saddle.factor_above(floor, |k| c.row(k).1, mass)?;
+        }
+        Ok(&mut self.saddle)
+    }
+
+    /// Factors the rows of the last factorisation by the Schur complement as well, so that its
+    /// pivots can be compared with those here.
+    fn keep_shares(&mut self, c: &SparseMatrix, mass: &[f64]) {
+        let Some(many) = &mut self.many else { return };
+        let usual = self.saddle.pivot_ratio();
+        let factored = many.saddle.factor_above(0.0, c, mass);
+        let share = many.saddle.pivot_ratio() / usual;
+        if factored.is_ok() && many.saddle.n_left_out() == 0 && share.is_finite() {
+            many.saddle.keep_shares();
+            many.share = share;
+        }
+    }
+
     /// Number of entries of a basis of the free motions of the last factorisation.
     fn frame(&self) -> usize {
         let n = self.saddle.n_coordinates();

@@ -78,6 +78,12 @@ pub enum SaddleError {
         /// Number of rows.
         rows: usize,
     },
+    /// More motions are free than the caller wants to be treated one by one.
+    #[error("{free} motions are free, more than are treated one by one")]
+    ManyFree {
+        /// Number of free motions.
+        free: usize,
+    },
     /// A kept row depends on the rows before it.
     #[error(
         "kept row {row} depends on the rows before it: pivot {pivot:.3e} in a row of size \

@@ -69,12 +69,31 @@ impl KeptRowSaddle {
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
+        self.factor_up_to(usize::MAX, floor, row, mass)
+    }
+
+    /// Like [`KeptRowSaddle::factor_above`], but stops before the null space is computed if more
+    /// than so many motions are free, for which another solver is less work.
+    ///
+    /// # Errors
+    /// As [`KeptRowSaddle::factor_above`], and [`SaddleError::ManyFree`].
+    pub fn factor_up_to<'c>(
+        &mut self,
+        most_free: usize,
+        floor: f64,
+        row: impl Fn(usize) -> &'c [f64],
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
         self.prepare(mass)?;
         let graded = self.is_graded.then_some(mass);
         let floor = floor.max(PIVOT_FLOOR);
         for j in 0..self.lu.n_rows() {
             let k = self.lu.order[j];
             self.lu.eliminate((k, row(k)), graded, floor)?;
+        }
+        let free = self.lu.n - self.lu.r;
+        if free > most_free {
+            return Err(SaddleError::ManyFree { free });
         }
         self.finish(row, mass)
     }

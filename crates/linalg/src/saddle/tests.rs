@@ -237,3 +237,25 @@ fn a_pivot_of_a_few_roundings_is_no_pivot() {
         assert_eq!(factored.is_err(), is_lost, "{roundings}");
     }
 }
+
+/// Two rows that depend on each other at an instant leave one motion more: from a limit on, the
+/// null space is not computed.
+#[test]
+fn many_free_motions_stop_a_factorisation() {
+    let rows = [[1.0, 0.0, 0.0], [1.0, 1e-9, 0.0]];
+    let mut saddle = KeptRowSaddle::new(3, 2).expect("fewer rows");
+    let refused = saddle.factor_up_to(1, 1e-6, |k| &rows[k], &[1.0; 3]);
+    assert_eq!(refused, Err(SaddleError::ManyFree { free: 2 }));
+    let solved = saddle.motion(&[0.0; 3], &[0.0; 2], &mut [0.0; 3]);
+    assert_eq!(solved, Err(SaddleError::NotFactored));
+    // The next one is as if there had been none.
+    let rows = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+    saddle
+        .factor_up_to(1, 1e-6, |k| &rows[k], &[1.0; 3])
+        .expect("independent");
+    let mut x = [0.0; 3];
+    saddle
+        .motion(&[0.0, 0.0, 5.0], &[2.0, 7.0], &mut x)
+        .expect("factored");
+    assert_eq!(x, [2.0, 5.0, 5.0]);
+}
