@@ -7,8 +7,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates whose constants are in a table, `limits.rs`, and the required entries of the table.
-const TABLES: [(&str, &str); 5] = [
+const TABLES: [(&str, &str); 6] = [
     ("dynamics", include_str!("../reference/limits-dynamics.txt")),
+    ("import", include_str!("../reference/limits-import.txt")),
     ("linalg", include_str!("../reference/limits-linalg.txt")),
     ("rank", include_str!("../reference/limits-rank.txt")),
     ("rotation", include_str!("../reference/limits-rotation.txt")),

@@ -7,7 +7,7 @@ mod loops;
 use nalgebra::{DMatrix, DVector, Isometry3, Vector3};
 
 use crate::couple;
-use crate::limits::{ASSEMBLED, CLOSED, GUESSES, ITERATIONS, MOST_COORDINATES};
+use crate::limits::{ASSEMBLED, CLOSED, GUESSES, ITERATIONS, MOST_COORDINATES, OPEN};
 use crate::mechanism::{Kind, Model};
 use crate::pose::{Placed, displaced, rotation};
 use loops::{Gap, Tree};
@@ -41,10 +41,26 @@ pub(crate) fn gap(model: &Model) -> f64 {
     gaps.iter().map(Gap::size).fold(0.0, f64::max)
 }
 
-/// Assembles a model from a guess of changes of its coordinates.
+/// Where the links are for a guess of changes of coordinates.
+pub(crate) fn poses(model: &Model, guess: &[(usize, usize, f64)]) -> Vec<Isometry3<f64>> {
+    State::new(model, guess).poses(model)
+}
+
+/// What is open for these poses of the links and changes of the coordinates, in words: names with
+/// distances and angles.
+pub(crate) fn open(model: &Model, poses: &[Isometry3<f64>], moved: &[[f64; 2]]) -> Vec<String> {
+    let gaps = Tree::new(model).gaps(model, poses, moved);
+    let open = gaps.iter().filter(|gap| gap.size() > OPEN);
+    open.map(|gap| format!("`{}` by {}", gap.name, gap.words()))
+        .collect()
+}
+
+/// Assembles a model from a guess of changes of its coordinates. Those that are `held` (joint,
+/// coordinate) keep their values of the guess, if the loops close with them.
 pub(crate) fn assemble(
     model: &Model,
     guess: &[(usize, usize, f64)],
+    held: &[(usize, usize)],
 ) -> Result<Assembled, NotAssembled> {
     let tree = Tree::new(model);
     let n = tree.freedoms.len();
@@ -52,28 +68,15 @@ pub(crate) fn assemble(
         return Err(NotAssembled::TooLarge(n));
     }
     let first = State::new(model, guess);
-    let mut best = first.clone();
-    let mut least = best.descend(model, &tree, None);
-    let mut way = "from the guess";
-    if least > ASSEMBLED {
-        let mut state = first.clone();
-        let found = state.continue_from(model, &tree);
-        if found < least {
-            (best, least, way) = (state, found, "by continuation from the guess");
+    let mut best = first.search(model, &tree.holding(held));
+    if best.1 > ASSEMBLED && !held.is_empty() {
+        let free = first.search(model, &tree);
+        // Where neither closes, because digits do not fit, what was asked for counts more.
+        if free.1 <= ASSEMBLED || best.1 > CLOSED {
+            best = free;
         }
     }
-    let mut random = Random(0x9E37_79B9_7F4A_7C15);
-    for _ in 0..GUESSES {
-        if least <= ASSEMBLED {
-            break;
-        }
-        let mut state = first.clone();
-        state.shake(model, &mut random);
-        let found = state.descend(model, &tree, None);
-        if found < least {
-            (best, least, way) = (state, found, "from another guess, found at random");
-        }
-    }
+    let (best, least, way) = best;
     let poses = best.poses(model);
     if least > CLOSED {
         let gaps = tree.gaps(model, &poses, &best.q);
@@ -152,6 +155,33 @@ impl State {
         }
     }
 
+    /// The state with the smallest gap that is found from this one, its gap, and how it was found.
+    fn search(&self, model: &Model, tree: &Tree) -> (Self, f64, &'static str) {
+        let mut best = self.clone();
+        let mut least = best.descend(model, tree, None);
+        let mut way = "from the guess";
+        if least > ASSEMBLED {
+            let mut state = self.clone();
+            let found = state.continue_from(model, tree);
+            if found < least {
+                (best, least, way) = (state, found, "by continuation from the guess");
+            }
+        }
+        let mut random = Random(0x9E37_79B9_7F4A_7C15);
+        for _ in 0..GUESSES {
+            if least <= ASSEMBLED {
+                break;
+            }
+            let mut state = self.clone();
+            state.shake(model, tree, &mut random);
+            let found = state.descend(model, tree, None);
+            if found < least {
+                (best, least, way) = (state, found, "from another guess, found at random");
+            }
+        }
+        (best, least, way)
+    }
+
     fn displacements(&self, model: &Model) -> Vec<Isometry3<f64>> {
         displaced(model, &self.moved)
     }
@@ -162,8 +192,8 @@ impl State {
         links.map(|(link, g)| g * link.pose).collect()
     }
 
-    /// Other values of all coordinates.
-    fn shake(&mut self, model: &Model, random: &mut Random) {
+    /// Other values of all coordinates that are not held.
+    fn shake(&mut self, model: &Model, tree: &Tree, random: &mut Random) {
         for (k, joint) in model
             .joints
             .iter()
@@ -175,7 +205,10 @@ impl State {
                     "displacement" => 0.2,
                     _ => 1.5,
                 };
-                self.q[k][c] += range * random.signed();
+                let by = range * random.signed();
+                if !tree.held.contains(&(k, c)) {
+                    self.q[k][c] += by;
+                }
             }
             if joint.kind == Kind::Spherical {
                 let axis = Vector3::new(random.signed(), random.signed(), random.signed());

@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::findings::Findings;
-use crate::limits::{EXACT, NEARLY, SNAPPED};
+use crate::limits::{EXACT, MEETING, NEARLY, SNAPPED};
 use crate::mechanism::{Kind, Model};
 use crate::pose::placing;
 
@@ -27,6 +27,116 @@ struct Axis {
     direction: Vector3<f64>,
 }
 
+/// An axis that is tilted against others of its loop.
+struct Tilt {
+    joint: usize,
+    /// Angle (rad).
+    off: f64,
+    /// The direction of the others, with the sense of the axis.
+    direction: Vector3<f64>,
+    /// Names of the others.
+    others: String,
+}
+
+impl Tilt {
+    fn words(&self, model: &Model) -> String {
+        format!(
+            "the axis of `{}` is tilted by {:.2e} rad against {} of its loop",
+            model.joints[self.joint].name, self.off, self.others
+        )
+    }
+}
+
+/// Angle up to which axes are made parallel, for what angles are known to.
+fn near(angle: Option<f64>) -> f64 {
+    SNAPPED.max(3.0 * angle.unwrap_or(0.0))
+}
+
+/// The axes of one loop that nearly are parallel to most others of it.
+fn tilted(
+    model: &Model,
+    poses: &[Isometry3<f64>],
+    loop_: &[usize],
+    angle: Option<f64>,
+) -> (Vec<Axis>, Option<Axis>, Vec<Tilt>) {
+    let known = EXACT.max(angle.unwrap_or(0.0));
+    let of: Vec<Axis> = loop_
+        .iter()
+        .filter_map(|&joint| axis(model, poses, joint))
+        .collect();
+    // The reference is the axis that most others of the loop agree with.
+    let agree = |a: &Axis| of.iter().filter(|b| tilt(a, b) <= known).count();
+    let votes: Vec<usize> = of.iter().map(agree).collect();
+    let best = (0..of.len()).max_by_key(|&k| (votes[k], Reverse(of[k].joint)));
+    let Some(reference) = best.map(|best| of[best]) else {
+        return (of, None, Vec::new());
+    };
+    let mut members: Vec<&Axis> = of.iter().collect();
+    members.sort_unstable_by_key(|axis| axis.joint);
+    let tilts = of.iter().filter_map(|axis| {
+        let off = tilt(&reference, axis);
+        if off <= EXACT || off > NEARLY {
+            return None;
+        }
+        let others: Vec<String> = members
+            .iter()
+            .filter(|other| other.joint != axis.joint && tilt(&reference, other) <= known)
+            .map(|other| format!("`{}`", model.joints[other.joint].name))
+            .collect();
+        Some(Tilt {
+            joint: axis.joint,
+            off,
+            direction: reference.direction * reference.direction.dot(&axis.direction).signum(),
+            others: others.join(", "),
+        })
+    });
+    let tilts = tilts.collect();
+    (of, Some(reference), tilts)
+}
+
+/// Axes that `--snap` would make parallel, in words; `None` if there are none.
+pub(crate) fn tilts(model: &Model, poses: &[Isometry3<f64>], angle: Option<f64>) -> Option<String> {
+    let loops = loops(model);
+    let all = loops
+        .iter()
+        .flat_map(|loop_| tilted(model, poses, loop_, angle).2);
+    let near = all.filter(|tilt| tilt.off <= near(angle));
+    let mut words: Vec<String> = near.map(|tilt| tilt.words(model)).collect();
+    words.dedup();
+    (!words.is_empty()).then(|| words.join("; "))
+}
+
+/// Makes axes parallel that nearly are, before loops are closed: `poses` are those of the guess.
+pub(crate) fn align(
+    model: &mut Model,
+    poses: &[Isometry3<f64>],
+    angle: Option<f64>,
+    findings: &mut Findings,
+) {
+    for loop_ in loops(model) {
+        for tilt in tilted(model, poses, &loop_, angle).2 {
+            if tilt.off <= near(angle) {
+                snap(model, poses, &tilt, findings);
+            }
+        }
+    }
+}
+
+fn snap(model: &mut Model, poses: &[Isometry3<f64>], tilt: &Tilt, findings: &mut Findings) {
+    let what = sentence(&tilt.words(model));
+    findings
+        .remarks
+        .push(format!("{what}; it is made parallel."));
+    turn(model, poses, tilt.joint, tilt.direction);
+}
+
+/// Words with a capital at their beginning.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
 /// Names axes of each loop that nearly are parallel or meet. `poses` are those of the links at the
 /// start, `tolerance` what lengths and angles are known to.
 pub(crate) fn look(
@@ -37,65 +147,34 @@ pub(crate) fn look(
     findings: &mut Findings,
 ) {
     let [length, angle] = tolerance;
-    let near = SNAPPED.max(3.0 * angle.unwrap_or(0.0));
     let mut told = std::collections::BTreeSet::new();
     for loop_ in loops(model) {
-        let mut of: Vec<Axis> = loop_
-            .iter()
-            .filter_map(|&joint| axis(model, poses, joint))
-            .collect();
-        // The reference is the axis that most others of the loop agree with.
-        let agree = |a: &Axis, within: f64| of.iter().filter(|b| tilt(a, b) <= within).count();
-        let votes: Vec<usize> = of
-            .iter()
-            .map(|a| agree(a, EXACT.max(angle.unwrap_or(0.0))))
-            .collect();
-        let Some(best) = (0..of.len()).max_by_key(|&k| (votes[k], Reverse(of[k].joint))) else {
-            continue;
-        };
-        let reference = of[best];
-        for axis in &mut of {
-            let off = tilt(&reference, axis);
-            if off <= EXACT || off > NEARLY || !told.insert((reference.joint, axis.joint)) {
+        let (mut of, reference, tilts) = tilted(model, poses, &loop_, angle);
+        let Some(reference) = reference else { continue };
+        for tilt in tilts {
+            if !told.insert((reference.joint, tilt.joint)) {
                 continue;
             }
-            let mut members = loop_.clone();
-            members.sort_unstable();
-            let others: Vec<String> = members
-                .iter()
-                .filter(|&&joint| joint != axis.joint)
-                .filter(|&&joint| {
-                    self::axis(model, poses, joint).is_some_and(|other| {
-                        tilt(&reference, &other) <= EXACT.max(angle.unwrap_or(0.0))
-                    })
-                })
-                .map(|&joint| format!("`{}`", model.joints[joint].name))
-                .collect();
-            let name = &model.joints[axis.joint].name;
-            let what = format!(
-                "The axis of `{name}` is tilted by {off:.2e} rad against {} of its loop",
-                others.join(", ")
-            );
-            if axes == Axes::Snapped && off <= near {
-                findings
-                    .remarks
-                    .push(format!("{what}; it is made parallel."));
-                let sign = reference.direction.dot(&axis.direction).signum();
-                turn(model, poses, axis.joint, reference.direction * sign);
-                axis.direction = reference.direction * sign;
-            } else {
-                let within = if angle.is_some_and(|angle| off <= angle) {
-                    ", within the digits of the file"
-                } else {
-                    ""
-                };
-                let advice = if off <= near {
-                    " (--snap makes it parallel)"
-                } else {
-                    ""
-                };
-                findings.remarks.push(format!("{what}{within}{advice}."));
+            let is_near = tilt.off <= near(angle);
+            if axes == Axes::Snapped && is_near {
+                snap(model, poses, &tilt, findings);
+                for axis in of.iter_mut().filter(|axis| axis.joint == tilt.joint) {
+                    axis.direction = tilt.direction;
+                }
+                continue;
             }
+            let within = if angle.is_some_and(|angle| tilt.off <= angle) {
+                ", within the digits of the file"
+            } else {
+                ""
+            };
+            let advice = if is_near {
+                " (--snap makes it parallel)"
+            } else {
+                ""
+            };
+            let what = sentence(&tilt.words(model));
+            findings.remarks.push(format!("{what}{within}{advice}."));
         }
         let Some(length) = length else { continue };
         for pair in of.windows(2) {
@@ -106,7 +185,7 @@ pub(crate) fn look(
             }
             let normal = normal.normalize();
             let off = normal.dot(&(b.point - a.point));
-            if off.abs() <= length * 1e-6
+            if off.abs() <= length * MEETING
                 || off.abs() > 2.0 * length
                 || !told.insert((a.joint, b.joint))
             {

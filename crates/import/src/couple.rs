@@ -1,6 +1,8 @@
 //! Couplings that are not satisfied where the file describes the links: a coordinate that follows
 //! another one is described where the coupling puts it.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Isometry3;
 
 use crate::findings::Findings;
@@ -28,6 +30,38 @@ pub(crate) fn about(coefficients: &[f64], s: f64) -> Vec<f64> {
         *constant = 0.0;
     }
     shifted
+}
+
+/// The given coordinates (joint, coordinate, change since the described pose), with those that
+/// follow them, and those that lead them where that is linear.
+pub(crate) fn follow(model: &Model, given: &[(usize, usize, f64)]) -> Vec<(usize, usize, f64)> {
+    let mut known: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    known.extend(given.iter().map(|&(joint, k, change)| ((joint, k), change)));
+    // A chain of couplings is followed after as many rounds as it is long.
+    for _ in 0..=model.couplings.len() {
+        let before = known.len();
+        for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
+            let Some(x) = coupling.x else { continue };
+            let y = coupling.y;
+            let ratio = coupling.coefficients.get(1).copied().unwrap_or(0.0);
+            let is_linear = coupling.coefficients.iter().skip(2).all(|c| *c == 0.0);
+            match (known.get(&x).copied(), known.get(&y).copied()) {
+                (Some(at), None) => {
+                    known.insert(y, value(&coupling.coefficients, at));
+                }
+                (None, Some(at)) if is_linear && ratio != 0.0 => {
+                    let first = coupling.coefficients[0];
+                    known.insert(x, (at - first) / ratio);
+                }
+                _ => {}
+            }
+        }
+        if known.len() == before {
+            break;
+        }
+    }
+    let all = known.into_iter();
+    all.map(|((joint, k), change)| (joint, k, change)).collect()
 }
 
 /// Moves what couplings place, and makes their polynomials ones of changes.

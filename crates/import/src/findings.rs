@@ -6,8 +6,10 @@ use std::ops::Range;
 use model::codes::Code;
 use scene::{Diagnostic, SourceText};
 
+use crate::angles::{Suspects, is_beyond_a_turn, is_common_in_radians};
 use crate::digits::Digits;
 use crate::limits::{LARGEST_NUMBER, MOST_PROBLEMS};
+use crate::vocabulary::EXPAND;
 use crate::xml::{Element, Value};
 
 /// A kind of fault of a file.
@@ -21,6 +23,8 @@ pub(crate) enum Fault {
     Value,
     /// A name that nothing has.
     Unknown,
+    /// An attribute or element that the format does not know.
+    Name,
     /// A name that two things have.
     Twice,
     /// Something that changes the mechanism and cannot be read.
@@ -51,6 +55,7 @@ impl Fault {
             Self::Include => const { Code::new(611) },
             Self::Loops => const { Code::new(612) },
             Self::Assembly => const { Code::new(613) },
+            Self::Name => const { Code::new(614) },
         }
     }
 }
@@ -80,6 +85,10 @@ pub(crate) struct Findings {
     pub(crate) file: String,
     pub(crate) lengths: Digits,
     pub(crate) directions: Digits,
+    /// Angles in rad that look like degrees.
+    pub(crate) degrees: Suspects,
+    /// Angles in degrees that look like rad.
+    pub(crate) radians: Suspects,
 }
 
 /// What numbers mean, for the count of digits.
@@ -199,7 +208,9 @@ impl Findings {
             let Some(number) = number else {
                 let shown: String = word.chars().take(40).collect();
                 let message = format!("{}: `{shown}` is not a finite number", value.subject);
-                self.at(Fault::Value, value, message);
+                let help = word.contains("${").then(|| EXPAND.to_owned());
+                let (source, span) = (value.source, value.span.clone());
+                self.fault_with_help(Fault::Value, source, span, message, "", help);
                 return None;
             };
             if numbers.len() > most {
@@ -260,6 +271,20 @@ impl Findings {
         let message = format!("{} has length zero", value.subject);
         self.at(Fault::Range, value, message);
         None
+    }
+
+    /// Notes angles in rad that look like degrees.
+    pub(crate) fn look_for_degrees(&mut self, value: &Value, radians: &[f64]) {
+        if let Some(angle) = radians.iter().find(|x| is_beyond_a_turn(**x)) {
+            self.degrees.see(&value.subject, *angle, value.line());
+        }
+    }
+
+    /// Notes angles in degrees that look like rad.
+    pub(crate) fn look_for_radians(&mut self, value: &Value, degrees: &[f64]) {
+        if let Some(angle) = degrees.iter().find(|x| is_common_in_radians(**x)) {
+            self.radians.see(&value.subject, *angle, value.line());
+        }
     }
 
     /// `true` or `false`.

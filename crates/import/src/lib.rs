@@ -7,17 +7,19 @@
 //! | `limits` | largest sizes |
 //! | `xml`, `files` | guarded parsing, elements with their places; included files |
 //! | `findings` | problems, what is left out, digits of numbers |
+//! | `vocabulary` | the names that a format knows; unknown ones are refused |
 //! | `mjcf`, `urdf` with `loops`, `sdf` | one reader for each format |
 //! | `solids` | what URDF and SDF share |
 //! | `mechanism`, `mass` | links, joints, couplings, keyframes; masses and simple solids |
 //! | `couple` | couplings that are not satisfied where the file describes the links |
-//! | `digits` | what the numbers of a file are known to |
+//! | `digits`, `angles` | what the numbers of a file are known to; angles in another unit |
 //! | `pose` | where links are for coordinates of joints |
-//! | `assemble` | poses at which loops are closed |
+//! | `start`, `assemble` | where the scene starts: keyframes, poses at which loops are closed |
 //! | `axes` | axes that nearly are parallel or meet |
 //! | `merge` | fixed links become parts of others |
 //! | `names`, `write` | the text of the scene |
 
+mod angles;
 mod assemble;
 mod axes;
 mod couple;
@@ -34,7 +36,9 @@ mod names;
 mod pose;
 mod sdf;
 mod solids;
+mod start;
 mod urdf;
+mod vocabulary;
 mod write;
 mod xml;
 
@@ -46,7 +50,6 @@ pub use findings::Omission;
 
 use findings::{Fault, Findings};
 use mechanism::Model;
-use pose::Motion;
 
 /// How a file is imported.
 #[derive(Clone, Debug)]
@@ -125,8 +128,10 @@ pub struct Imported {
     pub omissions: Vec<Omission>,
     /// Statements about the scene as a whole, which stand at its head, too.
     pub remarks: Vec<String>,
-    /// Numbers of bodies and of joints and couplings.
+    /// Numbers of bodies and of joints and couplings of the file.
     pub counts: [usize; 2],
+    /// Number of rotors for armatures: each is one more body with a joint and a coupling.
+    pub rotors: usize,
 }
 
 impl Imported {
@@ -213,13 +218,19 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Box
     }
     check(&model, files.root(), &mut findings);
     couple::settle(&mut model, &mut findings);
-    let motions = start(&mut model, options, files.root(), &mut findings);
+    let tolerance = digits::tolerances(&model, &mut findings);
+    let motions = start::start(
+        &mut model,
+        options,
+        tolerance[1],
+        files.root(),
+        &mut findings,
+    );
     if let Some(refusal) = refused(&mut findings) {
         return Err(refusal);
     }
     let (mut motions, moves) = motions.map_or((Vec::new(), false), |(m, moves)| (m, moves));
     let starts = !motions.is_empty();
-    let tolerance = digits::tolerances(&model, &mut findings);
     let described = model.links.iter().map(|link| link.pose);
     let poses: Vec<_> = if starts {
         motions.iter().map(|motion| motion.pose).collect()
@@ -232,7 +243,10 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Box
     }
     if model.links.is_empty() {
         let message = "every link is fixed to the ground: nothing moves";
-        findings.of(Fault::Structure, files.root(), message);
+        let help = start::nothing_moves(format, options.base);
+        let root = files.root();
+        let fault = Fault::Structure;
+        findings.fault_with_help(fault, root.source, root.span(), message, "", help);
     }
     if let Some(refusal) = refused(&mut findings) {
         return Err(refusal);
@@ -252,6 +266,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Box
         scene,
         format,
         counts: [model.links.len(), joints + model.couplings.len()],
+        rotors: model.rotors(),
         omissions: findings.omissions,
         remarks: findings.remarks,
     })
@@ -264,18 +279,40 @@ fn read<'a>(
     findings: &mut Findings,
 ) -> (Model, &'static str) {
     let root = files.root();
-    let (mut model, format) = match root.name() {
-        "mujoco" => (mjcf::read(files, findings), "MJCF"),
-        "robot" => (urdf::read(root, options.base, findings), "URDF"),
-        "sdf" => (sdf::read(root, findings), "SDF"),
+    let format = match root.name() {
+        "mujoco" => "MJCF",
+        "robot" => "URDF",
+        "sdf" => "SDF",
         other => {
             let shown: String = other.chars().take(40).collect();
             let message =
                 format!("the root is `<{shown}>`, expected `<mujoco>`, `<robot>` or `<sdf>`");
             findings.of(Fault::Format, root, message);
-            (Model::default(), "")
+            return (Model::default(), "");
         }
     };
+    match format {
+        "MJCF" => vocabulary::check(root, mjcf::NAMES, Some(files), findings),
+        "URDF" => vocabulary::check(root, urdf::NAMES, None, findings),
+        _ => vocabulary::check(root, sdf::NAMES, None, findings),
+    }
+    if options.base == Base::Free && format != "URDF" {
+        let message = format!(
+            "a free base belongs to a URDF: {format} says itself what is fixed to the ground"
+        );
+        findings.of(Fault::Unsupported, root, message);
+    }
+    // Readers would miss what is misspelt, and tell that again.
+    if findings.has_problems() {
+        return (Model::default(), format);
+    }
+    let mut model = match format {
+        "MJCF" => mjcf::read(files, findings),
+        "URDF" => urdf::read(root, options.base, findings),
+        _ => sdf::read(root, findings),
+    };
+    let told = angles::remarks(&findings.degrees, &findings.radians);
+    findings.remarks.extend(told);
     match loops {
         Some(text) if format == "URDF" && !findings.has_problems() => {
             urdf::close_loops(&mut model, text, findings);
@@ -311,124 +348,6 @@ fn check(model: &Model, root: xml::Element, findings: &mut Findings) {
         if !is_fine || numbers.into_iter().any(|x| !x.is_finite()) {
             let message = format!("the numbers of body `{}` are too large", link.name);
             findings.of(Fault::Range, root, message);
-        }
-    }
-}
-
-/// The state at which the scene starts, and whether it has velocities; `None` if it starts as
-/// described.
-fn start(
-    model: &mut Model,
-    options: &Options,
-    root: xml::Element,
-    findings: &mut Findings,
-) -> Option<(Vec<Motion>, bool)> {
-    let told = |state: &mechanism::State| format!("`{}`", state.name);
-    let Some(name) = &options.keyframe else {
-        if !model.states.is_empty() {
-            let names: Vec<String> = model.states.iter().map(told).collect();
-            let names = names.join(", ");
-            findings.remarks.push(format!(
-                "Keyframes of the file (--keyframe NAME starts there): {names}."
-            ));
-        }
-        close(model, &options.pose, root, findings);
-        return None;
-    };
-    let Some(state) = model.states.iter().find(|state| state.name == *name) else {
-        let names: Vec<String> = model.states.iter().map(told).collect();
-        let names = if names.is_empty() {
-            "none".to_owned()
-        } else {
-            names.join(", ")
-        };
-        let message = format!("there is no keyframe `{name}`; there are: {names}");
-        findings.of(Fault::Unknown, root, message);
-        return None;
-    };
-    let motions = pose::at_state(model, &state.q, state.v.as_deref());
-    findings
-        .remarks
-        .push(format!("The scene starts at the keyframe `{name}`."));
-    let moves = state.v.is_some();
-    let q = state.q.clone();
-    for (joint, q) in model.joints.iter_mut().zip(q) {
-        for k in 0..joint.kind.measures().len().min(q.len()) {
-            joint.moved[k] = q[k] - joint.zero[k];
-        }
-    }
-    // Angles of a start have no turns, and couplings count them.
-    for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
-        for (joint, k) in coupling.x.into_iter().chain([coupling.y]) {
-            let joint = &model.joints[joint];
-            let turns = joint.kind.measures().get(k) != Some(&"displacement");
-            if turns && joint.moved[k].abs() > std::f64::consts::PI {
-                let message = format!(
-                    "the keyframe `{name}` turns `{}` by {:.3} rad, more than half a turn, and \
-                     `{}` counts turns from where the file describes the links",
-                    joint.name, joint.moved[k], coupling.name
-                );
-                findings.of(Fault::Unsupported, root, message);
-            }
-        }
-    }
-    Some((motions, moves))
-}
-
-/// Describes the links where loops are closed, if they are open where the file describes them or a
-/// pose is wanted.
-fn close(model: &mut Model, pose: &[(String, f64)], root: xml::Element, findings: &mut Findings) {
-    let mut guess = Vec::new();
-    for (name, value) in pose {
-        let found = model.joints.iter().position(|joint| joint.name == *name);
-        match found.filter(|&joint| !model.joints[joint].kind.measures().is_empty()) {
-            Some(joint) => guess.push((joint, 0, value - model.joints[joint].zero[0])),
-            None => {
-                let names = model.joints.iter().map(|joint| joint.name.as_str());
-                let near = scene::nearest(name, names);
-                let help = near.map(|near| format!("did you mean `{near}`?"));
-                let message = format!("there is no joint `{name}` with a coordinate");
-                let fault = Fault::Unknown;
-                findings.fault_with_help(fault, root.source, root.span(), message, "", help);
-            }
-        }
-    }
-    let open = assemble::gap(model);
-    if findings.has_problems() || (guess.is_empty() && open <= limits::OPEN) {
-        return;
-    }
-    match assemble::assemble(model, &guess) {
-        Ok(found) => {
-            let mut remark = format!(
-                "The links are described at a pose at which loops are closed, found {}; \
-                 where the file describes them, loops are open by {open:.1e} of the size or rad.",
-                found.way
-            );
-            if found.gap > limits::ASSEMBLED {
-                remark += &format!(
-                    " The best pose leaves {:.1e} of the size or rad.",
-                    found.gap
-                );
-            }
-            findings.remarks.push(remark);
-            for joint in assemble::describe(model, &found) {
-                let kind = "springs of spherical joints, since another pose is described";
-                findings.leave_element(kind, root, &joint);
-            }
-        }
-        Err(assemble::NotAssembled::Open(name, gap)) => {
-            let message = format!(
-                "no pose is found at which all loops are closed: at the best one `{name}` is open by \
-                 {gap:.1e} of the size or rad"
-            );
-            let help = "give a pose near which they close: --pose joint=0.3,other=-0.2".to_owned();
-            let fault = Fault::Assembly;
-            findings.fault_with_help(fault, root.source, root.span(), message, "", help);
-        }
-        Err(assemble::NotAssembled::TooLarge(n)) => {
-            findings.remarks.push(format!(
-                "Loops are open by {open:.1e} of the size or rad, and {n} coordinates are more than are tried."
-            ));
         }
     }
 }

@@ -1,7 +1,7 @@
-//! What a file may have before it is taken apart. Larger ones are refused, so that no file can take
-//! all memory or the whole stack.
+//! Numbers that somebody chose: what a file may have before it is taken apart, so that no file can
+//! take all memory or the whole stack; what counts as closed, parallel, exact; defaults of formats.
 
-/// Largest file (bytes). Unit: bytes. Less: large scans of robots with comments are refused. More:
+/// Largest file. Unit: bytes. Less: large scans of robots with comments are refused. More:
 /// a hostile file takes some 20 times as much memory. Test: `hostile_files_are_refused`.
 pub(crate) const LARGEST: usize = 16 << 20;
 
@@ -22,12 +22,14 @@ pub(crate) const MOST_FILES: usize = 64;
 /// More: nobody reads them. Test: `problems_are_counted`.
 pub(crate) const MOST_PROBLEMS: usize = 100;
 
-/// Finest and coarsest digit that is taken for a tolerance. Unit: share of the size, or rad. Less
-/// than the coarsest: files with three digits are taken as exact, and their redundant rows as
-/// independent. More: numbers such as 0.5 written by hand are taken as rough. Finer than the finest
-/// are sixteen digits of doubles. Test: `digits_give_the_tolerance`.
+/// Finest digit that is taken for a tolerance. Unit: share of the size, or rad. Less: sixteen
+/// digits of doubles are a tolerance. More: files with twelve digits are taken as exact. Test:
+/// `digits_give_the_tolerance`.
 pub(crate) const FINEST: f64 = 1e-12;
-/// See [`FINEST`].
+
+/// Coarsest digit that is taken for a tolerance. Unit: share of the size, or rad. Less: files with
+/// three digits are taken as exact, and their redundant rows as independent. More: numbers such as
+/// 0.5 written by hand are taken as rough. Test: `digits_give_the_tolerance`.
 pub(crate) const COARSEST: f64 = 1e-3;
 
 /// Gap of a loop below which it is closed. Unit: share of the size, or rad. Less: rounding of long
@@ -50,11 +52,11 @@ pub(crate) const OPEN: f64 = 1e-7;
 pub(crate) const ITERATIONS: usize = 100;
 
 /// Searches from other guesses. Unit: number. Less: loops are not closed from a bad guess. More:
-/// time until a model is refused. Test: `loops_that_cannot_close_are_refused`.
+/// time until a model is refused. Test: `loops_are_closed_from_a_guess`.
 pub(crate) const GUESSES: usize = 24;
 
 /// Most coordinates of a search. Unit: number. Less: humanoids with many loops are not assembled.
-/// More: memory and time, which grow with its third power. Test: none, a matter of patience.
+/// More: memory and time, which grow with its third power. Test: `many_coordinates_are_not_tried`.
 pub(crate) const MOST_COORDINATES: usize = 400;
 
 /// Angle below which axes are parallel: rounding of products of rotations. Unit: rad. Less:
@@ -85,3 +87,61 @@ pub(crate) const RIGHT_ANGLE: f64 = 1e-6;
 /// Largest number, as in scenes. Unit: that of the number. Less: none known. More: products of
 /// numbers overflow. Test: `numbers_have_bounds`.
 pub(crate) const LARGEST_NUMBER: f64 = 1e60;
+
+/// Share of the largest entry of a tensor below which its products are the rounding of a rotation
+/// or a sum. Unit: 1. Less: diagonal tensors are written with products such as 1e-19. More: products
+/// that a file states vanish. Test: `rounded_products_are_zero`.
+pub(crate) const ROUNDING: f64 = 1e-15;
+
+/// Difference up to which a coordinate has the value that was asked for. Unit: share of the value,
+/// at least of 1 m or rad. Less: rounding is told as a change. More: a change of the ninth digit is
+/// not told. Test: `values_that_cannot_be_held_are_told`.
+pub(crate) const HELD: f64 = 1e-9;
+
+/// Angle beyond which one in rad looks like degrees: a turn, whose last digit may be rounded up.
+/// Unit: rad. Less: a whole turn is told. More: small angles in degrees are not told. Test:
+/// `angles_of_another_unit_are_seen`.
+pub(crate) const TURN: f64 = 6.3;
+
+/// Distance of an angle in degrees from a part of a turn in rad, π/4 or π/6 and their multiples, up
+/// to which it looks like rad. Unit: rad. Less: 1.57 is not told. More: ordinary angles of few
+/// degrees are told. Test: `angles_of_another_unit_are_seen`.
+pub(crate) const COMMON_ANGLE: f64 = 1e-3;
+
+/// Step of differences for derivatives of gaps: their error is some 1e-10, which costs a step of
+/// Newton nothing. Unit: 1 (rad, sizes). Less: rounding grows. More: the error of the difference
+/// grows. Test: `loops_are_closed_from_a_guess`.
+pub(crate) const DIFFERENCE: f64 = 1e-5;
+
+/// Distance of two axes below which they meet, as a share of what lengths are known to. Unit: 1.
+/// Less: rounding is told as a distance. More: distances of the last digit are not told. Test:
+/// `tilted_axes_are_told`.
+pub(crate) const MEETING: f64 = 1e-6;
+
+/// Most names in an advice. Unit: number. Less: the name that was meant is not among them. More:
+/// nobody reads them. Test: `names_that_no_format_knows_are_refused`.
+pub(crate) const MOST_LISTED: usize = 16;
+
+/// Most letters of a name of a file in a message. Unit: number. Less: names that differ look alike.
+/// More: a hostile name fills the screen. Test: `names_that_no_format_knows_are_refused`.
+pub(crate) const SHOWN: usize = 40;
+
+/// Longest name of a scene, less what is added to it. Unit: number of letters. Less: long names that
+/// differ become the same. More: scenes refuse them. Test: `names_are_made_fit_and_told`.
+pub(crate) const LONGEST_NAME: usize = 900;
+
+/// Width of comments of a scene. Unit: number of letters. Less: more lines. More: lines are broken by
+/// editors. Test: `comments_are_broken_into_lines`.
+pub(crate) const WIDTH: usize = 110;
+
+/// Deepest nesting of lists in a file of loops. Unit: number. Less: pairs in a list are refused.
+/// More: a hostile file takes the stack. Test: `faults_of_a_yaml_have_places`.
+pub(crate) const DEEPEST_LIST: usize = 8;
+
+/// Gravity along z where a file has none. Unit: m/s². Less or more: every weight is wrong. Test:
+/// `a_file_without_gravity_has_that_of_the_earth`.
+pub(crate) const GRAVITY: f64 = -9.81;
+
+/// Density of geoms of MuJoCo where none is given. Unit: kg/m³. Less or more: masses are wrong. Test:
+/// `masses_come_from_geoms`.
+pub(crate) const DENSITY: f64 = 1000.0;

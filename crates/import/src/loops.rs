@@ -8,6 +8,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use scene::SourceText;
 
 use crate::findings::{Fault, Findings};
+use crate::limits::DEEPEST_LIST;
 use crate::mechanism::{Joint, Kind, Model};
 
 /// A value of the file with its place.
@@ -55,33 +56,61 @@ pub(crate) fn read(
 fn apply(
     model: &mut Model,
     links: &HashMap<String, usize>,
-    keys: &[(String, usize, Node)],
+    keys: &[Key],
     text: &SourceText,
     findings: &mut Findings,
 ) -> Result<(), Wrong> {
-    let find = |key: &str| keys.iter().find(|(name, ..)| name == key);
-    let list = |key: &str| -> Result<Vec<(&str, usize)>, Wrong> {
-        let Some((_, at, node)) = find(key) else {
-            return Ok(Vec::new());
-        };
-        node.texts()
-            .ok_or_else(|| (*at, format!("`{key}` has to be a list of texts")))
-    };
-    for (key, at, _) in keys {
-        let line = text.position(*at).0;
-        match key.as_str() {
-            "closed_loop" | "type" | "joint_name" | "joint_type" => {}
-            "name_mot" => findings.leave("actuators", key.as_str(), text, line),
-            _ => findings.leave("elements that are not understood", key.as_str(), text, line),
+    for key in keys {
+        let (name, line) = (key.name.as_str(), text.position(key.at).0);
+        match name {
+            _ if KEYS.contains(&name) => {}
+            "name_mot" => findings.leave("actuators", name, text, line),
+            _ => match scene::nearest(name, KEYS) {
+                Some(near) => {
+                    let message = format!("there is no key `{name}`: did you mean `{near}`?");
+                    return Err((key.at, message));
+                }
+                None => findings.leave("extensions that are not read", name, text, line),
+            },
         }
     }
-    let types = list("type")?;
-    let pairs = match find("closed_loop") {
-        Some((_, _, Node::List(pairs))) => pairs.as_slice(),
-        Some((_, at, _)) => return Err((*at, "`closed_loop` has to be a list of pairs".into())),
-        None => &[],
+    let find = |key: &str| -> Result<Option<(usize, Node)>, Wrong> {
+        let found = keys.iter().find(|of| of.name == key);
+        found.map(|of| Ok((of.at, of.value()?))).transpose()
     };
-    let start = find("closed_loop").map_or(0, |(_, at, _)| *at);
+    let of_types = find("type")?;
+    let types = texts("type", of_types.as_ref())?;
+    let of_loops = find("closed_loop")?;
+    let start = of_loops.as_ref().map_or(0, |(at, _)| *at);
+    let pairs = match &of_loops {
+        Some((_, Node::List(pairs))) => pairs.as_slice(),
+        Some((at, Node::Text(..))) => {
+            let message = "`closed_loop` has to be a list of pairs: write `[[link, link]]`";
+            return Err((*at, message.to_owned()));
+        }
+        None if keys.iter().any(|key| key.name == "joint_name") => &[],
+        None => {
+            let message = "key `closed_loop` is missing: a list of pairs `[[link, link]]`";
+            return Err((0, message.to_owned()));
+        }
+    };
+    let mut ends_of = Vec::new();
+    for (k, pair) in pairs.iter().enumerate() {
+        let names = pair.texts().filter(|names| names.len() == 2);
+        let Some(names) = names else {
+            let (what, at) = match pair {
+                Node::Text(text, at) => (format!("`{text}`"), *at),
+                Node::List(items) => (format!("a list of {}", items.len()), start),
+            };
+            let message = format!("entry {} is {what}, not a pair `[link, link]`", k + 1);
+            return Err((at, message));
+        };
+        ends_of.push(names);
+    }
+    if of_types.is_none() && !pairs.is_empty() {
+        let message = "key `type` is missing: a list with `3d` or `6d` for each pair";
+        return Err((start, message.to_owned()));
+    }
     if types.len() != pairs.len() {
         let message = format!(
             "`closed_loop` has {} pairs, `type` {} types",
@@ -90,10 +119,7 @@ fn apply(
         );
         return Err((start, message));
     }
-    for (k, (pair, (kind, at))) in pairs.iter().zip(types).enumerate() {
-        let names = pair.texts().filter(|names| names.len() == 2);
-        let names =
-            names.ok_or_else(|| (start, format!("pair {} is not one of two links", k + 1)))?;
+    for (k, (names, (kind, at))) in ends_of.into_iter().zip(types).enumerate() {
         let mut ends = [None; 2];
         for (end, (name, at)) in ends.iter_mut().zip(&names) {
             let found = links.get(*name).copied();
@@ -117,7 +143,9 @@ fn apply(
             ..joint
         });
     }
-    let (names, kinds) = (list("joint_name")?, list("joint_type")?);
+    let (of_names, of_kinds) = (find("joint_name")?, find("joint_type")?);
+    let names = texts("joint_name", of_names.as_ref())?;
+    let kinds = texts("joint_type", of_kinds.as_ref())?;
     if names.len() != kinds.len() {
         let at = names.first().map_or(0, |(_, at)| *at);
         return Err((
@@ -146,7 +174,7 @@ fn apply(
             [] if kind == "SPHERICAL" => joint.kind = Kind::Spherical,
             &[a, b] => {
                 let (Some(first), Some(second)) = (axis(a), axis(b)) else {
-                    return Err((of, format!("there is no joint of the type `{kind}`")));
+                    return Err((of, no_type(kind)));
                 };
                 if first == second {
                     return Err((of, format!("`{kind}` has one axis twice")));
@@ -159,7 +187,7 @@ fn apply(
                 joint.axes = [relation * first, first];
                 joint.cross = second;
             }
-            _ => return Err((of, format!("there is no joint of the type `{kind}`"))),
+            _ => return Err((of, no_type(kind))),
         }
         joint.loads = Default::default();
         joint.places = true;
@@ -167,21 +195,44 @@ fn apply(
     Ok(())
 }
 
-/// A key with its place, and the signs of its value with their places.
-type Open = (String, usize, Vec<(char, usize)>);
-
-/// The keys of the first level with their values.
-fn keys(text: &str) -> Result<Vec<(String, usize, Node)>, Wrong> {
-    let mut out: Vec<(String, usize, Node)> = Vec::new();
-    let mut at = 0;
-    // The key whose lines are being collected, with the places of its characters.
-    let mut open: Option<Open> = None;
-    let close = |open: Option<Open>, out: &mut Vec<_>| {
-        if let Some((key, at, signs)) = open {
-            out.push((key, at, value(&signs, at)?));
-        }
-        Ok::<(), Wrong>(())
+/// The texts of a list.
+fn texts<'n>(key: &str, value: Option<&'n (usize, Node)>) -> Result<Vec<(&'n str, usize)>, Wrong> {
+    let Some((at, node)) = value else {
+        return Ok(Vec::new());
     };
+    node.texts().ok_or_else(|| match node {
+        Node::Text(text, at) => (*at, format!("`{key}` has to be a list: write `[{text}]`")),
+        Node::List(_) => (*at, format!("`{key}` has to be a list of texts")),
+    })
+}
+
+fn no_type(kind: &str) -> String {
+    format!(
+        "`{kind}` is no type of a joint here: `SPHERICAL`, or `UJOINT_XY` with two of the letters X, \
+         Y, Z; other joints are those of the URDF"
+    )
+}
+
+/// The keys that are read.
+const KEYS: [&str; 4] = ["closed_loop", "type", "joint_name", "joint_type"];
+
+/// A key of the first level with its place, and the signs of its value with their places.
+struct Key {
+    name: String,
+    at: usize,
+    signs: Vec<(char, usize)>,
+}
+
+impl Key {
+    fn value(&self) -> Result<Node, Wrong> {
+        value(&self.signs, self.at)
+    }
+}
+
+/// The keys of the first level; their values are taken apart when they are asked for.
+fn keys(text: &str) -> Result<Vec<Key>, Wrong> {
+    let mut out: Vec<Key> = Vec::new();
+    let mut at = 0;
     for line in text.split_inclusive('\n') {
         let kept = uncommented(line);
         let starts = kept
@@ -190,13 +241,16 @@ fn keys(text: &str) -> Result<Vec<(String, usize, Node)>, Wrong> {
             .is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
         let mut from = 0;
         if starts && let Some((key, _)) = kept.split_once(':') {
-            close(open.take(), &mut out)?;
-            open = Some((key.trim().to_owned(), at, Vec::new()));
+            out.push(Key {
+                name: key.trim().to_owned(),
+                at,
+                signs: Vec::new(),
+            });
             from = key.len() + 1;
         } else if starts && !kept.trim().is_empty() {
             return Err((at, "expected `key:`".to_owned()));
         }
-        if let Some((_, _, signs)) = &mut open {
+        if let Some(Key { signs, .. }) = out.last_mut() {
             let own = kept[from..].char_indices();
             signs.extend(own.map(|(k, c)| (c, at + from + k)));
             signs.push(('\n', at + kept.len()));
@@ -205,7 +259,6 @@ fn keys(text: &str) -> Result<Vec<(String, usize, Node)>, Wrong> {
         }
         at += line.len();
     }
-    close(open, &mut out)?;
     Ok(out)
 }
 
@@ -225,9 +278,6 @@ fn uncommented(line: &str) -> &str {
     }
     line
 }
-
-/// Deepest nesting of lists.
-const DEEPEST: usize = 8;
 
 fn value(signs: &[(char, usize)], at: usize) -> Result<Node, Wrong> {
     let first = signs.iter().position(|(c, _)| !c.is_whitespace());
@@ -285,7 +335,7 @@ fn dashes(signs: &[(char, usize)], at: usize) -> Result<Node, Wrong> {
 fn flow(signs: &[(char, usize)], depth: usize) -> Result<(Node, usize), Wrong> {
     let (first, at) = signs[0];
     match first {
-        '[' if depth < DEEPEST => {
+        '[' if depth < DEEPEST_LIST => {
             let (mut items, mut k) = (Vec::new(), 1);
             loop {
                 while signs
@@ -336,8 +386,9 @@ mod tests {
         let dashes = "---\npairs:\n  - [a, 'b c']\n  - [d,\n     e]\n";
         let plain = |text: &str| -> Vec<Vec<String>> {
             let keys = keys(text).expect("readable");
-            let Node::List(pairs) = &keys[0].2 else {
-                panic!("{keys:?}")
+            let value = keys[0].value().expect("readable");
+            let Node::List(pairs) = &value else {
+                panic!("{value:?}")
             };
             let texts = |pair: &Node| {
                 pair.texts()
@@ -359,7 +410,11 @@ mod tests {
             "- a",
             "a:\n  - - x: [",
         ] {
-            assert!(keys(wrong).is_err(), "{wrong}");
+            let found = keys(wrong).and_then(|keys| {
+                let values = keys.iter().map(Key::value);
+                values.collect::<Result<Vec<Node>, Wrong>>()
+            });
+            assert!(found.is_err(), "{wrong}");
         }
     }
 }

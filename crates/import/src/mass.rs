@@ -2,6 +2,8 @@
 
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
+use crate::limits::ROUNDING;
+
 /// Mass of a rigid body in some axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Mass {
@@ -71,7 +73,7 @@ impl Mass {
         Self {
             mass,
             centre,
-            inertia: about(self) + about(other),
+            inertia: without_rounding(about(self) + about(other)),
         }
     }
 
@@ -91,7 +93,18 @@ fn turned(axes: UnitQuaternion<f64>, inertia: Matrix3<f64>) -> Matrix3<f64> {
     }
     let r = axes.to_rotation_matrix();
     let turned = r.matrix() * inertia * r.matrix().transpose();
-    (turned + turned.transpose()) * 0.5
+    without_rounding((turned + turned.transpose()) * 0.5)
+}
+
+/// A tensor without the products that are rounding of its largest entry.
+fn without_rounding(mut inertia: Matrix3<f64>) -> Matrix3<f64> {
+    let floor = ROUNDING * inertia.amax();
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        if inertia[(i, j)].abs() <= floor {
+            (inertia[(i, j)], inertia[(j, i)]) = (0.0, 0.0);
+        }
+    }
+    inertia
 }
 
 /// Tensor of a point mass at d: m·(d·d − d dᵀ).
@@ -187,6 +200,25 @@ mod tests {
         let [x, _, z] = solid.moments(volume);
         assert!((solid.volume() - volume).abs() < 1e-9);
         assert!((z - along).abs() < 1e-9 && (x - across).abs() < 1e-9);
+    }
+
+    /// A quarter turn, whose cosine is 2e-16, leaves a diagonal tensor diagonal; products that a
+    /// file states stay.
+    #[test]
+    fn rounded_products_are_zero() {
+        use std::f64::consts::FRAC_PI_2;
+        let quarter = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), FRAC_PI_2);
+        let tensor = Matrix3::from_diagonal(&Vector3::new(0.1, 0.2, 0.25));
+        let body = Mass::turned(1.0, Vector3::zeros(), quarter, tensor);
+        let expected = Matrix3::from_diagonal(&Vector3::new(0.25, 0.2, 0.1));
+        assert!((body.inertia - expected).amax() < 1e-15);
+        for at in [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)] {
+            assert_eq!(body.inertia[at].to_bits(), 0, "{}", body.inertia);
+        }
+        let mut tensor = tensor;
+        (tensor[(0, 1)], tensor[(1, 0)]) = (1e-13, 1e-13);
+        let body = Mass::turned(1.0, Vector3::zeros(), quarter, tensor);
+        assert!((body.inertia[(1, 2)].abs() - 1e-13).abs() < 1e-16);
     }
 
     /// Two halves of a cube are the cube.

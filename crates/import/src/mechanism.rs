@@ -80,6 +80,8 @@ pub(crate) struct Load {
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
     pub(crate) name: String,
+    /// Names of its coordinates: those of the joints of the file that it stands for.
+    pub(crate) names: [String; 2],
     pub(crate) kind: Kind,
     /// First and second link.
     pub(crate) links: [Option<usize>; 2],
@@ -112,8 +114,10 @@ impl Joint {
         points: [Vector3<f64>; 2],
         axes: [Vector3<f64>; 2],
     ) -> Self {
+        let name = name.into();
         Self {
-            name: name.into(),
+            names: [name.clone(), name.clone()],
+            name,
             kind,
             links,
             places: true,
@@ -153,6 +157,8 @@ pub(crate) struct Frame {
 #[derive(Clone, Debug)]
 pub(crate) struct State {
     pub(crate) name: String,
+    /// The line of the file.
+    pub(crate) line: usize,
     /// For each joint its coordinates: for a spherical joint a quaternion (w, x, y, z), for a free
     /// link position and quaternion.
     pub(crate) q: Vec<Vec<f64>>,
@@ -174,6 +180,13 @@ pub(crate) struct Model {
 }
 
 impl Model {
+    /// Number of coordinates with an armature, each of which becomes a rotor.
+    pub(crate) fn rotors(&self) -> usize {
+        let active = self.joints.iter().filter(|joint| joint.is_active);
+        let loads = active.flat_map(|joint| joint.loads);
+        loads.filter(|load| load.armature != 0.0).count()
+    }
+
     /// Where a link is at the described pose.
     pub(crate) fn pose(&self, link: Option<usize>) -> Isometry3<f64> {
         link.and_then(|link| self.links.get(link))

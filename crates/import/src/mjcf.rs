@@ -6,6 +6,7 @@ mod defaults;
 mod equality;
 mod geom;
 mod keyframe;
+mod names;
 
 use std::collections::{HashMap, HashSet};
 
@@ -13,13 +14,12 @@ use nalgebra::{Isometry3, Vector3};
 
 use crate::files::Files;
 use crate::findings::{Counted, Fault, Findings};
+use crate::limits::GRAVITY;
 use crate::mechanism::Model;
 use crate::xml::{Element, Value};
 use compiler::Compiler;
 use defaults::Defaults;
-
-/// Standard gravity of MuJoCo (m/s²).
-const GRAVITY: f64 = -9.81;
+pub(crate) use names::NAMES;
 
 /// What several readers need.
 struct Reader<'a, 'f> {
@@ -34,6 +34,8 @@ struct Reader<'a, 'f> {
     joints: HashMap<String, (usize, usize)>,
     /// Names that the file gives to joints.
     names: HashSet<String>,
+    /// Tendons by name.
+    tendons: HashMap<String, Element<'a>>,
     sites: HashMap<String, (Option<usize>, Isometry3<f64>)>,
     /// Joint and coordinate of the joints of the file, in their order.
     slots: Vec<(usize, usize)>,
@@ -68,6 +70,7 @@ pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
         bodies: HashMap::from([("world".to_owned(), None)]),
         joints: HashMap::new(),
         names: HashSet::new(),
+        tendons: HashMap::new(),
         sites: HashMap::new(),
         slots: Vec::new(),
     };
@@ -88,6 +91,9 @@ pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
         reader.world(*section);
     }
     reader.finish_masses(root);
+    for section in &sections {
+        reader.tendons(*section);
+    }
     for section in &sections {
         reader.section(*section);
     }
@@ -113,12 +119,7 @@ impl<'a> Reader<'a, '_> {
                         self.findings.leave(kind, key, value.source, value.line());
                     }
                 }
-                _ => self.findings.leave(
-                    "settings of MuJoCo's solver",
-                    key,
-                    value.source,
-                    value.line(),
-                ),
+                _ => {}
             }
         }
         for flags in section.children().filter(|child| child.name() == "flag") {
@@ -139,15 +140,7 @@ impl<'a> Reader<'a, '_> {
                             help,
                         );
                     }
-                    _ => {
-                        let kind = "settings of MuJoCo's solver";
-                        self.findings.leave(
-                            kind,
-                            format!("flag {key}"),
-                            value.source,
-                            value.line(),
-                        );
-                    }
+                    _ => {}
                 }
             }
         }
@@ -155,32 +148,92 @@ impl<'a> Reader<'a, '_> {
 
     fn section(&mut self, section: Element<'a>) {
         let left: &'static str = match section.name() {
-            "compiler" | "option" | "default" | "worldbody" | "visual" | "statistic" | "size"
-            | "asset" | "custom" => return,
+            "actuator" | "tendon" => "",
             "equality" => return self.equalities(section),
             "keyframe" => return self.keyframes(section),
-            "actuator" => "actuators",
-            "tendon" => "tendons",
             "sensor" => "sensors",
             "contact" => "pairs and exclusions of contacts",
             "deformable" => "deformable bodies",
             "extension" => "plugins",
-            _ => {
-                let what = format!("<{}>", section.name());
-                self.findings
-                    .leave_element("elements that are not understood", section, &what);
-                return;
-            }
+            _ => return,
         };
         let mut is_empty = true;
         for child in self.files.children(section, self.findings) {
             is_empty = false;
             let name = child.attribute("name").map(|name| name.text.to_owned());
             let subject = name.unwrap_or_else(|| format!("<{}>", child.name()));
+            let left = match section.name() {
+                "actuator" => self.actuator(child),
+                "tendon" => self.tendon(child),
+                _ => left,
+            };
             self.findings.leave_element(left, child, &subject);
         }
         if is_empty && section.attributes().next().is_some() {
             self.findings.leave_element(left, section, "");
+        }
+    }
+
+    /// What is left out with an actuator: motors do nothing without a signal, others do.
+    fn actuator(&mut self, element: Element<'a>) -> &'static str {
+        const IDLE: &str = "actuators";
+        const ACTS: &str =
+            "actuators that act without a signal (ctrl = 0), too: accelerations differ";
+        let has = |element: &Element, key: &str| {
+            let value = element.attribute(key);
+            value.is_some_and(|value| value.text.split_whitespace().any(|x| x.parse() != Ok(0.0)))
+        };
+        // Dampers and armatures of an actuator are those of its joint.
+        if has(&element, "damping") || has(&element, "armature") {
+            return ACTS;
+        }
+        match element.name() {
+            "motor" | "damper" | "adhesion" => IDLE,
+            "general" => {
+                let bias = self.attributes(element, 0).get("biastype");
+                match bias.as_ref().map_or("none", |value| value.text.trim()) {
+                    "none" => IDLE,
+                    _ => ACTS,
+                }
+            }
+            "cylinder" if !has(&element, "bias") => IDLE,
+            _ => ACTS,
+        }
+    }
+
+    /// Notes the tendons of a section by their names.
+    fn tendons(&mut self, section: Element<'a>) {
+        if section.name() != "tendon" {
+            return;
+        }
+        for child in self.files.children(section, self.findings) {
+            let Some(name) = child.attribute("name") else {
+                continue;
+            };
+            let name = name.text.trim().to_owned();
+            if self.tendons.insert(name.clone(), child).is_some() {
+                let message = format!("the tendon `{name}` is there already");
+                self.findings.of(Fault::Twice, child, message);
+            }
+        }
+    }
+
+    /// What is left out with a tendon: springs, dampers and friction, too.
+    fn tendon(&mut self, element: Element<'a>) -> &'static str {
+        let class = self.attributes(element, 0).class;
+        let acts = ["stiffness", "damping", "frictionloss", "armature"]
+            .iter()
+            .any(|key| {
+                let own = element.attribute(key);
+                let value = own.or_else(|| self.defaults.get(class, "tendon", key));
+                value.is_some_and(|value| {
+                    value.text.split_whitespace().any(|x| x.parse() != Ok(0.0))
+                })
+            });
+        if acts {
+            "tendons with springs, dampers, friction or armatures: accelerations differ"
+        } else {
+            "tendons"
         }
     }
 
@@ -224,17 +277,5 @@ impl<'a> Reader<'a, '_> {
             );
         }
         found
-    }
-
-    /// Attributes of an element that no reader asks for.
-    fn close(&mut self, element: Element<'a>, known: &[&str]) {
-        for (key, value) in element.attributes() {
-            if !known.contains(&key) {
-                let subject = format!("{key} of <{}>", element.name());
-                let kind = "attributes that are not understood";
-                self.findings
-                    .leave(kind, subject, value.source, value.line());
-            }
-        }
     }
 }

@@ -3,9 +3,10 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::findings::Findings;
+use crate::limits::LONGEST_NAME;
 
-/// Longest name of a scene (letters), less what is added to it.
-const LONGEST: usize = 900;
+/// The name of what does not move, which no body of a scene may have.
+const GROUND: &str = "ground";
 
 /// Names of one kind that are taken.
 #[derive(Default)]
@@ -20,9 +21,12 @@ impl Names {
     pub(crate) fn take(&mut self, name: &str, findings: &mut Findings) -> String {
         let free = self.free(name);
         if free != name {
-            findings
-                .remarks
-                .push(format!("`{}` is called `{free}` here.", fit(name)));
+            let (clean, own) = (fit(name), name.trim());
+            let remark = match own {
+                GROUND => format!("`{GROUND}` is reserved: it is called `{free}` here."),
+                _ => format!("`{clean}` is called `{free}` here."),
+            };
+            findings.remarks.push(remark);
         }
         free
     }
@@ -47,13 +51,13 @@ fn fit(name: &str) -> String {
     let clean: String = name
         .trim()
         .chars()
-        .take(LONGEST)
+        .take(LONGEST_NAME)
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect();
     match clean.chars().next() {
         None => "unnamed".to_owned(),
         Some('=' | '+' | '-' | '@') => format!("_{clean}"),
-        Some(_) if clean == "ground" => "ground of the file".to_owned(),
+        Some(_) if clean == GROUND => "ground of the file".to_owned(),
         Some(_) => clean,
     }
 }
@@ -71,6 +75,9 @@ mod tests {
         assert_eq!(take("ground"), "ground of the file");
         assert_eq!(take("-x"), "_-x");
         assert_eq!(take("a\nb"), "a b");
-        assert_eq!(findings.remarks.len(), 4);
+        assert_eq!(take(&"n".repeat(2000)).len(), LONGEST_NAME);
+        assert_eq!(findings.remarks.len(), 5);
+        let reserved = "`ground` is reserved: it is called `ground of the file` here.";
+        assert_eq!(findings.remarks[1], reserved);
     }
 }

@@ -1,6 +1,7 @@
 //! SDF, the format of Gazebo: <http://sdformat.org/spec>.
 
 mod frames;
+mod names;
 
 use std::collections::HashMap;
 
@@ -9,9 +10,10 @@ use nalgebra::{Isometry3, Vector3};
 use crate::findings::{Counted, Fault, Findings};
 use crate::mass::Mass;
 use crate::mechanism::{Coupling, Frame, Kind, Link, Load, Model};
-use crate::solids::{assume_gravity, find_tree, joint_between, tensor, with_second_axis};
+use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, tensor, with_second_axis};
 use crate::xml::{Element, Value};
 use frames::{Frames, pose_of};
+pub(crate) use names::NAMES;
 
 /// Names of links for joints, and how the file writes axes.
 pub(crate) struct Scope<'n> {
@@ -76,16 +78,13 @@ pub(crate) fn read(root: Element, findings: &mut Findings) -> Model {
     }
     for child in around.children() {
         match child.name() {
-            "model" | "gravity" | "light" | "scene" | "gui" => {}
             "include" => unsupported(
                 child,
                 "`<include>` is not read: put the model into the file",
                 findings,
             ),
-            other => {
-                let subject = format!("<{other}>");
-                findings.leave_element("settings of the world", child, &subject);
-            }
+            "joint" => unsupported(child, "a joint outside of a model is not read", findings),
+            _ => {}
         }
     }
     let version = root.attribute("version");
@@ -132,24 +131,13 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
                 names.push(name);
             }
             "static" => is_static = findings.boolean(&child.text()).unwrap_or(false),
-            "joint" | "pose" | "frame" => {}
-            "self_collide" | "allow_auto_disable" | "enable_wind" => {
-                findings.leave_element("settings of a simulator", child, child.name());
-            }
             "model" => unsupported(child, "a model within a model is not read", findings),
             "include" => unsupported(
                 child,
                 "`<include>` is not read: put the model into the file",
                 findings,
             ),
-            "plugin" => {
-                let name = child.attribute("name").map_or("", |name| name.text);
-                findings.leave_element("plugins", child, name);
-            }
-            other => {
-                let subject = format!("<{other}>");
-                findings.leave_element("elements that are not understood", child, &subject);
-            }
+            _ => {}
         }
     }
     if is_static {
@@ -208,27 +196,13 @@ fn link(element: Element, name: &str, findings: &mut Findings) -> Option<(Mass, 
     let (mut mass, mut held) = (None, 0.0);
     for child in element.children() {
         match child.name() {
-            "pose" | "visual" | "light" | "velocity_decay" | "enable_wind"
-            | "must_be_base_link" => {}
             "inertial" => mass = Some(inertial(child, name, findings)?),
             "collision" => findings.leave_element("contacts of links", child, name),
             "gravity" => {
-                if findings.boolean(&child.text()) == Some(false) {
-                    held = 1.0;
-                }
+                let falls = findings.boolean(&child.text()).unwrap_or(true);
+                held = if falls { 0.0 } else { 1.0 };
             }
-            "self_collide" | "kinematic" => {
-                let subject = format!("{} of `{name}`", child.name());
-                findings.leave_element("settings of a simulator", child, &subject);
-            }
-            "sensor" | "projector" | "audio_sink" | "audio_source" | "battery"
-            | "particle_emitter" => {
-                findings.leave_element("sensors and devices", child, name);
-            }
-            other => {
-                let subject = format!("<{other}> of `{name}`");
-                findings.leave_element("elements that are not understood", child, &subject);
-            }
+            _ => {}
         }
     }
     let mass = mass.unwrap_or_else(|| {
@@ -403,26 +377,6 @@ fn read_joint(
             return None;
         }
     };
-    for child in element.children() {
-        let known = [
-            "parent",
-            "child",
-            "pose",
-            "axis",
-            "axis2",
-            "screw_thread_pitch",
-            "thread_pitch",
-        ];
-        match child.name() {
-            other if known.contains(&other) => {}
-            "physics" => findings.leave_element("settings of a simulator", child, name),
-            "sensor" => findings.leave_element("sensors and devices", child, name),
-            other => {
-                let subject = format!("<{other}> of `{name}`");
-                findings.leave_element("elements that are not understood", child, &subject);
-            }
-        }
-    }
     let mut joint = joint_between(model, name, found, links, in_second, first.direction);
     if found.measures().is_empty() {
         if first.load != Load::default() {
@@ -484,7 +438,6 @@ fn read_axis(
     let mut load = Load::default();
     for child in element.children() {
         match child.name() {
-            "xyz" | "use_parent_model_frame" | "initial_position" | "mimic" => {}
             "limit" => {
                 // Limits as large as 1e16 stand for none.
                 let bounds = ["lower", "upper"].map(|key| {
@@ -503,16 +456,13 @@ fn read_axis(
                 load.damping = number("damping")?;
                 load.stiffness = number("spring_stiffness")?;
                 if number("friction")? != 0.0 {
-                    findings.leave_element("friction of joints", child, joint);
+                    findings.leave_element(FRICTION, child, joint);
                 }
                 if let Some(value) = child.text_of("spring_reference") {
                     load.reference = findings.number(&value, Counted::Not)?;
                 }
             }
-            other => {
-                let subject = format!("<{other}> of `{joint}`");
-                findings.leave_element("elements that are not understood", child, &subject);
-            }
+            _ => {}
         }
     }
     Some(Axis { direction, load })

@@ -3,12 +3,12 @@
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
 use crate::findings::Findings;
-use crate::limits::RIGHT_ANGLE;
+use crate::limits::{GRAVITY, RIGHT_ANGLE};
 use crate::mechanism::{Joint, Kind, Load, Model};
 use crate::pose::rotation;
 
-/// Standard gravity, where a file has none (m/s²).
-pub(crate) const GRAVITY: f64 = -9.81;
+/// What friction that is left out changes.
+pub(crate) const FRICTION: &str = "friction of joints: accelerations differ where they move";
 
 /// Angles about the fixed axes x, then y, then z.
 pub(crate) fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
@@ -93,6 +93,7 @@ pub(crate) fn with_second_axis(
     inner.axes = [second; 2];
     inner.loads = [load, Load::default()];
     inner.name = format!("{} second axis", inner.name);
+    inner.names = [inner.name.clone(), inner.name.clone()];
     model.joints.extend([outer, inner]);
 }
 

@@ -1,5 +1,7 @@
 //! URDF, the format of ROS: <https://wiki.ros.org/urdf/XML>, with loop joints in `<gazebo>`.
 
+mod names;
+
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Vector3};
@@ -7,10 +9,12 @@ use nalgebra::{Isometry3, Vector3};
 use crate::findings::{Counted, Fault, Findings};
 use crate::mass::Mass;
 use crate::mechanism::{Coupling, Joint, Kind, Link, Load, Model};
+use crate::pose::quaternion;
 use crate::sdf;
-use crate::solids::{assume_gravity, roll_pitch_yaw, tensor};
+use crate::solids::{FRICTION, assume_gravity, roll_pitch_yaw, tensor};
 use crate::xml::{Element, Value};
 use crate::{Base, loops};
+pub(crate) use names::NAMES;
 
 /// A joint of the file.
 struct Edge<'a> {
@@ -32,7 +36,8 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
         .unwrap_or_else(|| "URDF robot".into());
     let names = links(root, &mut model, findings);
     let edges = edges(root, &names, findings);
-    if !place(root, &edges, base, &mut model, findings) {
+    // Joints that cannot be read leave links without a place: that is no fault of its own.
+    if findings.has_problems() || !place(root, &edges, base, &mut model, findings) {
         return model;
     }
     let mut numbers = HashMap::new();
@@ -50,16 +55,12 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
     }
     for child in root.children() {
         match child.name() {
-            "link" | "joint" | "material" => {}
             "gazebo" => gazebo(child, &names, &mut model, findings),
             "transmission" => {
                 let name = child.attribute("name").map_or("", |name| name.text);
                 findings.leave_element("actuators", child, name);
             }
-            other => {
-                let subject = format!("<{other}>");
-                findings.leave_element("elements that are not understood", child, &subject);
-            }
+            _ => {}
         }
     }
     assume_gravity(&mut model, findings);
@@ -88,8 +89,22 @@ fn origin(
         Some(value) => findings.vector(&value, length)?,
         None => Vector3::zeros(),
     };
+    if let Some(value) = origin.attribute("quat_xyzw") {
+        let n = findings.numbers(&value, [4, 4], angle)?;
+        if n.iter().all(|x| *x == 0.0) {
+            let message = "a quaternion of zeros gives no orientation";
+            findings.at(Fault::Range, &value, message);
+            return None;
+        }
+        let turned = quaternion([n[3], n[0], n[1], n[2]]);
+        return Some(Isometry3::from_parts(at.into(), turned));
+    }
     let turned = match origin.attribute("rpy") {
-        Some(value) => findings.vector(&value, angle)?,
+        Some(value) => {
+            let turned = findings.vector(&value, angle)?;
+            findings.look_for_degrees(&value, turned.as_slice());
+            turned
+        }
         None => Vector3::zeros(),
     };
     Some(Isometry3::from_parts(
@@ -109,15 +124,8 @@ fn links(root: Element, model: &mut Model, findings: &mut Findings) -> HashMap<S
             let message = format!("the link `{name}` is there already");
             findings.of(Fault::Twice, element, message);
         }
-        for child in element.children() {
-            match child.name() {
-                "inertial" | "visual" => {}
-                "collision" => findings.leave_element("contacts of links", child, &name),
-                other => {
-                    let subject = format!("<{other}> of `{name}`");
-                    findings.leave_element("elements that are not understood", child, &subject);
-                }
-            }
+        for child in element.children().filter(|c| c.name() == "collision") {
+            findings.leave_element("contacts of links", child, &name);
         }
         let mass = match element.child("inertial") {
             Some(inertial) => mass_of(inertial, findings).unwrap_or_default(),
@@ -227,6 +235,24 @@ fn place(
         }
         behind[edge.parent].push(k);
     }
+    if let Some(cycle) = cycle(edges, &before) {
+        let names: Vec<String> = cycle
+            .iter()
+            .map(|&k| format!("`{}`", edges[k].name))
+            .collect();
+        let message = match names.as_slice() {
+            [one] => format!("joint {one} connects a link with itself"),
+            _ => format!(
+                "{} form a cycle: none of their links is the root",
+                names.join(", ")
+            ),
+        };
+        let help = "URDF is a tree: give loops as joints in <gazebo>, or with --loops".to_owned();
+        let element = edges[cycle[0]].element;
+        let (source, span) = (element.source, element.span());
+        findings.fault_with_help(Fault::Structure, source, span, message, "", help);
+        return false;
+    }
     let roots: Vec<usize> = (0..before.len()).filter(|&k| before[k].is_none()).collect();
     let &[first] = roots.as_slice() else {
         if !model.links.is_empty() {
@@ -244,22 +270,13 @@ fn place(
         }
         return false;
     };
-    let (mut queue, mut count) = (vec![first], 0);
+    let mut queue = vec![first];
     while let Some(link) = queue.pop() {
-        count += 1;
         for &k in &behind[link] {
             let edge = &edges[k];
             model.links[edge.child].pose = model.links[link].pose * edge.origin;
             queue.push(edge.child);
         }
-    }
-    if count < model.links.len() {
-        findings.of(
-            Fault::Structure,
-            root,
-            "some links are parents of themselves",
-        );
-        return false;
     }
     let own = model.links[first].name.clone();
     if base == Base::Fixed || own == "world" {
@@ -283,6 +300,33 @@ fn place(
             .push(format!("The root link `{own}` is free."));
     }
     true
+}
+
+/// Joints each of which has the child of the one before as its parent, all around. `before` is the
+/// joint of which a link is the child.
+fn cycle(edges: &[Edge], before: &[Option<usize>]) -> Option<Vec<usize>> {
+    let mut seen = vec![usize::MAX; before.len()];
+    for first in 0..before.len() {
+        let mut at = first;
+        while seen[at] == usize::MAX {
+            seen[at] = first;
+            let Some(joint) = before[at] else { break };
+            at = edges[joint].parent;
+        }
+        let Some(joint) = before[at].filter(|_| seen[at] == first) else {
+            continue;
+        };
+        let mut cycle = vec![joint];
+        let mut link = edges[joint].parent;
+        while link != at {
+            let joint = before[link]?;
+            cycle.push(joint);
+            link = edges[joint].parent;
+        }
+        cycle.sort_unstable();
+        return Some(cycle);
+    }
+    None
 }
 
 fn joint(edge: &Edge, findings: &mut Findings) -> Option<Joint> {
@@ -314,23 +358,18 @@ fn joint(edge: &Edge, findings: &mut Findings) -> Option<Joint> {
     for child in element.children() {
         let mut leave = |kind| findings.leave_element(kind, child, name);
         match child.name() {
-            "origin" | "parent" | "child" | "axis" | "mimic" => {}
             "limit" if word.text.trim() == "continuous" || !has_axis => {}
             "limit" => leave("limits of joints"),
-            "safety_controller" | "calibration" => leave("controllers and calibrations"),
             "dynamics" => {
                 if let Some(value) = child.attribute("damping") {
                     load.damping = findings.not_negative(&value, Counted::Not)?;
                 }
                 let friction = child.attribute("friction");
                 if friction.is_some_and(|value| value.text.trim().parse() != Ok(0.0)) {
-                    findings.leave_element("friction of joints", child, name);
+                    findings.leave_element(FRICTION, child, name);
                 }
             }
-            other => {
-                let subject = format!("<{other}> of `{name}`");
-                findings.leave_element("elements that are not understood", child, &subject);
-            }
+            _ => {}
         }
     }
     if load.damping != 0.0 && !matches!(kind, Kind::Revolute | Kind::Translational) {
@@ -391,6 +430,7 @@ fn gazebo(
 ) {
     for child in element.children() {
         if child.name() == "joint" {
+            crate::vocabulary::check(child, sdf::NAMES, None, findings);
             let first = model.joints.len();
             let scope = sdf::Scope::of_links(names);
             sdf::joint(child, &scope, model, findings);

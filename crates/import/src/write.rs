@@ -5,6 +5,7 @@ use std::fmt::Write;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::findings::{Findings, Omission};
+use crate::limits::WIDTH;
 use crate::mechanism::{Joint, Kind, Load, Model};
 use crate::names::Names;
 use crate::pose::{Motion, along_z};
@@ -94,9 +95,6 @@ pub(crate) fn by_kind(omissions: &[Omission]) -> Vec<(&'static str, Vec<String>)
     }
     kinds
 }
-
-/// Width of comments (characters).
-const WIDTH: usize = 110;
 
 /// A comment in lines; signs that would end one are replaced.
 fn comment(out: &mut String, lead: &str, words: &str) {
@@ -289,6 +287,15 @@ impl<'a> Writer<'a> {
         format!("{}.{measure}", self.joints[joint])
     }
 
+    /// The name of a coordinate: that of the joint of the file, where several became one here.
+    fn coordinate(&self, joint: usize, coordinate: usize) -> &str {
+        let of = &self.model.joints[joint];
+        match of.names.get(coordinate) {
+            Some(name) if *name != of.name => name,
+            _ => &self.joints[joint],
+        }
+    }
+
     fn couplings(&mut self, out: &mut String) {
         for coupling in &self.model.couplings {
             let name = self.elements.take(&coupling.name, self.findings);
@@ -365,7 +372,8 @@ impl<'a> Writer<'a> {
             return;
         }
         let joint = &self.model.joints[k];
-        let name = self.elements.free(&format!("{} spring", self.joints[k]));
+        let of = self.coordinate(k, coordinate).to_owned();
+        let name = self.elements.free(&format!("{of} spring"));
         let of = |list: &[f64; 2]| list.get(coordinate).copied().unwrap_or(0.0);
         // A start knows an angle up to whole turns only: the spring is told of the others.
         let turns = match joint.kind.measures().get(coordinate) {
@@ -422,7 +430,7 @@ impl<'a> Writer<'a> {
     /// A wheel on the ground that turns with a coordinate: its kinetic energy ½·a·q̇² is that of a
     /// rotor as MuJoCo adds it to the diagonal of the mass matrix.
     fn rotor(&mut self, k: usize, coordinate: usize, inertia: f64, out: &mut String) {
-        let joint = &self.joints[k];
+        let joint = self.coordinate(k, coordinate).to_owned();
         let wheel = self.places.free(&format!("{joint} rotor"));
         let bearing = self.elements.free(&format!("{joint} rotor bearing"));
         let gear = self.elements.free(&format!("{joint} rotor gear"));
@@ -516,4 +524,18 @@ fn text(text: &str) -> String {
     }
     out.push('"');
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_are_broken_into_lines() {
+        let mut out = String::new();
+        comment(&mut out, "# - ", &"words ".repeat(60));
+        let lines: Vec<&str> = out.lines().collect();
+        assert!(lines.len() > 3 && lines.iter().all(|line| line.len() <= WIDTH));
+        assert!(lines[0].starts_with("# - words") && lines[1].starts_with("#   words"));
+    }
 }

@@ -55,10 +55,44 @@ impl<'a> Element<'a> {
         self.source.position(self.node.range().start).0
     }
 
+    /// The elements within it, less those of other name spaces.
     pub(crate) fn children(&self) -> impl Iterator<Item = Self> + use<'a> {
+        self.all_children().filter(|child| child.prefix().is_none())
+    }
+
+    /// The elements within it that belong to another name space than the root.
+    pub(crate) fn foreign_children(&self) -> impl Iterator<Item = Self> + use<'a> {
+        self.all_children().filter(|child| child.prefix().is_some())
+    }
+
+    fn all_children(&self) -> impl Iterator<Item = Self> + use<'a> {
         let source = self.source;
         let elements = self.node.children().filter(Node::is_element);
         elements.map(move |node| Self { node, source })
+    }
+
+    /// What stands before the colon of its name, if that is another name space than that of the
+    /// root.
+    pub(crate) fn prefix(&self) -> Option<&'a str> {
+        let own = self.node.tag_name().namespace();
+        let root = self.node.document().root_element();
+        let space = own.filter(|_| own != root.tag_name().namespace())?;
+        Some(self.node.lookup_prefix(space).unwrap_or_default())
+    }
+
+    /// The name space of its name.
+    pub(crate) fn name_space(&self) -> &'a str {
+        self.node.tag_name().namespace().unwrap_or_default()
+    }
+
+    /// The places of its attributes with their keys; those of other name spaces with `true`.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = (&'a str, bool, Range<usize>)> + use<'a> {
+        self.node.attributes().map(|attribute| {
+            let is_foreign = attribute.namespace().is_some();
+            let place = attribute.range();
+            let key = attribute.name();
+            (key, is_foreign, place.start..place.start + key.len())
+        })
     }
 
     /// The first child of that name.
@@ -74,7 +108,8 @@ impl<'a> Element<'a> {
 
     pub(crate) fn attributes(&self) -> impl Iterator<Item = (&'a str, Value<'a>)> + use<'a> {
         let (source, element) = (self.source, self.name());
-        self.node.attributes().map(move |attribute| {
+        let own = self.node.attributes().filter(|a| a.namespace().is_none());
+        own.map(move |attribute| {
             let key = attribute.name();
             let value = Value {
                 text: attribute.value(),

@@ -9,7 +9,7 @@ use crate::args::Import;
 use crate::console::Console;
 use crate::input::text_of;
 use crate::new::write;
-use crate::output::{Failure, Outcome, count, wrapped};
+use crate::output::{Failure, Outcome, count, json, wrapped};
 
 pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
     let standard_output = arguments.out.as_os_str() == "-";
@@ -28,10 +28,16 @@ pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
     let file = arguments.out.display().to_string();
     let read = pfaff::scene::read(&file, &imported.scene, console.registry);
     let scene_error = read.err().and_then(|list| Some(list.first()?.sentence()));
-    if arguments.json {
-        console.document(&document(&imported, &file, scene_error))
+    let is_fine = scene_error.is_none();
+    let answer = if arguments.json {
+        json(&document(&imported, &file, scene_error))?
     } else {
-        console.print(&words(&imported, &file, scene_error.as_deref()))
+        words(&imported, &file, scene_error.as_deref())
+    };
+    if is_fine {
+        console.print(&answer)
+    } else {
+        Err(console.incomplete(&answer))
     }
 }
 
@@ -81,11 +87,12 @@ fn document<'a>(
         line: omission.line,
     };
     ImportDocument {
-        ok: true,
+        ok: scene_error.is_none(),
         source_format: imported.format,
         file,
         bodies: imported.counts[0],
         joints: imported.counts[1],
+        rotors: imported.rotors,
         remarks: &imported.remarks,
         left_out: imported.omissions.iter().map(left_out).collect(),
         scene_error,
@@ -94,8 +101,15 @@ fn document<'a>(
 
 fn words(imported: &Imported, file: &str, error: Option<&str>) -> String {
     let [bodies, joints] = imported.counts;
+    let rotors = match imported.rotors {
+        0 => String::new(),
+        n => format!(
+            " and {} (each a body with a joint and a coupling)",
+            count(n, "rotor for an armature", "rotors for armatures")
+        ),
+    };
     let mut out = format!(
-        "{}: {}, {}, written to {file}\n",
+        "{}: {}, {}{rotors}, written to {file}\n",
         imported.format,
         count(bodies, "body", "bodies"),
         count(joints, "joint or coupling", "joints and couplings"),
@@ -110,7 +124,10 @@ fn words(imported: &Imported, file: &str, error: Option<&str>) -> String {
         out += "nothing of the file is left out\n";
     }
     out += &match error {
-        Some(error) => wrapped("warning: ", &format!("the scene has an error, {error}")),
+        Some(error) => wrapped(
+            "error: ",
+            &format!("{file} is written, and it is refused until this is mended: {error}"),
+        ),
         None => format!("next: pfaff analyze {file}\n"),
     };
     out

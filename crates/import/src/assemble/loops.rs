@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector, Isometry3, Point3, UnitQuaternion, Vector3};
 
 use super::State;
+use crate::limits::{DIFFERENCE, OPEN};
 use crate::mechanism::{Joint, Kind, Model};
 use crate::pose::{Placed, placing, rotation};
 
@@ -13,7 +14,7 @@ pub(super) struct Freedom {
     kind: Way,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Way {
     /// A coordinate of the joint.
     Coordinate(usize),
@@ -26,18 +27,50 @@ enum Way {
 /// What one loop or coupling misses.
 pub(super) struct Gap {
     pub(super) name: String,
-    rows: Vec<f64>,
+    miss: Miss,
+    /// Length of which shares are shares (m).
+    size: f64,
+}
+
+/// Rows of one gap.
+#[derive(Default)]
+struct Miss {
+    /// Components of distances, as shares of a length.
+    shares: Vec<f64>,
+    /// Unit: rad.
+    angles: Vec<f64>,
 }
 
 impl Gap {
+    fn rows(&self) -> impl Iterator<Item = f64> {
+        self.miss.shares.iter().chain(&self.miss.angles).copied()
+    }
+
     pub(super) fn size(&self) -> f64 {
-        self.rows.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+        self.rows().fold(0.0, |most: f64, x| most.max(x.abs()))
+    }
+
+    /// The gap as distance and angle.
+    pub(super) fn words(&self) -> String {
+        let norm = |list: &[f64]| list.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (far, turned) = (norm(&self.miss.shares), norm(&self.miss.angles));
+        let mut words = Vec::new();
+        if far > OPEN {
+            words.push(format!("{:.3e} m", far * self.size));
+        }
+        if turned > OPEN {
+            words.push(format!("{turned:.3e} rad"));
+        }
+        words.join(" and ")
     }
 }
 
 /// The tree of links with what moves it.
+#[derive(Clone)]
 pub(super) struct Tree {
     pub(super) freedoms: Vec<Freedom>,
+    /// Joints and coordinates that keep their values.
+    pub(super) held: Vec<(usize, usize)>,
     /// For each link the joints between the ground and it.
     chains: Vec<Vec<usize>>,
     /// Length by which gaps between points are divided (m).
@@ -107,9 +140,21 @@ impl Tree {
         };
         Self {
             freedoms,
+            held: Vec::new(),
             chains,
             size,
         }
+    }
+
+    /// The same with coordinates that keep their values.
+    pub(super) fn holding(&self, held: &[(usize, usize)]) -> Self {
+        let mut tree = self.clone();
+        tree.held = held.to_vec();
+        tree.freedoms.retain(|freedom| {
+            let is = |&(joint, c)| freedom.joint == joint && freedom.kind == Way::Coordinate(c);
+            !held.iter().any(is)
+        });
+        tree
     }
 
     /// What every active loop and coupling misses at these poses.
@@ -122,7 +167,8 @@ impl Tree {
             .filter(|joint| joint.kind != Kind::Free)
             .map(|joint| Gap {
                 name: joint.name.clone(),
-                rows: self.miss(model, joint, poses),
+                miss: self.miss(model, joint, poses),
+                size: self.size,
             })
             .collect();
         for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
@@ -133,9 +179,16 @@ impl Tree {
                 .iter()
                 .rev()
                 .fold(0.0, |sum, c| sum * x + c);
+            let off = vec![q[joint][c] - value];
+            let measure = model.joints[joint].kind.measures().get(c);
+            let (shares, angles) = match measure {
+                Some(&"displacement") => (off, Vec::new()),
+                _ => (Vec::new(), off),
+            };
             gaps.push(Gap {
                 name: coupling.name.clone(),
-                rows: vec![q[joint][c] - value],
+                miss: Miss { shares, angles },
+                size: 1.0,
             });
         }
         gaps
@@ -148,14 +201,12 @@ impl Tree {
         q: &[[f64; 2]],
     ) -> DVector<f64> {
         let gaps = self.gaps(model, poses, q);
-        DVector::from_iterator(
-            gaps.iter().map(|gap| gap.rows.len()).sum(),
-            gaps.iter().flat_map(|gap| gap.rows.iter().copied()),
-        )
+        let rows: Vec<f64> = gaps.iter().flat_map(Gap::rows).collect();
+        DVector::from_vec(rows)
     }
 
     /// The misses of one joint: of points as a share of the size, of directions in rad.
-    fn miss(&self, model: &Model, joint: &Joint, poses: &[Isometry3<f64>]) -> Vec<f64> {
+    fn miss(&self, model: &Model, joint: &Joint, poses: &[Isometry3<f64>]) -> Miss {
         let of =
             |side: usize| joint.links[side].map_or_else(Isometry3::identity, |link| poses[link]);
         let at = [of(0), of(1)];
@@ -169,25 +220,21 @@ impl Tree {
             .unwrap_or_else(|| joint.links.map(|link| model.pose(link).rotation.inverse()));
         let turned: UnitQuaternion<f64> =
             (at[1].rotation * frames[1]) * (at[0].rotation * frames[0]).inverse();
-        let parts: Vec<Vector3<f64>> = match joint.kind {
-            Kind::Spherical => vec![apart],
-            Kind::Revolute => vec![apart, tilt],
-            Kind::Fixed => vec![apart, turned.scaled_axis()],
-            Kind::Translational => vec![across, turned.scaled_axis()],
-            Kind::Cylindrical | Kind::Screw(_) => vec![across, tilt],
-            Kind::Planar => vec![apart - across, tilt],
-            Kind::Universal => {
-                let right = axes[0].dot(&(at[1].rotation * joint.cross));
-                let mut rows: Vec<f64> = apart.iter().copied().collect();
-                rows.push(right);
-                return rows;
-            }
-            Kind::Free => Vec::new(),
+        let right = axes[0].dot(&(at[1].rotation * joint.cross));
+        let (apart, angles) = match joint.kind {
+            Kind::Spherical => (apart, Vec::new()),
+            Kind::Revolute => (apart, tilt.as_slice().to_vec()),
+            Kind::Fixed => (apart, turned.scaled_axis().as_slice().to_vec()),
+            Kind::Translational => (across, turned.scaled_axis().as_slice().to_vec()),
+            Kind::Cylindrical | Kind::Screw(_) => (across, tilt.as_slice().to_vec()),
+            Kind::Planar => (apart - across, tilt.as_slice().to_vec()),
+            Kind::Universal => (apart, vec![right]),
+            Kind::Free => return Miss::default(),
         };
-        parts
-            .iter()
-            .flat_map(|part| part.iter().copied().collect::<Vec<_>>())
-            .collect()
+        Miss {
+            shares: apart.as_slice().to_vec(),
+            angles,
+        }
     }
 
     /// Derivatives of the residuals by the freedoms, by central differences of rigid motions.
@@ -197,8 +244,6 @@ impl Tree {
         displaced: &[Isometry3<f64>],
         q: &[[f64; 2]],
     ) -> DMatrix<f64> {
-        /// Step of the difference: its error is some 1e-10, which costs a step of Newton nothing.
-        const STEP: f64 = 1e-5;
         let poses: Vec<Isometry3<f64>> = displaced
             .iter()
             .zip(&model.links)
@@ -222,7 +267,7 @@ impl Tree {
                 }
                 self.residual(model, &poses, &q)
             };
-            let difference = (moved(STEP) - moved(-STEP)) / (2.0 * STEP);
+            let difference = (moved(DIFFERENCE) - moved(-DIFFERENCE)) / (2.0 * DIFFERENCE);
             out.set_column(column, &difference);
         }
         out

@@ -8,6 +8,7 @@ use crate::findings::{Counted, Fault, unit};
 use crate::limits::{DEEPEST, PERPENDICULAR};
 use crate::mass::Mass;
 use crate::mechanism::{Frame, Joint, Kind, Link, Load};
+use crate::solids::FRICTION;
 use crate::xml::Element;
 
 /// An element of a body, with the place of the frames around it and its class.
@@ -59,7 +60,7 @@ impl<'a> Reader<'a, '_> {
                 .of(Fault::Structure, around, "frames are nested too deeply");
         }
         for element in self.files.children(around, self.findings) {
-            let left: &'static str = match element.name() {
+            match element.name() {
                 "frame" => {
                     let get = |key: &str| element.attribute(key);
                     let own = self.compiler.pose(get, self.findings);
@@ -68,16 +69,13 @@ impl<'a> Reader<'a, '_> {
                         None => class,
                     };
                     self.items(element, frame * own, class, out, depth + 1);
-                    continue;
                 }
-                "camera" | "light" => continue,
                 "body" | "joint" | "freejoint" | "geom" | "site" | "inertial" => {
                     out.push(Item {
                         element,
                         frame,
                         class,
                     });
-                    continue;
                 }
                 "composite" | "flexcomp" | "replicate" | "attach" => {
                     let message = format!("`<{}>` makes bodies that are not read", element.name());
@@ -92,13 +90,9 @@ impl<'a> Reader<'a, '_> {
                         "",
                         help.to_owned(),
                     );
-                    continue;
                 }
-                "plugin" => "plugins",
-                _ => "elements that are not understood",
-            };
-            let subject = format!("<{}>", element.name());
-            self.findings.leave_element(left, element, &subject);
+                _ => {}
+            }
         }
     }
 
@@ -109,21 +103,6 @@ impl<'a> Reader<'a, '_> {
                 .findings
                 .of(Fault::Structure, element, "bodies are nested too deeply");
         }
-        let known = [
-            "name",
-            "childclass",
-            "pos",
-            "quat",
-            "axisangle",
-            "euler",
-            "xyaxes",
-            "zaxis",
-            "mocap",
-            "gravcomp",
-            "user",
-            "sleep",
-        ];
-        self.close(element, &known);
         let class = match element.attribute("childclass") {
             Some(value) => self.class(&value),
             None => item.class,
@@ -215,6 +194,7 @@ impl<'a> Reader<'a, '_> {
                 if let Some(kind) = pair {
                     joint.kind = kind;
                     joint.name = format!("{} and {}", first.name, second.name);
+                    joint.names = [first.name.clone(), second.name.clone()];
                     joint.zero[1] = second.zero;
                     joint.loads[1] = second.load;
                     consumed = 2;
@@ -269,34 +249,6 @@ impl<'a> Reader<'a, '_> {
     /// A joint of a body; `None` if it cannot be read.
     fn freedom(&mut self, item: &Item<'a>, body: &str, is_outer: bool) -> Option<Freedom> {
         let element = item.element;
-        let known = [
-            "name",
-            "class",
-            "type",
-            "pos",
-            "axis",
-            "stiffness",
-            "damping",
-            "springref",
-            "ref",
-            "armature",
-            "springdamper",
-            "range",
-            "limited",
-            "frictionloss",
-            "group",
-            "margin",
-            "solreflimit",
-            "solimplimit",
-            "solreffriction",
-            "solimpfriction",
-            "user",
-            "actuatorfrcrange",
-            "actuatorfrclimited",
-            "actuatorgravcomp",
-            "align",
-        ];
-        self.close(element, &known);
         let name = element
             .attribute("name")
             .map(|name| name.text.trim().to_owned());
@@ -366,8 +318,16 @@ impl<'a> Reader<'a, '_> {
             let number = value.map(|value| self.findings.numbers(&value, [1, 16], Counted::Not));
             number.flatten().unwrap_or_else(|| vec![0.0])
         };
+        let of_angle = [&zero, &reference, &range].map(|value| (*value).clone());
         let [zero, reference] = [number(zero)[0] * angle, number(reference)[0] * angle];
         let [stiffness, damping, armature] = [number(stiffness), number(damping), number(armature)];
+        if kind == Kind::Revolute && self.compiler.angle != 1.0 {
+            for value in of_angle.iter().flatten() {
+                let words = value.text.split_whitespace();
+                let angles: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
+                self.findings.look_for_radians(value, &angles);
+            }
+        }
         let line = element.line();
         let mut leave = |kind: &'static str| {
             self.findings
@@ -393,7 +353,7 @@ impl<'a> Reader<'a, '_> {
             leave("limits of joints");
         }
         if friction.is_some_and(|value| value.text.trim().parse() != Ok(0.0)) && !is_free_element {
-            leave("friction of joints");
+            leave(FRICTION);
         }
         let mut load = Load {
             stiffness: stiffness[0],
@@ -465,18 +425,6 @@ impl<'a> Reader<'a, '_> {
 
     fn inertial(&mut self, item: &Item<'a>) -> Option<Mass> {
         let element = item.element;
-        let known = [
-            "pos",
-            "quat",
-            "axisangle",
-            "euler",
-            "xyaxes",
-            "zaxis",
-            "mass",
-            "diaginertia",
-            "fullinertia",
-        ];
-        self.close(element, &known);
         let get = |key: &str| element.attribute(key);
         let Some(mass) = get("mass") else {
             self.findings.missing(element, "a `mass`");

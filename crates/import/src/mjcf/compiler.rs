@@ -90,17 +90,7 @@ impl Compiler {
                 let message = format!("{}: only `local` is read", value.subject);
                 findings.at(Fault::Unsupported, value, message);
             }
-            (
-                "strippath" | "meshdir" | "texturedir" | "assetdir" | "discardvisual" | "usethread"
-                | "fitaabb" | "fusestatic" | "exactmeshinertia" | "alignfree" | "saveinertial"
-                | "convexhull",
-                _,
-            ) => {}
-            _ => {
-                let subject = format!("{key} of <compiler>");
-                let kind = "attributes that are not understood";
-                findings.leave(kind, subject, value.source, value.line());
-            }
+            _ => {}
         }
     }
 
@@ -122,6 +112,12 @@ impl Compiler {
         findings: &mut Findings,
     ) -> UnitQuaternion<f64> {
         self.find_orientation(get, findings).unwrap_or_default()
+    }
+
+    fn look_for_radians(&self, value: &Value, angles: &[f64], findings: &mut Findings) {
+        if self.angle != 1.0 {
+            findings.look_for_radians(value, angles);
+        }
     }
 
     fn find_orientation<'a>(
@@ -164,10 +160,12 @@ impl Compiler {
                 no_direction(&value, findings);
                 return None;
             }
+            self.look_for_radians(&value, &n[3..], findings);
             return Some(rotation(unit(axis), n[3] * self.angle));
         }
         if let Some(value) = get("euler") {
             let angles = findings.numbers(&value, [3, 3], Counted::Direction)?;
+            self.look_for_radians(&value, &angles, findings);
             let mut turned = UnitQuaternion::identity();
             for ((axis, is_fixed), angle) in self.euler.iter().zip(angles) {
                 let mut direction = Vector3::zeros();

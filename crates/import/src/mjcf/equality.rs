@@ -22,7 +22,10 @@ impl<'a> Reader<'a, '_> {
                 .map(|name| name.text.trim().to_owned());
             let name = name.filter(|name| !name.is_empty());
             let name = name.unwrap_or_else(|| format!("{} {}", element.name(), k + 1));
-            lines.push(element.line().to_string());
+            let is_exact = matches!(element.name(), "connect" | "weld" | "joint" | "tendon");
+            if is_exact {
+                lines.push(element.line().to_string());
+            }
             match element.name() {
                 "connect" | "weld" => {
                     if let Some(joint) = self.closure(element, name) {
@@ -34,10 +37,22 @@ impl<'a> Reader<'a, '_> {
                         self.model.couplings.push(coupling);
                     }
                 }
-                _ => {
+                "tendon" => {
+                    if let Some(coupling) = self.coupling_of_tendons(element, name) {
+                        self.model.couplings.push(coupling);
+                    }
+                }
+                // One that is not active changes nothing.
+                _ if !self.is_active(element) => {
                     let subject = format!("{name}, <{}>", element.name());
-                    let kind = "constraints of tendons, flexible bodies and others";
+                    let kind = "constraints that are not active";
                     self.findings.leave_element(kind, element, &subject);
+                }
+                other => {
+                    let message = format!(
+                        "`<{other}>` of `<equality>` takes freedoms away, and it is not read"
+                    );
+                    self.refuse(element, message);
                 }
             }
         }
@@ -47,6 +62,14 @@ impl<'a> Reader<'a, '_> {
                 lines.join(", ")
             ));
         }
+    }
+
+    /// Refuses a constraint that is not read.
+    fn refuse(&mut self, element: Element<'a>, message: String) {
+        let help = "give it active=\"false\" to leave it out".to_owned();
+        let (source, span) = (element.source, element.span());
+        self.findings
+            .fault_with_help(Fault::Unsupported, source, span, message, "", help);
     }
 
     fn is_active(&mut self, element: Element<'a>) -> bool {
@@ -66,21 +89,6 @@ impl<'a> Reader<'a, '_> {
 
     /// `<connect>` and `<weld>`.
     fn closure(&mut self, element: Element<'a>, name: String) -> Option<Joint> {
-        let known = [
-            "name",
-            "class",
-            "active",
-            "solref",
-            "solimp",
-            "body1",
-            "body2",
-            "site1",
-            "site2",
-            "anchor",
-            "relpose",
-            "torquescale",
-        ];
-        self.close(element, &known);
         let is_weld = element.name() == "weld";
         let kind = if is_weld {
             Kind::Fixed
@@ -172,10 +180,6 @@ impl<'a> Reader<'a, '_> {
 
     /// `<joint>`: y − y₀ = P(x − x₀).
     fn coupling(&mut self, element: Element<'a>, name: String) -> Option<Coupling> {
-        let known = [
-            "name", "class", "active", "solref", "solimp", "joint1", "joint2", "polycoef",
-        ];
-        self.close(element, &known);
         let Some(y) = element.attribute("joint1") else {
             self.findings.missing(element, "`joint1`");
             return None;
@@ -198,6 +202,89 @@ impl<'a> Reader<'a, '_> {
             coefficients,
             is_active,
         })
+    }
+
+    /// `<tendon>`: L₁ − L₁₀ = P(L₂ − L₂₀) with lengths L = Σ cᵢ·qᵢ of fixed tendons; a coupling if
+    /// two coordinates are in it, one of each tendon or both of the first one.
+    fn coupling_of_tendons(&mut self, element: Element<'a>, name: String) -> Option<Coupling> {
+        let is_active = self.is_active(element);
+        let Some(first) = element.attribute("tendon1") else {
+            self.findings.missing(element, "`tendon1`");
+            return None;
+        };
+        let first = self.length(element, &first)?;
+        let second = match element.attribute("tendon2") {
+            Some(second) => Some(self.length(element, &second)?),
+            None => None,
+        };
+        let mut given = [0.0, 1.0, 0.0, 0.0, 0.0];
+        if let Some(value) = element.attribute("polycoef") {
+            let numbers = self.findings.numbers(&value, [1, 5], Counted::Not)?;
+            given[..numbers.len()].copy_from_slice(&numbers);
+        }
+        let (x, y, coefficients) = match (first.as_slice(), second.as_deref()) {
+            (&[(y, c)], None) => (None, y, vec![given[0] / c]),
+            (&[(y, c), (x, d)], None) => (Some(x), y, vec![given[0] / c, -d / c]),
+            (&[(y, c)], Some(&[(x, d)])) => {
+                let powers = std::iter::successors(Some(1.0), |power| Some(power * d));
+                let of_x = given.iter().zip(powers).map(|(a, power)| a * power / c);
+                (Some(x), y, of_x.collect())
+            }
+            _ => {
+                let message = "a `<tendon>` of `<equality>` is read with two joints, and this one \
+                               has others";
+                self.refuse(element, message.to_owned());
+                return None;
+            }
+        };
+        if x == Some(y) {
+            let message = "a constraint between a joint and itself";
+            self.findings.of(Fault::Structure, element, message);
+            return None;
+        }
+        Some(Coupling {
+            name,
+            x,
+            y,
+            coefficients,
+            is_active,
+        })
+    }
+
+    /// The coordinates of a fixed tendon with their coefficients, which are not zero.
+    fn length(
+        &mut self,
+        element: Element<'a>,
+        name: &Value<'a>,
+    ) -> Option<Vec<((usize, usize), f64)>> {
+        let Some(tendon) = self.tendons.get(name.text.trim()).copied() else {
+            let message = format!("{}: there is no tendon `{}`", name.subject, name.text);
+            self.findings.at(Fault::Unknown, name, message);
+            return None;
+        };
+        if tendon.name() != "fixed" {
+            let message = format!(
+                "`{}` is a tendon in space, and a constraint of its length is not read",
+                name.text
+            );
+            self.refuse(element, message);
+            return None;
+        }
+        let mut out = Vec::new();
+        for part in self.files.children(tendon, self.findings) {
+            let (Some(joint), Some(coefficient)) =
+                (part.attribute("joint"), part.attribute("coef"))
+            else {
+                self.findings.missing(part, "a `joint` and a `coef`");
+                return None;
+            };
+            let joint = self.coordinate(&joint)?;
+            let coefficient = self.findings.number(&coefficient, Counted::Not)?;
+            if coefficient != 0.0 {
+                out.push((joint, coefficient));
+            }
+        }
+        Some(out)
     }
 
     fn coordinate(&mut self, value: &Value<'a>) -> Option<(usize, usize)> {

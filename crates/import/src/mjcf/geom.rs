@@ -5,12 +5,10 @@ use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 use super::Reader;
 use super::body::Item;
 use crate::findings::{Counted, Fault, Findings, unit};
+use crate::limits::DENSITY;
 use crate::mass::{Mass, Solid};
 use crate::pose::along_z;
 use crate::xml::{Element, Value};
-
-/// Density of MuJoCo where none is given (kg/m³).
-const DENSITY: f64 = 1000.0;
 
 /// Geometry of geoms.
 pub(super) struct Geoms;

@@ -22,18 +22,6 @@ impl<'a> Reader<'a, '_> {
             .into_iter()
             .enumerate()
         {
-            if element.name() != "key" {
-                let subject = format!("<{}>", element.name());
-                let kind = "elements that are not understood";
-                self.findings.leave_element(kind, element, &subject);
-                continue;
-            }
-            self.close(
-                element,
-                &[
-                    "name", "time", "qpos", "qvel", "act", "ctrl", "mpos", "mquat",
-                ],
-            );
             let name = element
                 .attribute("name")
                 .map(|name| name.text.trim().to_owned());
@@ -98,6 +86,7 @@ impl<'a> Reader<'a, '_> {
         }
         Some(State {
             name,
+            line: element.line(),
             q: out_q,
             v: v.map(|_| out_v),
         })

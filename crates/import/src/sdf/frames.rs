@@ -237,6 +237,9 @@ pub(super) fn pose_of(
         } else {
             1.0
         };
+        if !in_degrees {
+            findings.look_for_degrees(&value, &numbers[3..]);
+        }
         roll_pitch_yaw([numbers[3] * unit, numbers[4] * unit, numbers[5] * unit])
     };
     Some(Isometry3::from_parts(place, turned))

@@ -144,7 +144,8 @@ fn changed_files_are_imported_or_refused() {
         let (file, text) = &texts[random.below(texts.len())];
         let text = changed(text, &mut random);
         let folder = Folder::of(std::path::Path::new(&path_of(file)));
-        let keyframe = (k % 5 == 0 && text.contains("name=\"up\"")).then(|| "up".to_owned());
+        let keyframe =
+            (k % 5 == 0 && k % 7 != 0 && text.contains("name=\"up\"")).then(|| "up".to_owned());
         let loops = file.ends_with("triangle.urdf").then(|| {
             let yaml = text_of(LOOPS);
             let yaml = if k % 2 == 0 {
@@ -154,6 +155,11 @@ fn changed_files_are_imported_or_refused() {
             };
             (LOOPS.to_owned(), yaml)
         });
+        let asked = [("A", 0.5), ("left", 0.01), ("thumb", 40.0), ("hinge", -1.0)];
+        let pose = asked
+            .iter()
+            .filter(|(name, _)| k % 7 == 0 && text.contains(&format!("name=\"{name}\"")));
+        let pose: Vec<(String, f64)> = pose.map(|(name, q)| ((*name).to_owned(), *q)).collect();
         let axes = if k % 3 == 0 {
             Axes::Snapped
         } else {
@@ -167,6 +173,7 @@ fn changed_files_are_imported_or_refused() {
                 keyframe,
                 loops,
                 axes,
+                pose,
                 ..Options::default()
             },
         ) {

@@ -76,6 +76,19 @@ fn includes_stay_in_their_folder() {
         (first(&refusal).0.as_str(), refusal.file.as_str()),
         ("P0611", "self.xml")
     );
+    // At most 64 files.
+    let mut all = String::new();
+    for k in 0..65 {
+        std::fs::write(folder.join(format!("in/{k}.xml")), "<mujoco/>").expect("writable");
+        all += &format!("<include file='{k}.xml'/>");
+    }
+    let refusal = import::import("model.xml", &format!("<mujoco>{all}</mujoco>"), &at);
+    let (code, _, message) = first(&refusal.expect_err("refused"));
+    assert_eq!(code, "P0611");
+    assert!(message.contains("more than 64 files"), "{message}");
+    let fewer = all.replace("<include file='64.xml'/>", "");
+    let refusal = import::import("model.xml", &format!("<mujoco>{fewer}</mujoco>"), &at);
+    assert_eq!(first(&refusal.expect_err("no body")).0, "P0609");
     std::fs::remove_dir_all(&folder).expect("removable");
 }
 

@@ -2,7 +2,9 @@
 
 mod fuzz;
 mod hostile;
+mod mistakes;
 mod mjcf;
+mod poses;
 mod sdf;
 mod urdf;
 
@@ -74,4 +76,29 @@ fn numbers(list: &str) -> Vec<f64> {
         .split(", ")
         .map(|x| x.parse().expect("a number"))
         .collect()
+}
+
+/// A MJCF with one body around what is given, which stands in line 4.
+fn body(inner: &str) -> String {
+    format!("<mujoco>\n<worldbody>\n<body name='b'>\n{inner}\n</body>\n</worldbody>\n</mujoco>")
+}
+
+/// A text as a scene.
+fn import_text(text: &str, options: &Options) -> Imported {
+    let done = import::import("file.xml", text, options);
+    done.unwrap_or_else(|refusal| panic!("{:?}", refusal.diagnostics))
+}
+
+/// Values of a pose.
+fn pose(values: &[(&str, f64)]) -> Vec<(String, f64)> {
+    let own = values.iter().map(|(name, q)| ((*name).to_owned(), *q));
+    own.collect()
+}
+
+/// Angle of a body about y.
+fn about_y(scene: &str, body: &str) -> f64 {
+    let turned = value(scene, "body", body, "orientation").expect("turned");
+    let (_, q) = turned.split_once("quaternion = ").expect("a quaternion");
+    let q = numbers(q);
+    2.0 * q[2].atan2(q[0])
 }

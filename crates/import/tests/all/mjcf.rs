@@ -45,7 +45,11 @@ fn what_is_left_out_is_told_with_its_line() {
     for (kind, subject, piece) in [
         ("limits of joints", "hip", "<joint name=\"hip\"/>"),
         ("limits of joints", "toe", "<joint name=\"toe\"/>"),
-        ("friction of joints", "knee", "<joint name=\"knee\""),
+        (
+            "friction of joints: accelerations differ where they move",
+            "knee",
+            "<joint name=\"knee\"",
+        ),
         ("actuators", "hip motor", "<motor"),
         ("sensors", "<jointpos>", "<jointpos"),
         ("pairs and exclusions of contacts", "<exclude>", "<exclude"),
@@ -333,21 +337,38 @@ fn faults_have_codes_and_lines() {
     }
 }
 
-/// What a file has and no reader knows is told.
+/// What a file has and a scene cannot have is told.
 #[test]
 fn nothing_is_dropped_in_silence() {
-    let text =
-        "<mujoco><option density='1.2' timestep='0.01'/><worldbody><body name='b' colour='red'>
-        <joint type='ball' damping='1' armature='2'/><geom type='mesh' mesh='m'/><hook/>
-        </body></worldbody><tendon><spatial name='rope'/></tendon><fleet/></mujoco>";
+    let text = "<mujoco><option density='1.2' timestep='0.01'><flag contact='disable'/></option>
+        <worldbody><body name='b'><plugin/>
+        <joint type='ball' damping='1' armature='2'/><geom type='mesh' mesh='m'/>
+        </body></worldbody><tendon><spatial name='rope'/><fixed name='belt' stiffness='2'/></tendon>
+        <actuator><motor name='m'/><position name='p'/><general name='g'/>
+        <general name='a' biastype='affine'/></actuator>
+        <equality><flex name='off' active='false'/></equality></mujoco>";
     let done = import::import("file.xml", text, &Options::default()).expect("imported");
     for (kind, subject) in [
         ("forces of a medium or field", "density"),
         ("settings of MuJoCo's solver", "timestep"),
-        ("attributes that are not understood", "colour of <body>"),
-        ("elements that are not understood", "<hook>"),
-        ("elements that are not understood", "<fleet>"),
+        ("settings of MuJoCo's solver", "contact"),
+        ("plugins", "<plugin> of `b`"),
         ("tendons", "rope"),
+        (
+            "tendons with springs, dampers, friction or armatures: accelerations differ",
+            "belt",
+        ),
+        ("constraints that are not active", "off, <flex>"),
+        ("actuators", "m"),
+        ("actuators", "g"),
+        (
+            "actuators that act without a signal (ctrl = 0), too: accelerations differ",
+            "p",
+        ),
+        (
+            "actuators that act without a signal (ctrl = 0), too: accelerations differ",
+            "a",
+        ),
         (
             "masses of meshes: the body lacks them, give it an <inertial>",
             "",

@@ -1198,4 +1198,13 @@ pub const TABLE: &[Entry] = &[
             "<mujoco>\n  <worldbody>\n    <body name=\"arm\">\n      <joint name=\"hinge\"/>\n      <geom size=\"0.1\"/>\n      <site name=\"tip\" pos=\"1 0 0\"/>\n    </body>\n    <site name=\"far\" pos=\"2 0 0\"/>\n  </worldbody>\n  <equality>\n    <connect site1=\"tip\" site2=\"far\"/>\n  </equality>\n</mujoco>\n",
         ),
     ),
+    entry(
+        614,
+        "A file to import has a name that its format does not know",
+        "Correct the attribute or element: one that is misspelt is not read, and another mass or another joint comes of it.",
+        Example::Scene(
+            "import - --out -",
+            "<mujoco>\n  <worldbody>\n    <body>\n      <geom size=\"0.1\" desnity=\"20\"/>\n    </body>\n  </worldbody>\n</mujoco>\n",
+        ),
+    ),
 ];

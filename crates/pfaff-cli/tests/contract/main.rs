@@ -18,6 +18,7 @@ mod first_minutes;
 mod folder;
 mod fragile;
 mod freedoms;
+mod import;
 mod language;
 mod library;
 mod linearise;

@@ -150,7 +150,7 @@ pub struct NewDocument<'a> {
 /// A scene that was made of a file of another format.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ImportDocument<'a> {
-    /// `true`
+    /// Whether the scene that was written has no error.
     pub ok: bool,
     /// Format of the file.
     pub source_format: &'a str,
@@ -160,6 +160,8 @@ pub struct ImportDocument<'a> {
     pub bodies: usize,
     /// Number of joints and couplings.
     pub joints: usize,
+    /// Number of rotors for armatures: each is one more body with a joint and a coupling.
+    pub rotors: usize,
     /// Statements about the scene as a whole.
     pub remarks: &'a [String],
     /// What the scene does not contain.

@@ -1,0 +1,265 @@
+//! Where a scene starts: at a keyframe, or where loops are closed, near the values that are asked
+//! for.
+
+use crate::angles;
+use crate::assemble::{self, NotAssembled};
+use crate::axes::{self, Axes};
+use crate::couple;
+use crate::findings::{Fault, Findings};
+use crate::limits::{ASSEMBLED, HELD, OPEN};
+use crate::mechanism::{Joint, Model, State};
+use crate::pose::{self, Motion};
+use crate::xml::Element;
+use crate::{Base, Options};
+
+/// The state at which the scene starts, and whether it has velocities; `None` if it starts as
+/// described. `angle` is what angles of the file are known to.
+pub(crate) fn start(
+    model: &mut Model,
+    options: &Options,
+    angle: Option<f64>,
+    root: Element,
+    findings: &mut Findings,
+) -> Option<(Vec<Motion>, bool)> {
+    let told = |state: &State| format!("`{}`", state.name);
+    let Some(name) = &options.keyframe else {
+        if !model.states.is_empty() {
+            let names: Vec<String> = model.states.iter().map(told).collect();
+            let names = names.join(", ");
+            findings.remarks.push(format!(
+                "Keyframes of the file (--keyframe NAME starts there): {names}."
+            ));
+        }
+        close(model, options, angle, root, findings);
+        return None;
+    };
+    if !options.pose.is_empty() {
+        let message = "a pose and a keyframe are two starts: give one of them";
+        findings.of(Fault::Value, root, message);
+        return None;
+    }
+    let Some(state) = model.states.iter().find(|state| state.name == *name) else {
+        let names: Vec<String> = model.states.iter().map(told).collect();
+        let names = if names.is_empty() {
+            "none".to_owned()
+        } else {
+            names.join(", ")
+        };
+        let message = format!("there is no keyframe `{name}`; there are: {names}");
+        findings.of(Fault::Unknown, root, message);
+        return None;
+    };
+    let motions = pose::at_state(model, &state.q, state.v.as_deref());
+    findings
+        .remarks
+        .push(format!("The scene starts at the keyframe `{name}`."));
+    let (moves, line) = (state.v.is_some(), state.line);
+    let q = state.q.clone();
+    for (joint, q) in model.joints.iter_mut().zip(q) {
+        for k in 0..joint.kind.measures().len().min(q.len()) {
+            joint.moved[k] = q[k] - joint.zero[k];
+        }
+    }
+    refuse_turns(model, name, root, findings);
+    let poses: Vec<_> = motions.iter().map(|motion| motion.pose).collect();
+    let moved: Vec<[f64; 2]> = model.joints.iter().map(|joint| joint.moved).collect();
+    let open = assemble::open(model, &poses, &moved);
+    if !open.is_empty() {
+        findings.remarks.push(format!(
+            "The keyframe `{name}` (line {line}) leaves loops open, {}: the scene starts where they \
+             are closed only if that is near.",
+            open.join(", ")
+        ));
+    }
+    Some((motions, moves))
+}
+
+/// Angles of a start have no turns, and couplings count them.
+fn refuse_turns(model: &Model, keyframe: &str, root: Element, findings: &mut Findings) {
+    for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
+        for (joint, k) in coupling.x.into_iter().chain([coupling.y]) {
+            let joint = &model.joints[joint];
+            let turns = joint.kind.measures().get(k) != Some(&"displacement");
+            if turns && joint.moved[k].abs() > std::f64::consts::PI {
+                let message = format!(
+                    "the keyframe `{keyframe}` turns `{}` by {:.3} rad, more than half a turn, and \
+                     `{}` counts turns from where the file describes the links",
+                    joint.name, joint.moved[k], coupling.name
+                );
+                findings.of(Fault::Unsupported, root, message);
+            }
+        }
+    }
+}
+
+/// A coordinate and the value that is asked for it.
+struct Asked<'o> {
+    name: &'o str,
+    value: f64,
+    joint: usize,
+    coordinate: usize,
+}
+
+impl Asked<'_> {
+    fn unit(&self, joint: &Joint) -> &'static str {
+        match joint.kind.measures().get(self.coordinate) {
+            Some(&"displacement") => "m",
+            _ => "rad",
+        }
+    }
+}
+
+/// The coordinates that a pose names.
+fn asked<'o>(
+    model: &Model,
+    pose: &'o [(String, f64)],
+    root: Element,
+    findings: &mut Findings,
+) -> Vec<Asked<'o>> {
+    let mut out = Vec::new();
+    for (name, value) in pose {
+        let coordinates = model.joints.iter().enumerate().flat_map(|(joint, of)| {
+            let count = of.kind.measures().len();
+            (0..count).map(move |coordinate| (joint, coordinate))
+        });
+        let found = coordinates
+            .clone()
+            .find(|&(joint, c)| model.joints[joint].names[c] == *name);
+        let of_joint = |&(joint, c): &(usize, usize)| model.joints[joint].name == *name && c == 0;
+        let found = found.or_else(|| coordinates.clone().find(of_joint));
+        let Some((joint, coordinate)) = found else {
+            let names = coordinates.map(|(joint, c)| model.joints[joint].names[c].as_str());
+            let near = scene::nearest(name, names);
+            let help = near.map(|near| format!("did you mean `{near}`?"));
+            let message = format!("there is no joint `{name}` with a coordinate");
+            let fault = Fault::Unknown;
+            findings.fault_with_help(fault, root.source, root.span(), message, "", help);
+            continue;
+        };
+        let one = Asked {
+            name,
+            value: *value,
+            joint,
+            coordinate,
+        };
+        if one.unit(&model.joints[joint]) == "rad" && angles::is_beyond_a_turn(*value) {
+            findings.remarks.push(format!(
+                "`{name}` is asked at {value} rad, more than a turn: angles are in rad, and {value}° \
+                 are {} rad.",
+                short(value.to_radians())
+            ));
+        }
+        out.push(one);
+    }
+    out
+}
+
+/// A number with five digits.
+fn short(x: f64) -> f64 {
+    format!("{x:.4e}").parse().unwrap_or(x)
+}
+
+/// Describes the links where loops are closed, if they are open where the file describes them or a
+/// pose is wanted.
+fn close(
+    model: &mut Model,
+    options: &Options,
+    angle: Option<f64>,
+    root: Element,
+    findings: &mut Findings,
+) {
+    let asked = asked(model, &options.pose, root, findings);
+    if findings.has_problems() {
+        return;
+    }
+    let given = asked.iter().map(|one| {
+        let change = one.value - model.joints[one.joint].zero[one.coordinate];
+        (one.joint, one.coordinate, change)
+    });
+    let given: Vec<_> = given.collect();
+    let guess = couple::follow(model, &given);
+    if options.axes == Axes::Snapped {
+        let poses = assemble::poses(model, &guess);
+        axes::align(model, &poses, angle, findings);
+    }
+    let open = assemble::gap(model);
+    if asked.is_empty() && open <= OPEN {
+        return;
+    }
+    let held: Vec<_> = given.iter().map(|&(joint, c, _)| (joint, c)).collect();
+    match assemble::assemble(model, &guess, &held) {
+        Ok(found) => {
+            let mut remark = format!(
+                "The links are described at a pose at which loops are closed, found {}",
+                found.way
+            );
+            if open > OPEN {
+                remark += &format!(
+                    "; where the file describes them, loops are open by {open:.1e} of the size or rad"
+                );
+            }
+            remark += ".";
+            if found.gap > ASSEMBLED {
+                remark += &format!(
+                    " The best pose leaves {:.1e} of the size or rad.",
+                    found.gap
+                );
+            }
+            findings.remarks.push(remark);
+            for joint in assemble::describe(model, &found) {
+                let kind = "springs of spherical joints, since another pose is described";
+                findings.leave_element(kind, root, &joint);
+            }
+            tell_moved(model, &asked, findings);
+        }
+        Err(NotAssembled::Open(name, gap)) => {
+            let message = format!(
+                "no pose is found at which all loops are closed: at the best one `{name}` is open by \
+                 {gap:.1e} of the size or rad"
+            );
+            let mut help =
+                "give a pose near which they close: --pose joint=0.3,other=-0.2".to_owned();
+            let poses = assemble::poses(model, &guess);
+            if let Some(tilts) = axes::tilts(model, &poses, angle) {
+                help = format!("{tilts}: --snap makes axes parallel; or {help}");
+            }
+            let fault = Fault::Assembly;
+            findings.fault_with_help(fault, root.source, root.span(), message, "", help);
+        }
+        Err(NotAssembled::TooLarge(n)) => {
+            findings.remarks.push(format!(
+                "Loops are open by {open:.1e} of the size or rad, and {n} coordinates are more than are tried."
+            ));
+        }
+    }
+}
+
+/// Names the coordinates that do not have the values that were asked for.
+fn tell_moved(model: &Model, asked: &[Asked], findings: &mut Findings) {
+    let mut moved = Vec::new();
+    for one in asked {
+        let joint = &model.joints[one.joint];
+        let found = joint.zero[one.coordinate];
+        if (found - one.value).abs() > HELD * one.value.abs().max(1.0) {
+            moved.push(format!(
+                "`{}`: asked {} {unit}, found {} {unit}",
+                one.name,
+                one.value,
+                short(found),
+                unit = one.unit(joint),
+            ));
+        }
+    }
+    if !moved.is_empty() {
+        findings.remarks.push(format!(
+            "Loops and couplings do not close with all values of the pose: {}.",
+            moved.join("; ")
+        ));
+    }
+}
+
+/// Why nothing moves, for a root that is fixed by default.
+pub(crate) fn nothing_moves(format: &str, base: Base) -> Option<String> {
+    let is_fixed = format == "URDF" && base == Base::Fixed;
+    is_fixed.then(|| "the root link is fixed to the ground by default: --base free".to_owned())
+}

@@ -1,0 +1,52 @@
+//! What `pfaff import` answers: counts, exit codes, documents.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::{Folder, pfaff, stdout, with_scene};
+
+/// A pendulum with a rotor; the moments are given.
+fn pendulum(moments: &str) -> String {
+    format!(
+        "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' armature='0.1'/>\
+         <inertial pos='0 0 -0.5' mass='1' diaginertia='{moments}'/></body></worldbody></mujoco>"
+    )
+}
+
+/// `check` counts a rotor as a body with two joints more, and the answer of `import` says so.
+#[test]
+fn rotors_are_counted() {
+    let folder = Folder::new("import-rotors");
+    let out = folder.0.join("scene.toml").display().to_string();
+    let arguments = ["import", "-", "--out", &out];
+    let words = stdout(&with_scene(&arguments, &pendulum("0.1 0.1 0.01")));
+    let counts = "MJCF: 1 body, 1 joint or coupling and 1 rotor for an armature";
+    assert!(words.starts_with(counts), "{words}");
+    let checked = stdout(&pfaff(&["check", &out]));
+    assert!(checked.contains("2 bodies, 3 joints"), "{checked}");
+}
+
+/// No body has moments of which one is above the sum of the others: the scene is written, so that
+/// it can be mended, and the command does not end as if all were well.
+#[test]
+fn a_scene_with_an_error_is_no_success() {
+    let folder = Folder::new("import-error");
+    let out = folder.0.join("scene.toml").display().to_string();
+    let text = pendulum("0.1 0.1 0.9");
+    let output = with_scene(&["import", "-", "--out", &out], &text);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stdout(&output).contains("body `rod`"),
+        "{}",
+        stdout(&output)
+    );
+    assert!(fs::read_to_string(&out).is_ok_and(|scene| scene.contains("[[body]]")));
+    let arguments = ["import", "-", "--out", &out, "--force", "--json"];
+    let output = with_scene(&arguments, &text);
+    assert_eq!(output.status.code(), Some(1));
+    let document: Value = serde_json::from_str(&stdout(&output)).expect("one document");
+    assert_eq!(document["ok"], false);
+    assert_eq!(document["rotors"], 1);
+    assert!(document["scene_error"].is_string(), "{document}");
+}
