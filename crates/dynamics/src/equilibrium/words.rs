@@ -3,7 +3,7 @@
 use solvability::motions_among;
 
 use super::balance::{Balance, Statics};
-use crate::limits::{TAKES_PART, UNRESISTED};
+use crate::limits::{MOSTLY_TURNS, TAKES_PART, UNRESISTED};
 
 /// What pushes a free motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,14 +30,15 @@ pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> V
 /// What pushes along a free motion, for each set of bodies that move.
 pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> Vec<Pushed> {
     let v = statics.velocity(at, along);
-    let told = motions_among(
-        statics.mechanism,
-        statics.t,
-        &at.q,
-        std::slice::from_ref(&v),
-    );
+    pushed_along(statics, &at.q, &v)
+}
+
+/// What pushes along velocities at the configuration q, for each set of bodies that move.
+pub(super) fn pushed_along(statics: &mut Statics<'_>, q: &[f64], v: &[f64]) -> Vec<Pushed> {
+    let one = [v.to_vec()];
+    let told = motions_among(statics.mechanism, statics.t, q, &one);
     let told = told.unwrap_or_default();
-    statics.evaluate(&at.q);
+    statics.evaluate(q);
     let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
     let forces = statics.mechanism.applied_forces().parts(&mut statics.s);
     let forces = forces.map(|(name, q)| (format!("`{name}`"), q));
@@ -51,12 +52,12 @@ pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> 
                 .flatten()
                 .map(|(b, _)| *b)
                 .collect();
-            of_bodies(statics, &forces, &v, (&motion.text, &bodies))
+            of_bodies(statics, &forces, v, (&motion.text, &bodies))
         })
         .collect();
     if all.is_empty() {
         let bodies: Vec<usize> = (0..statics.bodies()).collect();
-        return vec![of_bodies(statics, &forces, &v, ("a free motion", &bodies))];
+        return vec![of_bodies(statics, &forces, v, ("a free motion", &bodies))];
     }
     let largest = all.iter().fold(0.0, |a: f64, p| a.max(p.force.abs()));
     let takes_part = |p: &Pushed| p.force.abs() > UNRESISTED * largest;
@@ -78,8 +79,8 @@ fn of_bodies(
         own.map(|&j| v[j].abs()).fold(0.0, f64::max)
     };
     let (turn, slide) = (fastest(true), fastest(false));
-    // What is a rounding of a translation is no rotation.
-    let (largest, unit) = if turn * statics.size > UNRESISTED * slide {
+    // A force for each of its metres, or a moment for each radian if it turns as much as it moves.
+    let (largest, unit) = if turn * statics.size > MOSTLY_TURNS * slide {
         (turn, "N·m")
     } else {
         (slide, "N")

@@ -194,3 +194,14 @@ fn what_is_determined_is_told_in_components() {
     );
     assert_eq!(found[3], "determined is Fx and Fy");
 }
+
+/// Hinges have no moment about their axis, and a door on two shares all others.
+#[test]
+fn what_is_zero_whatever_the_loads_is_told_to_be_so() {
+    let found = explained(&door(&[Revolute; 2], HOME)).reactions;
+    assert_eq!(found.len(), 2);
+    for reaction in &found {
+        let end = "; determined is Tz only, which is zero whatever the loads";
+        assert!(reaction.text.ends_with(end), "{}", reaction.text);
+    }
+}
