@@ -20,6 +20,13 @@ impl Prepared {
     }
 }
 
+/// Whether velocities are rounding for a mechanism of this size (m).
+pub(crate) fn rests(mechanism: &Mechanism, size: f64, v: &[f64]) -> bool {
+    let unit = |j: usize| mechanism.space().unit(j, size);
+    let mut each = v.iter().enumerate();
+    each.all(|(j, v)| v.abs() <= RESTING_RATE * unit(j))
+}
+
 /// Drives and joints that functions of time accelerate at rest at the coordinates q, by more than
 /// rounding for a mechanism of this size (m).
 pub(crate) fn accelerated(mechanism: &Mechanism, size: f64, t: f64, q: &[f64]) -> Vec<String> {

@@ -21,7 +21,7 @@ mod reduce;
 use linalg::{DampedRows, Matrix};
 use model::System;
 
-use crate::held::accelerated;
+use crate::held::{accelerated, rests};
 use crate::motion::KeptRowMotion;
 use crate::prepare::Prepared;
 use coordinates::Chosen;
@@ -101,8 +101,10 @@ pub fn linearise(
     (t, q, v): (f64, &[f64], &[f64]),
     options: &LineariseOptions,
 ) -> Result<Linearisation, LineariseError> {
-    let (rests, size) = (v.iter().all(|v| *v == 0.0), prepared.assembly.size);
-    let at_rest = rests.then(|| prepared.held_at(t));
+    let size = prepared.assembly.size;
+    let at_rest = rests(&prepared.mechanism, size, v).then(|| prepared.held_at(t));
+    let still = vec![0.0; v.len()];
+    let v = if at_rest.is_some() { &still } else { v };
     let held = match &at_rest {
         Some(_) => accelerated(&prepared.mechanism, size, t, q),
         None => Vec::new(),

@@ -2,15 +2,16 @@
 //! are.
 //!
 //! Joints and forces between bodies of a set do not change if all of them move along a straight
-//! line. If nothing else acts than the weight and forces that are the same at each pose, the set is
-//! pushed along their sum at each pose, and nowhere at rest.
+//! line, and those of angles do not feel it. If nothing else acts than the weight and forces that
+//! are the same at each pose, the set is pushed along their sum at each pose, and nowhere at rest.
 
 use linalg::DisjointSets;
 use linalg::kernels::norm;
-use model::{BodyRef, System};
+use model::words::listed;
+use model::{BodyRef, Mechanism, System};
 
 use super::balance::Statics;
-use super::words::{Pushed, pushed_along};
+use super::words::{Pushed, of_bodies, parts};
 use crate::limits::{DEAD_LOAD, UNRESISTED_FORCE};
 
 /// Displacements at which a force is the same if it is a dead load: of the centre of mass (sizes of
@@ -35,24 +36,29 @@ pub(super) fn falls(statics: &mut Statics<'_>, q: &[f64]) -> Vec<Pushed> {
             moving.iter().for_each(|k| tied[*k] = true);
         }
     };
-    for group in &mechanism.layout().groups {
-        tie(&group.bodies, false);
-    }
-    let forces: Vec<Vec<BodyRef>> = mechanism
-        .applied_forces()
-        .iter()
-        .map(|force| force.bodies.to_vec())
-        .collect();
-    let mut load = mechanism.weight().to_vec();
-    let parts = dead_loads(statics, q);
-    for (bodies, part) in forces.iter().zip(parts) {
-        match part {
-            Some(part) => load.iter_mut().zip(part).for_each(|(x, f)| *x += f),
-            None if bodies.len() == 1 => tie(bodies, true),
-            None => tie(bodies, false),
+    statics.evaluate(q);
+    let (layout, space) = (mechanism.layout(), mechanism.space());
+    for group in &layout.groups {
+        let mut entries = group
+            .rows
+            .iter()
+            .flat_map(|row| layout.row(&statics.s, row));
+        if entries.any(|(column, _)| !space.is_rotation(column)) {
+            tie(&group.bodies, false);
         }
     }
-    let space = mechanism.space();
+    let mut load = mechanism.weight().to_vec();
+    let dead = dead_loads(statics, q);
+    for (force, part) in mechanism.applied_forces().iter().zip(dead) {
+        let mut pushes = force.spec.q.iter().map(|k| space.dof_of(*k));
+        let turns = !force.spec.q.is_empty() && !pushes.any(|dof| space.forces().contains(&dof));
+        match part {
+            Some(part) => load.iter_mut().zip(part).for_each(|(x, f)| *x += f),
+            None if turns => {}
+            None => tie(force.bodies, force.bodies.len() == 1),
+        }
+    }
+    let forces = parts(statics, q);
     let translations = |body: usize| {
         let columns = space.columns_of(body);
         columns.filter(|j| !space.is_rotation(*j))
@@ -74,15 +80,38 @@ pub(super) fn falls(statics: &mut Statics<'_>, q: &[f64]) -> Vec<Pushed> {
         if size.is_nan() || size <= UNRESISTED_FORCE * largest {
             continue;
         }
+        let along: Vec<f64> = sum.iter().map(|x| x / size).collect();
         let mut v = vec![0.0; load.len()];
         for &body in &own {
-            for (j, x) in translations(body).zip(&sum) {
-                v[j] = x / size;
+            for (j, x) in translations(body).zip(&along) {
+                v[j] = *x;
             }
         }
-        found.extend(pushed_along(statics, q, &v));
+        let motion = slides(mechanism, &own, &along);
+        found.push(of_bodies(statics, &forces, &v, (&motion, &own)));
     }
     found
+}
+
+/// A translation of some bodies in words.
+fn slides(mechanism: &Mechanism, bodies: &[usize], along: &[f64]) -> String {
+    let name = |k: &usize| format!("`{}`", mechanism.bodies()[*k].name);
+    let names: Vec<String> = bodies.iter().map(name).collect();
+    let verb = match bodies {
+        [_] => "slides",
+        _ => "slide together",
+    };
+    let names = match &names[..] {
+        [first, second] => format!("{first} and {second}"),
+        names => listed(names),
+    };
+    // Four digits; −0 is 0.
+    let shown = along.iter().map(|x| (x * 1e4).round() / 1e4 + 0.0);
+    let shown = shown.map(|x| x.to_string().replace('-', "−"));
+    format!(
+        "{names} {verb} along ({})",
+        shown.collect::<Vec<_>>().join(", ")
+    )
 }
 
 /// What each applied force on one body adds to Q, if it pushes in the same way at other poses;

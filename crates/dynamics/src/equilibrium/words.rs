@@ -30,19 +30,14 @@ pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> V
 /// What pushes along a free motion, for each set of bodies that move.
 pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> Vec<Pushed> {
     let v = statics.velocity(at, along);
-    pushed_along(statics, &at.q, &v)
-}
-
-/// What pushes along velocities at the configuration q, for each set of bodies that move.
-pub(super) fn pushed_along(statics: &mut Statics<'_>, q: &[f64], v: &[f64]) -> Vec<Pushed> {
-    let one = [v.to_vec()];
-    let told = motions_among(statics.mechanism, statics.t, q, &one);
+    let told = motions_among(
+        statics.mechanism,
+        statics.t,
+        &at.q,
+        std::slice::from_ref(&v),
+    );
     let told = told.unwrap_or_default();
-    statics.evaluate(q);
-    let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
-    let forces = statics.mechanism.applied_forces().parts(&mut statics.s);
-    let forces = forces.map(|(name, q)| (format!("`{name}`"), q));
-    let forces: Vec<(String, Vec<f64>)> = std::iter::once(weight).chain(forces).collect();
+    let forces = parts(statics, &at.q);
     let all: Vec<Pushed> = told
         .iter()
         .map(|motion| {
@@ -52,20 +47,29 @@ pub(super) fn pushed_along(statics: &mut Statics<'_>, q: &[f64], v: &[f64]) -> V
                 .flatten()
                 .map(|(b, _)| *b)
                 .collect();
-            of_bodies(statics, &forces, v, (&motion.text, &bodies))
+            of_bodies(statics, &forces, &v, (&motion.text, &bodies))
         })
         .collect();
     if all.is_empty() {
         let bodies: Vec<usize> = (0..statics.bodies()).collect();
-        return vec![of_bodies(statics, &forces, v, ("a free motion", &bodies))];
+        return vec![of_bodies(statics, &forces, &v, ("a free motion", &bodies))];
     }
     let largest = all.iter().fold(0.0, |a: f64, p| a.max(p.force.abs()));
     let takes_part = |p: &Pushed| p.force.abs() > UNRESISTED * largest;
     all.into_iter().filter(takes_part).collect()
 }
 
+/// The weight and the applied forces at the configuration q, in words, with what they add to Q.
+pub(super) fn parts(statics: &mut Statics<'_>, q: &[f64]) -> Vec<(String, Vec<f64>)> {
+    statics.evaluate(q);
+    let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
+    let forces = statics.mechanism.applied_forces().parts(&mut statics.s);
+    let forces = forces.map(|(name, q)| (format!("`{name}`"), q));
+    std::iter::once(weight).chain(forces).collect()
+}
+
 /// What pushes some bodies along their part of a motion.
-fn of_bodies(
+pub(super) fn of_bodies(
     statics: &Statics<'_>,
     forces: &[(String, Vec<f64>)],
     v: &[f64],

@@ -19,8 +19,12 @@ const LARGEST_GYRATION: f64 = 20.0;
 const SMALLEST_GYRATION: f64 = 1e-3;
 
 /// Density from which a ball of that mass and inertia is made of no material (kg/m³): osmium has
-/// 2.3e4, and a point mass with an inertia that is not exactly zero in a small scene some 1e6.
-const DENSEST: f64 = 1e7;
+/// 2.3e4, and the inertia of a wheel in kg·m² read as kg·mm² makes 1e11 of 1e2. A point mass of
+/// 1 kg with a token of 1e-6 kg·m² has 6e7.
+const DENSEST: f64 = 1e9;
+
+/// Share of the size of the mechanism below which the radius of gyration of such a body is small.
+const SMALL: f64 = 1e-2;
 
 /// Density of steel (kg/m³).
 const STEEL: f64 = 7850.0;
@@ -245,7 +249,7 @@ fn inertia(
 /// Warns of a body, such as a wheel, whose points are all at its centre of mass, if it is small in
 /// the mechanism and a ball of its mass and inertia is of no material.
 fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings: &mut Findings) {
-    let Some(gyration) = gyration(body).filter(|radius| *radius < SMALLEST_GYRATION * size) else {
+    let Some(gyration) = gyration(body).filter(|radius| *radius < SMALL * size) else {
         return;
     };
     let volume = |radius: f64| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
