@@ -252,6 +252,7 @@ fn describe(d: &LinearisationDocument) -> String {
     text.push('\n');
     text.push_str(&columns(&all.collect::<Vec<_>>()));
     let first = match d.stability {
+        _ if d.states.is_empty() => "nothing can move",
         Some("stable") => "stable: all small motions decay",
         Some("unstable") => "unstable: some small motions grow",
         _ => "first order does not decide: some small motions neither decay nor grow",
