@@ -577,6 +577,56 @@ force = [{ name = \"motor\", type = \"torque\", body = \"wheel\", torque = 0.3 }
     assert!((found.q[4] - 0.8).abs() < 1e-13);
 }
 
+/// A base and an arm on it, away from its axis of mass: nothing holds them, and the arm swings.
+#[test]
+fn what_falls_freely_is_named_with_its_weight() {
+    let robot = |more: &str| {
+        format!(
+            "scene = {{ name = \"robot\", space = \"spatial\", gravity = [0.0, 0.0, -10.0] }}
+body = [{{ name = \"base\", mass = 8.0, inertia = [0.05, 0.05, 0.05] }}, \
+        {{ name = \"arm\", mass = 0.4, inertia = [1e-4, 4e-3, 4e-3], centre = [0.15, 0.0, 0.0], position = [0.1, 0.0, 0.0] }}]
+joint = [{{ name = \"shoulder\", type = \"revolute\", bodies = [\"base\", \"arm\"], at = [0.1, 0.0, 0.0], axis = [0.0, 1.0, 0.0] }}]
+{more}\n"
+        )
+    };
+    let fall = |more: &str| match refused(&robot(more)) {
+        EquilibriumError::Pushed(pushed) => pushed,
+        other => panic!("{other}"),
+    };
+    // 8.4 kg.
+    let [pushed] = &fall("")[..] else { panic!() };
+    assert_eq!(
+        pushed.motion,
+        "`base` and `arm` slide together along (0, 0, −1)"
+    );
+    assert!((pushed.force - 84.0).abs() < 1e-12, "{pushed:?}");
+    assert_eq!(
+        (pushed.unit, &pushed.by[..]),
+        ("N", &["the weight".to_owned()][..])
+    );
+    // A thrust along z that is too weak, and one to the side.
+    let thrust = |force: &str| {
+        format!(
+            "force = [{{ name = \"thrust\", type = \"point-force\", body = \"base\", point = [0.0, 0.0, 0.0], force = {force} }}]"
+        )
+    };
+    let [pushed] = &fall(&thrust("[0.0, 0.0, 80.0]"))[..] else {
+        panic!()
+    };
+    assert!((pushed.force - 4.0).abs() < 1e-12, "{pushed:?}");
+    let [pushed] = &fall(&thrust("[3.0, 0.0, 80.0]"))[..] else {
+        panic!()
+    };
+    assert!((pushed.force - 5.0).abs() < 1e-12, "{pushed:?}");
+    // A spring carries it, and a thrust that carries the weight turns nothing away: no fall.
+    let spring = "force = [{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"base\"], at = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], stiffness = 1000.0, damping = 0.0 }]";
+    let (found, _) = rest(&robot(spring));
+    assert!((found.q[2] + 0.084).abs() < 1e-9, "{:?}", found.q);
+    // One that carries the weight leaves it where it is, and the arm hangs below.
+    let (found, _) = rest(&robot(&thrust("[0.0, 0.0, 84.0]")));
+    assert!(found.residual < 1e-9, "{found:?}");
+}
+
 /// A torque above m·g·l turns the pendulum for ever, one below does not.
 #[test]
 fn a_motor_that_is_too_strong_finds_no_rest() {
@@ -637,6 +687,30 @@ fn a_drive_that_moves_at_the_start_is_refused_by_name() {
         (RestStability::Immovable, 0)
     );
     assert_eq!(found.moving_on, ["motor"]);
+    // The motor would turn at −0.5·2² rad/s²; at rest it carries the weight alone: m·g·x.
+    let torque = |study: &Study| {
+        let motion = study.motion(&MotionOptions::to(0.0)).expect("begins");
+        motion.rows[0]
+            .reactions
+            .get("motor")
+            .expect("named")
+            .get("T")
+            .copied()
+            .expect("a torque")
+    };
+    let inertia = (torque(&there) - torque(&there.held_at(0.0))).abs() / 2.0;
+    let held = torque(&there.held_at(0.0));
+    assert!((held.abs() - 2.0 * G * 0.3).abs() < 1e-12, "{held}");
+    // J + m·l², with l = 0.5 m.
+    assert!((inertia - (0.1 + 2.0 * 0.25)).abs() < 1e-12, "{inertia}");
+    // Small motions about it are those of the place held: none.
+    let small = there
+        .linearise(0.0, &LineariseOptions::default())
+        .expect("at rest");
+    assert_eq!(
+        (small.a.nrows(), &small.held[..]),
+        (0, &["motor".to_owned()][..])
+    );
     assert_eq!(there.prepared.q, study(&text).prepared.q);
 }
 

@@ -87,6 +87,19 @@ joint = [{ name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"rod\"], 
     );
 }
 
+/// A body that nothing holds is not sent to a search for rest, in which it falls as well.
+#[test]
+fn a_body_that_falls_freely_is_told_to_be_held() {
+    let text = "
+scene = { name = \"stone\", space = \"spatial\", gravity = [0.0, 0.0, -10.0] }
+body = [{ name = \"stone\", mass = 2.0, inertia = [0.1, 0.2, 0.25] }]
+";
+    let refused = asked(text, &[], &[]).expect_err("it falls").to_string();
+    let end = "there is no rest: `stone` slides along (0, 0, −1), pushed with 20 N by the weight, wherever it \
+               goes; hold it by a joint to the ground, or describe what carries it";
+    assert!(refused.ends_with(end), "{refused}");
+}
+
 /// A mass on a spring in the middle of its swing has no acceleration, and is not steady.
 #[test]
 fn a_mass_that_passes_its_place_of_rest_is_not_steady() {

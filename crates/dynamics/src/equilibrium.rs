@@ -12,9 +12,11 @@
 
 mod balance;
 mod error;
+mod fall;
 mod stiffness;
 mod words;
 
+use crate::held::accelerated;
 use crate::limits::{
     REST_LEFT, REST_LONGEST, REST_PUSH, REST_PUSHES, REST_RADIUS, REST_ROUNDINGS, REST_SHORTEST,
     REST_STALLED, REST_STEPS, UNRESISTED, UNRESISTED_FORCE, UNRESISTED_STEPS,
@@ -60,7 +62,7 @@ pub struct Equilibrium {
     /// Whether the place depends on the way: nonholonomic rows restrict how it is reached, not
     /// where it is.
     pub depends_on_way: bool,
-    /// Drives and joints whose rows do not rest longer: their functions of time accelerate at once.
+    /// Drives and joints that are held here and that functions of time accelerate at once.
     pub moving_on: Vec<String>,
 }
 
@@ -141,6 +143,10 @@ pub fn equilibrium(
 ) -> Result<Equilibrium, EquilibriumError> {
     let mut statics = Statics::new(prepared);
     statics.check_rest(&prepared.q)?;
+    let falls = fall::falls(&mut statics, &prepared.q);
+    if !falls.is_empty() {
+        return Err(EquilibriumError::Pushed(falls));
+    }
     let mut search = Search {
         at: statics.balance(prepared.q.clone())?,
         statics,
@@ -153,6 +159,15 @@ pub fn equilibrium(
     };
     let stiffness = search.run(options)?;
     search.finish(&stiffness, prepared)
+}
+
+/// What falls freely at the configuration q and time t and what pushes it, in words: nothing ties
+/// it to the ground. `None` if nothing does for sure.
+pub(crate) fn falling(prepared: &Prepared, t: f64, q: &[f64]) -> Option<String> {
+    let mut statics = Statics::new(prepared);
+    statics.t = t;
+    let falls = fall::falls(&mut statics, q);
+    (!falls.is_empty()).then(|| error::push(&falls))
 }
 
 /// A search, step by step.
@@ -296,7 +311,7 @@ impl Search<'_> {
     }
 
     fn finish(
-        mut self,
+        self,
         stiffness: &Stiffness,
         prepared: &Prepared,
     ) -> Result<Equilibrium, EquilibriumError> {
@@ -322,7 +337,8 @@ impl Search<'_> {
         };
         let idle = words::motions(&self.statics, &self.at, &idle);
         let largest = self.at.free.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        let moving_on = self.statics.moving_on(&self.at.q);
+        let (t, size) = (self.statics.t, self.statics.size);
+        let moving_on = accelerated(self.statics.mechanism, size, t, &self.at.q);
         Ok(Equilibrium {
             time: self.statics.t,
             steps: self.steps,

@@ -20,10 +20,12 @@
 mod choose;
 pub mod code;
 mod counts;
+mod differences;
 pub mod equilibrium;
 mod error;
 pub mod events;
 mod guards;
+mod held;
 mod limits;
 pub mod linearise;
 mod manifold;

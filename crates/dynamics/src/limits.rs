@@ -138,6 +138,18 @@ pub(crate) const UNRESISTED: f64 = 1e-9;
 /// steps before they are refused. Test: `what_nothing_holds_is_refused_with_what_pushes_it`.
 pub(crate) const UNRESISTED_FORCE: f64 = 1e-6;
 
+/// A motion is pushed with a moment if it turns by at least this many radians while its fastest
+/// body moves by the size of the mechanism.
+/// Unit: rad. Less: forces along a translation with a little rotation are divided by that little.
+/// More: what turns about a far axis is pushed with a force. Test:
+/// `what_falls_freely_is_named_with_its_weight`.
+pub(crate) const MOSTLY_TURNS: f64 = 0.1;
+
+/// A force on one body that changes less from pose to pose is the same at all poses.
+/// Unit: share of the force. Less: rounding of far poses is a change. More: forces that change
+/// slowly are taken for constant. Test: `what_falls_freely_is_named_with_its_weight`.
+pub(crate) const DEAD_LOAD: f64 = 1e-9;
+
 /// And over so many steps.
 /// Unit: steps. Less: a horizontal pendulum, whose weight is an extremum there, is refused. More:
 /// time. Test: `a_horizontal_pendulum_falls`.
@@ -192,6 +204,13 @@ pub(crate) const SYMMETRY: f64 = 1e-7;
 /// Unit: share of the largest eigenvalue. Less: free motions seem to grow or decay. More: slow
 /// modes are lost. Test: `the_benchmark_bicycle_has_its_published_eigenvalues`.
 pub(crate) const ZERO_EIGENVALUE: f64 = 1e-7;
+
+#[cfg(feature = "eigen")]
+/// Rounding of the entries of A, for each of its rows.
+/// Unit: share of the norm of A. Less: zeros of large Jordan blocks seem to grow. More: slow modes
+/// of mechanisms that are stiff elsewhere are lost. Test:
+/// `rounding_around_a_multiple_zero_neither_grows_nor_decays`.
+pub(crate) const ZERO_ENTRY: f64 = 16.0 * f64::EPSILON;
 
 /// Real parts below this share of the largest eigenvalue neither grow nor decay.
 /// Unit: share of the largest eigenvalue. Less: rounding calls undamped motions unstable. More:

@@ -21,13 +21,12 @@ mod reduce;
 use linalg::{DampedRows, Matrix};
 use model::System;
 
+use crate::held::{accelerated, rests};
 use crate::motion::KeptRowMotion;
 use crate::prepare::Prepared;
 use coordinates::Chosen;
 use curve::{BODY, Curves, Derivative};
 use reduce::Followed;
-
-pub(crate) use curve::ORDER_8;
 
 pub use coordinates::Coordinate;
 pub use error::LineariseError;
@@ -58,6 +57,9 @@ pub struct Linearisation {
     pub velocities: Vec<Coordinate>,
     /// The inputs u.
     pub inputs: Vec<Input>,
+    /// Drives and joints that functions of time would accelerate, and that are held because the
+    /// state is at rest.
+    pub held: Vec<String>,
     /// A, square.
     pub a: Matrix,
     /// B, a column for each input.
@@ -85,6 +87,9 @@ pub struct SecondOrder {
 
 /// Linearises the motion about the state q, v at time t, which satisfies the constraints.
 ///
+/// At rest, v = 0, functions of time keep the values that they have at t, as in
+/// [`crate::equilibrium`]: what a drive does next is an input.
+///
 /// # Errors
 /// - [`LineariseError::NotSteady`]: the state is neither at rest nor steady.
 /// - [`LineariseError::Coordinate`], [`LineariseError::Dependent`]: asked coordinates do not exist,
@@ -96,6 +101,15 @@ pub fn linearise(
     (t, q, v): (f64, &[f64], &[f64]),
     options: &LineariseOptions,
 ) -> Result<Linearisation, LineariseError> {
+    let size = prepared.assembly.size;
+    let at_rest = rests(&prepared.mechanism, size, v).then(|| prepared.held_at(t));
+    let still = vec![0.0; v.len()];
+    let v = if at_rest.is_some() { &still } else { v };
+    let held = match &at_rest {
+        Some(_) => accelerated(&prepared.mechanism, size, t, q),
+        None => Vec::new(),
+    };
+    let prepared = at_rest.as_ref().unwrap_or(prepared);
     let followed = Followed::of(&prepared.mechanism, (q, v), &options.follow)?;
     let mut curves = Curves::new(KeptRowMotion::new(prepared)?, prepared, (t, q, v))?;
     curves.check_steady(followed.turning)?;
@@ -131,6 +145,7 @@ pub fn linearise(
         positions: chosen.positions.clone(),
         velocities: chosen.velocities.clone(),
         inputs,
+        held,
         second_order: None,
         shapes: bases.shifts.clone(),
         accuracy,

@@ -8,7 +8,7 @@ use faer::MatRef;
 use faer::linalg::solvers::Eigen;
 
 use crate::limits::{BALANCED, BALANCINGS};
-use crate::{Matrix, powers};
+use crate::{Matrix, PivotedQr, powers};
 
 /// An eigenvalue and its eigenvector; complex numbers as real and imaginary parts.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +68,56 @@ pub fn eigenpairs(a: &Matrix) -> Option<Vec<Eigenpair>> {
     Some(pairs)
 }
 
+/// The eigenvalue zero of a matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ZeroEigenvalue {
+    /// How many eigenvalues are zero.
+    pub multiplicity: usize,
+    /// Size of the largest Jordan block that belongs to it: a change of the matrix by ε times its
+    /// norm changes its eigenvalues by up to about `ε^(1/index)` times the norm.
+    pub index: usize,
+}
+
+/// The eigenvalue zero of a square matrix whose entries are known to `tolerance`, without the
+/// eigenvalues, which rounding spreads in a circle around it: null spaces are split off one after
+/// the other until none is left (V. N. Kublanovskaya, On a method of solving the complete
+/// eigenvalue problem for a degenerate matrix, USSR Comput. Math. Math. Phys. 6 (1966) 1–14).
+///
+/// ```
+/// use linalg::{Matrix, zero_eigenvalue};
+/// // A free body: ẋ = v, v̇ = 0; and a decay.
+/// let a = Matrix::from_rows(&[[0.0, 1.0, 0.0], [1e-17, 0.0, 0.0], [0.0, 0.0, -3.0]]);
+/// let zero = zero_eigenvalue(&a, 1e-14);
+/// assert_eq!((zero.multiplicity, zero.index), (2, 2));
+/// ```
+///
+/// # Panics
+/// If the matrix is not square.
+#[must_use]
+pub fn zero_eigenvalue(a: &Matrix, tolerance: f64) -> ZeroEigenvalue {
+    assert_eq!(a.nrows(), a.ncols(), "a square matrix");
+    let mut zero = ZeroEigenvalue::default();
+    let mut rest = a.clone();
+    while rest.nrows() > 0 {
+        let n = rest.nrows();
+        let rows = PivotedQr::of_rows(rest.clone());
+        // NaN is no rank.
+        let rank = rows
+            .r_diagonal()
+            .take_while(|r| r.abs() > tolerance)
+            .count();
+        if rank == n {
+            break;
+        }
+        zero.multiplicity += n - rank;
+        zero.index += 1;
+        // Rows span what the null space leaves: Qᵀ·A·Q has the other eigenvalues.
+        let q = rows.q_columns(0..rank);
+        rest = q.transpose().product(&rest.product(&q));
+    }
+    zero
+}
+
 /// `D⁻¹·A·D` with rows and columns of similar size, and the exponents of D.
 fn balanced(a: &Matrix) -> (Matrix, Vec<i32>) {
     let n = a.nrows();
@@ -106,6 +156,49 @@ fn balanced(a: &Matrix) -> (Matrix, Vec<i32>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Jordan blocks beside other eigenvalues, in general axes and with entries changed by 1e-15.
+    #[test]
+    fn zeros_are_counted_though_rounding_spreads_them() {
+        let sizes = [3, 2, 1];
+        let n = 9;
+        let mut jordan = Matrix::zeros(n, n);
+        let mut first = 0;
+        for size in sizes {
+            for k in first..first + size - 1 {
+                jordan[(k, k + 1)] = 2.0;
+            }
+            first += size;
+        }
+        // 1e-3 beside 4 ± 3i
+        jordan[(6, 6)] = 1e-3;
+        (jordan[(7, 7)], jordan[(8, 8)]) = (4.0, 4.0);
+        (jordan[(7, 8)], jordan[(8, 7)]) = (3.0, -3.0);
+        // A reflection, and changes without a pattern.
+        let w = Matrix::from_fn(n, 1, |i, _| 1.0 / (1.0 + i as f64).sqrt());
+        let square = w.transpose().product(&w)[(0, 0)];
+        let turn = Matrix::from_fn(n, n, |i, k| {
+            f64::from(u8::from(i == k)) - 2.0 * w[(i, 0)] * w[(k, 0)] / square
+        });
+        let turned = turn.product(&jordan.product(&turn));
+        let a = Matrix::from_fn(n, n, |i, k| {
+            turned[(i, k)] + 1e-15 * (7.0 * i as f64 + 3.0 * k as f64).sin()
+        });
+        let expected = ZeroEigenvalue {
+            multiplicity: 6,
+            index: 3,
+        };
+        assert_eq!(zero_eigenvalue(&a, 1e-12), expected);
+        assert_eq!(zero_eigenvalue(&turned, 1e-12), expected);
+        let whole = Matrix::from_rows(&[[1.0, 5.0], [0.0, 2.0]]);
+        assert_eq!(zero_eigenvalue(&whole, 1e-12), ZeroEigenvalue::default());
+        // The computed eigenvalues are far from zero.
+        let pairs = eigenpairs(&a).expect("converges");
+        let sizes = pairs.iter().map(|p| p.value[0].hypot(p.value[1]));
+        let mut sizes: Vec<f64> = sizes.collect();
+        sizes.sort_by(f64::total_cmp);
+        assert!(sizes[5] > 1e-6 && sizes[6] > 9e-4, "{sizes:?}");
+    }
 
     /// The companion matrix of (λ − 1)(λ + 2)(λ² + 9), in units that differ by 1e±8.
     #[test]

@@ -27,7 +27,7 @@ pub use dd_matrix::DdMatrix;
 pub use disjoint_sets::DisjointSets;
 pub use double_double::Dd;
 #[cfg(feature = "eigen")]
-pub use eigen::{Eigenpair, eigenpairs};
+pub use eigen::{Eigenpair, ZeroEigenvalue, eigenpairs, zero_eigenvalue};
 pub use equilibrate::{Scaling, equilibrate, equilibrate_blocks, equilibrate_sparse};
 pub use jacobi::{SmallSvd, SymmetricEigen, small_svd, symmetric_eigen};
 pub use limits::GRADED_MASSES;

@@ -6,7 +6,7 @@
 //! c = [`Body::centre`]: `r = o + R·c`, `ṙ = ȯ + ω × R·c`.
 
 use crate::body::{Body, BodyRecord, BodyRef, DescribedBody};
-use crate::element::{angle_at, axes_at, turned_at};
+use crate::element::{Bodies, angle_at, axes_at, turned_at};
 use crate::mechanism::Mechanism;
 use crate::observed::{Marker, Measure, MeasureKind, Observed};
 use crate::space::{SpaceKind, cross, difference, norm, normalised, quaternion_product};
@@ -50,6 +50,42 @@ impl FrameState {
         [cos * x + sin * y, cos * y - sin * x, z]
     }
 
+    /// How far another state is away (m), and by what angle its axes are turned against these
+    /// (rad): in the plane with full turns, in space by no more than half a turn.
+    ///
+    /// ```
+    /// use model::{FrameState, SpaceKind};
+    /// let state = |place, quaternion| FrameState {
+    ///     space: SpaceKind::Space3, place, quaternion, ..FrameState::default()
+    /// };
+    /// // A third of a turn, about the diagonal of a cube; −q is the orientation q.
+    /// let unturned = state([0.0, 0.0, 1.0], [-1.0, 0.0, 0.0, 0.0]);
+    /// let turned = state([2.0, 3.0, 7.0], [0.5; 4]);
+    /// let [distance, angle] = unturned.apart(&turned);
+    /// assert_eq!(distance, 7.0);
+    /// assert!((angle - std::f64::consts::TAU / 3.0).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn apart(&self, other: &Self) -> [f64; 2] {
+        let distance = norm(&difference(other.place, self.place));
+        let in_space = [self, other].map(|state| state.space == SpaceKind::Space3);
+        if in_space == [false; 2] {
+            return [distance, (other.angle - self.angle).abs()];
+        }
+        let [w, x, y, z] = self.orientation();
+        let [w, x, y, z] = quaternion_product([w, -x, -y, -z], other.orientation());
+        [distance, 2.0 * norm(&[x, y, z]).atan2(w.abs())]
+    }
+
+    /// Its orientation as a quaternion, in the plane about its normal.
+    fn orientation(&self) -> [f64; 4] {
+        if self.space == SpaceKind::Space3 {
+            return self.quaternion;
+        }
+        let (sin, cos) = (0.5 * self.angle).sin_cos();
+        [cos, 0.0, 0.0, sin]
+    }
+
     /// Its numbers, in the order of [`SpaceKind::columns`].
     pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
         let ([x, y, z], [vx, vy, vz]) = (self.place, self.velocity);
@@ -83,6 +119,38 @@ impl<'m> Frames<'m> {
     #[must_use]
     pub fn observed(self) -> &'m Observed {
         &self.0.observed
+    }
+
+    /// A vector in the axes of the coordinates of a body, such as its points in
+    /// [`Mechanism::points`] and [`Bodies::to_local`], in the axes of its frame. These are the same
+    /// unless the body has products of inertia: then its coordinates are those of its principal
+    /// axes.
+    ///
+    /// # Panics
+    /// If there is no such body.
+    #[must_use]
+    pub fn vector(self, body: BodyRef, own: [f64; 3]) -> [f64; 3] {
+        let record = body.moving().map(|k| &self.0.bodies()[k]);
+        let principal = record.and_then(|record| record.principal.as_ref());
+        principal.map_or(own, |of| of.to_frame(own))
+    }
+
+    /// The poses at q of all bodies, at their centres of mass, with the axes of their frames.
+    ///
+    /// # Panics
+    /// If q is not that of the mechanism.
+    #[must_use]
+    pub fn poses(self, q: &[f64]) -> Bodies {
+        let space = self.0.space();
+        let mut told = q[..self.0.bodies().len() * space.n_q()].to_vec();
+        for (body, record) in self.0.bodies().iter().enumerate() {
+            if let Some(of) = &record.principal {
+                let own = &mut told[space.coordinates(body)];
+                let frame = of.turned_back([own[3], own[4], own[5], own[6]]);
+                own[3..].copy_from_slice(&frame);
+            }
+        }
+        Bodies::at(space, &told)
     }
 
     /// The origin and the axes of the frame of a body at q and v: what is written of it. For a body

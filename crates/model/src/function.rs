@@ -256,6 +256,11 @@ impl Function {
         }
     }
 
+    /// The constant function with its value at t.
+    pub(crate) fn held_at(&self, t: f64) -> Self {
+        Self(Law::Polynomial(vec![self.jet(t)[0]]))
+    }
+
     /// Times at which the function or a derivative jumps, ascending.
     #[must_use]
     pub fn break_times(&self) -> Vec<f64> {

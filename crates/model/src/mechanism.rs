@@ -118,6 +118,40 @@ pub(crate) enum Given {
     Counted,
 }
 
+impl Mechanism {
+    /// The same mechanism whose functions of time keep the values that they have at t: drives are
+    /// held there, and given forces stay as they are. Laws of drives may still depend on the time.
+    ///
+    /// ```
+    /// use joints::{Revolute, RevoluteAngleDrive};
+    /// use model::{Body, BodyRef, Description, Function, Mechanism, System};
+    /// let mut d = Description::new("crank");
+    /// let crank = d.body(Body::new("crank", 1.0, 1.0));
+    /// let (bodies, s) = ([BodyRef::Ground, crank], [0.0, 0.0]);
+    /// d.joint("pin", &bodies, Revolute { s_i: s, s_j: s });
+    /// // 0.3·t²
+    /// let swept = Function::polynomial(&[0.0, 0.0, 0.3]).unwrap();
+    /// d.drive("motor", &bodies, RevoluteAngleDrive::new(s, s), swept);
+    /// let held = Mechanism::build(&d).unwrap().held_at(2.0);
+    /// let mut s = held.scratch();
+    /// held.pose(5.0, &[0.0, 0.0, 1.2], &mut s);
+    /// held.twist(&[0.0; 3], &mut s);
+    /// held.phi(&mut s);
+    /// held.gamma(&mut s);
+    /// assert!(s.phi[2].abs() < 1e-15 && s.gamma[2] == 0.0);
+    /// ```
+    #[must_use]
+    pub fn held_at(&self, t: f64) -> Self {
+        let mut held = self.clone();
+        for given in &mut held.elements.given {
+            if let Given::Function(of) = given {
+                of.function = of.function.held_at(t);
+            }
+        }
+        held
+    }
+}
+
 impl Given {
     pub(crate) fn function(&self) -> Option<&TimeFunction> {
         match self {

@@ -42,3 +42,59 @@ pub fn rounded(x: f64) -> String {
         _ => short.to_string(),
     }
 }
+
+/// Units of lengths (m), each with the smallest length that is written in it: hundredths of a
+/// millimetre are usual, hundredths of a metre are not. The bounds are a little smaller because of
+/// rounding.
+const UNITS: [(f64, f64, &str); 4] = [
+    (1.0, 0.099, "m"),
+    (1e-3, 0.99e-5, "mm"),
+    (1e-6, 0.99e-7, "µm"),
+    (1e-9, 0.99e-10, "nm"),
+];
+
+/// A length (m) with two digits, in the unit that people say.
+///
+/// ```
+/// assert_eq!(model::words::length(3.58e-4), "0.36 mm");
+/// ```
+#[must_use]
+pub fn length(metres: f64) -> String {
+    let two_digits = |x: f64| format!("{x:.1e}").parse().unwrap_or(x);
+    let metres: f64 = two_digits(metres);
+    let said = UNITS.into_iter().find(|(_, from, _)| metres >= *from);
+    let (one, _, unit) = said.unwrap_or(UNITS[0]);
+    let number: f64 = two_digits(metres / one);
+    if (0.01..1e4).contains(&number) {
+        format!("{number} {unit}")
+    } else {
+        format!("{metres:.1e} m")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_have_the_unit_that_people_say() {
+        for (metres, said) in [
+            (1e-4, "0.1 mm"),
+            (5.04e-5, "0.05 mm"),
+            (4.96e-5, "0.05 mm"),
+            (4.94e-5, "0.049 mm"),
+            (1e-5, "0.01 mm"),
+            (9.8e-6, "9.8 µm"),
+            (1e-2, "10 mm"),
+            (1e-3, "1 mm"),
+            (0.15, "0.15 m"),
+            (2.0, "2 m"),
+            (1.3e-6, "1.3 µm"),
+            (4e-10, "0.4 nm"),
+            (3e-12, "3.0e-12 m"),
+            (1e9, "1.0e9 m"),
+        ] {
+            assert_eq!(length(metres), said);
+        }
+    }
+}

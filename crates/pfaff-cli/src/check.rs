@@ -1,7 +1,7 @@
 //! `pfaff check`: reads and assembles a scene and reports all errors.
 
 use pfaff::model::{Layout, Mechanism, System};
-use pfaff::report::documents::{CheckDocument, FreedomsDocument};
+use pfaff::report::documents::{CheckDocument, DataDocument, FreedomsDocument};
 use pfaff::scene::{Diagnostic, Scene};
 use pfaff::{ConfigurationAnalysis, Overrides, StudyError};
 
@@ -97,6 +97,10 @@ impl Checked {
                 checked
                     .warnings
                     .extend(hanging.into_iter().take(FRAGILE_TOLD));
+                let data = DataDocument::new(&start.analysis);
+                checked
+                    .warnings
+                    .extend(data.warning(start.analysis.mobility()));
                 checked.warnings.extend(study.cannot_begin());
                 if more > 0 {
                     checked.warnings.push(

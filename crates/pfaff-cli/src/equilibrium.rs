@@ -34,6 +34,7 @@ pub(crate) fn run(arguments: &Equilibrium, console: &Console<'_>) -> Outcome {
     };
     let (found, there) = study.equilibrium(&options).map_err(|e| source.failure(e))?;
     let motion = there
+        .held_at(found.time)
         .motion(&MotionOptions::to(0.0))
         .map_err(|e| e.to_string());
     let mut document = EquilibriumDocument::new(
@@ -111,7 +112,7 @@ fn describe(d: &EquilibriumDocument) -> String {
     let mut say = |lead: &str, what: String| text.push_str(&wrapped("", &format!("{lead}{what}")));
     if !d.idle.is_empty() {
         say(
-            "free motions that nothing pushes, left as they were: ",
+            "free motions that nothing pushes, so that other places along them are places of rest, too: ",
             d.idle.join("; "),
         );
     }
@@ -122,11 +123,12 @@ fn describe(d: &EquilibriumDocument) -> String {
         );
     }
     if !d.held.is_empty() {
-        say("drives held as at the start: ", listed(&d.held));
+        let lead = format!("drives are held at t = {} s: ", d.time);
+        say(&lead, listed(&d.held));
     }
     if !d.moving_on.is_empty() {
         say(
-            "functions of time accelerate at once what is held here: ",
+            "a run from here begins with other forces, since functions of time accelerate: ",
             listed(&d.moving_on),
         );
     }

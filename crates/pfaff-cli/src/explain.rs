@@ -42,7 +42,7 @@ fn describe(entry: &Entry) -> String {
             }
         }
         Example::Command(arguments) => text.push_str(&format!("example: pfaff {arguments}\n")),
-        Example::None(reason) => text.push_str(&format!("no short example: it {reason}\n")),
+        Example::None(reason) => text.push_str(&format!("no short example: {reason}\n")),
     }
     text
 }

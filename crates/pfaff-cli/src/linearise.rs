@@ -17,7 +17,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, columns, count, directory, unwritten};
 use crate::simulate::origin;
 
-/// Modes with pages of their own: more are in the tables only.
+/// Modes with pages of their own, first those that are not zero: others are in the tables only.
 const PAGES: usize = 12;
 
 /// Frames of the page of a mode in one period.
@@ -74,8 +74,10 @@ fn write(
     (study, found): (&Study, &Linearisation),
     (modes, document): (&[Mode], &LinearisationDocument),
 ) -> Result<String, Failure> {
-    let pages: Vec<String> = (1..=modes.len().min(PAGES))
-        .map(|k| format!("mode-{k}.html"))
+    let shown = shown(modes);
+    let pages: Vec<String> = shown
+        .iter()
+        .map(|k| format!("mode-{}.html", k + 1))
         .collect();
     let tables = MatrixTable::ALL.map(MatrixTable::file);
     let own = tables
@@ -99,15 +101,43 @@ fn write(
     let mut json = Vec::new();
     write_json(&mut json, document).map_err(|e| Failure::stopped(e.to_string()))?;
     put("linearisation.json", &json)?;
-    for (k, (name, mode)) in pages.iter().zip(modes).enumerate() {
-        put(name, page(study, found, mode, k + 1).as_bytes())?;
+    for (name, &k) in pages.iter().zip(&shown) {
+        put(name, page(study, found, &modes[k], k + 1).as_bytes())?;
     }
-    let opens = if pages.is_empty() {
-        ""
-    } else {
-        "; its pages open in any browser"
+    let left = (0..modes.len()).filter(|k| !shown.contains(k));
+    let left = numbers(&left.map(|k| k + 1).collect::<Vec<_>>());
+    let opens = match (pages.is_empty(), left.is_empty()) {
+        (true, _) => String::new(),
+        (_, true) => "; its pages open in any browser".to_owned(),
+        _ => format!("; its pages open in any browser, modes {left} have none"),
     };
     Ok(format!("written to {}{opens}\n", path.display()))
+}
+
+/// The modes that have pages: the first of those that are not zero, then of the others.
+fn shown(modes: &[Mode]) -> Vec<usize> {
+    let (zero, moving): (Vec<usize>, Vec<usize>) =
+        (0..modes.len()).partition(|&k| modes[k].value == [0.0; 2]);
+    let mut shown: Vec<usize> = moving.into_iter().chain(zero).take(PAGES).collect();
+    shown.sort_unstable();
+    shown
+}
+
+/// Ascending numbers in words, as `1–3, 7`.
+fn numbers(all: &[usize]) -> String {
+    let mut runs: Vec<[usize; 2]> = Vec::new();
+    for &k in all {
+        match runs.last_mut() {
+            Some([_, last]) if *last + 1 == k => *last = k,
+            _ => runs.push([k, k]),
+        }
+    }
+    let words = runs.iter().map(|[first, last]| match last - first {
+        0 => first.to_string(),
+        1 => format!("{first}, {last}"),
+        _ => format!("{first}–{last}"),
+    });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// A page on which a mode moves for a period, or for a second if it has none.
@@ -183,6 +213,14 @@ fn describe(d: &LinearisationDocument) -> String {
             inputs.collect::<Vec<_>>().join(", ")
         ));
     }
+    if !d.held.is_empty() {
+        let names = d.held.iter().map(|name| format!("`{name}`"));
+        text.push_str(&format!(
+            "held at t = {} s, since the state is at rest: {}\n",
+            d.time,
+            names.collect::<Vec<_>>().join(", ")
+        ));
+    }
     let Some(modes) = &d.modes else {
         text.push_str("eigenvalues: this program was built without them (feature `eigen`)\n");
         return text;
@@ -190,7 +228,8 @@ fn describe(d: &LinearisationDocument) -> String {
     let header = [
         "mode",
         "eigenvalue (1/s)",
-        "frequency (Hz)",
+        "damped (Hz)",
+        "undamped (Hz)",
         "damping",
         "moves",
     ];
@@ -198,10 +237,8 @@ fn describe(d: &LinearisationDocument) -> String {
         vec![
             (k + 1).to_string(),
             value([mode.real, mode.imaginary]),
-            match mode.frequency {
-                0.0 => "–".to_owned(),
-                f => format!("{f:.6}"),
-            },
+            hertz(Some(mode.frequency).filter(|f| *f != 0.0)),
+            hertz(mode.natural_frequency),
             mode.damping_ratio
                 .filter(|_| mode.frequency != 0.0)
                 // Rounding of an undamped motion has no sign.
@@ -215,12 +252,18 @@ fn describe(d: &LinearisationDocument) -> String {
     text.push('\n');
     text.push_str(&columns(&all.collect::<Vec<_>>()));
     let first = match d.stability {
+        _ if d.states.is_empty() => "nothing can move",
         Some("stable") => "stable: all small motions decay",
         Some("unstable") => "unstable: some small motions grow",
         _ => "first order does not decide: some small motions neither decay nor grow",
     };
     text.push_str(&format!("\n{first}\n"));
     text
+}
+
+/// A frequency of a mode that oscillates.
+fn hertz(frequency: Option<f64>) -> String {
+    frequency.map_or("–".to_owned(), |f| format!("{f:.6}"))
 }
 
 /// An eigenvalue, a conjugate pair as one.
@@ -247,4 +290,15 @@ fn movers(mode: &ModeDocument, positions: usize) -> String {
     let (places, rates) = mode.shape.0.split_at(positions);
     let moves = places.iter().any(|(_, z)| size(z) > 0.5);
     takes_part(if moves { places } else { rates }).join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::numbers;
+
+    #[test]
+    fn runs_of_numbers_are_told_by_their_ends() {
+        assert_eq!(numbers(&[1, 2, 3, 7, 9, 10]), "1–3, 7, 9, 10");
+        assert_eq!(numbers(&[]), "");
+    }
 }

@@ -14,7 +14,7 @@ use crate::args::Simulate;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::{BY_REQUEST, Interrupt};
-use crate::output::{Failure, Outcome, directory, json};
+use crate::output::{Failure, Outcome, directory, json, wrapped};
 use crate::work_precision::provenance;
 
 /// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
@@ -166,6 +166,9 @@ fn describe(name: &str, d: &RunDocument, t_end: f64) -> String {
     }
     for event in &d.events {
         text.push_str(&format!("t = {:.6} s: {}\n", event.time, event.text));
+    }
+    if let Some(warning) = d.data.warning(d.mobility) {
+        text.push_str(&wrapped("", &format!("warning: {warning}")));
     }
     let reactions = d.reactions.0.iter();
     let fragile = reactions.filter(|(_, r)| r.data.fragile);

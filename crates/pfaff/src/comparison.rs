@@ -282,16 +282,17 @@ impl<'a> Set<'a> {
             .collect()
     }
 
-    /// The axes of the first body of each joint.
+    /// The axes of the frame of the first body of each joint.
     fn turns(&self, s: &Scratch) -> Vec<[[f64; 3]; 3]> {
-        let groups = self.part.mechanism.layout().groups.iter();
-        let first = groups.map(|g| g.bodies.first().and_then(|b| b.moving()));
-        first
-            .map(|k| {
-                let ground = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-                k.map_or(ground, |k| s.bodies.axes(k))
-            })
-            .collect()
+        let mechanism = &self.part.mechanism;
+        let of = |id| {
+            let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            if let Some(own) = mechanism.reactions(s).axes(id, model::Frame::FirstBody) {
+                axes[..own.len()].copy_from_slice(&own);
+            }
+            axes
+        };
+        mechanism.layout().constraint_ids().map(of).collect()
     }
 }
 

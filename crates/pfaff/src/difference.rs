@@ -188,12 +188,10 @@ pub fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion>, Stud
         row += 1;
         for ((body, [_, j]), a) in bodies.iter_mut().zip(&pairs).zip(states) {
             let b = frame(second, sample, *j);
-            let difference = |k: usize| a.place[k] - b.place[k];
-            let distance = difference(0).hypot(difference(1));
+            let [distance, angle] = a.apart(&b);
             if distance > body.distance {
                 (body.distance, body.t_distance) = (distance, sample.t);
             }
-            let angle = (a.angle - b.angle).abs();
             if angle > body.angle {
                 (body.angle, body.t_angle) = (angle, sample.t);
             }

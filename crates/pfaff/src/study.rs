@@ -165,7 +165,7 @@ impl Study {
     }
 
     /// Small motions about the state at a time of the motion, which has to be at rest or steady; at
-    /// t = 0 no run is needed.
+    /// t = 0 no run is needed. At rest, functions of time keep their values at t.
     ///
     /// # Errors
     /// If the motion does not reach that time, or as [`linearise`].
@@ -180,7 +180,8 @@ impl Study {
 
     /// A configuration at rest near the start, and the study of the same scene that starts there,
     /// at rest, for all further questions. Places, initial values and the zeros of measures stay
-    /// those of the described start.
+    /// those of the described start. Drives are held as at the start; where they accelerate at
+    /// once ([`Equilibrium::moving_on`]), the forces at rest are those of [`Self::held_at`].
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -224,6 +225,17 @@ impl Study {
             }
         }
         Ok((found, there))
+    }
+
+    /// The same study in which functions of time keep the values that they have at t, for a start
+    /// at rest: [`model::Mechanism::held_at`]. Its reactions at the start are those of statics.
+    #[must_use]
+    pub fn held_at(&self, t: f64) -> Self {
+        Self {
+            scene: self.scene.clone(),
+            prepared: self.prepared.held_at(t),
+            options: self.options.clone(),
+        }
     }
 
     /// The same scene that starts at the coordinates q, at rest.

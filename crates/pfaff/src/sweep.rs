@@ -59,6 +59,8 @@ pub use shard::{Shard, ShardError};
 pub struct Sweep<'r> {
     template: Template,
     grid: Grid,
+    /// What a one of each axis is in SI, if its values have no unit; otherwise they are in SI.
+    scales: Vec<f64>,
     plan: SweepPlan,
     /// Indices of the requested reactions.
     reactions: Vec<usize>,
@@ -150,9 +152,11 @@ impl<'r> Sweep<'r> {
                 .collect(),
             reactions: reactions.iter().map(|k| groups[*k].name.clone()).collect(),
         };
+        let scales = scales(&template, &grid, registry);
         Ok(Self {
             template,
             grid,
+            scales,
             plan,
             reactions,
             registry,
@@ -172,7 +176,8 @@ impl<'r> Sweep<'r> {
         self.plan.runs
     }
 
-    /// The varied numbers of a run.
+    /// The varied numbers of a run in SI, whatever the units in which they are written; a parameter
+    /// without a unit is a plain number.
     ///
     /// # Panics
     /// If there is no such run; they are counted from 1.
@@ -181,7 +186,11 @@ impl<'r> Sweep<'r> {
         let runs = self.runs();
         assert!((1..=runs).contains(&run), "no run {run} of 1 to {runs}");
         // Fits, because the number of runs was a usize.
-        self.grid.point((run - 1) as usize)
+        let point = self.grid.point((run - 1) as usize).into_iter();
+        point
+            .zip(&self.scales)
+            .map(|(x, scale)| x * scale)
+            .collect()
     }
 
     /// Indices of the requested reactions in the mechanism of a run, which may lack some of them if
@@ -353,4 +362,23 @@ pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<SweepDocu
 fn folder(directory: &Path, run: u64, runs: u64) -> PathBuf {
     let width = runs.to_string().len();
     directory.join("runs").join(format!("{run:0width$}"))
+}
+
+/// What a one of each axis is in SI, by the keys at which the scene reads bare numbers. Scenes of
+/// the first run or of the last one can be read, or none is told by them.
+fn scales(template: &Template, grid: &Grid, registry: &Registry) -> Vec<f64> {
+    let read = |run: usize| {
+        let written = grid.written(run);
+        let written: Vec<&str> = written.iter().map(String::as_str).collect();
+        let (text, places) = template.placed(&written);
+        let scene = scene::read("", &text, registry).ok()?;
+        let scale = |(place, axis): (&usize, &Axis)| {
+            let here = scene.scales.iter().find(|(at, _)| at == place);
+            here.filter(|_| axis.is_bare())
+                .map_or(1.0, |(_, scale)| *scale)
+        };
+        Some(places.iter().zip(&grid.axes).map(scale).collect())
+    };
+    let told = read(0).or_else(|| read(grid.len - 1));
+    told.unwrap_or_else(|| vec![1.0; grid.axes.len()])
 }

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use std::slice;
 
 use joints::{LARGEST, is_usable};
+use linalg::Dd;
 use model::Law;
 use model::codes::Code;
 use model::law::Operation;
@@ -146,6 +147,11 @@ impl<'t> Field<'t> {
         match written.at(of, bases) {
             Ok(q) => {
                 self.warn_if_cancelled(q, findings);
+                let one = Quantity::bare(Dd::ONE).at(of, bases);
+                let scale = one.map_or(1.0, Quantity::to_f64);
+                if written.dimension.is_none() && scale != 1.0 {
+                    findings.scaled(self.span().start, scale);
+                }
                 Some(Number::new(q.to_f64(), &written, of, bases.angle))
             }
             Err(problem) => {

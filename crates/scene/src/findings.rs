@@ -38,6 +38,8 @@ pub(crate) struct Findings<'s> {
     warned: BTreeMap<Code, (usize, usize)>,
     /// Codes of warnings that are not wanted.
     silenced: Vec<Code>,
+    /// Numbers without a unit that are not in SI: where they begin, and what one of them is.
+    scales: Vec<(usize, f64)>,
     /// Indices of problems that are explained by another one.
     explained: Vec<usize>,
     /// Number of problems that are not listed.
@@ -53,6 +55,7 @@ impl<'s> Findings<'s> {
             warnings: Vec::new(),
             warned: BTreeMap::new(),
             silenced: Vec::new(),
+            scales: Vec::new(),
             explained: Vec::new(),
             more: 0,
             compared: Cell::new(0),
@@ -115,6 +118,16 @@ impl<'s> Findings<'s> {
             return self.count(1);
         }
         self.report(Diagnostic::error(code, self.source, span, message, label).help(help));
+    }
+
+    /// Notes that a bare number at a place stands for `scale` in SI.
+    pub(crate) fn scaled(&mut self, at: usize, scale: f64) {
+        self.scales.push((at, scale));
+    }
+
+    /// What was noted of bare numbers.
+    pub(crate) fn take_scales(&mut self) -> Vec<(usize, f64)> {
+        std::mem::take(&mut self.scales)
     }
 
     /// Leaves out warnings with this code.

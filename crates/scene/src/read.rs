@@ -94,6 +94,7 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
         check(&scene.description, source, unit, &mut findings);
     }
     scene.take_out_inactive();
+    scene.scales = findings.take_scales();
     scene.warnings = findings.take_warnings();
     let problems = findings.sorted();
     if problems.is_empty() {
@@ -235,6 +236,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry, findings: &mut F
         groups,
         source: Some(source),
         units: Units::SI,
+        scales: Vec::new(),
         inactive: Vec::new(),
         warnings: Vec::new(),
     }

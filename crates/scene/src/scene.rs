@@ -46,6 +46,9 @@ pub struct Scene {
     pub source: Option<SourceMap>,
     /// Units of the numbers of the text that have none.
     pub units: Units,
+    /// Numbers of the text without a unit that are not in SI, because `units` chooses another one:
+    /// where they begin, and what a one there is in SI.
+    pub scales: Vec<(usize, f64)>,
     /// What the text says is not active: it was checked, and is in no list.
     pub inactive: Vec<Inactive>,
     /// Parts of the text that can be used, but are probably not what was intended.

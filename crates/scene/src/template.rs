@@ -135,12 +135,23 @@ impl Template {
     /// If there are not as many expressions as keys.
     #[must_use]
     pub fn with_expressions(&self, expressions: &[&str]) -> String {
+        self.placed(expressions).0
+    }
+
+    /// The same, and where each of them begins in the text.
+    ///
+    /// # Panics
+    /// If there are not as many expressions as keys.
+    #[must_use]
+    pub fn placed(&self, expressions: &[&str]) -> (String, Vec<usize>) {
         let text = |text: &&str| match text.trim().parse() {
             Ok(value) => number(value),
             Err(_) => toml::Value::from(*text).to_string(),
         };
         let texts: Vec<String> = expressions.iter().map(text).collect();
-        self.filled(&texts)
+        let mut places = vec![0; texts.len()];
+        let text = self.filled_at(&texts, &mut places);
+        (text, places)
     }
 
     /// The text with every number changed by a share of itself, in the order of the keys; a zero,
@@ -180,6 +191,11 @@ impl Template {
 
     /// The text with these values as TOML writes them.
     fn filled(&self, texts: &[String]) -> String {
+        self.filled_at(texts, &mut vec![0; texts.len()])
+    }
+
+    /// The same; `places` are where they begin.
+    fn filled_at(&self, texts: &[String], places: &mut [usize]) -> String {
         let n = self.slots.len();
         assert!(
             texts.len() == n,
@@ -195,6 +211,7 @@ impl Template {
                 continue;
             }
             out.push_str(&slot.before);
+            places[*k] = out.len();
             out.push_str(&texts[*k]);
             out.push_str(slot.after);
         }

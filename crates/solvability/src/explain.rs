@@ -336,11 +336,12 @@ fn reaction(
     let directions = match mapped.unique_directions() {
         Err(QueryError::Directions { .. }) => None,
         known => {
-            let live = mapped.live_directions(&known?);
-            Some(match layout.space.n_rotations() {
-                1 => live,
-                _ => readable(live),
-            })
+            let unique = known?;
+            let told = |directions| match layout.space.n_rotations() {
+                1 => directions,
+                _ => readable(directions),
+            };
+            Some([told(mapped.live_directions(&unique)), told(unique)])
         }
     };
     let combination = |direction: &Vec<f64>| {
@@ -356,12 +357,21 @@ fn reaction(
             .collect();
         terms.join(" + ").replace("+ −", "− ")
     };
-    let told: Option<Vec<String>> =
-        directions.map(|directions| directions.iter().map(combination).collect());
-    let determined = match told.as_deref() {
+    let told = directions.map(|each| {
+        each.map(|directions| -> Vec<String> { directions.iter().map(combination).collect() })
+    });
+    // What no load of the joint has is unique, and says nothing of the loads.
+    let determined = match &told {
         None => "what of it is determined is not decided".to_owned(),
-        Some([]) => "nothing of it is determined".to_owned(),
-        Some(told) => format!("determined is {}", list(told)),
+        Some([live, unique]) => match (&live[..], &unique[..]) {
+            ([], []) => "nothing of it is determined".to_owned(),
+            ([], [one]) => format!("determined is {one} only, which is zero whatever the loads"),
+            ([], unique) => format!(
+                "determined are {} only, which are zero whatever the loads",
+                list(unique)
+            ),
+            (live, _) => format!("determined is {}", list(live)),
+        },
     };
     let is_open = group
         .rows

@@ -90,22 +90,6 @@ impl<'m> Statics<'m> {
         Ok(())
     }
 
-    /// Drives and joints whose rows accelerate at once.
-    pub(super) fn moving_on(&mut self, q: &[f64]) -> Vec<String> {
-        self.evaluate(q);
-        self.mechanism.gamma(&mut self.s);
-        let layout = self.mechanism.layout();
-        let mut names: Vec<String> = Vec::new();
-        for i in 0..layout.rows() {
-            let unit = if layout.is_angular(i) { 1.0 } else { self.size };
-            let name = &layout.owner(i).name;
-            if self.s.gamma[i].abs() > RESTING_RATE * unit && !names.contains(name) {
-                names.push(name.clone());
-            }
-        }
-        names
-    }
-
     /// The forces at a configuration.
     pub(super) fn balance(&mut self, q: Vec<f64>) -> Result<Balance, EquilibriumError> {
         self.evaluate(&q);

@@ -56,7 +56,7 @@ pub enum EquilibriumError {
     Start(#[from] StartError),
 }
 
-fn push(pushed: &[Pushed]) -> String {
+pub(super) fn push(pushed: &[Pushed]) -> String {
     let each = pushed.iter().map(|pushed| {
         let by = match pushed.by.as_slice() {
             [] => String::new(),

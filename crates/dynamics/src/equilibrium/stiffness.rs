@@ -7,8 +7,8 @@ use model::System;
 
 use super::balance::{Balance, Statics};
 use super::error::EquilibriumError;
+use crate::differences::ORDER_8;
 use crate::limits::{ASYMMETRIC, IDLE, REST_BISECTIONS, STIFFNESS_STEP};
-use crate::linearise::ORDER_8;
 
 /// The stiffness at a configuration.
 pub(super) struct Stiffness {

@@ -3,7 +3,7 @@
 use solvability::motions_among;
 
 use super::balance::{Balance, Statics};
-use crate::limits::{TAKES_PART, UNRESISTED};
+use crate::limits::{MOSTLY_TURNS, TAKES_PART, UNRESISTED};
 
 /// What pushes a free motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,11 +37,7 @@ pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> 
         std::slice::from_ref(&v),
     );
     let told = told.unwrap_or_default();
-    statics.evaluate(&at.q);
-    let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
-    let forces = statics.mechanism.applied_forces().parts(&mut statics.s);
-    let forces = forces.map(|(name, q)| (format!("`{name}`"), q));
-    let forces: Vec<(String, Vec<f64>)> = std::iter::once(weight).chain(forces).collect();
+    let forces = parts(statics, &at.q);
     let all: Vec<Pushed> = told
         .iter()
         .map(|motion| {
@@ -63,8 +59,17 @@ pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> 
     all.into_iter().filter(takes_part).collect()
 }
 
+/// The weight and the applied forces at the configuration q, in words, with what they add to Q.
+pub(super) fn parts(statics: &mut Statics<'_>, q: &[f64]) -> Vec<(String, Vec<f64>)> {
+    statics.evaluate(q);
+    let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
+    let forces = statics.mechanism.applied_forces().parts(&mut statics.s);
+    let forces = forces.map(|(name, q)| (format!("`{name}`"), q));
+    std::iter::once(weight).chain(forces).collect()
+}
+
 /// What pushes some bodies along their part of a motion.
-fn of_bodies(
+pub(super) fn of_bodies(
     statics: &Statics<'_>,
     forces: &[(String, Vec<f64>)],
     v: &[f64],
@@ -78,8 +83,8 @@ fn of_bodies(
         own.map(|&j| v[j].abs()).fold(0.0, f64::max)
     };
     let (turn, slide) = (fastest(true), fastest(false));
-    // What is a rounding of a translation is no rotation.
-    let (largest, unit) = if turn * statics.size > UNRESISTED * slide {
+    // A force for each of its metres, or a moment for each radian if it turns as much as it moves.
+    let (largest, unit) = if turn * statics.size > MOSTLY_TURNS * slide {
         (turn, "N·m")
     } else {
         (slide, "N")

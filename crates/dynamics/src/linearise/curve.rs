@@ -8,6 +8,7 @@ use model::{Mechanism, Push, System};
 use super::coordinates::Coordinate;
 use super::error::LineariseError;
 use super::frame_row;
+use crate::differences::{ORDER_6, ORDER_8};
 use crate::limits::{
     LINEARISE_ACCURACY, LINEARISE_SHORTER, LINEARISE_STEP, STEADY_ACCELERATION, STEADY_FRACTION,
 };
@@ -16,10 +17,6 @@ use crate::prepare::Prepared;
 
 /// Directions in which the frame of a body moves: three translations and three rotations.
 pub(crate) const BODY: usize = 6;
-
-/// Weights of central differences of orders eight and six, for the distances of one to four steps.
-pub(crate) const ORDER_8: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
-const ORDER_6: [f64; 4] = [3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0, 0.0];
 
 /// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances: its
 /// terms of second, fourth and sixth order cancel, and `|x|` has the derivative 1. A corner is
@@ -399,6 +396,11 @@ impl<'m> Curves<'m> {
         Ok(())
     }
 
+    /// What falls freely at the state, if something does.
+    fn falls(&self) -> Option<String> {
+        crate::equilibrium::falling(self.prepared, self.t, &self.q)
+    }
+
     fn check_body(
         &self,
         body: usize,
@@ -428,6 +430,7 @@ impl<'m> Curves<'m> {
                         (_, true) => "rad/s³",
                     },
                     moves: !self.is_at_rest(),
+                    falls: self.falls(),
                 });
             }
         }

@@ -13,11 +13,7 @@ pub enum LineariseError {
     #[error(
         "at t = {t} s the motion is not steady: body `{body}` {what} {left:.3e} {unit}; {advice}",
         t = rounded(*time), what = what(unit),
-        advice = if *moves {
-            "follow the turning of the axes in which it is (`--follow BODY.wz`), or choose another time"
-        } else {
-            "let `pfaff equilibrium` find a start at rest, or let dampers bring it there in a run"
-        }
+        advice = advice(*moves, falls.as_deref())
     )]
     NotSteady {
         /// Time (s).
@@ -30,6 +26,8 @@ pub enum LineariseError {
         unit: &'static str,
         /// Whether the state moves at all.
         moves: bool,
+        /// What falls freely and what pushes it, in words, if nothing ties it to the ground.
+        falls: Option<String>,
     },
     /// Accelerations have no derivative at this state.
     #[error(
@@ -77,6 +75,25 @@ pub enum LineariseError {
     /// The equations have no solution there.
     #[error(transparent)]
     Fault(#[from] MotionFault),
+}
+
+/// What to do about a state that is not steady.
+fn advice(moves: bool, falls: Option<&str>) -> String {
+    match falls {
+        Some(falls) => format!(
+            "there is no rest: {falls}, wherever it goes; hold it by a joint to the ground, or describe what \
+             carries it"
+        ),
+        None if moves => {
+            "follow the turning of the axes in which it is (`--follow BODY.wz`), or choose \
+                          another time"
+                .to_owned()
+        }
+        None => {
+            "let `pfaff equilibrium` find a start at rest, or let dampers bring it there in a run"
+                .to_owned()
+        }
+    }
 }
 
 impl LineariseError {

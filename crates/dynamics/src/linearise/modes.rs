@@ -86,9 +86,10 @@ impl Linearisation {
         let size = |z: &[f64; 2]| z[0].hypot(z[1]);
         let largest = pairs.iter().map(|p| size(&p.value)).fold(0.0, f64::max);
         let zero = crate::limits::ZERO_EIGENVALUE * largest;
+        let around = self.around_zero(pairs.iter().map(|pair| size(&pair.value)));
         let modes = pairs.into_iter().map(|pair| {
             let value = match pair.value {
-                value if size(&value) <= zero => [0.0; 2],
+                value if size(&value) <= zero.max(around) => [0.0; 2],
                 value => value,
             };
             let (positions, velocities) = pair.vector.split_at(self.positions.len());
@@ -112,6 +113,28 @@ impl Linearisation {
         Some(modes.filter(|mode| mode.value[1] >= 0.0).collect())
     }
 
+    /// Radius of the circle around zero within which rounding of A spreads those of these
+    /// eigenvalues that are zero: a Jordan block of k rows spreads to `‖A‖·ε^(1/k)`, which may be
+    /// far more than the square root of rounding, and the only eigenvalues that there are.
+    #[cfg(feature = "eigen")]
+    fn around_zero(&self, sizes: impl Iterator<Item = f64>) -> f64 {
+        let entries = self.a.as_slice().iter();
+        let norm = entries.map(|x| x * x).sum::<f64>().sqrt();
+        let share = crate::limits::ZERO_ENTRY * self.a.nrows() as f64;
+        let zero = linalg::zero_eigenvalue(&self.a, share * norm);
+        let Some(last) = zero.multiplicity.checked_sub(1) else {
+            return 0.0;
+        };
+        let bound = norm * share.powf(1.0 / zero.index as f64);
+        let mut sizes: Vec<f64> = sizes.collect();
+        sizes.sort_by(f64::total_cmp);
+        sizes[..=last]
+            .iter()
+            .copied()
+            .filter(|x| *x <= bound)
+            .fold(0.0, f64::max)
+    }
+
     /// The displacement of all bodies at a phase (rad) of a mode whose largest position is
     /// `amplitude`, n_v.
     #[must_use]
@@ -122,5 +145,98 @@ impl Linearisation {
             .map(|[re, im]| amplitude * (re * cos - im * sin))
             .collect();
         self.shapes.transpose_times(&at)
+    }
+}
+
+#[cfg(all(test, feature = "eigen"))]
+mod tests {
+    use linalg::Matrix;
+
+    use super::{Linearisation, Stability};
+    use crate::linearise::Coordinate;
+
+    /// Positions in front of velocities, with this matrix.
+    fn with(a: Matrix, positions: usize) -> Linearisation {
+        let coordinate = |k: usize| Coordinate {
+            name: format!("x{k}"),
+            unit: "m",
+            body: 0,
+            direction: 0,
+        };
+        let n = a.nrows();
+        Linearisation {
+            time: 0.0,
+            q: Vec::new(),
+            positions: (0..positions).map(coordinate).collect(),
+            velocities: (positions..n).map(coordinate).collect(),
+            inputs: Vec::new(),
+            held: Vec::new(),
+            b: Matrix::zeros(n, 0),
+            a,
+            second_order: None,
+            shapes: Matrix::zeros(positions, 0),
+            accuracy: 0.0,
+        }
+    }
+
+    /// A vehicle on four wheels of 0.1 m that rolls straight on at 1 m/s: its heading, the turns of
+    /// its wheels and its track are positions, its speed is a velocity. All eigenvalues are zero;
+    /// rounding makes two of them 3e-15 ± 3e-8i.
+    #[test]
+    fn rounding_around_a_multiple_zero_neither_grows_nor_decays() {
+        let mut a = Matrix::zeros(7, 7);
+        for wheel in 1..5 {
+            a[(wheel, 6)] = 10.000000000000002;
+        }
+        let rounded = [
+            [
+                5.134781488891349e-15,
+                -4.841833503095033e-16,
+                -3.1680806762338373e-16,
+            ],
+            [
+                1.0000000000000002,
+                1.946676397674564e-17,
+                4.5698073364484277e-17,
+            ],
+            [
+                -3.63678714201638e-17,
+                6.796383020318501e-32,
+                4.978111621419721e-32,
+            ],
+        ];
+        let ends = [
+            [-7.278080531453108e-16, -1.2053105130153914e-15],
+            [2.6213719656373513e-16, -9.392059896533363e-17],
+            [4.430923523425174e-32, 1.2079446063184507e-16],
+        ];
+        for (row, (front, end)) in [0, 5, 6].into_iter().zip(rounded.into_iter().zip(ends)) {
+            a.row_mut(row)[..3].copy_from_slice(&front);
+            a.row_mut(row)[5..].copy_from_slice(&end);
+        }
+        let modes = with(a.clone(), 6).modes().expect("converges");
+        assert!(modes.iter().all(|mode| mode.value == [0.0; 2]), "{modes:?}");
+        assert_eq!(Stability::of(&modes), Stability::Marginal);
+        // A turn that grows at 1e-4 1/s is none of that.
+        a[(0, 0)] = 1e-4;
+        let modes = with(a, 6).modes().expect("converges");
+        assert_eq!(Stability::of(&modes), Stability::Unstable);
+        assert!((modes[0].value[0] - 1e-4).abs() < 1e-12, "{modes:?}");
+    }
+
+    /// A mass on a soft spring beside one on a stiff spring and one that is free.
+    #[test]
+    fn slow_modes_are_not_taken_for_zero() {
+        let mut a = Matrix::zeros(6, 6);
+        for k in 0..3 {
+            a[(k, 3 + k)] = 1.0;
+        }
+        (a[(3, 0)], a[(4, 1)]) = (-1e6, -1e-3);
+        let modes = with(a, 3).modes().expect("converges");
+        let mut sizes: Vec<f64> = modes.iter().map(|mode| mode.natural_frequency()).collect();
+        sizes.sort_by(f64::total_cmp);
+        assert_eq!(sizes[..2], [0.0; 2]);
+        assert!((sizes[2] - 1e-3_f64.sqrt()).abs() < 1e-9, "{sizes:?}");
+        assert!((sizes[3] - 1e3).abs() < 1e-9, "{sizes:?}");
     }
 }

@@ -14,7 +14,7 @@ const fn entry(code: u16, title: &'static str, advice: &'static str, example: Ex
 }
 
 const RARE: Example = Example::None("the machine or the numbers have to be special");
-const MACHINE: Example = Example::None("depends on the machine");
+const MACHINE: Example = Example::None("it depends on the machine");
 const LIBRARY: Example =
     Example::None("only programs meet it: the reader of scenes refuses it before");
 
@@ -75,13 +75,13 @@ pub const TABLE: &[Entry] = &[
         4,
         "A file that pfaff has not written would be replaced",
         "Choose another place, or replace it with `--force`.",
-        Example::None("needs such a file"),
+        Example::None("it needs such a file"),
     ),
     entry(
         5,
         "Another run is writing into the directory",
         "Wait for its end, or choose another directory.",
-        Example::None("needs another run"),
+        Example::None("it needs another run"),
     ),
     entry(
         6,
@@ -99,7 +99,7 @@ pub const TABLE: &[Entry] = &[
         8,
         "The command was interrupted",
         "What it had computed is kept; `summary.json` says `partial`.",
-        Example::None("needs somebody who presses Ctrl-C"),
+        Example::None("it needs somebody who presses Ctrl-C"),
     ),
     entry(9, "The computation stopped", "The message says why.", RARE),
     entry(
@@ -151,7 +151,7 @@ pub const TABLE: &[Entry] = &[
         107,
         "There are more problems than are listed",
         "Correct those that are listed first.",
-        Example::None("needs thousands of problems"),
+        Example::None("it needs thousands of problems"),
     ),
     entry(
         108,
@@ -198,7 +198,7 @@ pub const TABLE: &[Entry] = &[
         113,
         "The text is too large for a scene",
         "Write long lists in several lines, or split the mechanism; the message states the limit.",
-        Example::None("needs a text of several megabytes"),
+        Example::None("it needs a text of several megabytes"),
     ),
     entry(
         114,
@@ -720,7 +720,7 @@ pub const TABLE: &[Entry] = &[
         207,
         "The start of a large mechanism needs a correction",
         "Write positions that satisfy the joints.",
-        Example::None("needs a large scene"),
+        Example::None("it needs a large scene"),
     ),
     entry(
         208,
@@ -770,7 +770,7 @@ pub const TABLE: &[Entry] = &[
     entry(
         220,
         "The state about which a motion is to be linearised is not steady",
-        "Let `pfaff equilibrium SCENE --out DIR` find a start at rest and linearise that, or let dampers bring the mechanism there in a run and linearise at its end with `--at-time`. A steady motion in a circle is steady in axes that turn: `--follow BODY.wz`.",
+        "Let `pfaff equilibrium SCENE --out DIR` find a start at rest and linearise that, or let dampers bring the mechanism there in a run and linearise at its end with `--at-time`. What no joint or spring ties to the ground, such as a robot on a free base, falls and has no place of rest: hold its base, or describe what carries it. A steady motion in a circle is steady in axes that turn: `--follow BODY.wz`.",
         Example::Scene(
             "linearise -",
             "[scene]\nname = \"bar\"\nspace = \"plane\"\ngravity = [0.0, -9.81]\n\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 0.1\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n",
@@ -780,7 +780,7 @@ pub const TABLE: &[Entry] = &[
         221,
         "A force has a corner where it is to be differentiated",
         "Linearise beside the corner, or give the force a smooth function.",
-        Example::None("needs a force with a corner"),
+        Example::None("it needs a force with a corner"),
     ),
     entry(
         222,
@@ -792,13 +792,13 @@ pub const TABLE: &[Entry] = &[
         223,
         "A coordinate that is to be followed acts on the motion",
         "Follow only coordinates whose values do not matter, such as the place of a vehicle on a plane.",
-        Example::None("needs a steady motion"),
+        Example::None("it needs a steady motion"),
     ),
     entry(
         224,
         "No independent coordinates determine the state",
         "The configuration is singular: choose another one.",
-        Example::None("needs a singular configuration"),
+        Example::None("it needs a singular configuration"),
     ),
     entry(
         225,
@@ -814,7 +814,7 @@ pub const TABLE: &[Entry] = &[
     entry(
         226,
         "A free motion is pushed wherever it goes, so nothing rests",
-        "Add a spring or a stop that resists it, or a joint that holds it; the message says what pushes.",
+        "Add a spring that resists it, or a joint that holds it; the message says what pushes. A robot on a free base falls: hold its base.",
         Example::Scene(
             "equilibrium -",
             "[scene]\nname = \"stone\"\nspace = \"plane\"\ngravity = [0.0, -9.81]\n\n[[body]]\nname = \"stone\"\nmass = 1.0\ninertia = 0.1\n",
@@ -824,7 +824,7 @@ pub const TABLE: &[Entry] = &[
         227,
         "No place of rest was found near the start",
         "Describe a start nearer to rest, or look whether there is one: a motor may be too strong.",
-        Example::None("needs a search that does not end"),
+        Example::None("it needs a search that does not end"),
     ),
     entry(
         301,
@@ -842,7 +842,7 @@ pub const TABLE: &[Entry] = &[
         303,
         "A part of the mechanism is too large for this question",
         "Ask about a smaller part; the message names it.",
-        Example::None("needs a large scene"),
+        Example::None("it needs a large scene"),
     ),
     entry(
         304,
@@ -1067,19 +1067,19 @@ pub const TABLE: &[Entry] = &[
         504,
         "Another sweep is writing the journal",
         "Wait for its end, or take a shard of your own.",
-        Example::None("needs another sweep"),
+        Example::None("it needs another sweep"),
     ),
     entry(
         505,
         "The journal belongs to another sweep",
         "Take another directory, or remove the journal.",
-        Example::None("needs two sweeps"),
+        Example::None("it needs two sweeps"),
     ),
     entry(
         506,
         "The first line of a journal is damaged",
         "Remove the journal to begin again.",
-        Example::None("needs a damaged file"),
+        Example::None("it needs a damaged file"),
     ),
     entry(
         507,
@@ -1187,7 +1187,7 @@ pub const TABLE: &[Entry] = &[
         612,
         "A file of loop closures cannot be read",
         "It has the keys `closed_loop`, pairs of links that coincide, and `type`, for each of them `3d` or `6d`.",
-        Example::None("needs a second file"),
+        Example::None("it needs a second file"),
     ),
     entry(
         613,

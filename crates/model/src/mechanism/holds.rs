@@ -9,8 +9,9 @@ use crate::group::ConstraintId;
 use crate::system::Scratch;
 
 impl Mechanism {
-    /// The points at which a joint or drive acts, each in the frame of its body (m; the frame of
-    /// the ground is the global one).
+    /// The points at which a joint or drive acts, each relative to the centre of mass of its body,
+    /// in the axes of its coordinates (m; [`crate::Frames::vector`] turns them into those of its
+    /// frame; those of the ground are global).
     ///
     /// ```
     /// use joints::Revolute;

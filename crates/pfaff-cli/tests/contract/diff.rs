@@ -144,3 +144,78 @@ fn wrong_scenes_are_refused_with_their_places() {
         "error[P0001]: standard input is one scene; give the other one as a file\n"
     );
 }
+
+/// A body on a joint in space, driven at two rates.
+fn driven(joint: &str, drives: &[(&str, f64)]) -> String {
+    let drive = |(kind, rate): &(&str, f64)| {
+        format!(
+            "{{ name = \"{kind}\", joint = \"J\", type = \"{kind}\", \
+             motion = {{ type = \"constant-rate\", rate = {rate} }} }}"
+        )
+    };
+    let drives: Vec<String> = drives.iter().map(drive).collect();
+    format!(
+        "scene = {{ name = \"driven\", space = \"spatial\" }}
+body = [{{ name = \"car\", mass = 1.0, inertia = [1, 2, 2.5], position = [0.0, 0.3, 0.0] }}]
+joint = [{{ name = \"J\", bodies = [\"ground\", \"car\"], at = [0.0, 0.0, 0.0], {joint} }}]
+drive = [{}]
+simulate = {{ t_end = 1.0 }}
+",
+        drives.join(", ")
+    )
+}
+
+#[test]
+fn motions_in_space_are_compared_along_and_about_all_axes() {
+    let folder = Folder::new("diff-space");
+    fs::create_dir_all(&folder.0).expect("writable");
+    let slide = "type = \"translational\", axis = [0, 0, 1]";
+    let hinge = "type = \"revolute\", axis = [1, 0, 0]";
+    let screw = "type = \"cylindrical\", axis = [0, 0, 1]";
+    // What the scenes are apart after one second: along z, about x by 2.5 rad with the origin of
+    // the frame at 0.3 m from the axis, and both about z. During a whole turn the largest angle is
+    // half a turn.
+    let chord = |angle: f64| 0.6 * (0.5 * angle).sin();
+    let full = std::f64::consts::TAU + 0.1;
+    let oblique = 0.9_f64.hypot(chord(0.9));
+    for (joint, kinds, [a, b], expected) in [
+        (slide, &["displacement"][..], [1.0, 0.1], [0.9, 0.0]),
+        (hinge, &["angle"], [2.7, 0.2], [chord(2.5), 2.5]),
+        (
+            screw,
+            &["displacement", "angle"],
+            [1.0, 0.1],
+            [oblique, 0.9],
+        ),
+        (
+            hinge,
+            &["angle"],
+            [full, 0.1],
+            [chord(std::f64::consts::PI), std::f64::consts::PI],
+        ),
+    ] {
+        let write = |name: &str, rate: f64| {
+            let path = folder.0.join(name);
+            let drives: Vec<_> = kinds.iter().map(|kind| (*kind, rate)).collect();
+            fs::write(&path, driven(joint, &drives)).expect("writable");
+            path.to_str().expect("UTF-8").to_owned()
+        };
+        let (a, b) = (write("a.toml", a), write("b.toml", b));
+        let output = pfaff(&["diff", &a, &b, "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let d: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+        let car = &d["motion"]["bodies"][0];
+        let found = ["distance", "angle"].map(|key| car[key].as_f64().expect("a number"));
+        for (found, expected) in found.into_iter().zip(expected) {
+            // Half a turn is met at an instant between those that are compared: 2π/200 a row.
+            let bound = if expected == std::f64::consts::PI {
+                0.02
+            } else {
+                1e-8
+            };
+            assert!((found - expected).abs() < bound, "{joint} {car}");
+        }
+        let text = stdout(&pfaff(&["diff", &a, &b]));
+        assert!(text.contains(&format!("{:.1e}", found[0])), "{text}");
+    }
+}

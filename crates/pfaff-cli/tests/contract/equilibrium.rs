@@ -138,3 +138,39 @@ fn what_does_not_rest_is_refused_with_its_code() {
     let output = with_scene(&["equilibrium", "-", "--force"], ROD);
     assert_eq!(output.status.code(), Some(2));
 }
+
+/// A rod that a motor holds level and swings from there: at rest the motor carries its weight alone,
+/// and small motions about the written start are those of the place held.
+#[test]
+fn drives_are_held_without_acceleration() {
+    let swung = format!(
+        "{}\n[[drive]]\nname = \"motor\"\njoint = \"pin\"\ntype = \"angle\"\n\
+         motion = {{ type = \"harmonic\", amplitude = 0.4, omega = 5.0, phase = 1.5707963267948966 }}\n",
+        ROD.replace("angular_velocity = 3.0\n", "")
+    );
+    let folder = Folder::new("rested-driven");
+    let out = folder.0.join("rest").display().to_string();
+    let output = with_scene(&["equilibrium", "-", "--out", &out], &swung);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = stdout(&output);
+    for words in [
+        "drives are held at t = 0 s: `motor`",
+        "a run from here begins with other forces, since functions of time accelerate: `motor`",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let read = |name: &str| folder.read(&format!("rest/{name}"));
+    let d: Value = serde_json::from_str(&read("equilibrium.json")).expect("one document");
+    // 2 kg · 10 m/s² · 0.5 m; the acceleration would add (0.5 + 2·0.25)·0.4·25 N·m.
+    let torque = d["reactions"]["motor"]["values"]["T"]
+        .as_f64()
+        .expect("a number");
+    assert!((torque.abs() - 10.0).abs() < 1e-12, "{torque}");
+    let output = pfaff(&["linearise", &format!("{out}/at-rest.toml")]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = stdout(&output);
+    assert!(
+        text.contains("held at t = 0 s, since the state is at rest: `motor`"),
+        "{text}"
+    );
+}

@@ -99,6 +99,10 @@ fn a_pin_that_is_off_is_told_in_every_output() {
         text.contains("warning: `O1`, `P1`, `O2`, `P2`, `O3` and `P3` are unique but would change"),
         "{text}"
     );
+    // Rounding locks it: without what the pins are off it moves.
+    let locked = "warning: mobility 0 for the data as they are written, and 1 if lengths are known to 0.049 mm only";
+    assert!(text.contains(locked), "{text}");
+    assert!(!said(&["check", &right]).contains("lengths are known to"));
 
     let out = folder.0.join("run");
     let out = out.to_str().expect("UTF-8");
@@ -107,6 +111,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
         text.contains("warning: unique but fragile at the start: O1, P1, O2, P2, O3, P3."),
         "{text}"
     );
+    assert!(flat(&text).contains(locked), "{text}");
     let summary: Value = serde_json::from_str(&folder.read("run/summary.json")).expect("JSON");
     for name in NAMES {
         let r = &summary["reactions"][name];

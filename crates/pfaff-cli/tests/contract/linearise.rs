@@ -40,6 +40,19 @@ fn a_rod_is_linearised_in_words_documents_and_files() {
     assert!((number("/b/1/0") - 0.2).abs() < 1e-14);
     assert!((number("/modes/0/real") + 0.03).abs() < 1e-12);
     assert_eq!(d["stability"], "stable");
+    // Damped and undamped: λ² + 0.06·λ + 5.886 = 0.
+    let natural = 5.886_f64.sqrt();
+    let damped = (5.886 - 0.03 * 0.03_f64).sqrt();
+    for (key, rate) in [("frequency", damped), ("natural_frequency", natural)] {
+        let found = number(&format!("/modes/0/{key}")) * std::f64::consts::TAU;
+        assert!((found - rate).abs() < 1e-11, "{key} {found}");
+    }
+    let [damped, natural] = [damped, natural].map(|x| x / std::f64::consts::TAU);
+    assert!(text.contains("damped (Hz)  undamped (Hz)"), "{text}");
+    assert!(
+        text.contains(&format!("{damped:.6}     {natural:.6}")),
+        "{text}"
+    );
     let read = |name: &str| {
         let path = std::path::Path::new(&out).join(name);
         std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"))
@@ -47,12 +60,59 @@ fn a_rod_is_linearised_in_words_documents_and_files() {
     assert!(read("a.csv").starts_with("A,rod.angle,rod.omega\nrod.angle,"));
     assert!(read("b.csv").starts_with("B,push.torque\nrod.angle,0\n"));
     assert!(read("k.csv").starts_with("K,rod.angle\nrod.angle,29.4"));
-    assert!(read("modes.csv").starts_with("mode,real,imaginary,frequency,damping_ratio,"));
+    assert!(
+        read("modes.csv")
+            .starts_with("mode,real,imaginary,frequency,natural_frequency,damping_ratio,")
+    );
     assert!(read("mode-1.html").contains("eigenvalue -0.030000 ± 2.425923i"));
     assert_eq!(read("linearisation.json"), stdout(&output));
     // The same again replaces its own files.
     let again = with_scene(&["linearise", "-", "--out", &out], ROD);
     assert_eq!(again.status.code(), Some(0), "{}", stderr(&again));
+}
+
+/// Thirteen wheels that nothing drives, and a pendulum behind them.
+#[test]
+fn modes_that_move_by_themselves_have_pages_before_free_ones() {
+    let wheels: String = (1..=13)
+        .map(|k| {
+            format!(
+                "[[body]]\nname = \"w{k}\"\nmass = 1.0\ninertia = 1.0\nposition = [{k}.0, 0.0]\n\
+                 [[joint]]\nname = \"a{k}\"\ntype = \"revolute\"\nbodies = [\"ground\", \"w{k}\"]\n\
+                 at = [{k}.0, 0.0]\n"
+            )
+        })
+        .collect();
+    let scene = format!(
+        "[scene]\nname = \"wheels\"\nspace = \"plane\"\ngravity = [0.0, -9.81]\n{wheels}\
+         [[body]]\nname = \"rod\"\nmass = 2.0\ninertia = 0.5\nposition = [0.0, -1.5]\n\
+         [[joint]]\nname = \"pin\"\ntype = \"revolute\"\nbodies = [\"ground\", \"rod\"]\nat = [0.0, 0.0]\n"
+    );
+    let folder = Folder::new("linearised-wheels");
+    let out = folder.0.join("modes").display().to_string();
+    let output = with_scene(&["linearise", "-", "--out", &out, "--json"], &scene);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("one document");
+    let modes = d["modes"].as_array().expect("a list");
+    let swings = |m: &Value| m["natural_frequency"].as_f64().is_some();
+    let swinging = modes.iter().position(swings).expect("the rod swings");
+    let page = |k: usize| {
+        folder
+            .0
+            .join("modes")
+            .join(format!("mode-{}.html", k + 1))
+            .exists()
+    };
+    assert!(page(swinging));
+    assert_eq!((0..modes.len()).filter(|k| page(*k)).count(), 12);
+    let again = with_scene(&["linearise", "-", "--out", &out], &scene);
+    let text = stdout(&again);
+    assert!(
+        text.contains("its pages open in any browser, modes "),
+        "{text}"
+    );
+    assert!(text.contains(" have none"), "{text}");
+    assert!(text.contains("first order does not decide"), "{text}");
 }
 
 #[test]

@@ -119,6 +119,11 @@ impl Axis {
         &self.key
     }
 
+    /// Whether its values have no unit: they are in those of the scene.
+    pub(super) fn is_bare(&self) -> bool {
+        self.written.is_none()
+    }
+
     /// Its values.
     #[must_use]
     pub fn values(&self) -> &[f64] {

@@ -283,3 +283,60 @@ fn wrong_sweeps_are_refused_before_anything_is_written() {
         assert_eq!(folder.table(), before);
     }
 }
+
+/// The columns of varied numbers are in SI, however they are written, like all other columns.
+#[test]
+fn varied_numbers_are_in_si_whatever_was_typed() {
+    let scene = "
+[scene]
+name = \"arm\"
+space = \"plane\"
+format = 2
+units = { length = \"mm\", angle = \"deg\" }
+[[body]]
+name = \"arm\"
+mass = 1.0
+inertia = 100.0
+position = [50.0, 0.0]
+[[joint]]
+name = \"pin\"
+type = \"revolute\"
+bodies = [\"ground\", \"arm\"]
+at = [0.0, 0.0]
+[simulate]
+t_end = 0.1
+";
+    let registry = Registry::standard();
+    let told = |vary: &str| {
+        let sweep = sweep(&registry, scene, &[vary]);
+        (1..=2).map(|run| sweep.point(run)[0]).collect::<Vec<f64>>()
+    };
+    let near = |found: &[f64], expected: [f64; 2]| {
+        let is_near = |(a, b): (&f64, f64)| (a - b).abs() <= 1e-15 * b;
+        found.iter().zip(expected).all(is_near)
+    };
+    // kg·mm², which is no number of the scene with a unit of its own, mm, deg and plain numbers.
+    for (bare, with_unit, expected) in [
+        ("body.arm.inertia=100,200", None, [1e-4, 2e-4]),
+        (
+            "body.arm.position[0]=50:60:2",
+            Some("body.arm.position[0]=5cm:6cm:2"),
+            [0.05, 0.06],
+        ),
+        (
+            "body.arm.angle=10:20:2",
+            Some("body.arm.angle=10deg:20deg:2"),
+            {
+                let degree = std::f64::consts::PI / 180.0;
+                [10.0 * degree, 20.0 * degree]
+            },
+        ),
+        ("body.arm.mass=2,3", None, [2.0, 3.0]),
+        ("simulate.t_end=0.1,0.2", None, [0.1, 0.2]),
+    ] {
+        for vary in std::iter::once(bare).chain(with_unit) {
+            let found = told(vary);
+            assert!(near(&found, expected), "{vary}: {found:?}");
+        }
+    }
+}

@@ -315,11 +315,12 @@ pub struct DiffMotion {
 pub struct DiffBody {
     /// The body.
     pub body: String,
-    /// m
+    /// Distance of the origins of its frame (m).
     pub distance: f64,
     /// Time of the largest distance (s).
     pub t_distance: f64,
-    /// Difference of angles (rad).
+    /// Difference of angles (rad); in space the angle of the rotation from one orientation to the
+    /// other, up to half a turn.
     pub angle: f64,
     /// Time of the largest difference of angles (s).
     pub t_angle: f64,

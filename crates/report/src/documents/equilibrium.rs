@@ -36,7 +36,7 @@ pub struct EquilibriumDocument {
     pub falling: Vec<String>,
     /// Whether another way leads to another place: nonholonomic rows.
     pub depends_on_way: bool,
-    /// Drives, held where they are at the start.
+    /// Drives, held where they are at that time, without rate or acceleration.
     pub held: Vec<String>,
     /// Drives and joints that are held, and that functions of time accelerate at once.
     pub moving_on: Vec<String>,
@@ -75,7 +75,8 @@ pub struct ReactionAtRestDocument {
 
 impl EquilibriumDocument {
     /// The document of a place of rest of a scene. `start` are the coordinates of the start;
-    /// `there` is the run that begins at the place and ends at once, or why there is none.
+    /// `there` is the run that begins at the place with functions of time held and ends at once, or
+    /// why there is none.
     #[must_use]
     pub fn new(
         scene: &str,

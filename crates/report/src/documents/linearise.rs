@@ -20,6 +20,9 @@ pub struct LinearisationDocument {
     pub positions: usize,
     /// The inputs u.
     pub inputs: Vec<InputDocument>,
+    /// Drives and joints that are held at this time because the state is at rest, and that
+    /// functions of time would accelerate.
+    pub held: Vec<String>,
     /// A of `ẋ = A·x + B·u`, by rows.
     pub a: Vec<Vec<f64>>,
     /// B, by rows.
@@ -75,8 +78,11 @@ pub struct ModeDocument {
     pub real: f64,
     /// Its imaginary part (rad/s).
     pub imaginary: f64,
-    /// Frequency of the oscillation (Hz).
+    /// Frequency at which it oscillates, with its damping (Hz): Im λ/2π; zero if it does not.
     pub frequency: f64,
+    /// The frequency that it would have without its damping (Hz): |λ|/2π; `null` if it does not
+    /// oscillate.
+    pub natural_frequency: Option<f64>,
     /// −Re λ/|λ|; `null` for λ = 0.
     pub damping_ratio: Option<f64>,
     /// Shape: real and imaginary part of each state; the largest position is 1.
@@ -92,6 +98,9 @@ impl LinearisationDocument {
             real: mode.value[0],
             imaginary: mode.value[1],
             frequency: mode.value[1] / std::f64::consts::TAU,
+            natural_frequency: mode
+                .oscillates()
+                .then(|| mode.natural_frequency() / std::f64::consts::TAU),
             damping_ratio: mode.damping_ratio(),
             shape: Named(
                 states
@@ -113,6 +122,7 @@ impl LinearisationDocument {
                     what: input.what.clone(),
                 })
                 .collect(),
+            held: x.held.clone(),
             a: rows(&x.a),
             b: rows(&x.b),
             second_order: x.second_order.as_ref().map(|second| SecondOrderDocument {

@@ -2,10 +2,12 @@
 //! and applied forces. A page draws it at any time of a run, an SVG figure at one time. Places that
 //! do not move with a body are given frame by frame.
 //!
-//! Its points are points of the space of the mechanism, in the axes of bodies; its
+//! Its points are points of the space of the mechanism, in the axes of the frames of bodies; its
 //! [`Projection`] makes them points of the picture.
 
 mod point;
+#[cfg(test)]
+mod tests;
 mod wheel;
 
 use model::space::{difference, norm};
@@ -240,9 +242,9 @@ impl Stage<'_> {
             order: Vec::new(),
             shapes: Shapes,
             spring: &SPRING,
-            poses: probes.into_iter().next().map_or_else(
+            poses: self.frames.first().map_or_else(
                 || Bodies::at(self.mechanism.space(), &[]),
-                |probe| probe.scratch.bodies,
+                |frame| self.mechanism.frames().poses(&self.q(frame)),
             ),
         };
         let mut order: Vec<(usize, f64)> = (0..drawing.bodies.len())
@@ -261,7 +263,7 @@ impl Stage<'_> {
         let held = self.mechanism.layout().constraint_ids();
         let held = held.flat_map(|id| self.mechanism.points(id));
         for (body, point) in held.filter_map(|(b, p)| Some((b.moving()?, p))) {
-            points[body].push(point);
+            points[body].push(self.told(BodyRef::Body(body), point));
         }
         for &(body, point) in forces.iter().flat_map(|f| &f.points) {
             if let Ok(k) = usize::try_from(body) {
@@ -281,6 +283,11 @@ impl Stage<'_> {
         outlines
             .map(|points| points.iter().map(|p| Point::new(space, *p)).collect())
             .collect()
+    }
+
+    /// A vector in the axes of the coordinates of a body in those of its frame.
+    fn told(&self, body: BodyRef, own: [f64; 3]) -> [f64; 3] {
+        self.mechanism.frames().vector(body, own)
     }
 
     /// Its coordinates in a frame, with the counted angles of its joints.
@@ -349,7 +356,8 @@ impl Stage<'_> {
     fn body(&self, k: usize, outline: Vec<Point>, states: &[Vec<f64>]) -> DrawnBody {
         let body = &self.mechanism.bodies()[k];
         let space = self.mechanism.space();
-        let origin = Point::new(space, body.from_centre([0.0; 3]));
+        let origin = self.told(BodyRef::Body(k), body.from_centre([0.0; 3]));
+        let origin = Point::new(space, origin);
         DrawnBody {
             name: body.name.clone(),
             frame: (!body.is_centred()).then_some(origin),
@@ -383,7 +391,7 @@ impl Stage<'_> {
         let end = is_apart.then(|| match second {
             Some((body, point)) => Place::Of {
                 b: index(body),
-                p: Point::new(space, point),
+                p: Point::new(space, self.told(body, point)),
             },
             None => place(&|site| site.end),
         });
@@ -418,7 +426,7 @@ impl Stage<'_> {
         for &body in carriers {
             let mut seen = probes
                 .iter()
-                .map(|p| local(body, of(&p.sites[id.0]), &p.scratch));
+                .map(|p| self.told(body, local(body, of(&p.sites[id.0]), &p.scratch)));
             let Some(first) = seen.next() else { break };
             if seen.all(|p| norm(&difference(p, first)) <= known) {
                 return Place::Of {
@@ -486,7 +494,9 @@ impl DrawnForce {
         let drawn = mechanism.applied_forces().iter().filter_map(|f| {
             let points = f.points.iter();
             let space = mechanism.space();
-            let held = points.map(|(body, p)| Some((place(body)?, Point::new(space, *p))));
+            let frames = mechanism.frames();
+            let held = points
+                .map(|(body, p)| Some((place(body)?, Point::new(space, frames.vector(*body, *p)))));
             Some(Self {
                 name: f.name.to_owned(),
                 kind: f.spec.common.scene_type,
@@ -501,12 +511,14 @@ impl DrawnForce {
 impl DrawnMarker {
     /// The markers of a mechanism on the ground and on bodies that are drawn.
     fn all(mechanism: &Mechanism, bodies: &[usize]) -> Vec<Self> {
-        let markers = mechanism.frames().observed().markers.iter();
+        let (space, frames) = (mechanism.space(), mechanism.frames());
+        let markers = frames.observed().markers.iter();
         let all = markers.filter_map(|marker| {
+            let own = marker.from_centre(mechanism.bodies());
             Some(Self {
                 name: marker.name.clone(),
                 b: drawn(bodies, marker.body)?,
-                p: Point::new(mechanism.space(), marker.from_centre(mechanism.bodies())),
+                p: Point::new(space, frames.vector(marker.body, own)),
                 a: Rounded(marker.angle.unwrap_or_default()),
             })
         });
@@ -529,10 +541,10 @@ fn index(body: BodyRef) -> isize {
 /// A point or a direction of a joint, in ground axes.
 type OfSite<'a> = dyn Fn(&Site) -> [f64; 3] + 'a;
 
-/// From ground axes to those of a body.
+/// From ground axes to those of the coordinates of a body.
 type Local = dyn Fn(BodyRef, [f64; 3], &Scratch) -> [f64; 3];
 
-/// A global point in the frame of a body.
+/// A global point relative to the centre of a body, in the axes of its coordinates.
 fn local(body: BodyRef, point: [f64; 3], s: &Scratch) -> [f64; 3] {
     body.moving().map_or(point, |k| s.bodies.to_local(k, point))
 }

@@ -63,7 +63,7 @@ pub(crate) struct Pitch {
     /// The body that carries it.
     pub(crate) body: BodyRef,
     /// Its centre from the centre of mass (m), and the unit vector across it, in the axes of the
-    /// body.
+    /// coordinates of the body.
     pub(crate) centre: [f64; 3],
     pub(crate) axis: [f64; 3],
     pub(crate) radius: f64,
@@ -273,7 +273,7 @@ fn borne(mechanism: &Mechanism, id: ConstraintId, all: &[Site], s: &Scratch) -> 
     points.into_iter().take(2).filter_map(wheel).collect()
 }
 
-/// A direction of the ground in the axes of a body.
+/// A direction of the ground in the axes of the coordinates of a body.
 pub(crate) fn turned_back(body: BodyRef, d: [f64; 3], s: &Scratch) -> [f64; 3] {
     let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * d[k]).sum();
     body.moving().map_or(d, |k| s.bodies.axes(k).map(along))

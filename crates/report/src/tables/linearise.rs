@@ -77,27 +77,34 @@ impl MatrixTable {
     }
 }
 
-/// Writes `modes.csv`: eigenvalue, frequency, damping ratio and shape of each mode; the last two
-/// are empty where they have no value.
+/// Writes `modes.csv`: eigenvalue, frequency with and without its damping, damping ratio and shape
+/// of each mode; empty where there is no such value.
 ///
 /// # Errors
 /// - [`TableError::Write`]: the writer failed.
 pub fn modes_table<W: Write>(of: &LinearisationDocument, out: W) -> Result<W, TableError> {
-    let mut header: Vec<String> = ["mode", "real", "imaginary", "frequency", "damping_ratio"]
-        .map(str::to_owned)
-        .to_vec();
+    let known = [
+        "mode",
+        "real",
+        "imaginary",
+        "frequency",
+        "natural_frequency",
+        "damping_ratio",
+    ];
+    let mut header: Vec<String> = known.map(str::to_owned).to_vec();
     for state in &of.states {
         header.extend(["re", "im"].map(|part| format!("{}.{part}", state.name)));
     }
     let mut table = Table::new("modes.csv", out, &header)?;
     for (k, mode) in of.modes.iter().flatten().enumerate() {
-        let ratio = mode.damping_ratio.map_or(String::new(), |x| x.to_string());
+        let known = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
         let mut row = vec![
             (k + 1).to_string(),
             mode.real.to_string(),
             mode.imaginary.to_string(),
             mode.frequency.to_string(),
-            ratio,
+            known(mode.natural_frequency),
+            known(mode.damping_ratio),
         ];
         let shape = mode.shape.0.iter().flat_map(|(_, z)| z);
         row.extend(shape.map(f64::to_string));

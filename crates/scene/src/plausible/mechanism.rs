@@ -8,7 +8,7 @@ use model::{BodyRecord, BodyRef, ConstraintId, DescribedBody, Mechanism, System}
 
 use crate::findings::Findings;
 use crate::language::LengthUnit;
-use crate::source_map::{BODY_KEYS, PLACE_KEYS, SourceMap};
+use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
 
 /// Largest radius of gyration, in arms of the body. All mass within an arm gives 1; a flywheel on a
 /// small crank has some 5, and the inertia of a rod in kg·cm² read as kg·m² has 58.
@@ -17,6 +17,17 @@ const LARGEST_GYRATION: f64 = 20.0;
 /// Smallest radius of gyration, in arms of the body. A rod has 0.6, a small bob on a light rod
 /// 0.01; the inertia of a rod in kg·m² read as kg·mm² has 0.0006.
 const SMALLEST_GYRATION: f64 = 1e-3;
+
+/// Density from which a ball of that mass and inertia is made of no material (kg/m³): osmium has
+/// 2.3e4, and the inertia of a wheel in kg·m² read as kg·mm² makes 1e11 of 1e2. A point mass of
+/// 1 kg with a token of 1e-6 kg·m² has 6e7.
+const DENSEST: f64 = 1e9;
+
+/// Share of the size of the mechanism below which the radius of gyration of such a body is small.
+const SMALL: f64 = 1e-2;
+
+/// Density of steel (kg/m³).
+const STEEL: f64 = 7850.0;
 
 /// Most sizes of a mechanism from the centre of mass of a body to a joint of it. Lengths in cm read
 /// as m are 100 times too large; the longest parts of a machine are some ten times the middle ones.
@@ -200,6 +211,10 @@ fn inertia(
 ) {
     let Some(size) = size else { return };
     for ((body, shape), entry) in records.iter().zip(bodies).zip(&map.bodies) {
+        if shape.arms().all(|arm| arm == 0.0) {
+            dense(body, entry, size, unit, findings);
+            continue;
+        }
         // Points far away have a warning of their own.
         let near = shape.arms().filter(|arm| *arm <= FARTHEST * size);
         let arm = near.fold(0.0, f64::max);
@@ -229,4 +244,36 @@ fn inertia(
             ),
         );
     }
+}
+
+/// Warns of a body, such as a wheel, whose points are all at its centre of mass, if it is small in
+/// the mechanism and a ball of its mass and inertia is of no material.
+fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings: &mut Findings) {
+    let Some(gyration) = gyration(body).filter(|radius| *radius < SMALL * size) else {
+        return;
+    };
+    let volume = |radius: f64| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+    // J = 2/5·m·r².
+    let density = body.mass / volume(gyration * 2.5_f64.sqrt());
+    if density < DENSEST {
+        return;
+    }
+    let steel = (body.mass / STEEL / volume(1.0)).cbrt();
+    findings.warning(
+        const { Code::new(194) },
+        entry.span("inertia"),
+        format!(
+            "body `{}`: with its mass of {} kg the inertia has a radius of gyration of {} m, as a ball of {} kg/m³ has",
+            body.name,
+            rounded(body.mass),
+            rounded(gyration),
+            rounded(density)
+        ),
+        "too small",
+        &format!(
+            "write `inertia` about the centre of mass, in kg·{}²: a ball of steel of that mass has {}",
+            unit.name,
+            unit.inertia(0.4 * body.mass * steel * steel)
+        ),
+    );
 }

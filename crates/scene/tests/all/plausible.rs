@@ -223,6 +223,36 @@ fn inertia_fits_mass_and_size() {
     assert_eq!(warned(&marked), []);
 }
 
+/// A wheel at the end of an arm: its points are all at its centre of mass.
+#[test]
+fn a_wheel_has_no_arm_and_is_of_some_material() {
+    let scene = |inertia: &str| {
+        format!(
+            "[scene]\nname = \"mm\"\nspace = \"plane\"\nformat = 2\nunits = {{ length = \"mm\" }}\n\n[[body]]\nname = \"arm\"\nmass = 3\ninertia = 9e4\n\n[[body]]\nname = \"wheel\"\nmass = 22\ninertia = {inertia}\nposition = [300, 0]\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"arm\"]\nat = [-300, 0]\n\n[[joint]]\nname = \"B\"\ntype = \"revolute\"\nbodies = [\"arm\", \"wheel\"]\nat = [300, 0]\n"
+        )
+    };
+    // A wheel of 22 kg with a radius of gyration of 0.22 m has 1.1 kg·m²; a token of a point mass.
+    for meant in ["1.1e6", "\"1.1 kg*m^2\"", "0", "22"] {
+        assert_eq!(warned(&scene(meant)), [], "{meant}");
+    }
+    // In kg·m²: the radius of gyration is 0.22 mm, and a ball of that inertia weighs
+    // 22/(4/3·π·(0.2236e-3·√2.5)³) kg/m³.
+    let found = read(&scene("1.1")).expect("a scene");
+    let [warning] = &found.warnings[..] else {
+        panic!("{:#?}", found.warnings)
+    };
+    let radius = (1.1e-6_f64 / 22.0).sqrt();
+    let ball = radius * 2.5_f64.sqrt();
+    let density = 22.0 / (4.0 / 3.0 * std::f64::consts::PI * ball.powi(3));
+    let [radius, density] = [radius, density].map(model::words::rounded);
+    assert_eq!(
+        warning.message,
+        format!(
+            "body `wheel`: with its mass of 22 kg the inertia has a radius of gyration of {radius} m, as a ball of {density} kg/m³ has"
+        )
+    );
+}
+
 #[test]
 fn units_do_not_change_what_is_plausible() {
     // The rod in millimetres: 90 kg·mm² would be 0.00009 kg·m².

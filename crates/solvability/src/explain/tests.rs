@@ -273,3 +273,14 @@ fn loads_that_cancel_are_told_as_reactions_are() {
     let found = dependencies(&d);
     assert!(found.iter().any(|text| text.ends_with(words)), "{found:?}");
 }
+
+/// Hinges have no moment about their axis, and a door on two shares all others.
+#[test]
+fn what_is_zero_whatever_the_loads_is_told_to_be_so() {
+    let found = explained(&door(&[Revolute; 2], HOME)).reactions;
+    assert_eq!(found.len(), 2);
+    for reaction in &found {
+        let end = "; determined is Tz only, which is zero whatever the loads";
+        assert!(reaction.text.ends_with(end), "{}", reaction.text);
+    }
+}

@@ -340,9 +340,15 @@ fn explanation(truth: &Truth, link: usize, answer: &Value, text: &str, findings:
         findings.note(Kind::Undecided, text.to_owned());
         return;
     }
-    let Some((_, determined)) = text.split_once("determined is ") else {
+    let is_or_are = ["determined is ", "determined are "];
+    let Some((_, determined)) = is_or_are.iter().find_map(|verb| text.split_once(verb)) else {
         return;
     };
+    // Where nothing else is determined, what is always zero is said to be so.
+    let determined = determined
+        .split(" only, which ")
+        .next()
+        .unwrap_or(determined);
     let components = list(&answer["components"])
         .iter()
         .filter_map(|c| c["name"].as_str());

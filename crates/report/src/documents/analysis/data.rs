@@ -2,6 +2,7 @@
 //! rank.
 
 use model::Tolerance;
+use model::words::length;
 use rank::Certificate;
 use serde::Serialize;
 use solvability::Analysis;
@@ -26,9 +27,31 @@ pub struct DataDocument {
     /// The displacement of points that is necessary for a lower rank at this configuration (m;
     /// angles times the size of the mechanism). `None` if that is not close.
     pub lower_rank_here: Option<f64>,
+    /// Whether `lower_rank_from` is a small share of the size of its part: rounding of the data
+    /// may lock a motion that the mechanism is to have.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub nearly_free: bool,
 }
 
+/// Data that differ by less than this share of the size of a part are rounded: machines are
+/// described to four digits or so, and parts that are shorter are no parts.
+const ROUNDED: f64 = 1e-3;
+
 impl DataDocument {
+    /// A warning of a motion that may be locked by the rounding of the data only; `mobility` is
+    /// that of the data as they are.
+    #[must_use]
+    pub fn warning(&self, mobility: usize) -> Option<String> {
+        let from = self.lower_rank_from.filter(|_| self.nearly_free)?;
+        Some(format!(
+            "mobility {mobility} for the data as they are written, and {} if lengths are known to {} only: one row is \
+             redundant then, and what it locks can move. If it is to move, write more digits or state `tolerance` \
+             (m) in [scene]; `pfaff analyze` names the joints",
+            mobility + 1,
+            length(from)
+        ))
+    }
+
     /// The document of an analysis.
     #[must_use]
     pub fn new(analysis: &Analysis) -> Self {
@@ -58,6 +81,11 @@ impl DataDocument {
                 .filter_map(|c| c.lower_rank_from)
                 .reduce(f64::min),
             lower_rank_from_angle: parts.clone().filter_map(by_angles).reduce(f64::min),
+            nearly_free: parts.clone().any(|(size, certificate)| {
+                let by_lengths = certificate.filter(|c| !c.lower_rank_by_angles);
+                let from = by_lengths.and_then(|c| c.lower_rank_from);
+                from.is_some_and(|from| from <= ROUNDED * size)
+            }),
             lower_rank_here: known().filter_map(|c| c.lower_rank_here).reduce(f64::min),
         }
     }
@@ -106,8 +134,17 @@ mod tests {
             lower_rank_from: Some(5e-5),
             lower_rank_from_angle: None,
             lower_rank_here: Some(1e-6),
+            nearly_free: true,
         };
         assert_eq!(told, expected);
+        let said = told.warning(2).expect("near");
+        assert!(
+            said.starts_with("mobility 2 for the data as they are written, and 3 if lengths are known to 0.05 mm only"),
+            "{said}"
+        );
+        let far = certificate(Some(5e-3), None);
+        let told = DataDocument::of(Tolerance::default(), [(4.0, Some(&far))].into_iter());
+        assert_eq!((told.nearly_free, told.warning(2)), (false, None));
         let turned = Certificate {
             lower_rank_by_angles: true,
             ..near

@@ -72,8 +72,9 @@ impl Stage<'_> {
         let same = wheels.filter(|(k, wheel)| is_same(wheel, *k));
         same.map(|(_, wheel)| DrawnWheel {
             b: index(wheel.body),
-            p: Point::new(space, wheel.centre),
-            axis: (space == SpaceKind::Space3).then(|| Point::new(space, wheel.axis)),
+            p: Point::new(space, self.told(wheel.body, wheel.centre)),
+            axis: (space == SpaceKind::Space3)
+                .then(|| Point::new(space, self.told(wheel.body, wheel.axis))),
             r: Rounded(wheel.radius),
         })
         .collect()

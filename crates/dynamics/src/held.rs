@@ -1,0 +1,47 @@
+//! States at rest in which functions of time are held: a drive that begins to move moves nothing
+//! there.
+
+use model::{Mechanism, System};
+
+use crate::limits::RESTING_RATE;
+use crate::prepare::Prepared;
+
+impl Prepared {
+    /// The same with functions of time that keep the values that they have at t, for a state at
+    /// rest: [`Mechanism::held_at`].
+    #[must_use]
+    pub fn held_at(&self, t: f64) -> Self {
+        Self {
+            mechanism: self.mechanism.held_at(t),
+            // Code is that of the functions that move.
+            code: None,
+            ..self.clone()
+        }
+    }
+}
+
+/// Whether velocities are rounding for a mechanism of this size (m).
+pub(crate) fn rests(mechanism: &Mechanism, size: f64, v: &[f64]) -> bool {
+    let unit = |j: usize| mechanism.space().unit(j, size);
+    let mut each = v.iter().enumerate();
+    each.all(|(j, v)| v.abs() <= RESTING_RATE * unit(j))
+}
+
+/// Drives and joints that functions of time accelerate at rest at the coordinates q, by more than
+/// rounding for a mechanism of this size (m).
+pub(crate) fn accelerated(mechanism: &Mechanism, size: f64, t: f64, q: &[f64]) -> Vec<String> {
+    let layout = mechanism.layout();
+    let mut s = mechanism.scratch();
+    mechanism.pose(t, q, &mut s);
+    mechanism.twist(&vec![0.0; layout.n_v], &mut s);
+    mechanism.gamma(&mut s);
+    let mut names: Vec<String> = Vec::new();
+    for i in 0..layout.rows() {
+        let unit = if layout.is_angular(i) { 1.0 } else { size };
+        let name = &layout.owner(i).name;
+        if s.gamma[i].abs() > RESTING_RATE * unit && !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names
+}
