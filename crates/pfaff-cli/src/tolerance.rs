@@ -4,9 +4,11 @@
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::report::documents::{QuantityRangeDocument, ReactionRangeDocument, ToleranceDocument};
+use pfaff::model::words::rounded;
+use pfaff::report::documents::{
+    QuantityRangeDocument, ReactionRangeDocument, ToleranceDocument, distance,
+};
 use pfaff::report::{OutputDirectory, TableError, tolerance_page, tolerance_table, write_json};
-use pfaff::solvability::sensitivity::length;
 use pfaff::tolerance::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy};
 
 use crate::args::Tolerance;
@@ -18,6 +20,9 @@ use crate::work_precision::provenance;
 
 /// The files of a run.
 const FILES: [&str; 3] = ["tolerance.csv", "tolerance.json", "tolerance.html"];
+
+/// Reactions that are also told in a sentence.
+const TOLD: usize = 3;
 
 /// Lines of a list; a longer one is its first lines and a count.
 const LISTED: usize = 12;
@@ -136,10 +141,12 @@ fn reactions(d: &ToleranceDocument) -> String {
         text.push_str(&more(ranged.len()));
         text.push('\n');
     }
-    for reaction in d.reactions.iter().take(LISTED) {
+    for reaction in ranged.iter().take(TOLD) {
         text.push_str(&wrapped("- ", &reaction.sentence));
     }
-    text.push_str(&more(d.reactions.len()));
+    for sentence in d.without_range() {
+        text.push_str(&wrapped("- ", &sentence));
+    }
     text
 }
 
@@ -153,9 +160,10 @@ fn more(listed: usize) -> String {
 fn row(reaction: &ReactionRangeDocument) -> Option<Vec<String>> {
     let value: &QuantityRangeDocument = reaction.values.first()?;
     let range = value.range.as_ref()?;
-    let verdict = match (reaction.verdict, reaction.fragile) {
-        ("unique", true) => "unique, FRAGILE".to_owned(),
-        (verdict, _) => verdict.replace('_', " "),
+    let verdict = match (reaction.fragile, value.unique) {
+        (true, _) => "unique, FRAGILE".to_owned(),
+        (false, true) => "unique".to_owned(),
+        (false, false) => reaction.verdict.replace('_', " "),
     };
     let [low, _, high] = range.percentiles.map(digits);
     let what = match value.reading {
@@ -177,10 +185,14 @@ fn row(reaction: &ReactionRangeDocument) -> Option<Vec<String>> {
 fn places(d: &ToleranceDocument) -> String {
     let mut text = String::new();
     for (name, marker) in d.markers.0.iter().take(LISTED) {
+        if marker.farthest == 0.0 {
+            text.push_str(&format!("marker {name}: does not move\n"));
+            continue;
+        }
         text.push_str(&format!(
             "marker {name}: up to {} from where it is described, {} on average\n",
-            length(marker.farthest),
-            length(marker.mean)
+            distance(marker.farthest),
+            distance(marker.mean)
         ));
     }
     text.push_str(&more(d.markers.0.len()));
@@ -201,10 +213,12 @@ fn places(d: &ToleranceDocument) -> String {
         .0
         .iter()
         .max_by(|a, b| a.1.greatest.total_cmp(&b.1.greatest));
-    if let Some((name, moved)) = farthest {
+    if let Some((name, moved)) = farthest
+        && moved.greatest > 0.0
+    {
         text.push_str(&format!(
             "body {name} moves farthest: up to {}, turned by up to {:.1e} rad\n",
-            length(moved.greatest),
+            distance(moved.greatest),
             moved.turned
         ));
     }
@@ -218,5 +232,5 @@ fn places(d: &ToleranceDocument) -> String {
 /// A number with four significant digits.
 fn digits(x: f64) -> String {
     let short: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    pfaff::model::words::rounded(short + 0.0)
+    rounded(short + 0.0)
 }

@@ -54,6 +54,7 @@ pub use tolerance::{
     DescribedDocument, DrawnDocument, FailureDocument, HistogramDocument, MarkerRangeDocument,
     MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument,
     ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
+    distance,
 };
 
 /// Number of the format of documents: it grows when an entry changes its meaning or disappears.

@@ -28,7 +28,9 @@ pub fn tolerance_page(
 ) -> String {
     let mut page = open(&format!("{}: within tolerances", d.scene));
     let mut sentences = d.sentences();
-    let told = d.reactions.iter().filter(|r| r.relative.is_some());
+    let has_range =
+        |r: &&ReactionRangeDocument| r.values.first().is_some_and(|v| v.range.is_some());
+    let told = d.reactions.iter().filter(has_range);
     sentences.extend(told.take(3).map(|r| r.sentence.clone()));
     list(&mut page, &sentences);
     page.push_str(EXPLANATION);
@@ -73,9 +75,7 @@ fn reactions(page: &mut String, d: &ToleranceDocument) {
     page.push_str(
         "</table></div>\n<p class=\"grey\">Verdicts are counted with exact numbers.</p>\n",
     );
-    let without = d.reactions.iter().filter(|r| r.relative.is_none());
-    let sentences: Vec<String> = without.map(|r| r.sentence.clone()).collect();
-    list(page, &sentences);
+    list(page, &d.without_range());
 }
 
 /// The numbers of a reaction, each in its row.
@@ -120,7 +120,7 @@ fn reaction_rows(page: &mut String, reaction: &ReactionRangeDocument) {
 /// Cells of a range.
 fn numbers(page: &mut String, range: Option<&RangeDocument>) {
     let Some(range) = range else {
-        page.push_str("<td colspan=\"9\" class=\"name grey\">not unique in any sample</td>");
+        page.push_str("<td colspan=\"9\" class=\"name grey\">no sample determines it</td>");
         return;
     };
     let [low, middle, high] = range.percentiles;

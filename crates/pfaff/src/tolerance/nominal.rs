@@ -1,7 +1,8 @@
 //! The described mechanism: its pose, the rows that are kept, the data that are displaced, and what
 //! is said of its reactions.
 
-use model::{ConstraintId, DataBlock, DataUnit, Mechanism, StartOptions, System};
+use model::start::KeepLevel;
+use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
 use rank::Doubt;
 use solvability::{Configuration, RowDecision, Verdict, rows_of_rank};
 
@@ -42,12 +43,12 @@ pub(super) struct NominalReaction {
 /// The described mechanism at one time.
 pub(super) struct Nominal {
     pub(super) scene: String,
-    /// With exact numbers: no tolerance is stated for it any more.
     pub(super) mechanism: Mechanism,
     pub(super) t: f64,
     pub(super) q: Vec<f64>,
     pub(super) v: Vec<f64>,
-    pub(super) start: StartOptions,
+    /// Columns of C along which the start keeps positions.
+    pub(super) kept_columns: Vec<usize>,
     pub(super) size: f64,
     /// All numbers of its constraints.
     pub(super) numbers: Vec<f64>,
@@ -132,11 +133,16 @@ impl Nominal {
         let mut at = of_stated.scratch();
         of_stated.pose(0.0, &prepared.q, &mut at);
         let data = displaced(&of_stated, of_stated.data().blocks(&at));
+        let keeps = prepared.start.keep.iter();
+        let keeps = keeps.filter(|c| c.level == KeepLevel::Position && t == 0.0);
+        let kept_columns = keeps
+            .map(|c| layout.columns(c.body).start + c.dof)
+            .collect();
         let missing = (0..layout.m).filter(|i| position_kept.binary_search(i).is_err());
         Ok(Self {
             scene: study.scene.name().to_owned(),
             t,
-            start: prepared.start.clone(),
+            kept_columns,
             size: prepared.assembly.size,
             numbers: mechanism.data().numbers(),
             data,
@@ -150,7 +156,7 @@ impl Nominal {
             unique,
             q: state.q,
             v: state.v,
-            mechanism: study.prepared.mechanism.without_tolerances(),
+            mechanism: of_stated,
         })
     }
 }

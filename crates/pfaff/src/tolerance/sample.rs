@@ -7,8 +7,8 @@
 //! now, the mechanism has fewer free motions, and what was not unique is decided by the data alone.
 
 use linalg::{KeptRowSaddle, Matrix};
-use model::start::{Metric, nearest_configuration, requirement};
-use model::{Mechanism, Scratch, StartError, System};
+use model::start::requirement;
+use model::{Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
 use solvability::{Configuration, Equations, Verdict};
 
@@ -18,6 +18,22 @@ use super::nominal::Nominal;
 /// A pose that is farther from the described one than this share of the size of the mechanism, or
 /// than this angle (rad), is another assembly of the same parts.
 pub(super) const FAR: f64 = 0.3;
+
+/// Iterations towards a pose; from within a tolerance a few are enough, and where the rows are
+/// nearly dependent some more.
+const ITERATIONS: usize = 40;
+
+/// A pose satisfies its rows below this many roundings of their terms, or below the second number
+/// of them if it comes no nearer.
+const ROUNDINGS: f64 = 10.0;
+const STILL: f64 = 1e3;
+
+/// The reason of samples whose rows contradict each other, or nearly so.
+const NO_POSE: &str = "there is no pose near the described one on which the rows hold";
+
+fn unassembled(e: linalg::SaddleError) -> Failed {
+    Failed::new(NO_POSE, e)
+}
 
 /// Velocities satisfy rows that they are not made for to this share of the fastest one.
 const SATISFIED: f64 = 1e-9;
@@ -105,6 +121,9 @@ impl Nominal {
         mechanism.c(&mut s);
         mechanism.b(&mut s);
         let Instant { v, lambda } = self.instant(mechanism, &mut s)?;
+        let misfits = self.missing.iter().map(|row| s.phi[*row]).collect();
+        // What redundant rows miss is no error of C, which is known to rounding here.
+        s.phi.fill(0.0);
         let decision = solvability::decide(mechanism, &s, &q)
             .map_err(|e| Failed::new("the rank cannot be decided", e))?;
         let (verdicts, exact) =
@@ -112,7 +131,6 @@ impl Nominal {
         let kept = self.numbers_of(mechanism, &s, &lambda);
         let frames = mechanism.frames();
         let observed = frames.observed();
-        let misfits = self.missing.iter().map(|row| s.phi[*row]).collect();
         Ok(Assembled {
             rank: (decision.status == RankStatus::Decided).then_some(decision.rank),
             verdicts,
@@ -131,15 +149,7 @@ impl Nominal {
 
     /// The pose nearest to the described one on the kept rows.
     fn pose_of(&self, mechanism: &Mechanism) -> Result<Vec<f64>, Failed> {
-        let metric = Metric::Start(&self.start);
-        let q = nearest_configuration(mechanism, self.t, &self.position_kept, &self.q, metric);
-        let q = q.map_err(|e| match e {
-            StartError::NoAssembly { .. } => Failed::new(
-                "there is no pose near the described one on which the rows hold",
-                e,
-            ),
-            other => Failed::new("it cannot be assembled", other),
-        })?;
+        let q = self.closest(mechanism)?;
         requirement(mechanism, &q)
             .map_err(|e| Failed::new("a requirement of a joint does not hold", e))?;
         let space = mechanism.space();
@@ -157,6 +167,71 @@ impl Nominal {
                 moved[farthest]
             ),
         ))
+    }
+
+    /// The configuration on the kept rows that is closest to the described one, in lengths, with
+    /// angles times the size: `q = q₀ + argmin ‖δ‖` under the rows linearised at q, repeated.
+    /// Coordinates that the start keeps do not move.
+    fn closest(&self, mechanism: &Mechanism) -> Result<Vec<f64>, Failed> {
+        let (space, rows) = (mechanism.space(), &self.position_kept);
+        let n = mechanism.layout().n_v;
+        let square = self.size * self.size;
+        let weight = |j| if space.is_rotation(j) { square } else { 1.0 };
+        let weights: Vec<f64> = (0..n).map(weight).collect();
+        let mut saddle = KeptRowSaddle::new(n, rows.len()).map_err(unassembled)?;
+        let mut s = mechanism.scratch();
+        let mut q = self.q.clone();
+        let (mut step, mut of_rows) = (vec![0.0; n], vec![0.0; rows.len()]);
+        let mut best = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            mechanism.pose(self.t, &q, &mut s);
+            mechanism.phi(&mut s);
+            mechanism.c(&mut s);
+            let misses = |&i: &usize| match s.phi[i] {
+                0.0 => 0.0,
+                phi => phi.abs() / mechanism.scales(&s).position(i),
+            };
+            let residual = rows.iter().map(misses).fold(0.0, f64::max);
+            // Rounding may leave a little more than the first bound: then it comes no nearer.
+            let is_still = residual >= best && residual <= STILL * f64::EPSILON;
+            if residual <= ROUNDINGS * f64::EPSILON || is_still {
+                return Ok(q);
+            }
+            best = best.min(residual);
+            let mut c = mechanism.layout().dense(&s);
+            let back = mechanism.difference_of(&self.q, &q);
+            let held: Vec<f64> = rows
+                .iter()
+                .map(|&i| {
+                    let moved = c.row(i).iter().zip(&back).map(|(c, d)| c * d).sum::<f64>();
+                    -s.phi[i] - moved
+                })
+                .collect();
+            for &j in &self.kept_columns {
+                for &i in rows {
+                    c[(i, j)] = 0.0;
+                }
+            }
+            saddle
+                .factor(|k| c.row(rows[k]), &weights)
+                .map_err(unassembled)?;
+            saddle
+                .solve(&vec![0.0; n], &held, &mut step, &mut of_rows)
+                .map_err(unassembled)?;
+            q = space.displaced(&self.q, 1.0, &step);
+        }
+        let worst = rows
+            .iter()
+            .copied()
+            .max_by(|a, b| s.phi[*a].abs().total_cmp(&s.phi[*b].abs()));
+        let detail = worst.map_or(String::new(), |i| {
+            format!(
+                "row {} still misses by {:.1e}",
+                mechanism.layout().labels[i],
+                s.phi[i].abs()
+            )
+        });
+        Err(Failed::new(NO_POSE, detail))
     }
 
     /// Velocities nearest to the described ones on the kept rows, in the mass metric, and the

@@ -5,9 +5,8 @@ use model::{DataUnit, System};
 use report::documents::{
     DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
     MovedDocument, Named, QuantityRangeDocument, RangeDocument, RankCountDocument,
-    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VerdictCounts,
+    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VerdictCounts, distance,
 };
-use solvability::sensitivity::length;
 
 use super::ToleranceOptions;
 use super::nominal::{Nominal, Reading};
@@ -15,7 +14,7 @@ use super::quantity::Quantity;
 use super::sample::{Assembled, Sample};
 
 /// A number below this share of the largest one of its kind is nothing to relate a range to.
-const NOTHING: f64 = 1e-2;
+const NOTHING: f64 = 0.1;
 
 /// A number below this share of the largest one of its kind is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -71,7 +70,7 @@ impl Nominal {
                 false => format!("± {} to ± {}", words(least), words(greatest)),
             })
         };
-        let lengths = told(self.tolerances(DataUnit::Length), &|x| length(x));
+        let lengths = told(self.tolerances(DataUnit::Length), &distance);
         let angles = told(self.tolerances(DataUnit::Angle), &|x| {
             format!("{x:.1e} rad")
         });
@@ -181,14 +180,20 @@ impl Nominal {
                     let over = around.max(NOTHING * scale(value.unit));
                     (over > 0.0).then(|| range.width() / over)
                 });
-                let of_samples = (good.len() as u64, within);
+                let told = Told {
+                    name: &reaction.name,
+                    verdict: reaction.verdict,
+                    counts: verdicts,
+                    samples: good.len() as u64,
+                    within,
+                };
                 ReactionRangeDocument {
                     name: reaction.name.clone(),
                     kind: reaction.kind,
                     verdict: reaction.verdict,
                     fragile: reaction.fragile,
                     verdicts,
-                    sentence: sentence(&reaction.name, values.first(), of_samples),
+                    sentence: told.sentence(values.first()),
                     relative,
                     values,
                 }
@@ -310,7 +315,8 @@ impl Nominal {
             let own = self.quantities.iter().zip(&self.unique);
             for (quantity, unique) in own.filter(|(q, _)| q.id.0 == id) {
                 let exact = if *unique { "" } else { ".exact" };
-                columns.push(format!("{}.{}{exact}", reaction.name, quantity.name));
+                let name = quantity.name.replace('|', "");
+                columns.push(format!("{}.{name}{exact}", reaction.name));
             }
         }
         let space = self.mechanism.space();
@@ -402,47 +408,62 @@ fn failures(samples: &[Sample]) -> Vec<FailureDocument> {
     all
 }
 
-/// The range of a reaction in words.
-fn sentence(
-    name: &str,
-    first: Option<&QuantityRangeDocument>,
-    (samples, within): (u64, &str),
-) -> String {
-    let Some(value) = first else {
-        return format!("`{name}` has no reaction");
-    };
-    let verb = match value.unit {
-        "N" => "carries",
-        _ => "takes a torque of",
-    };
-    let unit = value.unit;
-    let Some(range) = &value.range else {
-        return match samples {
-            0 => format!("`{name}`: no sample was assembled"),
-            _ => format!("`{name}` is not unique in any sample: no range"),
+/// What the sentence about a reaction needs besides its range.
+struct Told<'a> {
+    name: &'a str,
+    verdict: &'a str,
+    counts: VerdictCounts,
+    samples: u64,
+    within: &'a str,
+}
+
+impl Told<'_> {
+    /// The range of the reaction in words.
+    fn sentence(&self, first: Option<&QuantityRangeDocument>) -> String {
+        let (name, samples, within) = (self.name, self.samples, self.within);
+        let Some(value) = first else {
+            return format!("`{name}` has no reaction");
         };
-    };
-    let (least, greatest) = (digits(range.least), digits(range.greatest));
-    let span = if least == greatest {
-        format!("{least} {unit}")
-    } else {
-        format!("{least} … {greatest} {unit}")
-    };
-    if value.reading == "kept_rows" {
-        let told = range.described.map_or(String::new(), |x| {
-            format!(" ({} {unit} as described)", digits(x))
-        });
-        return format!("within {within} `{name}` {verb} {span}{told}");
+        let Some(range) = &value.range else {
+            return match self.counts {
+                _ if samples == 0 => format!("`{name}`: no sample was assembled"),
+                VerdictCounts { unique: 0, .. } => {
+                    format!("`{name}` is not unique in any sample: no range")
+                }
+                _ => format!(
+                    "`{name}` is {}; rigid and without play or slip the mechanism could not move as it does: no range",
+                    self.verdict.replace('_', " ")
+                ),
+            };
+        };
+        let unit = value.unit;
+        let (least, greatest) = (digits(range.least), digits(range.greatest));
+        let span = if least == greatest {
+            format!("{least} {unit}")
+        } else {
+            format!("{least} … {greatest} {unit}")
+        };
+        if value.unique {
+            let verb = match unit {
+                "N" => "carries",
+                _ => "takes a torque of",
+            };
+            let told = range.described.map_or(String::new(), |x| {
+                format!(" ({} {unit} as described)", digits(x))
+            });
+            return format!("within {within} `{name}` {verb} {span}{told}");
+        }
+        let [low, _, high] = range.percentiles.map(digits);
+        let share = match range.samples {
+            n if n == samples => String::new(),
+            n => format!(" in {n} of {samples} samples"),
+        };
+        format!(
+            "`{name}` is {}; rigid and without play, data within {within} alone would decide it{share}: {span}, nine tenths \
+             between {low} and {high} {unit}",
+            self.verdict.replace('_', " ")
+        )
     }
-    let [low, _, high] = range.percentiles.map(digits);
-    let share = match range.samples {
-        n if n == samples => String::new(),
-        n => format!(" in {n} of {samples} samples"),
-    };
-    format!(
-        "`{name}` is not unique; rigid and without play, data within {within} alone would decide it{share}: {span}, \
-         nine tenths between {low} and {high} {unit}"
-    )
 }
 
 /// A number with four significant digits.

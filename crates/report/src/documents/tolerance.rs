@@ -1,7 +1,6 @@
 //! What reactions, ranks and places do while data vary within their tolerances.
 
 use serde::Serialize;
-use solvability::sensitivity::length;
 
 use super::Named;
 
@@ -260,8 +259,12 @@ impl ToleranceDocument {
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         let drawn = &self.drawn;
+        let angles = match (drawn.lengths, drawn.angles) {
+            (Some(_), Some([_, greatest])) => format!(" or {greatest:.1e} rad"),
+            _ => String::new(),
+        };
         let mut all = vec![format!(
-            "{} at t = {} s: {} of {}, each {} within {} (seed {})",
+            "{} at t = {} s: {} of {}, each {} within {}{angles} (seed {})",
             self.scene,
             self.time,
             counted(drawn.samples, "sample", "samples"),
@@ -295,6 +298,35 @@ impl ToleranceDocument {
         all
     }
 
+    /// Reactions without a range, in sentences: those that are not unique in any sample together.
+    #[must_use]
+    pub fn without_range(&self) -> Vec<String> {
+        let has_none =
+            |r: &&ReactionRangeDocument| r.values.first().is_none_or(|v| v.range.is_none());
+        let without = || self.reactions.iter().filter(has_none);
+        if self.assembled == 0 {
+            return Vec::new();
+        }
+        let names: Vec<String> = without()
+            .filter(|r| r.verdicts.unique == 0)
+            .map(|r| format!("`{}`", r.name))
+            .collect();
+        let mut all = Vec::new();
+        if !names.is_empty() {
+            let names = model::words::listed(&names);
+            all.push(format!("not unique in any sample, so no range: {names}"));
+        }
+        let stopped = without().filter(|r| r.verdicts.unique > 0);
+        let stopped: Vec<String> = stopped.map(|r| format!("`{}`", r.name)).collect();
+        if !stopped.is_empty() {
+            let names = model::words::listed(&stopped);
+            all.push(format!(
+                "no range, because rigid and without play or slip the mechanism could not move as it does: {names}"
+            ));
+        }
+        all
+    }
+
     /// How the described mechanism is read.
     fn reading(&self) -> String {
         let d = &self.described;
@@ -319,19 +351,23 @@ impl ToleranceDocument {
         let mut all = Vec::new();
         for own in &self.ranks {
             if own.rank == d.rank {
-                all.push(format!(
-                    "with exact numbers the rank is the same in {} of {} samples",
-                    own.samples, self.assembled
-                ));
+                all.push(if own.samples == self.assembled {
+                    "with exact numbers the rank is the same in all samples".to_owned()
+                } else {
+                    format!(
+                        "with exact numbers the rank is the same in {} of {} samples",
+                        own.samples, self.assembled
+                    )
+                });
                 continue;
             }
             let meaning = if own.rank > d.rank {
                 let free = match d.mobility - own.mobility.min(d.mobility) {
-                    1 => "a free motion is".to_owned(),
+                    1 => "one free motion is".to_owned(),
                     lost => format!("{lost} free motions are"),
                 };
                 format!(
-                    "rows that are redundant as described are independent there, and without play {free} lost"
+                    "rows that are redundant as described are independent there, and without play or slip {free} lost"
                 )
             } else {
                 "rows are redundant there that are independent as described".to_owned()
@@ -360,7 +396,7 @@ impl ToleranceDocument {
             return Some("the redundant rows fit in all samples".to_owned());
         }
         let told = |x: f64| match worst.unit {
-            "m" => length(x),
+            "m" => distance(x),
             unit => format!("{x:.1e} {unit}"),
         };
         let others = match self.misfits.len() {
@@ -377,6 +413,26 @@ impl ToleranceDocument {
             told(worst.mean)
         ))
     }
+}
+
+/// A distance with at most three significant digits, in the unit that people say.
+///
+/// ```
+/// use report::documents::distance;
+/// assert_eq!([0.0, 1e-4, 2.345e-3, 1e-7, 2.0].map(distance), ["0 mm", "0.1 mm", "2.35 mm", "0.1 µm", "2 m"]);
+/// ```
+#[must_use]
+pub fn distance(metres: f64) -> String {
+    let (unit, name) = match metres.abs() {
+        0.0 => (1e-3, "mm"),
+        x if x >= 1.0 => (1.0, "m"),
+        x if x >= 1e-5 => (1e-3, "mm"),
+        _ => (1e-6, "µm"),
+    };
+    let short: f64 = format!("{:.2e}", metres / unit)
+        .parse()
+        .unwrap_or(metres / unit);
+    format!("{} {name}", model::words::rounded(short))
 }
 
 fn counted(n: u64, one: &str, many: &str) -> String {

@@ -143,6 +143,7 @@ fn histogram(svg: &mut Svg, top: f64, row: &RangeRow<'_>) {
 const SIDE: f64 = 260.0;
 
 /// The places of a marker (m) around the first of them, in mm: y over x, in space also z over x.
+/// Empty if the marker does not move.
 #[must_use]
 pub fn cloud(name: &str, places: &[[f64; 3]], spatial: bool) -> String {
     let Some(&first) = places.first() else {
@@ -151,7 +152,9 @@ pub fn cloud(name: &str, places: &[[f64; 3]], spatial: bool) -> String {
     let apart = |p: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|k| 1e3 * (p[k] - first[k])) };
     let all: Vec<[f64; 3]> = places.iter().skip(1).map(apart).collect();
     let largest = all.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
-    let reach = if largest > 0.0 { largest } else { 1.0 };
+    if largest == 0.0 {
+        return String::new();
+    }
     let views: &[(usize, &str)] = if spatial {
         &[(1, "y"), (2, "z")]
     } else {
@@ -163,7 +166,7 @@ pub fn cloud(name: &str, places: &[[f64; 3]], spatial: bool) -> String {
     svg.element("style").text(&dark_scheme());
     label(&mut svg, [margin, 18.0], name, INK);
     for (k, (axis, letter)) in views.iter().enumerate() {
-        let both = Axis::around([-reach, reach], 4);
+        let both = Axis::around([-largest, largest], 6);
         let frame = Frame {
             left: margin + k as f64 * (SIDE + margin),
             top: head,
