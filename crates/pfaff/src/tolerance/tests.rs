@@ -84,10 +84,10 @@ fn a_beam_on_a_roller_that_is_somewhere_carries_what_its_lever_says() {
     assert!((roller.mean - 10.0).abs() < 5.0 * per_metre * tolerance / 2.0 / 1000f64.sqrt());
     let deviation = roller.deviation / (per_metre * tolerance / 2.0);
     assert!((deviation - 1.0).abs() < 0.1, "{deviation}");
-    // What the roller carries, the hinge does not.
+    // What the roller carries, the hinge does not; its reaction is that on the ground.
     let hinge = range(d, "hinge", "Fy");
     assert!(
-        (hinge.least + roller.greatest - 20.0).abs() < slack,
+        (roller.greatest - hinge.greatest - 20.0).abs() < slack,
         "{hinge:?}"
     );
     assert!(
@@ -187,9 +187,12 @@ fn a_third_crank_beside_its_place_carries_kilonewtons_somewhere_in_a_wide_range(
     let relative = coarse.width() / expected;
     let share = 16.0 * 1e-7 / (off * 0.7_f64.sin());
     let turned = 0.7_f64.tan() + 0.7_f64.tan().recip();
-    assert!((0.1 * share..2.0 * share * (1.0 + turned)).contains(&relative), "{relative}");
-    // At a hundredth of a millimetre it is anything.
-    let wide = sample(1e-5);
+    assert!(
+        (0.1 * share..2.0 * share * (1.0 + turned)).contains(&relative),
+        "{relative}"
+    );
+    // At some micrometres it is anything.
+    let wide = sample(5e-6);
     assert!(wide.greatest > 1.5 * wide.least, "{wide:?}");
 }
 
