@@ -1108,7 +1108,12 @@ pub const TABLE: &[Entry] = &[
         511,
         "The number of samples is out of its range",
         "Ask for at least one, and for no more than the message says.",
-        Example::Scene("tolerance - --tolerance 1e-4 --runs 0", bar!("")),
+        Example::Scene(
+            "tolerance - --tolerance 1e-4 --runs 0",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n"
+            ),
+        ),
     ),
     entry(
         512,

@@ -108,6 +108,7 @@ const COMMANDS: [(&str, &str, bool, bool); 17] = [
         true,
         true,
     ),
+    ("tolerance", "- --tolerance 1e-4 --runs 3 --out tolerance", true, true),
     ("work-precision", "- --out work --quick", true, true),
     ("check", "-", true, false),
     ("equilibrium", "- --out rest", true, true),
