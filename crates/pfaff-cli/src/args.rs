@@ -16,6 +16,7 @@ use pfaff::dynamics::options::moved;
 use pfaff::dynamics::{Method, Stabilisation};
 use pfaff::import::Base;
 use pfaff::sweep::{Axis, Shard};
+use pfaff::tolerance::Variation;
 
 pub(crate) use known::{Known, Settings};
 
@@ -307,6 +308,10 @@ pub(crate) struct Tolerance {
     /// Number of samples
     #[arg(long, value_name = "N", default_value_t = pfaff::tolerance::SAMPLES)]
     pub(crate) runs: usize,
+    /// A parameter or number of the scene that varies besides, and by how much: KEY=±VALUE or
+    /// KEY=±P%; may be given several times
+    #[arg(long, value_name = "KEY=±VALUE")]
+    pub(crate) vary: Vec<Variation>,
     /// Another seed gives other samples
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,

@@ -9,7 +9,7 @@ use pfaff::report::documents::{
     QuantityRangeDocument, ReactionRangeDocument, ToleranceDocument, distance,
 };
 use pfaff::report::{OutputDirectory, TableError, tolerance_page, tolerance_table, write_json};
-use pfaff::tolerance::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy};
+use pfaff::tolerance::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Varied};
 
 use crate::args::Tolerance;
 use crate::console::Console;
@@ -38,7 +38,16 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
         e if e.is_input() => Failure::input(e.to_string()).coded(e.code()),
         e => Failure::stopped(e.to_string()).coded(e.code()),
     };
-    let study = ToleranceStudy::new(assembled, arguments.at_time).map_err(failed)?;
+    let vary = match &arguments.vary[..] {
+        [] => None,
+        list => {
+            let (name, text) = (source.name.as_str(), source.text.as_str());
+            let list = list.to_vec();
+            let vary = Varied::new((name, text), source.registry, source.tolerance, list);
+            Some(vary.map_err(failed)?)
+        }
+    };
+    let study = ToleranceStudy::varying(assembled, arguments.at_time, vary).map_err(failed)?;
     let place = match &arguments.out {
         Some(path) => Some(directory(path, &FILES, arguments.force)?),
         None => None,
@@ -68,7 +77,7 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
 
 /// Makes the samples, with progress on a terminal; if a stop is requested, those so far.
 fn sampled(
-    study: &ToleranceStudy,
+    study: &ToleranceStudy<'_>,
     options: &ToleranceOptions,
 ) -> Result<ToleranceResult, ToleranceError> {
     let interrupt = Interrupt::listen().ok();
@@ -87,7 +96,7 @@ fn sampled(
 fn write(
     place: &OutputDirectory,
     path: &Path,
-    study: &ToleranceStudy,
+    study: &ToleranceStudy<'_>,
     found: &ToleranceResult,
 ) -> Result<String, Failure> {
     let [csv, document, page] = FILES;

@@ -5,7 +5,7 @@
 //! Displacements are uniform: points in the ball of their tolerance, directions and axes turned by
 //! rotation vectors that are uniform in theirs, numbers in their interval. Each point of each body
 //! is displaced by itself, because it is made by itself; a drive has the points of its joint. Masses
-//! and forces stay as they are described.
+//! and forces stay as they are described, unless they are varied by their keys ([`Variation`]).
 //!
 //! Where rows are redundant within the tolerances, samples are assembled on the rows that are kept:
 //! the others miss by a little, which is a result. What the same numbers are without play is the
@@ -19,6 +19,7 @@ mod sample;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod vary;
 
 use std::num::NonZeroUsize;
 
@@ -31,6 +32,7 @@ use nominal::Nominal;
 
 pub use error::ToleranceError;
 pub use sample::{Assembled, Failed, Sample};
+pub use vary::{Variation, Varied};
 
 /// Largest number of rows: the rank of each sample is decided with dense matrices.
 pub const ROWS_MAX: usize = 600;
@@ -88,8 +90,9 @@ impl Default for ToleranceOptions {
 /// assert!(range.least < 10.0 && range.greatest > 10.0 && range.width() < 0.1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct ToleranceStudy {
+pub struct ToleranceStudy<'r> {
     nominal: Nominal,
+    vary: Option<Varied<'r>>,
 }
 
 /// All samples, and what they say together.
@@ -100,7 +103,7 @@ pub struct ToleranceResult {
     pub document: ToleranceDocument,
 }
 
-impl ToleranceStudy {
+impl<'r> ToleranceStudy<'r> {
     /// Analyses the described mechanism at a time of its motion; at t = 0 no run is needed.
     ///
     /// # Errors
@@ -108,8 +111,21 @@ impl ToleranceStudy {
     /// - [`ToleranceError::TooLarge`]: the mechanism has too many rows.
     /// - [`ToleranceError::Study`]: it cannot be assembled, moved to that time, or analysed there.
     pub fn new(assembled: AssembledScene, t: f64) -> Result<Self, ToleranceError> {
+        Self::varying(assembled, t, None)
+    }
+
+    /// Like [`Self::new`], with numbers of the scene that vary besides; then no tolerance has to be
+    /// stated.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn varying(
+        assembled: AssembledScene,
+        t: f64,
+        vary: Option<Varied<'r>>,
+    ) -> Result<Self, ToleranceError> {
         let mechanism = &assembled.mechanism;
-        if !mechanism.has_tolerances() {
+        if !mechanism.has_tolerances() && vary.is_none() {
             return Err(ToleranceError::NoTolerance);
         }
         let rows = mechanism.layout().rows();
@@ -117,16 +133,16 @@ impl ToleranceStudy {
             return Err(ToleranceError::TooLarge { rows });
         }
         let nominal = Nominal::new(assembled, t)?;
-        if nominal.data.is_empty() {
+        if nominal.data.is_empty() && vary.is_none() {
             return Err(ToleranceError::NoData);
         }
-        Ok(Self { nominal })
+        Ok(Self { nominal, vary })
     }
 
     /// Makes one sample, counted from 1.
     #[must_use]
     pub fn sample(&self, seed: u64, number: u64) -> Sample {
-        self.nominal.sample(seed, number)
+        self.nominal.sample(self.vary.as_ref(), seed, number)
     }
 
     /// Makes all samples. `progress` is called with each one, in any order; `interrupted` is asked
@@ -157,21 +173,26 @@ impl ToleranceStudy {
         let all = 1..=samples as u64;
         let made: Vec<Sample> = pool.install(|| all.into_par_iter().filter_map(make).collect());
         Ok(ToleranceResult {
-            document: self.nominal.document(options, &made),
+            document: self.nominal.document(options, self.list(), &made),
             samples: made,
         })
+    }
+
+    /// The numbers of the scene that vary.
+    fn list(&self) -> &[Variation] {
+        self.vary.as_ref().map_or(&[], |vary| &vary.list)
     }
 
     /// The columns of the table of samples.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
-        self.nominal.columns()
+        self.nominal.columns(self.list())
     }
 
     /// A row of the table of samples.
     #[must_use]
     pub fn row(&self, sample: &Sample) -> Vec<String> {
-        self.nominal.row(sample)
+        self.nominal.row(self.list(), sample)
     }
 
     /// Names and places of markers in these samples (m), with the described place first.

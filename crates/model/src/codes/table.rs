@@ -1122,6 +1122,12 @@ pub const TABLE: &[Entry] = &[
         Example::None("needs a large scene"),
     ),
     entry(
+        513,
+        "A number cannot vary as far as it is asked to",
+        "Correct the interval: the scene has to be right at both of its ends.",
+        Example::Scene("tolerance - --vary body.bar.mass=±200%", bar!("")),
+    ),
+    entry(
         601,
         "A file to import is not XML",
         "Correct it at the mark: every element needs its end, every attribute its quotes.",

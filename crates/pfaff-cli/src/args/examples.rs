@@ -23,9 +23,10 @@ The same command again goes on where the last one was interrupted. Several --var
 pub(super) const TOLERANCE: &str = "Examples:
   pfaff tolerance linkage.toml --tolerance 1e-4                 every point somewhere within 0.1 mm, a thousand times
   pfaff tolerance linkage.toml --out tolerance                  a table, a document, and a page with histograms
+  pfaff tolerance linkage.toml --vary body.crank.mass=±2% --vary k=±10%
   pfaff tolerance linkage.toml --runs 10000 --seed 7 --json
 
-Points are uniform in the ball of their tolerance, directions turn, and numbers vary in their interval; masses and forces stay as they are. What has a tolerance is
+Points are uniform in the ball of their tolerance, directions turn, and numbers vary in their interval; masses and forces stay as they are but for --vary. What has a tolerance is
 what the scene states one for, or all with --tolerance. The same seed gives the same samples.";
 
 pub(super) const WORK_PRECISION: &str = "Examples:

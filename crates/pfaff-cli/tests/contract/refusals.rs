@@ -108,7 +108,12 @@ const COMMANDS: [(&str, &str, bool, bool); 17] = [
         true,
         true,
     ),
-    ("tolerance", "- --tolerance 1e-4 --runs 3 --out tolerance", true, true),
+    (
+        "tolerance",
+        "- --tolerance 1e-4 --runs 3 --out tolerance",
+        true,
+        true,
+    ),
     ("work-precision", "- --out work --quick", true, true),
     ("check", "-", true, false),
     ("equilibrium", "- --out rest", true, true),
@@ -130,7 +135,7 @@ const COMMANDS: [(&str, &str, bool, bool); 17] = [
 ];
 
 /// Further faults of single commands.
-const OF_ONE: [(&str, &str, &str); 25] = [
+const OF_ONE: [(&str, &str, &str); 28] = [
     ("linearise", "- --coordinates leaf.tilt", "P0222"),
     ("linearise", "- --at-time soon", "P0001"),
     ("analyze", "- --drop 0", "P0001"),
@@ -148,6 +153,9 @@ const OF_ONE: [(&str, &str, &str); 25] = [
     ("tolerance", "-", "P0510"),
     ("tolerance", "- --tolerance 1e-4 --runs 0", "P0511"),
     ("tolerance", "- --tolerance 0", "P0001"),
+    ("tolerance", "- --vary body.leaf.mass=2", "P0001"),
+    ("tolerance", "- --vary body.nobody.mass=±1%", "P0501"),
+    ("tolerance", "- --vary body.leaf.mass=±200%", "P0513"),
     ("view", "- --out picture.png", "P0001"),
     ("new", "no-such-template", "P0001"),
     ("import", "-", "P0001"),

@@ -1,6 +1,7 @@
 //! Reasons why no samples are made. Samples that cannot be assembled are counted, not refused.
 
 use model::codes::Code;
+use scene::KeyError;
 
 use super::{ROWS_MAX, SAMPLES_MAX};
 use crate::error::StudyError;
@@ -18,6 +19,17 @@ pub enum ToleranceError {
          in a body, a joint or a marker"
     )]
     NoTolerance,
+    /// A key does not refer to a number of the scene.
+    #[error(transparent)]
+    Key(#[from] KeyError),
+    /// The scene cannot be assembled at an end of the interval of a number.
+    #[error("`--vary {variation}`: {reason}")]
+    Vary {
+        /// The number and its interval.
+        variation: String,
+        /// What is wrong at one of its ends.
+        reason: String,
+    },
     /// There are no numbers to displace.
     #[error(
         "nothing can be displaced: the scene has no joints or drives with numbers of their own"
@@ -49,6 +61,8 @@ impl ToleranceError {
     pub fn code(&self) -> Code {
         match self {
             Self::Study(e) => e.code(),
+            Self::Key(e) => e.code(),
+            Self::Vary { .. } => const { Code::new(513) },
             Self::NoTolerance | Self::NoData => const { Code::new(510) },
             Self::Samples { .. } => const { Code::new(511) },
             Self::TooLarge { .. } => const { Code::new(512) },
@@ -61,7 +75,12 @@ impl ToleranceError {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Study(e) => e.is_input(),
-            Self::NoTolerance | Self::NoData | Self::Samples { .. } | Self::TooLarge { .. } => true,
+            Self::NoTolerance
+            | Self::Key(_)
+            | Self::Vary { .. }
+            | Self::NoData
+            | Self::Samples { .. }
+            | Self::TooLarge { .. } => true,
             Self::Threads(_) => false,
         }
     }

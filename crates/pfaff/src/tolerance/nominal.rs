@@ -40,18 +40,22 @@ pub(super) struct NominalReaction {
     pub(super) fragile: bool,
 }
 
+/// A state from which samples are assembled.
+#[derive(Clone, Debug)]
+pub(super) struct Base {
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+}
+
 /// The described mechanism at one time.
 pub(super) struct Nominal {
     pub(super) scene: String,
     pub(super) mechanism: Mechanism,
     pub(super) t: f64,
-    pub(super) q: Vec<f64>,
-    pub(super) v: Vec<f64>,
+    pub(super) base: Base,
     /// Columns of C along which the start keeps positions.
     pub(super) kept_columns: Vec<usize>,
     pub(super) size: f64,
-    /// All numbers of its constraints.
-    pub(super) numbers: Vec<f64>,
     pub(super) data: Vec<Displaced>,
     pub(super) reading: Reading,
     pub(super) rank: usize,
@@ -144,7 +148,6 @@ impl Nominal {
             t,
             kept_columns,
             size: prepared.assembly.size,
-            numbers: mechanism.data().numbers(),
             data,
             reading: doubt.map_or(Reading::Decided, |d| Reading::Undecided(d.to_string())),
             rank: kept.len(),
@@ -154,8 +157,10 @@ impl Nominal {
             reactions,
             quantities,
             unique,
-            q: state.q,
-            v: state.v,
+            base: Base {
+                q: state.q,
+                v: state.v,
+            },
             mechanism: of_stated,
         })
     }
@@ -213,7 +218,7 @@ fn lower_rank(
 }
 
 /// The data with a stated tolerance, each with the stream of its random numbers.
-fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<Displaced> {
+pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<Displaced> {
     let layout = mechanism.layout();
     let own_stream = |block: &DataBlock| block.numbers.start as u64;
     let driven: Vec<Option<usize>> = layout

@@ -13,7 +13,8 @@ use rank::{RankDecision, RankStatus};
 use solvability::{Configuration, Equations, Verdict};
 
 use super::draw::Stream;
-use super::nominal::Nominal;
+use super::nominal::{Base, Displaced, Nominal};
+use super::vary::Varied;
 
 /// A pose that is farther from the described one than this share of the size of the mechanism, or
 /// than this angle (rad), is another assembly of the same parts.
@@ -45,6 +46,8 @@ pub struct Sample {
     pub number: u64,
     /// What was found, or why it could not be assembled.
     pub outcome: Result<Assembled, Failed>,
+    /// Where varied numbers are in their intervals, from −1 to 1.
+    pub varied: Vec<f64>,
 }
 
 /// Why a sample could not be assembled.
@@ -57,7 +60,7 @@ pub struct Failed {
 }
 
 impl Failed {
-    fn new(reason: &'static str, detail: impl ToString) -> Self {
+    pub(super) fn new(reason: &'static str, detail: impl ToString) -> Self {
         Self {
             reason,
             detail: detail.to_string(),
@@ -88,39 +91,42 @@ pub struct Assembled {
 
 impl Nominal {
     /// Makes a sample; the result depends on the seed and the number only.
-    pub(super) fn sample(&self, seed: u64, number: u64) -> Sample {
-        let numbers = self.displaced(seed, number);
-        let mechanism = self.mechanism.with_numbers(&numbers);
+    pub(super) fn sample(&self, vary: Option<&Varied<'_>>, seed: u64, number: u64) -> Sample {
+        let shares = vary
+            .map(|vary| vary.shares(seed, number))
+            .unwrap_or_default();
+        let outcome = match vary {
+            None => {
+                let numbers = displaced_numbers(&self.mechanism, &self.data, seed, number);
+                self.assembled(&self.mechanism.with_numbers(&numbers), &self.base)
+            }
+            Some(vary) => vary
+                .described(self, &shares)
+                .and_then(|(mechanism, base, data)| {
+                    let numbers = displaced_numbers(&mechanism, &data, seed, number);
+                    self.assembled(&mechanism.with_numbers(&numbers), &base)
+                }),
+        };
         Sample {
             number,
-            outcome: self.assembled(&mechanism),
+            outcome,
+            varied: shares,
         }
-    }
-
-    /// The numbers of the constraints of a sample.
-    fn displaced(&self, seed: u64, number: u64) -> Vec<f64> {
-        let mut numbers = self.numbers.clone();
-        for displaced in &self.data {
-            let mut stream = Stream::new(seed, number, displaced.stream);
-            let block = &displaced.block;
-            let by = stream.ball(block.directions());
-            let by = by.map(|x| x * displaced.tolerance);
-            let own = &mut numbers[block.numbers.clone()];
-            let moved = block.displaced(own, by);
-            own.copy_from_slice(&moved);
-        }
-        numbers
     }
 
     /// What a mechanism with these data is and carries.
-    pub(super) fn assembled(&self, mechanism: &Mechanism) -> Result<Assembled, Failed> {
-        let q = self.pose_of(mechanism)?;
+    pub(super) fn assembled(
+        &self,
+        mechanism: &Mechanism,
+        base: &Base,
+    ) -> Result<Assembled, Failed> {
+        let q = self.pose_of(mechanism, base)?;
         let mut s = mechanism.scratch();
         mechanism.pose(self.t, &q, &mut s);
         mechanism.phi(&mut s);
         mechanism.c(&mut s);
         mechanism.b(&mut s);
-        let Instant { v, lambda } = self.instant(mechanism, &mut s)?;
+        let Instant { v, lambda } = self.instant(mechanism, base, &mut s)?;
         let misfits = self.missing.iter().map(|row| s.phi[*row]).collect();
         // What redundant rows miss is no error of C, which is known to rounding here.
         s.phi.fill(0.0);
@@ -148,12 +154,12 @@ impl Nominal {
     }
 
     /// The pose nearest to the described one on the kept rows.
-    fn pose_of(&self, mechanism: &Mechanism) -> Result<Vec<f64>, Failed> {
-        let q = self.closest(mechanism)?;
+    fn pose_of(&self, mechanism: &Mechanism, base: &Base) -> Result<Vec<f64>, Failed> {
+        let q = self.closest(mechanism, &base.q)?;
         requirement(mechanism, &q)
             .map_err(|e| Failed::new("a requirement of a joint does not hold", e))?;
         let space = mechanism.space();
-        let moved = mechanism.difference_of(&q, &self.q);
+        let moved = mechanism.difference_of(&q, &self.base.q);
         let share = |j: usize| moved[j].abs() / space.unit(j, self.size);
         let farthest = (0..moved.len()).fold(0, |a, j| if share(j) > share(a) { j } else { a });
         if moved.is_empty() || share(farthest) <= FAR {
@@ -172,7 +178,7 @@ impl Nominal {
     /// The configuration on the kept rows that is closest to the described one, in lengths, with
     /// angles times the size: `q = q₀ + argmin ‖δ‖` under the rows linearised at q, repeated.
     /// Coordinates that the start keeps do not move.
-    fn closest(&self, mechanism: &Mechanism) -> Result<Vec<f64>, Failed> {
+    fn closest(&self, mechanism: &Mechanism, base: &[f64]) -> Result<Vec<f64>, Failed> {
         let (space, rows) = (mechanism.space(), &self.position_kept);
         let n = mechanism.layout().n_v;
         let square = self.size * self.size;
@@ -180,7 +186,7 @@ impl Nominal {
         let weights: Vec<f64> = (0..n).map(weight).collect();
         let mut saddle = KeptRowSaddle::new(n, rows.len()).map_err(unassembled)?;
         let mut s = mechanism.scratch();
-        let mut q = self.q.clone();
+        let mut q = base.to_vec();
         let (mut step, mut of_rows) = (vec![0.0; n], vec![0.0; rows.len()]);
         let mut best = f64::INFINITY;
         for _ in 0..ITERATIONS {
@@ -199,7 +205,7 @@ impl Nominal {
             }
             best = best.min(residual);
             let mut c = mechanism.layout().dense(&s);
-            let back = mechanism.difference_of(&self.q, &q);
+            let back = mechanism.difference_of(base, &q);
             let held: Vec<f64> = rows
                 .iter()
                 .map(|&i| {
@@ -218,7 +224,7 @@ impl Nominal {
             saddle
                 .solve(&vec![0.0; n], &held, &mut step, &mut of_rows)
                 .map_err(unassembled)?;
-            q = space.displaced(&self.q, 1.0, &step);
+            q = space.displaced(base, 1.0, &step);
         }
         let worst = rows
             .iter()
@@ -236,7 +242,12 @@ impl Nominal {
 
     /// Velocities nearest to the described ones on the kept rows, in the mass metric, and the
     /// multipliers there.
-    fn instant(&self, mechanism: &Mechanism, s: &mut Scratch) -> Result<Instant, Failed> {
+    fn instant(
+        &self,
+        mechanism: &Mechanism,
+        base: &Base,
+        s: &mut Scratch,
+    ) -> Result<Instant, Failed> {
         let c = mechanism.layout().dense(s);
         let kept = &self.kept;
         let failed = |e: linalg::SaddleError| {
@@ -248,11 +259,11 @@ impl Nominal {
             .factor(|k| c.row(kept[k]), mechanism.mass())
             .map_err(failed)?;
         let of_kept = |all: &[f64]| -> Vec<f64> { kept.iter().map(|&i| all[i]).collect() };
-        let momentum: Vec<f64> = (mechanism.mass().iter().zip(&self.v))
+        let momentum: Vec<f64> = (mechanism.mass().iter().zip(&base.v))
             .map(|(m, v)| m * v)
             .collect();
         let (mut v, mut impulses) = (vec![0.0; n], vec![0.0; r]);
-        let is_still = self.v.iter().all(|v| *v == 0.0) && s.b.iter().all(|b| *b == 0.0);
+        let is_still = base.v.iter().all(|v| *v == 0.0) && s.b.iter().all(|b| *b == 0.0);
         if !is_still {
             saddle
                 .solve(&momentum, &of_kept(&s.b), &mut v, &mut impulses)
@@ -366,16 +377,36 @@ impl Nominal {
     fn moved(&self, mechanism: &Mechanism, q: &[f64]) -> Vec<[f64; 2]> {
         let still = vec![0.0; mechanism.layout().n_v];
         let (frames, space) = (mechanism.frames(), mechanism.space());
-        let turned = mechanism.difference_of(q, &self.q);
+        let turned = mechanism.difference_of(q, &self.base.q);
         (0..mechanism.bodies().len())
             .map(|body| {
-                let [now, then] = [q, &self.q].map(|q| frames.body(body, q, &still).place);
+                let [now, then] = [q, &self.base.q].map(|q| frames.body(body, q, &still).place);
                 let apart: Vec<f64> = now.iter().zip(then).map(|(a, b)| a - b).collect();
                 let angle = &turned[space.rotations_of(body)];
                 [&apart[..], angle].map(linalg::kernels::norm)
             })
             .collect()
     }
+}
+
+/// The numbers of the constraints of a sample.
+fn displaced_numbers(
+    mechanism: &Mechanism,
+    data: &[Displaced],
+    seed: u64,
+    number: u64,
+) -> Vec<f64> {
+    let mut numbers = mechanism.data().numbers();
+    for displaced in data {
+        let block = &displaced.block;
+        let mut stream = Stream::new(seed, number, displaced.stream);
+        let by = stream.ball(block.directions());
+        let by = by.map(|x| x * displaced.tolerance);
+        let own = &mut numbers[block.numbers.clone()];
+        let moved = block.displaced(own, by);
+        own.copy_from_slice(&moved);
+    }
+    numbers
 }
 
 /// Velocities, and the multipliers of the kept rows.

@@ -5,13 +5,15 @@ use model::{DataUnit, System};
 use report::documents::{
     DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
     MovedDocument, Named, QuantityRangeDocument, RangeDocument, RankCountDocument,
-    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VerdictCounts, distance,
+    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
+    distance,
 };
 
 use super::ToleranceOptions;
 use super::nominal::{Nominal, Reading};
 use super::quantity::Quantity;
 use super::sample::{Assembled, Sample};
+use super::vary::Variation;
 
 /// A number below this share of the largest one of its kind is nothing to relate a range to.
 const NOTHING: f64 = 0.1;
@@ -23,12 +25,13 @@ impl Nominal {
     pub(super) fn document(
         &self,
         options: &ToleranceOptions,
+        vary: &[Variation],
         samples: &[Sample],
     ) -> ToleranceDocument {
         let good: Vec<(u64, &Assembled)> = (samples.iter())
             .filter_map(|s| Some((s.number, s.outcome.as_ref().ok()?)))
             .collect();
-        let described = self.assembled(&self.mechanism).ok();
+        let described = self.assembled(&self.mechanism, &self.base).ok();
         let within = self.within();
         let mut reactions = self.reactions(&good, described.as_ref(), &within);
         let width = |r: &ReactionRangeDocument| r.relative.unwrap_or(-1.0);
@@ -45,7 +48,12 @@ impl Nominal {
                 lengths: self.tolerances(DataUnit::Length),
                 angles: self.tolerances(DataUnit::Angle),
                 data: self.data.len(),
-                varied: Vec::new(),
+                varied: (vary.iter())
+                    .map(|own| VariedDocument {
+                        key: own.key().to_owned(),
+                        by: own.by(),
+                    })
+                    .collect(),
             },
             samples: samples.len() as u64,
             partial: samples.len() < options.samples,
@@ -74,7 +82,9 @@ impl Nominal {
         let angles = told(self.tolerances(DataUnit::Angle), &|x| {
             format!("{x:.1e} rad")
         });
-        lengths.or(angles).unwrap_or_default()
+        lengths
+            .or(angles)
+            .unwrap_or_else(|| "the given ranges".to_owned())
     }
 
     fn described(&self) -> DescribedDocument {
@@ -302,9 +312,10 @@ impl Nominal {
     }
 
     /// The columns of the table of samples.
-    pub(super) fn columns(&self) -> Vec<String> {
+    pub(super) fn columns(&self, vary: &[Variation]) -> Vec<String> {
         let fixed = ["sample", "status", "rank", "redundancy", "mobility"];
         let mut columns: Vec<String> = fixed.map(str::to_owned).to_vec();
+        columns.extend(vary.iter().map(|own| format!("varied.{}", own.key())));
         let labels = &self.mechanism.layout().labels;
         for row in &self.missing {
             let label = &labels[*row];
@@ -330,14 +341,14 @@ impl Nominal {
     }
 
     /// A row of the table of samples; what does not exist is NaN.
-    pub(super) fn row(&self, sample: &Sample) -> Vec<String> {
+    pub(super) fn row(&self, vary: &[Variation], sample: &Sample) -> Vec<String> {
         let layout = self.mechanism.layout();
         let mut row = vec![sample.number.to_string()];
         let found = match &sample.outcome {
             Ok(found) => found,
             Err(failed) => {
                 row.push(failed.reason.to_owned());
-                row.resize(self.columns().len(), "NaN".to_owned());
+                row.resize(self.columns(vary).len(), "NaN".to_owned());
                 return row;
             }
         };
@@ -350,6 +361,7 @@ impl Nominal {
         row.push(of_rank(|_, r| r, 0));
         row.push(of_rank(|rows, r| rows - r, layout.rows()));
         row.push(of_rank(|n_v, r| n_v - r, layout.n_v));
+        row.extend(sample.varied.iter().map(f64::to_string));
         row.extend(found.misfits.iter().map(f64::to_string));
         for (id, verdict) in found.verdicts.iter().enumerate() {
             row.push((*verdict).to_owned());
@@ -373,7 +385,7 @@ impl Nominal {
 
     /// Names and places of markers, the described one first.
     pub(super) fn clouds(&self, samples: &[Sample]) -> Vec<(String, Vec<[f64; 3]>)> {
-        let Ok(described) = self.assembled(&self.mechanism) else {
+        let Ok(described) = self.assembled(&self.mechanism, &self.base) else {
             return Vec::new();
         };
         let markers = self.mechanism.frames().observed().markers.iter();

@@ -1,21 +1,21 @@
 //! Samples against closed forms: a beam, cranks that are nearly parallel, hinges on one axis.
 
-use model::Registry;
+use model::{Registry, Tolerance};
 use report::documents::{RangeDocument, ReactionRangeDocument, ToleranceDocument};
 
-use super::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy};
+use super::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Varied};
 use crate::assembled::AssembledScene;
 
-fn study(text: &str) -> ToleranceStudy {
+fn study(text: &str) -> ToleranceStudy<'static> {
     try_study(text).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn try_study(text: &str) -> Result<ToleranceStudy, ToleranceError> {
+fn try_study(text: &str) -> Result<ToleranceStudy<'static>, ToleranceError> {
     let scene = AssembledScene::read("scene.toml", text, &Registry::standard());
     ToleranceStudy::new(scene.expect("it is read"), 0.0)
 }
 
-fn sampled(study: &ToleranceStudy, samples: usize) -> ToleranceResult {
+fn sampled(study: &ToleranceStudy<'_>, samples: usize) -> ToleranceResult {
     let options = ToleranceOptions {
         samples,
         ..ToleranceOptions::default()
@@ -412,4 +412,39 @@ drive = [{ name = "motor", joint = "guide", type = "displacement", motion = { ty
         .into_iter()
         .filter(|own| !shared.contains(own));
     assert!(kept.count() >= 1);
+}
+
+/// Half of the weight of a beam that is known to 1 %, and of one whose weight is a parameter.
+#[test]
+fn varied_numbers_move_reactions_by_their_interval() {
+    let registry = Registry::standard();
+    let varied = |text: &str, vary: &str| {
+        let scene = AssembledScene::read("beam.toml", text, &registry).expect("it is read");
+        let list = vec![vary.parse().expect("a variation")];
+        let vary = Varied::new(("beam.toml", text), &registry, Tolerance::default(), list)?;
+        ToleranceStudy::varying(scene, 0.0, Some(vary))
+    };
+    let text = beam("", "");
+    for vary in ["body.beam.mass=±1%", "body.beam.mass=+-0.02"] {
+        let study = varied(&text, vary).unwrap_or_else(|e| panic!("{e}"));
+        let found = sampled(&study, 300);
+        let roller = range(&found.document, "roller", "|F|");
+        assert!(roller.least >= 9.9 - 1e-12 && roller.greatest <= 10.1 + 1e-12);
+        // Of 300 uniform numbers one is within 2 % of each end, but for exp(−300·0.02/2) = 5 %.
+        assert!(
+            roller.least < 9.904 && roller.greatest > 10.096,
+            "{roller:?}"
+        );
+        // The force is that of the mass that was drawn.
+        let own = found.samples[4].outcome.as_ref().expect("assembled");
+        let mass = 2.0 * (1.0 + 0.01 * found.samples[4].varied[0]);
+        assert!(
+            (own.kept[3] - 5.0 * mass).abs() < 1e-12 || (own.kept[0] - 5.0 * mass).abs() < 1e-12
+        );
+        assert_eq!(found.document.drawn.varied.len(), 1);
+    }
+    let refused = |vary: &str| varied(&text, vary).err().expect("refused").to_string();
+    let text = refused("body.beam.mass=±110%");
+    assert!(text.contains("`--vary body.beam.mass=±110%`: "), "{text}");
+    assert!(refused("body.rod.mass=±1%").contains("there is no `rod`"));
 }

@@ -254,6 +254,9 @@ pub struct MeasureRangeDocument {
 /// A row that misses by less than this share of the tolerances fits.
 const FITS: f64 = 1e-6;
 
+/// A row that misses by less than this (m or rad) fits, whatever the tolerances.
+const CLOSED: f64 = 1e-12;
+
 impl ToleranceDocument {
     /// What was done and what holds, in sentences: all but the ranges of single reactions.
     #[must_use]
@@ -263,20 +266,31 @@ impl ToleranceDocument {
             (Some(_), Some([_, greatest])) => format!(" or {greatest:.1e} rad"),
             _ => String::new(),
         };
+        let samples = counted(drawn.samples, "sample", "samples");
+        let (distribution, within) = (drawn.distribution, &drawn.within);
+        let what = match drawn.data as u64 {
+            0 => format!("{samples}, {distribution} within {within}"),
+            n => {
+                let data = counted(
+                    n,
+                    "point, direction or number",
+                    "points, directions and numbers",
+                );
+                format!("{samples} of {data}, each {distribution} within {within}{angles}")
+            }
+        };
         let mut all = vec![format!(
-            "{} at t = {} s: {} of {}, each {} within {}{angles} (seed {})",
-            self.scene,
-            self.time,
-            counted(drawn.samples, "sample", "samples"),
-            counted(
-                drawn.data as u64,
-                "point, direction or number",
-                "points, directions and numbers"
-            ),
-            drawn.distribution,
-            drawn.within,
-            drawn.seed
+            "{} at t = {} s: {what} (seed {})",
+            self.scene, self.time, drawn.seed
         )];
+        if !drawn.varied.is_empty() {
+            let varied = drawn
+                .varied
+                .iter()
+                .map(|own| format!("`{}` {}", own.key, own.by));
+            let varied: Vec<String> = varied.collect();
+            all.push(format!("varied besides: {}", model::words::listed(&varied)));
+        }
         if self.partial {
             all.push(format!(
                 "interrupted: {} of {} samples were made",
@@ -391,8 +405,8 @@ impl ToleranceDocument {
         let worst = self.misfits.first()?;
         let drawn = &self.drawn;
         let tolerances = drawn.lengths.into_iter().chain(drawn.angles).flatten();
-        let least = tolerances.fold(f64::INFINITY, f64::min);
-        if worst.greatest <= FITS * least {
+        let least = tolerances.reduce(f64::min).unwrap_or(0.0);
+        if worst.greatest <= (FITS * least).max(CLOSED) {
             return Some("the redundant rows fit in all samples".to_owned());
         }
         let told = |x: f64| match worst.unit {
