@@ -13,6 +13,7 @@
 
 mod draw;
 mod error;
+mod failed;
 mod nominal;
 mod quantity;
 mod sample;
@@ -31,7 +32,8 @@ use crate::assembled::AssembledScene;
 use nominal::Nominal;
 
 pub use error::ToleranceError;
-pub use sample::{Assembled, Failed, Sample};
+pub use failed::Failed;
+pub use sample::{Assembled, Sample};
 pub use vary::{Variation, Varied};
 
 /// Largest number of rows: the rank of each sample is decided with dense matrices.

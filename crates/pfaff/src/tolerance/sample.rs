@@ -13,6 +13,7 @@ use rank::{RankDecision, RankStatus};
 use solvability::{Configuration, Equations, Verdict};
 
 use super::draw::Stream;
+use super::failed::Failed;
 use super::nominal::{Base, Displaced, Nominal};
 use super::vary::Varied;
 
@@ -48,24 +49,6 @@ pub struct Sample {
     pub outcome: Result<Assembled, Failed>,
     /// Where varied numbers are in their intervals, from −1 to 1.
     pub varied: Vec<f64>,
-}
-
-/// Why a sample could not be assembled.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Failed {
-    /// The reason, the same words for all samples with it.
-    pub reason: &'static str,
-    /// This sample in particular.
-    pub detail: String,
-}
-
-impl Failed {
-    pub(super) fn new(reason: &'static str, detail: impl ToString) -> Self {
-        Self {
-            reason,
-            detail: detail.to_string(),
-        }
-    }
 }
 
 /// A sample that was assembled.

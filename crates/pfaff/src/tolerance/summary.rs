@@ -33,7 +33,11 @@ impl Nominal {
             .collect();
         let described = self.assembled(&self.mechanism, &self.base).ok();
         let within = self.within();
-        let mut reactions = self.reactions(&good, described.as_ref(), &within);
+        let told = match vary {
+            [_, ..] if !self.data.is_empty() => format!("{within} and the given ranges"),
+            _ => within.clone(),
+        };
+        let mut reactions = self.reactions(&good, described.as_ref(), &told);
         let width = |r: &ReactionRangeDocument| r.relative.unwrap_or(-1.0);
         // Equal widths stay in the order of the scene.
         reactions.sort_by(|a, b| width(b).total_cmp(&width(a)));
@@ -161,13 +165,17 @@ impl Nominal {
         let first = |id: usize| self.quantities.iter().position(|q| q.id.0 == id);
         let told = (0..self.reactions.len()).filter_map(first);
         let value = |k: usize| described.map_or(0.0, |d| d.kept[k].abs());
-        // What ranges are related to, of forces and of torques.
+        // What ranges are related to, and what is rounding, of forces and of torques.
         let largest = |unit: &str| {
             let own = told.clone().filter(|k| self.quantities[*k].unit == unit);
             own.map(value).filter(|x| x.is_finite()).fold(0.0, f64::max)
         };
-        let scales = [("N", largest("N")), ("N·m", largest("N·m"))];
-        let scale = |unit: &str| scales.iter().find(|(u, _)| *u == unit).map_or(0.0, |s| s.1);
+        let [forces, torques] = ["N", "N·m"].map(largest);
+        let scale = |unit: &str| if unit == "N" { forces } else { torques };
+        let rounding = |unit: &str| match unit {
+            "N" => ROUNDING * forces.max(torques / self.size),
+            _ => ROUNDING * torques.max(forces * self.size),
+        };
         let reactions = self.reactions.iter().enumerate();
         reactions
             .map(|(id, reaction)| {
@@ -182,7 +190,7 @@ impl Nominal {
                 let own = self.quantities.iter().enumerate();
                 let values: Vec<QuantityRangeDocument> = own
                     .filter(|(_, q)| q.id.0 == id)
-                    .map(|(k, q)| self.quantity(k, q, good, described, scale(q.unit)))
+                    .map(|(k, q)| self.quantity(k, q, (good, described), rounding(q.unit)))
                     .collect();
                 let relative = values.first().and_then(|value| {
                     let range = value.range.as_ref()?;
@@ -216,13 +224,12 @@ impl Nominal {
         &self,
         k: usize,
         quantity: &Quantity,
-        good: &[(u64, &Assembled)],
-        described: Option<&Assembled>,
-        scale: f64,
+        (good, described): (&[(u64, &Assembled)], Option<&Assembled>),
+        rounding: f64,
     ) -> QuantityRangeDocument {
         let unique = self.unique[k];
         // A sum that cancels is zero, not its rounding.
-        let clean = |x: f64| if x.abs() <= ROUNDING * scale { 0.0 } else { x };
+        let clean = |x: f64| if x.abs() <= rounding { 0.0 } else { x };
         let value = |s: &Assembled| clean(if unique { s.kept[k] } else { s.exact[k] });
         let range = if unique || !self.is_decided() {
             let told = described.map(value).filter(|x| x.is_finite());

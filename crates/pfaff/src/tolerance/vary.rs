@@ -8,8 +8,8 @@ use scene::{Shift, Template, WithUnit};
 
 use super::draw::Stream;
 use super::error::ToleranceError;
+use super::failed::Failed;
 use super::nominal::{Base, Displaced, Nominal, displaced};
-use super::sample::Failed;
 use crate::assembled::AssembledScene;
 
 /// Streams of random numbers from here on belong to varied numbers.
